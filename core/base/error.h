@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace boule {
+
+/// What went wrong, and where. Lines and columns count from 1; 0 means "not in a file's text".
+struct Diagnostic {
+  std::string message;  ///< what is wrong, and what was expected
+  std::string key;      ///< dotted path of the offending key ("camera.fov"), or empty
+  std::string file;     ///< file it was read from, or empty
+  int line = 0;
+  int column = 0;
+};
+
+/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", leaving out what is not known.
+std::string format_diagnostic(const Diagnostic& diagnostic);
+
+/// Text from outside made safe to print: cut to 40 characters (or another limit), control bytes
+/// escaped.
+std::string quote(const std::string& text, std::size_t longest = 40);
+
+/// A value, or the Diagnostic that explains why there is none.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Diagnostic error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  /// True if there is a value.
+  [[nodiscard]] bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  /// The value; only where ok().
+  T& value() & { return std::get<0>(state_); }
+  const T& value() const& { return std::get<0>(state_); }
+  T&& value() && { return std::get<0>(std::move(state_)); }
+
+  /// The Diagnostic; only where not ok().
+  [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
+
+ private:
+  std::variant<T, Diagnostic> state_;
+};
+
+/// Nothing, or the Diagnostic that explains the failure.
+using Status = std::optional<Diagnostic>;
+
+}  // namespace boule

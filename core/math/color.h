@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/base/platform.h"
+
+namespace boule {
+
+/// Linear RGB, float, unbounded above (HDR; lecture "Color": LDR is what tone makes of it).
+struct Color {
+  float r = 0, g = 0, b = 0;
+};
+
+inline Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+inline Color operator*(const Color& a, const Color& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+inline Color operator*(const Color& a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+inline bool operator==(const Color& a, const Color& b) {
+  return a.r == b.r && a.g == b.g && a.b == b.b;
+}
+
+inline Color gray(float value) { return {value, value, value}; }
+inline bool is_black(const Color& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+}  // namespace boule

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace boule {
+
+/// Philox4x32-10, a counter-based generator (Salmon, Moraes, Dror, Shaw, "Parallel random numbers:
+/// as easy as 1, 2, 3", SC 2011). The same counter and key give the same four words on every
+/// machine, in any order, on any thread.
+inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                           std::array<std::uint32_t, 2> key) {
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * counter[0];
+    const std::uint64_t p1 = std::uint64_t{0xCD9E8D57u} * counter[2];
+    counter = {
+        static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(p1),
+        static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(p0)};
+    key = {key[0] + 0x9E3779B9u, key[1] + 0xBB67AE85u};
+  }
+  return counter;
+}
+
+/// 32 random bits as a double in [0, 1).
+inline double unit_interval(std::uint32_t bits) { return bits * 0x1p-32; }
+
+/// The four random numbers in [0, 1) of (pixel, sample, dimension block) under a seed.
+inline std::array<double, 4> random4(std::uint32_t pixel_x, std::uint32_t pixel_y,
+                                     std::uint32_t sample, std::uint32_t dimension,
+                                     std::uint64_t seed) {
+  const auto words =
+      philox({pixel_x, pixel_y, sample, dimension},
+             {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  return {unit_interval(words[0]), unit_interval(words[1]), unit_interval(words[2]),
+          unit_interval(words[3])};
+}
+
+}  // namespace boule

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/math/vec.h"
+
+namespace boule {
+
+/// The unit roundoff of float: every bound in the project is counted in it.
+inline constexpr double unit_roundoff = 0x1p-24;
+
+/// No source primitive, or no hit.
+inline constexpr std::int32_t no_primitive = -1;
+
+/// A bounded ray: the points org + t dir with tmin < t <= tmax (lecture "Rays").
+/// dir need not be of unit length. Origins are double because secondary rays start on surfaces.
+struct Ray {
+  Vec3d org;
+  Vec3f dir;
+  float tmin = 0;
+  float tmax = std::numeric_limits<float>::infinity();
+  std::int32_t source = no_primitive;  ///< primitive the ray leaves, or no_primitive
+  bool inside = false;                 ///< the ray leaves `source`, a sphere, on its inside
+};
+
+/// The open segment from `from` to `to` as a ray: dir = to - from, 0 < t < 1.
+/// tmax is 1 - 4u: dir is rounded to float, so the far end itself is only known to that.
+inline Ray segment(const Vec3d& from, const Vec3d& to) {
+  Ray ray{from, vec_cast<float>(to - from)};
+  ray.tmax = static_cast<float>(1 - 4 * unit_roundoff);
+  return ray;
+}
+
+/// The nearest hit of one ray: t in double, unrounded; a miss has t = inf and id = no_primitive.
+struct Hit {
+  double t = std::numeric_limits<double>::infinity();
+  std::int32_t id = no_primitive;
+};
+
+}  // namespace boule

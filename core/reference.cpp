@@ -1,0 +1,113 @@
+#include "core/reference.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/math/geometry.h"
+
+namespace boule::reference {
+namespace {
+
+constexpr double no_hit = std::numeric_limits<double>::infinity();
+
+/// Whether t lies in the ray's live interval. A t that float cannot hold is no hit; NaN never is.
+bool in_range(double t, const Ray& ray) {
+  const bool representable = t <= double{std::numeric_limits<float>::max()};
+  return representable && t > double{ray.tmin} && t <= double{ray.tmax};
+}
+
+/// Raster position to film position on one axis.
+double film_coordinate(const RasterToFilm& map, double raster) {
+  return (raster * map.scale + map.offset) / map.extent;
+}
+
+}  // namespace
+
+Ray primary_ray(const CameraBasis& camera, double raster_x, double raster_y) {
+  // Lecture "Pixel centres": pixel (i, j) is sampled at (i + 0.5, j + 0.5), and the film runs from
+  // -1 to 1 across the picture.
+  const double x = film_coordinate(camera.film_x, raster_x);
+  const double y = film_coordinate(camera.film_y, raster_y);
+  const Vec3d on_film = camera.right * x + camera.up * y;
+  Ray ray;
+  if (camera.parallel) {
+    // Lecture "Orthographic camera": every ray has the view's direction and starts on the film.
+    ray.org = camera.eye + on_film;
+    ray.dir = vec_cast<float>(camera.forward);
+  } else {
+    // Lecture "Pinhole camera": every ray starts at the eye and passes through the film point.
+    ray.org = camera.eye;
+    ray.dir = vec_cast<float>(normalize(camera.forward + on_film));
+  }
+  return ray;
+}
+
+// Ray-sphere. The lecture substitutes P = O + tD into |P - C|^2 = r^2 and gets the quadratic
+//   (D.D) t^2 + 2 (O - C).D t + (O - C).(O - C) - r^2 = 0,
+// whose b is even, so the 2s cancel ("the even-b saving"). With f = C - O, a = D.D, b = f.D and
+// cc = f.f - r^2 it reads a t^2 - 2 b t + cc = 0, and t = (b -/+ sqrt(b^2 - a cc)) / a.
+//
+// b^2 - a cc cancels when the sphere is far away or the ray is near the rim. The closest-approach
+// form does not (Haines et al., "Precision improvements for ray/sphere intersection", Ray Tracing
+// Gems chapter 7): with k = b / a the ray comes closest to the centre at O + kD, the vector from
+// there to the centre is l = f - kD, and b^2 - a cc = a (r^2 - l.l). The roots then come from
+//   q = b + sign(b) sqrt(a (r^2 - l.l)):  cc / q  and  q / a,
+// neither of which subtracts nearly equal numbers (Press et al., Numerical Recipes 5.6).
+double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
+  const Vec3d d = vec_cast<double>(ray.dir);
+  const Vec3d f = vec_cast<double>(sphere.center) - ray.org;
+  const double r = sphere.radius;
+  const double inverse_a = 1 / dot(d, d);
+  const double b = dot(f, d);
+
+  if (leaves) {
+    // The origin is on the sphere, so cc = 0 and t = 0 is one root. From the outside the ray moves
+    // away from a convex body; from the inside it meets it again at the other root, 2b / a.
+    if (!ray.inside) return no_hit;
+    const double across = (b + b) * inverse_a;
+    return in_range(across, ray) ? across : no_hit;
+  }
+
+  const Vec3d l = f - d * (b * inverse_a);
+  const double discriminant = r * r - dot(l, l);
+  if (!(discriminant >= 0)) return no_hit;  // NaN is a miss; exactly 0, a tangent, is a hit
+  const double half_chord = std::sqrt(dot(d, d) * discriminant);
+  const double q = std::signbit(b) ? b - half_chord : b + half_chord;
+  const double from_cc = (dot(f, f) - r * r) / q;
+  const double from_a = q * inverse_a;
+  const double first = from_cc < from_a ? from_cc : from_a;
+  const double second = from_cc < from_a ? from_a : from_cc;
+  if (in_range(first, ray)) return first;
+  return in_range(second, ray) ? second : no_hit;
+}
+
+// Ray-plane. The lecture substitutes P = O + tD into (P - P0).N = 0: t = (P0 - O).N / D.N.
+// D.N = 0 is a ray along the plane, a miss. Products of two floats are exact in double, so a small
+// D.N is still known to full precision.
+double intersect(const Ray& ray, const Plane& plane, bool leaves) {
+  if (leaves) return no_hit;  // flat: a ray that leaves it never comes back
+  const Vec3d n = vec_cast<double>(plane.normal);
+  const double along = dot(vec_cast<double>(ray.dir), n);
+  if (along == 0 || !std::isfinite(along)) return no_hit;
+  const double t = dot(vec_cast<double>(plane.point) - ray.org, n) / along;
+  return in_range(t, ray) ? t : no_hit;
+}
+
+Hit closest_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes) {
+  Hit nearest;
+  std::int32_t id = 0;
+  const auto offer = [&](const auto& primitive) {
+    const double t = intersect(ray, primitive, id == ray.source);
+    if (t < nearest.t) nearest = {t, id};  // ids rise, so a tie stays with the lower one
+    ++id;
+  };
+  for (const Sphere& sphere : spheres) offer(sphere);
+  for (const Plane& plane : planes) offer(plane);
+  return nearest;
+}
+
+bool any_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes) {
+  return closest_hit(ray, spheres, planes).id != no_primitive;
+}
+
+}  // namespace boule::reference

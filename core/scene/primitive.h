@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/math/vec.h"
+
+namespace boule {
+
+/// What is wrong with one field of one thing: "radius", "must be above 0, is -1".
+struct Problem {
+  std::string field;
+  std::string message;
+};
+
+/// A sphere of positive radius; `material` indexes Scene::materials.
+struct Sphere {
+  Vec3f center;
+  float radius = 1;
+  std::uint32_t material = 0;
+};
+
+/// An infinite plane through `point`; `normal` (any length but 0) points to its outside.
+struct Plane {
+  Vec3f point;
+  Vec3f normal{0, 1, 0};
+  std::uint32_t material = 0;
+};
+
+/// The first Problem of a sphere or plane by itself (finite numbers, radius > 0, normal != 0).
+std::optional<Problem> find_problem(const Sphere& sphere);
+std::optional<Problem> find_problem(const Plane& plane);
+
+}  // namespace boule

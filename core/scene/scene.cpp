@@ -1,0 +1,202 @@
+#include "core/scene/scene.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+std::string text_of(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+/// Collects the first Problem of one thing; later checks are skipped once there is one.
+class Checker {
+ public:
+  Checker& finite(const char* field, float value) {
+    return require(field, std::isfinite(value), "must be finite, is " + text_of(double{value}));
+  }
+  Checker& finite(const char* field, const Vec3f& v) {
+    return require(field, is_finite(v), "must be finite");
+  }
+  Checker& positive(const char* field, float value) {
+    return require(field, std::isfinite(value) && value > 0,
+                   "must be finite and above 0, is " + text_of(double{value}));
+  }
+  Checker& not_negative(const char* field, float value) {
+    return require(field, std::isfinite(value) && value >= 0,
+                   "must be finite and 0 or above, is " + text_of(double{value}));
+  }
+  Checker& color(const char* field, const Color& c) {
+    return not_negative(field, c.r).not_negative(field, c.g).not_negative(field, c.b);
+  }
+  Checker& direction(const char* field, const Vec3f& v) {
+    return finite(field, v).require(field, !(v == Vec3f{}), "must not be the zero vector");
+  }
+  Checker& require(const char* field, bool holds, const std::string& message) {
+    if (!problem_ && !holds) problem_ = Problem{field, message};
+    return *this;
+  }
+  [[nodiscard]] std::optional<Problem> problem() const { return problem_; }
+
+ private:
+  std::optional<Problem> problem_;
+};
+
+Checker check_pose(const CameraPose& pose) {
+  Checker checker;
+  checker.finite("eye", pose.eye).finite("look_at", pose.look_at).direction("up", pose.up);
+  checker.require("look_at", !(pose.eye == pose.look_at), "must differ from eye");
+  if (checker.problem()) return checker;
+  const Vec3d view = normalize(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
+  const Vec3d up = normalize(vec_cast<double>(pose.up));
+  return checker.require("up", length(cross(view, up)) > 1e-6,
+                         "must not be within 1e-6 rad of the view direction");
+}
+
+struct MaterialProblem {
+  std::optional<Problem> operator()(const Matte& m) const {
+    return Checker{}.color("color", m.color).problem();
+  }
+  std::optional<Problem> operator()(const Plastic& m) const {
+    return Checker{}
+        .color("color", m.color)
+        .not_negative("specular", m.specular)
+        .not_negative("shininess", m.shininess)
+        .not_negative("reflect", m.reflect)
+        .problem();
+  }
+  std::optional<Problem> operator()(const Metal& m) const {
+    return Checker{}.color("color", m.color).problem();
+  }
+  std::optional<Problem> operator()(const Glass& m) const {
+    return Checker{}.color("color", m.color).positive("ior", m.ior).problem();
+  }
+  std::optional<Problem> operator()(const Emissive& m) const {
+    return Checker{}.color("radiance", m.radiance).problem();
+  }
+  std::optional<Problem> operator()(const Phong& m) const {
+    return Checker{}
+        .color("color", m.color)
+        .not_negative("ka", m.ka)
+        .not_negative("kd", m.kd)
+        .not_negative("ks", m.ks)
+        .not_negative("shininess", m.shininess)
+        .not_negative("transmission", m.transmission)
+        .positive("ior", m.ior)
+        .problem();
+  }
+};
+
+struct LightProblem {
+  std::optional<Problem> operator()(const PointLight& l) const {
+    return Checker{}.finite("position", l.position).color("intensity", l.intensity).problem();
+  }
+  std::optional<Problem> operator()(const DirectionalLight& l) const {
+    return Checker{}.direction("direction", l.direction).color("intensity", l.intensity).problem();
+  }
+};
+
+Status in_range(const char* key, int value, int low, int high) {
+  if (value >= low && value <= high) return std::nullopt;
+  const std::string range = high == max_count ? std::to_string(low) + " or above"
+                                              : std::to_string(low) + " to " + std::to_string(high);
+  return Diagnostic{"must be " + range + ", is " + std::to_string(value), key, {}, 0, 0};
+}
+
+Status located(const std::string& place, const std::optional<Problem>& problem) {
+  if (!problem) return std::nullopt;
+  return Diagnostic{problem->message, place + "." + problem->field, {}, 0, 0};
+}
+
+template <class Primitive>
+Status check_primitives(const char* name, const std::vector<Primitive>& primitives,
+                        const Scene& scene) {
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    // The path's text is only made for the one that is wrong: there may be millions.
+    const auto place = [&] { return std::string(name) + "[" + std::to_string(i) + "]"; };
+    if (auto problem = find_problem(primitives[i])) return located(place(), problem);
+    if (primitives[i].material >= scene.materials.size()) {
+      return Diagnostic{"names no material of the scene", place() + ".material", {}, 0, 0};
+    }
+  }
+  return std::nullopt;
+}
+
+Status check_settings(const Scene& scene) {
+  if (auto bad = in_range("image.size", scene.image.width, 1, max_image_side)) return bad;
+  if (auto bad = in_range("image.size", scene.image.height, 1, max_image_side)) return bad;
+  if (auto bad = in_range("image.spp", scene.image.spp, 1, max_count)) return bad;
+  return in_range("render.max_depth", scene.render.max_depth, 0, max_count);
+}
+
+}  // namespace
+
+std::optional<Problem> find_problem(const Sphere& sphere) {
+  return Checker{}.finite("center", sphere.center).positive("radius", sphere.radius).problem();
+}
+
+std::optional<Problem> find_problem(const Plane& plane) {
+  return Checker{}.finite("point", plane.point).direction("normal", plane.normal).problem();
+}
+
+std::optional<Problem> find_problem(const Camera& camera) {
+  if (const auto* pinhole = std::get_if<PinholeCamera>(&camera)) {
+    return check_pose(pinhole->pose)
+        .require("fov", pinhole->fov > 0 && pinhole->fov < 180,
+                 "must be above 0 and below 180 degrees, is " + text_of(double{pinhole->fov}))
+        .problem();
+  }
+  const auto& orthographic = std::get<OrthographicCamera>(camera);
+  return check_pose(orthographic.pose).positive("height", orthographic.height).problem();
+}
+
+std::optional<Problem> find_problem(const Material& material) {
+  return std::visit(MaterialProblem{}, material);
+}
+
+std::optional<Problem> find_problem(const Light& light) {
+  return std::visit(LightProblem{}, light);
+}
+
+std::optional<Problem> find_problem(const Background& background) {
+  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
+    return Checker{}.color("color", constant->color).problem();
+  }
+  const auto& gradient = std::get<GradientBackground>(background);
+  return Checker{}
+      .color("bottom", gradient.bottom)
+      .color("top", gradient.top)
+      .direction("up", gradient.up)
+      .problem();
+}
+
+Status validate(const Scene& scene) {
+  if (auto bad = check_settings(scene)) return bad;
+  if (scene.camera) {
+    if (auto bad = located("camera", find_problem(*scene.camera))) return bad;
+  }
+  if (auto bad = located("background", find_problem(scene.background))) return bad;
+  if (auto bad = located("background", Checker{}.color("ambient", scene.ambient).problem())) {
+    return bad;
+  }
+  for (const NamedMaterial& named : scene.materials) {
+    if (auto bad = located("material." + named.name, find_problem(named.material))) return bad;
+  }
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (auto bad = located("light[" + std::to_string(i) + "]", find_problem(scene.lights[i]))) {
+      return bad;
+    }
+  }
+  if (scene.spheres.size() + scene.planes.size() > max_primitives) {
+    return Diagnostic{"a scene has at most 2147483647 primitives", "sphere", {}, 0, 0};
+  }
+  if (auto bad = check_primitives("sphere", scene.spheres, scene)) return bad;
+  return check_primitives("plane", scene.planes, scene);
+}
+
+}  // namespace boule

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/math/color.h"
+#include "core/scene/background.h"
+#include "core/scene/camera.h"
+#include "core/scene/light.h"
+#include "core/scene/material.h"
+#include "core/scene/primitive.h"
+
+namespace boule {
+
+inline constexpr int max_image_side = 65535;               ///< pixels
+inline constexpr int max_count = 2147483647;               ///< of samples, of bounces
+inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
+
+/// The picture a scene asks for; the command line may override it.
+struct ImageSettings {
+  int width = 1280;  ///< pixels, 1 .. 65535
+  int height = 720;  ///< pixels, 1 .. 65535
+  int spp = 1;       ///< samples per pixel, >= 1
+};
+
+/// How a scene asks to be rendered; the command line may override it.
+struct RenderSettings {
+  int max_depth = 5;  ///< bounces after the primary hit, >= 0
+};
+
+struct NamedMaterial {
+  std::string name;
+  Material material;
+};
+
+/// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
+/// Primitive ids: spheres in order, then planes in order.
+struct Scene {
+  ImageSettings image;
+  RenderSettings render;
+  std::optional<Camera> camera;  ///< none: framed on the objects
+  Background background = ConstantBackground{};
+  Color ambient;  ///< what every surface receives from everywhere
+  std::vector<NamedMaterial> materials;
+  std::vector<Light> lights;
+  std::vector<Sphere> spheres;
+  std::vector<Plane> planes;
+};
+
+/// The first thing wrong with a scene, its key a dotted path as in the scene file
+/// ("camera.fov", "sphere[3].radius", "material.red.ior"), or nothing. Whoever renders a scene
+/// made in memory calls this first; the readers return only scenes that pass.
+Status validate(const Scene& scene);
+
+}  // namespace boule

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boule {
+
+/// Spheres as a structure of arrays, padded to max_width with spheres that nothing hits. The id of
+/// a sphere is its place.
+struct SphereView {
+  const float* center_x;
+  const float* center_y;
+  const float* center_z;
+  const float* radius;
+  /// -(r^2 (1 + 8u) + 1e-36), rounded outward; -inf where the reject must not decide.
+  const float* reject_threshold;
+  /// r (1 + 8u) + 1e-18, rounded outward; inf where the reject must not decide.
+  const float* reject_radius;
+  std::size_t size;
+};
+
+/// Infinite planes as a structure of arrays, padded likewise; plane k has the id first_id + k.
+struct PlaneView {
+  const float* point_x;
+  const float* point_y;
+  const float* point_z;
+  const float* normal_x;
+  const float* normal_y;
+  const float* normal_z;
+  std::size_t size;
+  std::int32_t first_id;
+};
+
+/// All that rays can meet.
+struct GeometryView {
+  SphereView spheres;
+  PlaneView planes;
+};
+
+}  // namespace boule

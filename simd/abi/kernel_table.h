@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simd/abi/camera.h"
+#include "simd/abi/geometry.h"
+#include "simd/abi/isa.h"
+#include "simd/abi/stream.h"
+
+namespace boule {
+
+/// What one ISA's kernel object exports, and all of it: nothing else crosses the border.
+/// Every function is thread-safe, allocates nothing and cannot fail. The rounding mode must be
+/// to nearest and denormals must not be flushed.
+struct KernelTable {
+  Isa isa;
+  int width;  ///< float lanes of a packet
+
+  /// rays[k] = the camera's ray through samples[k], tmin 0, tmax inf, no source.
+  void (*primary_rays)(const CameraView& camera, const SampleStream& samples,
+                       const RayStream& rays);
+
+  /// hits[k] = the nearest hit of rays[k] with tmin < t <= tmax; equal t: the lower id.
+  void (*closest_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
+                      const HitStream& hits);
+
+  /// occluded[k] = 1 if rays[k] meets anything with tmin < t <= tmax, else 0.
+  void (*any_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
+                  std::uint8_t* occluded);
+};
+
+}  // namespace boule

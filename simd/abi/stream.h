@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boule {
+
+/// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long and
+/// aligned to stream_alignment. Meanings as in Ray. A view: owns nothing.
+struct RayStream {
+  double* org_x;
+  double* org_y;
+  double* org_z;
+  float* dir_x;
+  float* dir_y;
+  float* dir_z;
+  float* tmin;
+  float* tmax;
+  std::int32_t* source;  ///< primitive id the ray leaves, or -1
+  std::uint8_t* inside;  ///< 1: it leaves `source`, a sphere, on its inside
+  std::size_t size;
+};
+
+/// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
+/// miss. Arrays as in RayStream.
+struct HitStream {
+  double* t;
+  std::int32_t* id;
+  std::size_t size;
+};
+
+/// Places on the image plane to send primary rays through: raster coordinates, (0, 0) the top left
+/// corner, pixel (i, j) centred on (i + 0.5, j + 0.5). Arrays as in RayStream.
+struct SampleStream {
+  double* raster_x;
+  double* raster_y;
+  std::size_t size;
+};
+
+}  // namespace boule

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#include "simd/abi/isa.h"
+
+namespace boule {
+
+/// An owning array of plain values on a cache line, its length padded to the widest packet.
+/// Throws std::bad_alloc.
+template <class T>
+class AlignedArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t size, T fill = T{}) { resize(size, fill); }
+
+  /// Makes room for `size` values. Where that takes new memory all values are `fill`; where there
+  /// is room already nothing changes.
+  void resize(std::size_t size, T fill = T{}) {
+    const std::size_t wanted = padded(size);
+    if (wanted > capacity_) {
+      if (wanted > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+      void* memory = ::operator new (wanted * sizeof(T), std::align_val_t{stream_alignment});
+      data_.reset(static_cast<T*>(memory));
+      capacity_ = wanted;
+      std::uninitialized_fill_n(data_.get(), wanted, fill);
+    }
+  }
+
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  T& operator[](std::size_t i) { return data_.get()[i]; }
+  const T& operator[](std::size_t i) const { return data_.get()[i]; }
+
+ private:
+  struct Release {
+    void operator()(T* data) const { ::operator delete (data, std::align_val_t{stream_alignment}); }
+  };
+  std::unique_ptr<T, Release> data_;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace boule

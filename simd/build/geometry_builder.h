@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/primitive.h"
+#include "simd/abi/geometry.h"
+#include "simd/build/aligned_array.h"
+
+namespace boule {
+
+/// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
+/// Immutable once built. Takes any floats, degenerate ones too. Throws std::bad_alloc.
+class Geometry {
+ public:
+  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes);
+
+  /// What the kernels see; valid as long as this object.
+  [[nodiscard]] GeometryView view() const;
+
+ private:
+  void set_sphere(std::size_t i, const Sphere& sphere);
+  void set_plane(std::size_t i, const Plane& plane);
+
+  std::size_t sphere_count_, plane_count_;
+  AlignedArray<float> center_x_, center_y_, center_z_, radius_, threshold_, reject_radius_;
+  AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
+};
+
+}  // namespace boule

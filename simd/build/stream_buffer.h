@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/ray.h"
+#include "simd/abi/stream.h"
+#include "simd/build/aligned_array.h"
+
+namespace boule {
+
+/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it.
+class RayBuffer {
+ public:
+  RayBuffer() = default;
+  explicit RayBuffer(std::size_t size) { resize(size); }
+
+  void resize(std::size_t size) {
+    org_x_.resize(size);
+    org_y_.resize(size);
+    org_z_.resize(size);
+    dir_x_.resize(size);
+    dir_y_.resize(size);
+    dir_z_.resize(size);
+    tmin_.resize(size);
+    tmax_.resize(size);
+    source_.resize(size);
+    inside_.resize(size);
+    size_ = size;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  void set(std::size_t i, const Ray& ray) {
+    org_x_[i] = ray.org.x;
+    org_y_[i] = ray.org.y;
+    org_z_[i] = ray.org.z;
+    dir_x_[i] = ray.dir.x;
+    dir_y_[i] = ray.dir.y;
+    dir_z_[i] = ray.dir.z;
+    tmin_[i] = ray.tmin;
+    tmax_[i] = ray.tmax;
+    source_[i] = ray.source;
+    inside_[i] = ray.inside ? 1 : 0;
+  }
+  [[nodiscard]] Ray get(std::size_t i) const {
+    Ray ray{{org_x_[i], org_y_[i], org_z_[i]}, {dir_x_[i], dir_y_[i], dir_z_[i]}};
+    ray.tmin = tmin_[i];
+    ray.tmax = tmax_[i];
+    ray.source = source_[i];
+    ray.inside = inside_[i] != 0;
+    return ray;
+  }
+
+  /// The rays as the kernels see them; valid until the next resize.
+  RayStream view() {
+    return {org_x_.data(),  org_y_.data(),  org_z_.data(), dir_x_.data(),
+            dir_y_.data(),  dir_z_.data(),  tmin_.data(),  tmax_.data(),
+            source_.data(), inside_.data(), size_};
+  }
+
+ private:
+  AlignedArray<double> org_x_, org_y_, org_z_;
+  AlignedArray<float> dir_x_, dir_y_, dir_z_, tmin_, tmax_;
+  AlignedArray<std::int32_t> source_;
+  AlignedArray<std::uint8_t> inside_;
+  std::size_t size_ = 0;
+};
+
+/// Memory for a HitStream, likewise.
+class HitBuffer {
+ public:
+  HitBuffer() = default;
+  explicit HitBuffer(std::size_t size) { resize(size); }
+
+  void resize(std::size_t size) {
+    t_.resize(size);
+    id_.resize(size);
+    size_ = size;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Hit get(std::size_t i) const { return {t_[i], id_[i]}; }
+  HitStream view() { return {t_.data(), id_.data(), size_}; }
+
+ private:
+  AlignedArray<double> t_;
+  AlignedArray<std::int32_t> id_;
+  std::size_t size_ = 0;
+};
+
+/// Memory for a SampleStream, likewise.
+class SampleBuffer {
+ public:
+  void resize(std::size_t size) {
+    raster_x_.resize(size);
+    raster_y_.resize(size);
+    size_ = size;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  void set(std::size_t i, double x, double y) {
+    raster_x_[i] = x;
+    raster_y_[i] = y;
+  }
+  SampleStream view() { return {raster_x_.data(), raster_y_.data(), size_}; }
+
+ private:
+  AlignedArray<double> raster_x_, raster_y_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace boule

@@ -1,0 +1,94 @@
+#include <vector>
+
+#include "core/reference.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule {
+namespace {
+
+/// The geometry back as plain primitives: what the reference path reads.
+struct Primitives {
+  std::vector<Sphere> spheres;
+  std::vector<Plane> planes;
+
+  explicit Primitives(const GeometryView& view) {
+    const SphereView& s = view.spheres;
+    for (std::size_t i = 0; i < s.size; ++i) {
+      spheres.push_back({{s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i], 0});
+    }
+    const PlaneView& p = view.planes;
+    for (std::size_t i = 0; i < p.size; ++i) {
+      planes.push_back({{p.point_x[i], p.point_y[i], p.point_z[i]},
+                        {p.normal_x[i], p.normal_y[i], p.normal_z[i]},
+                        0});
+    }
+  }
+};
+
+Ray get_ray(const RayStream& rays, std::size_t i) {
+  Ray ray{{rays.org_x[i], rays.org_y[i], rays.org_z[i]},
+          {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}};
+  ray.tmin = rays.tmin[i];
+  ray.tmax = rays.tmax[i];
+  ray.source = rays.source[i];
+  ray.inside = rays.inside[i] != 0;
+  return ray;
+}
+
+void set_ray(const RayStream& rays, std::size_t i, const Ray& ray) {
+  rays.org_x[i] = ray.org.x;
+  rays.org_y[i] = ray.org.y;
+  rays.org_z[i] = ray.org.z;
+  rays.dir_x[i] = ray.dir.x;
+  rays.dir_y[i] = ray.dir.y;
+  rays.dir_z[i] = ray.dir.z;
+  rays.tmin[i] = ray.tmin;
+  rays.tmax[i] = ray.tmax;
+  rays.source[i] = ray.source;
+  rays.inside[i] = ray.inside ? 1 : 0;
+}
+
+CameraBasis basis_of(const CameraView& view) {
+  const auto vec = [](const double(&v)[3]) { return Vec3d{v[0], v[1], v[2]}; };
+  return {vec(view.eye),
+          vec(view.forward),
+          vec(view.right),
+          vec(view.up),
+          view.parallel,
+          {view.scale_x, view.offset_x, view.extent_x},
+          {view.scale_y, view.offset_y, view.extent_y}};
+}
+
+void primary_rays(const CameraView& camera, const SampleStream& samples, const RayStream& rays) {
+  const CameraBasis basis = basis_of(camera);
+  for (std::size_t i = 0; i < samples.size; ++i) {
+    set_ray(rays, i, reference::primary_ray(basis, samples.raster_x[i], samples.raster_y[i]));
+  }
+}
+
+void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
+                 const HitStream& hits) {
+  const Primitives all(geometry);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    const Hit hit = reference::closest_hit(get_ray(rays, i), all.spheres, all.planes);
+    hits.t[i] = hit.t;
+    hits.id[i] = hit.id;
+  }
+}
+
+void any_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
+             std::uint8_t* occluded) {
+  const Primitives all(geometry);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    occluded[i] = reference::any_hit(get_ray(rays, i), all.spheres, all.planes) ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+const KernelTable& reference_kernels() {
+  static const KernelTable table = {Isa::scalar, 1, primary_rays, closest_hit, any_hit};
+  return table;
+}
+
+}  // namespace boule

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "core/math/vec.h"
+#include "simd/abi/filter_bounds.h"
+#include "simd/abi/stream.h"
+#include "simd/lanes/lanes.h"
+
+/// Rays in registers: a packet of W different rays, or one ray in every lane.
+namespace boule::BOULE_KERNEL_ISA {
+
+inline constexpr double no_hit = std::numeric_limits<double>::infinity();
+
+/// The rays as the exact double solve sees them.
+struct ExactRays {
+  Vec3<Wide> org, dir;
+  Wide a;           ///< dir.dir
+  Wide inverse_a;   ///< 1 / a
+  Wide tmin, tmax;  ///< live: tmin < t <= tmax; tmax is at most FLT_MAX
+  Wide source;      ///< id the ray leaves, or -1
+  WideMask inside;  ///< it leaves `source` on its inside
+  bool has_source;  ///< some lane has one
+};
+
+/// The rays as the float filter sees them: distances along the unit direction h.
+struct FilterRays {
+  Vec3<Real> org;       ///< rounded to float
+  Vec3<Real> h;         ///< dir / |dir|, computed in double, rounded; NaN: let everything through
+  Real origin_error;    ///< bound of |org - exact origin|, plus filter::floor
+  bool origins_exact;   ///< every origin is a float
+  Wide length;          ///< |dir|
+  Real inverse_length;  ///< 1 / |dir|
+  Real nearest;         ///< lower bound of live t |dir|: 0, or -inf where tmin < 0
+};
+
+struct RayLanes {
+  ExactRays exact;
+  FilterRays filter;
+};
+
+/// Converts W values to lanes of double.
+template <class T>
+BOULE_INLINE Wide load_as_wide(const T* p) {
+  alignas(64) double lanes[width];
+  for (int i = 0; i < width; ++i) lanes[i] = static_cast<double>(p[i]);
+  return load(lanes);
+}
+
+BOULE_INLINE Wide sum_abs(const Vec3<Wide>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+BOULE_INLINE Vec3<Wide> widen(const Vec3<Real>& v) { return {widen(v.x), widen(v.y), widen(v.z)}; }
+BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
+  return {narrow(v.x), narrow(v.y), narrow(v.z)};
+}
+
+BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
+  FilterRays out;
+  out.org = narrow(rays.org);
+  const Wide error = sum_abs(rays.org - widen(out.org));
+  out.origins_exact = !any(Wide(0.0) < error);
+  out.origin_error = narrow(error * Wide(1 + 8 * filter::u) + Wide(filter::floor));
+  out.length = sqrt(rays.a);
+  const Wide inverse_length = Wide(1.0) / out.length;
+  out.inverse_length = narrow(inverse_length);
+  out.h = narrow(rays.dir * inverse_length);  // NaN for dir 0 and for anything not finite
+  const Real limit(filter::limit);
+  const RealMask small =
+      (abs(out.org.x) < limit) & (abs(out.org.y) < limit) & (abs(out.org.z) < limit);
+  out.h.x = select(small, out.h.x, Real(std::numeric_limits<float>::quiet_NaN()));
+  const Real zero(0.0F);
+  out.nearest =
+      select(narrow(rays.tmin) < zero, Real(-std::numeric_limits<float>::infinity()), zero);
+  return out;
+}
+
+/// Finishes lanes whose org, dir, tmin, tmax, source and inside are set.
+BOULE_INLINE RayLanes finish(ExactRays rays) {
+  rays.a = dot(rays.dir, rays.dir);
+  rays.inverse_a = Wide(1.0) / rays.a;
+  const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
+  rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
+  rays.has_source = any(Wide(-1.0) < rays.source);
+  return {rays, make_filter(rays)};
+}
+
+/// Rays first .. first + W - 1.
+BOULE_INLINE RayLanes load_packet(const RayStream& s, std::size_t first) {
+  ExactRays r;
+  r.org = {load(s.org_x + first), load(s.org_y + first), load(s.org_z + first)};
+  r.dir = widen(Vec3<Real>{load(s.dir_x + first), load(s.dir_y + first), load(s.dir_z + first)});
+  r.tmin = widen(load(s.tmin + first));
+  r.tmax = widen(load(s.tmax + first));
+  r.source = load_as_wide(s.source + first);
+  r.inside = Wide(0.0) < load_as_wide(s.inside + first);
+  return finish(r);
+}
+
+/// Ray `index` in every lane.
+BOULE_INLINE RayLanes load_single(const RayStream& s, std::size_t index) {
+  ExactRays r;
+  r.org = {Wide(s.org_x[index]), Wide(s.org_y[index]), Wide(s.org_z[index])};
+  r.dir = widen(Vec3<Real>{Real(s.dir_x[index]), Real(s.dir_y[index]), Real(s.dir_z[index])});
+  r.tmin = widen(Real(s.tmin[index]));
+  r.tmax = widen(Real(s.tmax[index]));
+  r.source = Wide(static_cast<double>(s.source[index]));
+  r.inside = Wide(0.0) < Wide(static_cast<double>(s.inside[index]));
+  return finish(r);
+}
+
+/// Roots found, and the lanes in which they count.
+struct Roots {
+  Wide t;
+  WideMask hit;
+};
+
+BOULE_INLINE WideMask in_range(const Wide& t, const ExactRays& rays) {
+  return (rays.tmin < t) & (t <= rays.tmax);
+}
+
+/// Of two ordered roots the first in range.
+BOULE_INLINE Roots first_in_range(const Wide& first, const Wide& second, const ExactRays& rays) {
+  const WideMask first_ok = in_range(first, rays);
+  return {select(first_ok, first, second), first_ok | in_range(second, rays)};
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "simd/kernel/packet.h"
+
+/// Ray against sphere, lane by lane: the conservative reject and the two solvers behind it.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Spheres in lanes: one for a whole packet, or W for a single ray.
+struct SphereLanes {
+  Vec3<Real> center;
+  Real radius;
+  Real reject_threshold;
+  Real reject_radius;
+  Wide id;
+};
+
+/// What the filter computes of a pair: the centre seen from the origin, and how far along the ray
+/// it lies.
+struct Approach {
+  Vec3<Real> f;  ///< centre - origin
+  Real b;        ///< f.h
+};
+
+BOULE_INLINE Approach approach(const FilterRays& rays, const Vec3<Real>& center) {
+  const Vec3<Real> f = center - rays.org;
+  const Real b = filter_fma(f.z, rays.h.z, filter_fma(f.y, rays.h.y, f.x * rays.h.x));
+  return {f, b};
+}
+
+/// Lanes that certainly miss (filter_bounds.h). `origins_exact` is FilterRays::origins_exact: else
+/// the sphere grows by the origin's rounding error.
+template <bool origins_exact>
+BOULE_INLINE RealMask rejected(const FilterRays& rays, const Approach& near,
+                               const Real& reject_threshold, const Real& reject_radius) {
+  constexpr auto minus_shrunk = static_cast<float>(-(1 - filter::slack * filter::u));
+  const Vec3<Real>& f = near.f;
+  const Real s = filter_fma(f.z, f.z, filter_fma(f.y, f.y, f.x * f.x));
+  const Real value = filter_fma(near.b, near.b, s * Real(minus_shrunk));
+  if constexpr (origins_exact) {
+    return value < reject_threshold;
+  } else {
+    const Real grown = reject_radius + rays.origin_error;
+    return filter_fma(grown, grown, value) < Real(0.0F);
+  }
+}
+
+/// Lanes that meet the sphere, if at all, certainly before t = 0 or beyond `reach` = best t |dir|.
+BOULE_INLINE RealMask out_of_range(const FilterRays& rays, const Approach& near, const Real& radius,
+                                   const Real& reach) {
+  constexpr auto slack = static_cast<float>(filter::range_slack * filter::u);
+  const Vec3<Real>& f = near.f;
+  const Real extent = abs(radius) * Real(1 + slack) + rays.origin_error +
+                      Real(slack) * (abs(f.x) + abs(f.y) + abs(f.z));
+  return (reach < near.b - extent) | (near.b + extent < rays.nearest);
+}
+
+/// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.
+BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
+  const Vec3<Wide> f = widen(sphere.center) - rays.org;
+  const Wide r = widen(sphere.radius);
+  const Wide b = dot(f, rays.dir);
+  const Vec3<Wide> l = f - rays.dir * (b * rays.inverse_a);
+  const Wide discriminant = r * r - dot(l, l);
+
+  const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
+  const Wide from_cc = (dot(f, f) - r * r) / q;
+  const Wide from_a = q * rays.inverse_a;
+
+  const WideMask ordered = from_cc < from_a;
+  Roots roots =
+      first_in_range(select(ordered, from_cc, from_a), select(ordered, from_a, from_cc), rays);
+  roots.hit = roots.hit & (Wide(0.0) <= discriminant);
+
+  if (rays.has_source) {
+    // On its own sphere cc = 0: no root outside, the far one, 2b / a, from the inside.
+    const WideMask leaves = rays.source == sphere.id;
+    const Wide across = (b + b) * rays.inverse_a;
+    const WideMask is_sphere = r == r;  // padding is not
+    const WideMask again = rays.inside & is_sphere & in_range(across, rays);
+    roots.t = select(leaves, across, roots.t);
+    roots.hit = (leaves & again) | (~leaves & roots.hit);
+  }
+  return roots;
+}
+
+/// Solver fast: closest approach in float along the unit direction. Wrong decisions only within
+/// 3u max(F, r) of the rim; spheres and origins beyond filter::limit are missed.
+BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere,
+                              const Approach& near) {
+  const FilterRays& filter = rays.filter;
+  const Real minus_b = Real(0.0F) - near.b;
+  const Vec3<Real> l{filter_fma(minus_b, filter.h.x, near.f.x),
+                     filter_fma(minus_b, filter.h.y, near.f.y),
+                     filter_fma(minus_b, filter.h.z, near.f.z)};
+  const Real l2 = filter_fma(l.z, l.z, filter_fma(l.y, l.y, l.x * l.x));
+  const Real discriminant = filter_fma(sphere.radius, sphere.radius, Real(0.0F) - l2);
+  const Real half_chord = sqrt(discriminant);
+  const Wide first = widen((near.b - half_chord) * filter.inverse_length);
+  const Wide second = widen((near.b + half_chord) * filter.inverse_length);
+  Roots roots = first_in_range(first, second, rays.exact);
+  roots.hit = roots.hit & widen(Real(0.0F) <= discriminant);
+
+  if (rays.exact.has_source) {
+    const WideMask leaves = rays.exact.source == sphere.id;
+    const Wide across = widen((near.b + near.b) * filter.inverse_length);
+    const WideMask is_sphere = widen(sphere.radius <= sphere.radius);
+    const WideMask again = rays.exact.inside & is_sphere & in_range(across, rays.exact);
+    roots.t = select(leaves, across, roots.t);
+    roots.hit = (leaves & again) | (~leaves & roots.hit);
+  }
+  return roots;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,26 @@
+#pragma once
+
+// The lane types of one instruction set, in a namespace of their own:
+//   Real, RealMask   `width` floats          Wide, WideMask   the same lanes in double
+// A kernel is written once over these; the build compiles it once per ISA.
+#ifdef BOULE_KERNEL_SCALAR
+#include "simd/lanes/scalar_lanes.h"
+#else
+#include "simd/lanes/xsimd_lanes.h"
+#endif
+
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The bits of a mask that is true in every lane.
+inline constexpr unsigned all_lanes = (1U << width) - 1;
+
+template <class Mask>
+BOULE_INLINE bool any(Mask m) {
+  return bits(m) != 0;
+}
+template <class Mask>
+BOULE_INLINE bool all(Mask m) {
+  return bits(m) == all_lanes;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/base/platform.h"
+
+/// One lane: the same face as xsimd_lanes.h over plain float and double, so that every kernel also
+/// runs, and can be checked, without SIMD.
+namespace boule::BOULE_KERNEL_ISA {
+
+inline constexpr int width = 1;
+
+struct RealMask {
+  bool m;
+};
+struct WideMask {
+  bool m;
+};
+
+struct Real {
+  float v;
+  Real() = default;
+  BOULE_INLINE Real(float x) : v(x) {}
+};
+struct Wide {
+  double v;
+  Wide() = default;
+  BOULE_INLINE Wide(double x) : v(x) {}
+};
+
+BOULE_INLINE Real load(const float* p) { return *p; }
+BOULE_INLINE Wide load(const double* p) { return *p; }
+BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
+BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
+BOULE_INLINE Wide lane_numbers() { return 0.0; }
+
+BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }
+BOULE_INLINE Real operator-(Real a, Real b) { return a.v - b.v; }
+BOULE_INLINE Real operator*(Real a, Real b) { return a.v * b.v; }
+BOULE_INLINE Real operator/(Real a, Real b) { return a.v / b.v; }
+BOULE_INLINE Wide operator+(Wide a, Wide b) { return a.v + b.v; }
+BOULE_INLINE Wide operator-(Wide a, Wide b) { return a.v - b.v; }
+BOULE_INLINE Wide operator*(Wide a, Wide b) { return a.v * b.v; }
+BOULE_INLINE Wide operator/(Wide a, Wide b) { return a.v / b.v; }
+
+BOULE_INLINE RealMask operator<(Real a, Real b) { return {a.v < b.v}; }
+BOULE_INLINE RealMask operator<=(Real a, Real b) { return {a.v <= b.v}; }
+BOULE_INLINE WideMask operator<(Wide a, Wide b) { return {a.v < b.v}; }
+BOULE_INLINE WideMask operator<=(Wide a, Wide b) { return {a.v <= b.v}; }
+BOULE_INLINE WideMask operator==(Wide a, Wide b) { return {a.v == b.v}; }
+
+BOULE_INLINE RealMask operator&(RealMask a, RealMask b) { return {a.m && b.m}; }
+BOULE_INLINE RealMask operator|(RealMask a, RealMask b) { return {a.m || b.m}; }
+BOULE_INLINE RealMask operator~(RealMask a) { return {!a.m}; }
+BOULE_INLINE WideMask operator&(WideMask a, WideMask b) { return {a.m && b.m}; }
+BOULE_INLINE WideMask operator|(WideMask a, WideMask b) { return {a.m || b.m}; }
+BOULE_INLINE WideMask operator~(WideMask a) { return {!a.m}; }
+
+BOULE_INLINE unsigned bits(RealMask a) { return a.m ? 1U : 0U; }
+BOULE_INLINE unsigned bits(WideMask a) { return a.m ? 1U : 0U; }
+
+BOULE_INLINE Real select(RealMask m, Real a, Real b) { return m.m ? a : b; }
+BOULE_INLINE Wide select(WideMask m, Wide a, Wide b) { return m.m ? a : b; }
+
+BOULE_INLINE Real sqrt(Real a) { return std::sqrt(a.v); }
+BOULE_INLINE Wide sqrt(Wide a) { return std::sqrt(a.v); }
+BOULE_INLINE Real abs(Real a) { return std::fabs(a.v); }
+BOULE_INLINE Wide abs(Wide a) { return std::fabs(a.v); }
+BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) { return std::copysign(magnitude.v, sign.v); }
+BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return a.v * b.v + c.v; }
+
+BOULE_INLINE Wide widen(Real a) { return static_cast<double>(a.v); }
+BOULE_INLINE Real narrow(Wide a) { return static_cast<float>(a.v); }
+BOULE_INLINE WideMask widen(RealMask a) { return {a.m}; }
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <xsimd/xsimd.hpp>
+
+#include "core/base/platform.h"
+
+/// What xsimd 8.1 lacks or gets wrong, once per instruction set: mask bits, float <-> double of a
+/// whole register, and a multiply-add that is fused wherever the ISA can.
+namespace boule::BOULE_KERNEL_ISA {
+
+#if defined(__AVX512F__)
+using Arch = xsimd::avx512bw;
+#elif defined(__AVX2__)
+using Arch = xsimd::fma3<xsimd::avx2>;
+#elif defined(__SSE4_2__)
+using Arch = xsimd::sse4_2;
+#else
+using Arch = xsimd::neon64;
+#endif
+
+using Floats = xsimd::batch<float, Arch>;
+using Doubles = xsimd::batch<double, Arch>;
+using FloatMask = xsimd::batch_bool<float, Arch>;
+using DoubleMask = xsimd::batch_bool<double, Arch>;
+
+namespace gaps {
+
+#if defined(__AVX512F__)
+
+BOULE_INLINE unsigned bits(FloatMask m) { return static_cast<__mmask16>(m); }
+BOULE_INLINE unsigned bits(DoubleMask m) { return static_cast<__mmask8>(m); }
+BOULE_INLINE DoubleMask widen_low(FloatMask m) {
+  return static_cast<__mmask8>(static_cast<__mmask16>(m));
+}
+BOULE_INLINE DoubleMask widen_high(FloatMask m) {
+  return static_cast<__mmask8>(static_cast<__mmask16>(m) >> 8);
+}
+BOULE_INLINE Doubles widen_low(Floats a) { return _mm512_cvtps_pd(_mm512_castps512_ps256(a)); }
+BOULE_INLINE Doubles widen_high(Floats a) { return _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1)); }
+BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
+  const __m512 low = _mm512_castps256_ps512(_mm512_cvtpd_ps(lo));
+  return _mm512_insertf32x8(low, _mm512_cvtpd_ps(hi), 1);
+}
+BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a, b, c); }
+
+#elif defined(__AVX2__)
+
+BOULE_INLINE unsigned bits(FloatMask m) { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
+BOULE_INLINE unsigned bits(DoubleMask m) { return static_cast<unsigned>(_mm256_movemask_pd(m)); }
+BOULE_INLINE DoubleMask widen_half(__m128 half) {
+  return _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm_castps_si128(half)));
+}
+BOULE_INLINE DoubleMask widen_low(FloatMask m) { return widen_half(_mm256_castps256_ps128(m)); }
+BOULE_INLINE DoubleMask widen_high(FloatMask m) { return widen_half(_mm256_extractf128_ps(m, 1)); }
+BOULE_INLINE Doubles widen_low(Floats a) { return _mm256_cvtps_pd(_mm256_castps256_ps128(a)); }
+BOULE_INLINE Doubles widen_high(Floats a) { return _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)); }
+BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
+  const __m256 low = _mm256_castps128_ps256(_mm256_cvtpd_ps(lo));
+  return _mm256_insertf128_ps(low, _mm256_cvtpd_ps(hi), 1);
+}
+BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }
+
+#elif defined(__SSE4_2__)
+
+BOULE_INLINE unsigned bits(FloatMask m) { return static_cast<unsigned>(_mm_movemask_ps(m)); }
+BOULE_INLINE unsigned bits(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(m)); }
+BOULE_INLINE DoubleMask widen_low(FloatMask m) { return _mm_castps_pd(_mm_unpacklo_ps(m, m)); }
+BOULE_INLINE DoubleMask widen_high(FloatMask m) { return _mm_castps_pd(_mm_unpackhi_ps(m, m)); }
+BOULE_INLINE Doubles widen_low(Floats a) { return _mm_cvtps_pd(a); }
+BOULE_INLINE Doubles widen_high(Floats a) { return _mm_cvtps_pd(_mm_movehl_ps(a, a)); }
+BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
+  return _mm_movelh_ps(_mm_cvtpd_ps(lo), _mm_cvtpd_ps(hi));
+}
+BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
+
+#else
+
+BOULE_INLINE unsigned bits(FloatMask m) {
+  constexpr std::uint32_t weight[4] = {1, 2, 4, 8};
+  return vaddvq_u32(vandq_u32(m, vld1q_u32(weight)));
+}
+BOULE_INLINE unsigned bits(DoubleMask m) {
+  constexpr std::uint64_t weight[2] = {1, 2};
+  return static_cast<unsigned>(vaddvq_u64(vandq_u64(m, vld1q_u64(weight))));
+}
+BOULE_INLINE DoubleMask widen_low(FloatMask m) {
+  return vreinterpretq_u64_s64(vmovl_s32(vget_low_s32(vreinterpretq_s32_u32(m))));
+}
+BOULE_INLINE DoubleMask widen_high(FloatMask m) {
+  return vreinterpretq_u64_s64(vmovl_high_s32(vreinterpretq_s32_u32(m)));
+}
+BOULE_INLINE Doubles widen_low(Floats a) { return vcvt_f64_f32(vget_low_f32(a)); }
+BOULE_INLINE Doubles widen_high(Floats a) { return vcvt_high_f64_f32(a); }
+BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
+  return vcvt_high_f32_f64(vcvt_f32_f64(lo), hi);
+}
+BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return vfmaq_f32(c, a, b); }
+
+#endif
+
+}  // namespace gaps
+
+}  // namespace boule::BOULE_KERNEL_ISA

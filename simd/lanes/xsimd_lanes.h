@@ -1,0 +1,100 @@
+#pragma once
+
+#include "core/base/platform.h"
+#include "simd/lanes/xsimd_gaps.h"
+
+/// W lanes over xsimd: Real is one register of floats, Wide the same lanes in double, two
+/// registers. + - * / and sqrt are correctly rounded and never fused.
+namespace boule::BOULE_KERNEL_ISA {
+
+inline constexpr int width = static_cast<int>(Floats::size);
+
+struct RealMask {
+  FloatMask m;
+};
+struct WideMask {
+  DoubleMask lo, hi;
+};
+
+struct Real {
+  Floats v;
+  Real() = default;
+  BOULE_INLINE Real(float x) : v(x) {}
+  BOULE_INLINE Real(Floats x) : v(x) {}
+};
+struct Wide {
+  Doubles lo, hi;
+  Wide() = default;
+  BOULE_INLINE Wide(double x) : lo(x), hi(x) {}
+  BOULE_INLINE Wide(Doubles l, Doubles h) : lo(l), hi(h) {}
+};
+
+BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
+BOULE_INLINE Wide load(const double* p) {
+  return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
+}
+BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
+BOULE_INLINE void store(double* p, Wide a) {
+  a.lo.store_aligned(p);
+  a.hi.store_aligned(p + width / 2);
+}
+
+/// 0, 1, .. W - 1.
+BOULE_INLINE Wide lane_numbers() {
+  alignas(64) double numbers[width];
+  for (int i = 0; i < width; ++i) numbers[i] = i;
+  return load(numbers);
+}
+
+BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }
+BOULE_INLINE Real operator-(Real a, Real b) { return a.v - b.v; }
+BOULE_INLINE Real operator*(Real a, Real b) { return a.v * b.v; }
+BOULE_INLINE Real operator/(Real a, Real b) { return a.v / b.v; }
+BOULE_INLINE Wide operator+(Wide a, Wide b) { return {a.lo + b.lo, a.hi + b.hi}; }
+BOULE_INLINE Wide operator-(Wide a, Wide b) { return {a.lo - b.lo, a.hi - b.hi}; }
+BOULE_INLINE Wide operator*(Wide a, Wide b) { return {a.lo * b.lo, a.hi * b.hi}; }
+BOULE_INLINE Wide operator/(Wide a, Wide b) { return {a.lo / b.lo, a.hi / b.hi}; }
+
+// Ordered comparisons: false where either side is NaN.
+BOULE_INLINE RealMask operator<(Real a, Real b) { return {a.v < b.v}; }
+BOULE_INLINE RealMask operator<=(Real a, Real b) { return {a.v <= b.v}; }
+BOULE_INLINE WideMask operator<(Wide a, Wide b) { return {a.lo < b.lo, a.hi < b.hi}; }
+BOULE_INLINE WideMask operator<=(Wide a, Wide b) { return {a.lo <= b.lo, a.hi <= b.hi}; }
+BOULE_INLINE WideMask operator==(Wide a, Wide b) { return {a.lo == b.lo, a.hi == b.hi}; }
+
+BOULE_INLINE RealMask operator&(RealMask a, RealMask b) { return {a.m & b.m}; }
+BOULE_INLINE RealMask operator|(RealMask a, RealMask b) { return {a.m | b.m}; }
+BOULE_INLINE RealMask operator~(RealMask a) { return {~a.m}; }
+BOULE_INLINE WideMask operator&(WideMask a, WideMask b) { return {a.lo & b.lo, a.hi & b.hi}; }
+BOULE_INLINE WideMask operator|(WideMask a, WideMask b) { return {a.lo | b.lo, a.hi | b.hi}; }
+BOULE_INLINE WideMask operator~(WideMask a) { return {~a.lo, ~a.hi}; }
+
+/// Bit k is lane k.
+BOULE_INLINE unsigned bits(RealMask a) { return gaps::bits(a.m); }
+BOULE_INLINE unsigned bits(WideMask a) {
+  return gaps::bits(a.lo) | (gaps::bits(a.hi) << (width / 2));
+}
+
+BOULE_INLINE Real select(RealMask m, Real a, Real b) { return xsimd::select(m.m, a.v, b.v); }
+BOULE_INLINE Wide select(WideMask m, Wide a, Wide b) {
+  return {xsimd::select(m.lo, a.lo, b.lo), xsimd::select(m.hi, a.hi, b.hi)};
+}
+
+BOULE_INLINE Real sqrt(Real a) { return xsimd::sqrt(a.v); }
+BOULE_INLINE Wide sqrt(Wide a) { return {xsimd::sqrt(a.lo), xsimd::sqrt(a.hi)}; }
+BOULE_INLINE Real abs(Real a) { return xsimd::abs(a.v); }
+BOULE_INLINE Wide abs(Wide a) { return {xsimd::abs(a.lo), xsimd::abs(a.hi)}; }
+BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) {
+  return {xsimd::copysign(magnitude.lo, sign.lo), xsimd::copysign(magnitude.hi, sign.hi)};
+}
+
+/// a b + c, fused where the ISA can: for filters and solver fast only, never for an exact path.
+BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return gaps::multiply_add(a.v, b.v, c.v); }
+
+BOULE_INLINE Wide widen(Real a) { return {gaps::widen_low(a.v), gaps::widen_high(a.v)}; }
+BOULE_INLINE WideMask widen(RealMask a) { return {gaps::widen_low(a.m), gaps::widen_high(a.m)}; }
+
+/// Rounded to nearest.
+BOULE_INLINE Real narrow(Wide a) { return gaps::narrow(a.lo, a.hi); }
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,86 @@
+// Every kernel table x form x closest/any hit x hard case against the scalar path, bit for bit.
+#include "tests/support/hard_cases.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+struct Param {
+  std::string isa;
+  HardCaseSpec spec;
+};
+void PrintTo(const Param& param, std::ostream* out) {
+  *out << param.isa << " " << name_of(param.spec);
+}
+
+std::vector<Param> params() {
+  std::vector<Param> all;
+  for (const std::string& isa : all_isa_names()) {
+    for (const HardCaseSpec& spec : hard_case_specs()) all.push_back({isa, spec});
+  }
+  return all;
+}
+
+class Equivalence : public testing::TestWithParam<Param> {
+ protected:
+  void SetUp() override {
+    kernels = kernels_or_null(GetParam().isa);
+    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam().isa;
+    // 61 primitives and 517 rays: neither fills whole packets or chunks.
+    hard_case = make_hard_case(GetParam().spec, 61, 517);
+  }
+  const KernelTable* kernels = nullptr;
+  HardCase hard_case;
+};
+
+TEST_P(Equivalence, RobustEqualsTheScalarPathBitForBit) {
+  const Geometry geometry(hard_case.spheres, hard_case.planes);
+  for (const Form form : {Form::automatic, Form::packet, Form::single}) {
+    const Query query{Solver::robust, form, Coherence::none};
+    const auto hits = run_closest(*kernels, geometry.view(), hard_case.rays, query);
+    const auto occluded = run_any(*kernels, geometry.view(), hard_case.rays, query);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const Ray& ray = hard_case.rays[i];
+      const Hit expected = reference::closest_hit(ray, hard_case.spheres, hard_case.planes);
+      ASSERT_TRUE(same_bits(hits[i], expected))
+          << "ray " << i << " form " << static_cast<int>(form) << ": id " << hits[i].id << " t "
+          << hits[i].t << ", expected " << expected.id << " " << expected.t;
+      ASSERT_EQ(occluded[i], expected.id == no_primitive ? 0 : 1) << "ray " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Equivalence, testing::ValuesIn(params()), [](const auto& tested) {
+  return tested.param.isa + "_" + name_of(tested.param.spec);
+});
+
+/// A case proves nothing if its rays all miss.
+TEST(HardCases, EveryRowHasHitsAndMisses) {
+  for (const HardCaseSpec& spec : hard_case_specs()) {
+    const HardCase hard_case = make_hard_case(spec, 61, 517);
+    std::size_t hits = 0;
+    for (const Ray& ray : hard_case.rays) {
+      hits += reference::any_hit(ray, hard_case.spheres, hard_case.planes) ? 1U : 0U;
+    }
+    EXPECT_GT(hits, hard_case.rays.size() / 10) << name_of(spec);
+    const bool planes_fill_the_view = spec.row[0] == 'P' || spec.row[0] == 'L';
+    EXPECT_TRUE(planes_fill_the_view || hits < hard_case.rays.size()) << name_of(spec);
+  }
+}
+
+TEST(ReferenceTable, AnswersAsTheReferencePath) {
+  const HardCase hard_case = make_hard_case({"L", 3}, 61, 517);
+  const Geometry geometry(hard_case.spheres, hard_case.planes);
+  const Query query{Solver::reference, Form::automatic, Coherence::none};
+  const auto hits = run_closest(reference_kernels(), geometry.view(), hard_case.rays, query);
+  const auto occluded = run_any(reference_kernels(), geometry.view(), hard_case.rays, query);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Hit expected =
+        reference::closest_hit(hard_case.rays[i], hard_case.spheres, hard_case.planes);
+    ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
+    ASSERT_EQ(occluded[i], expected.id == no_primitive ? 0 : 1) << "ray " << i;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,50 @@
+// Camera rays of every kernel table against the scalar path, bit for bit.
+#include "simd/build/camera_builder.h"
+#include "tests/support/case_random.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+class PrimaryRays : public testing::TestWithParam<std::string> {};
+
+void expect_same(const KernelTable& kernels, const Camera& camera, int width, int height) {
+  CaseRandom random(3);
+  SampleBuffer samples;
+  samples.resize(203);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double x = random.uniform(0, width);
+    const double y = random.uniform(0, height);
+    samples.set(i, x, y);
+  }
+  RayBuffer wide(samples.size()), scalar(samples.size());
+  const CameraView view = build_camera(camera, width, height);
+  kernels.primary_rays(view, samples.view(), wide.view());
+  reference_kernels().primary_rays(view, samples.view(), scalar.view());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Ray a = wide.get(i), b = scalar.get(i);
+    ASSERT_EQ(a.org, b.org) << i;
+    ASSERT_EQ(a.dir, b.dir) << i;
+    ASSERT_EQ(a.tmin, b.tmin);
+    ASSERT_EQ(a.tmax, b.tmax);
+    ASSERT_EQ(a.source, no_primitive);
+    ASSERT_FALSE(a.inside);
+  }
+}
+
+TEST_P(PrimaryRays, EqualTheScalarPath) {
+  const KernelTable* kernels = kernels_or_null(GetParam());
+  if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  const CameraPose pose{{2.1F, 1.3F, 1.7F}, {0.1F, -0.2F, 0.3F}, {0, 0, 1}};
+  for (const FovAxis axis : {FovAxis::x, FovAxis::y, FovAxis::max}) {
+    expect_same(*kernels, PinholeCamera{pose, 45, axis}, 640, 361);
+    expect_same(*kernels, PinholeCamera{pose, 179.5F, axis}, 3, 65535);
+  }
+  expect_same(*kernels, OrthographicCamera{pose, 3.7F}, 640, 361);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, PrimaryRays, testing::ValuesIn(all_isa_names()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace boule::test

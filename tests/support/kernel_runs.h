@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/reference.h"
+#include "simd/build/geometry_builder.h"
+#include "simd/build/stream_buffer.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::test {
+
+/// The names every wide test is parameterised by: all ISAs that any build has, so that one which
+/// this CPU lacks shows as skipped.
+inline std::vector<std::string> all_isa_names() {
+  std::vector<std::string> names;
+  for (const IsaInfo& info : list_isas()) names.emplace_back(info.name);
+  return names;
+}
+
+/// The kernels of an ISA, or nullptr where this CPU cannot run them: then the test skips.
+inline const KernelTable* kernels_or_null(const std::string& isa) {
+  const auto kernels = select_kernels(isa);
+  return kernels ? kernels.value() : nullptr;
+}
+
+inline RayBuffer to_stream(const std::vector<Ray>& rays) {
+  RayBuffer buffer(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) buffer.set(i, rays[i]);
+  return buffer;
+}
+
+/// The kernels' nearest hits of these rays.
+inline std::vector<Hit> run_closest(const KernelTable& kernels, const GeometryView& geometry,
+                                    const std::vector<Ray>& rays, const Query& query) {
+  RayBuffer stream = to_stream(rays);
+  HitBuffer hits(rays.size());
+  kernels.closest_hit(geometry, stream.view(), query, hits.view());
+  std::vector<Hit> result;
+  for (std::size_t i = 0; i < rays.size(); ++i) result.push_back(hits.get(i));
+  return result;
+}
+
+/// The kernels' occlusion of these rays, 0 or 1.
+inline std::vector<int> run_any(const KernelTable& kernels, const GeometryView& geometry,
+                                const std::vector<Ray>& rays, const Query& query) {
+  RayBuffer stream = to_stream(rays);
+  AlignedArray<std::uint8_t> occluded(rays.size(), 255);
+  kernels.any_hit(geometry, stream.view(), query, occluded.data());
+  return {occluded.data(), occluded.data() + rays.size()};
+}
+
+/// Same id and the same bits of t.
+inline bool same_bits(const Hit& a, const Hit& b) {
+  return a.id == b.id && std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
+}
+
+}  // namespace boule::test
