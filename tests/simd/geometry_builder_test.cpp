@@ -1,0 +1,78 @@
+#include "simd/build/geometry_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "simd/abi/filter_bounds.h"
+#include "simd/abi/isa.h"
+#include "tests/support/case_random.h"
+
+namespace boule::test {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(GeometryBuilder, KeepsOrderValuesAndIds) {
+  const std::vector<Sphere> spheres = {{{1, 2, 3}, 4, 0}, {{-5, 6, -7}, 0.5F, 0}};
+  const std::vector<Plane> planes = {{{1, 1, 1}, {0, 2, 0}, 0}};
+  const Geometry geometry(spheres, planes);
+  const GeometryView view = geometry.view();
+  ASSERT_EQ(view.spheres.size, 2U);
+  ASSERT_EQ(view.planes.size, 1U);
+  EXPECT_EQ(view.planes.first_id, 2);
+  EXPECT_EQ(view.spheres.center_x[1], -5);
+  EXPECT_EQ(view.spheres.center_y[0], 2);
+  EXPECT_EQ(view.spheres.center_z[1], -7);
+  EXPECT_EQ(view.spheres.radius[1], 0.5F);
+  EXPECT_EQ(view.planes.point_z[0], 1);
+  EXPECT_EQ(view.planes.normal_y[0], 2);
+}
+
+TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
+  const Geometry geometry({{{1, 2, 3}, 4, 0}}, {{{1, 1, 1}, {0, 2, 0}, 0}});
+  const GeometryView view = geometry.view();
+  for (std::size_t i = 1; i < max_width; ++i) {
+    EXPECT_TRUE(std::isnan(view.spheres.radius[i]));
+    EXPECT_EQ(view.spheres.reject_threshold[i], inf);
+    EXPECT_EQ(view.planes.normal_x[i], 0);
+    EXPECT_EQ(view.planes.normal_y[i], 0);
+    EXPECT_EQ(view.planes.normal_z[i], 0);
+  }
+}
+
+TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
+  CaseRandom random(1);
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < 5000; ++i) {
+    const double exponent = random.uniform(-149, 59);
+    spheres.push_back({{0, 0, 0}, static_cast<float>(std::exp2(exponent)), 0});
+  }
+  const Geometry geometry(spheres, {});
+  const SphereView view = geometry.view().spheres;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const double r = spheres[i].radius;
+    const double r2p = r * r * (1 + 8 * 0x1p-24) + 1e-36, rp = r * (1 + 8 * 0x1p-24) + 1e-18;
+    ASSERT_GE(-double{view.reject_threshold[i]}, r2p);
+    ASSERT_LE(-double{view.reject_threshold[i]}, r2p * (1 + 2 * 0x1p-23));
+    ASSERT_GE(double{view.reject_radius[i]}, rp);
+    ASSERT_LE(double{view.reject_radius[i]}, rp * (1 + 2 * 0x1p-23));
+  }
+}
+
+TEST(GeometryBuilder, TheFilterDecidesNothingBeyondItsRange) {
+  const std::vector<Sphere> spheres = {
+      {{1e18F, 0, 0}, 1, 0}, {{0, -2e18F, 0}, 1, 0}, {{0, 0, 0}, 1e18F, 0}, {{nan, 0, 0}, 1, 0},
+      {{0, inf, 0}, 1, 0},   {{0, 0, 0}, nan, 0},    {{0, 0, -inf}, 1, 0},  {{0, 0, 0}, inf, 0}};
+  const Geometry geometry(spheres, {});
+  const SphereView view = geometry.view().spheres;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    EXPECT_EQ(view.reject_threshold[i], -inf) << i;
+    EXPECT_EQ(view.reject_radius[i], inf) << i;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test
