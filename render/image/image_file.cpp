@@ -1,0 +1,278 @@
+// The image module: the one file that knows OpenImageIO, loaded by image_loader.cpp on first use.
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "render/image/image_module.h"
+
+namespace boule::image_module {
+namespace {
+
+/// Rows per call: enough for EXR's zip blocks of 16 rows on several threads, few enough to stop
+/// soon.
+constexpr int band_rows = 64;
+
+/// Hands OpenImageIO's bytes to a file descriptor, gathered: its PNM writer writes single bytes.
+/// After a failure it keeps the errno code and pretends to go on: libjpeg would end the process,
+/// others lose the reason. Every writer of ours uses it from one thread at a time.
+class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
+
+  const char* proxytype() const override { return "boule"; }
+  void close() override {}
+  size_t size() const override { return size_; }
+  size_t write(const void* bytes, size_t count) override {
+    const size_t written = pwrite(bytes, count, m_pos);
+    m_pos += static_cast<int64_t>(written);
+    return written;
+  }
+  size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
+    constexpr size_t enough = 1 << 16;
+    const auto end = gathered_at_ + static_cast<int64_t>(gathered_.size());
+    if (offset != end || gathered_.size() >= enough) {
+      flush_gathered();
+      gathered_at_ = offset;
+    }
+    const auto* from = static_cast<const char*>(bytes);
+    gathered_.insert(gathered_.end(), from, from + count);
+    size_ = std::max(size_, static_cast<size_t>(offset) + count);
+    return count;
+  }
+  size_t read(void* bytes, size_t count) override {
+    const size_t got = pread(bytes, count, m_pos);
+    m_pos += static_cast<int64_t>(got);
+    return got;
+  }
+  size_t pread(void* bytes, size_t count, int64_t offset) override {
+    flush_gathered();
+    const ssize_t got = ::pread(descriptor_, bytes, count, offset);
+    return got < 0 ? 0 : static_cast<size_t>(got);
+  }
+
+  /// Writes what is gathered; the errno code of the first failure so far, or 0.
+  int finish() {
+    flush_gathered();
+    return code_;
+  }
+
+  /// The errno code of the first failure so far, or 0.
+  [[nodiscard]] int code() const { return code_; }
+
+ private:
+  void flush_gathered() {
+    for (size_t done = 0; done < gathered_.size() && code_ == 0;) {
+      const ssize_t written =
+          ::pwrite(descriptor_, gathered_.data() + done, gathered_.size() - done,
+                   gathered_at_ + static_cast<int64_t>(done));
+      if (written > 0) {
+        done += static_cast<size_t>(written);
+      } else if (written == 0 || errno != EINTR) {
+        code_ = written == 0 ? EIO : errno;
+      }
+    }
+    gathered_.clear();
+  }
+
+  int descriptor_;
+  int code_ = 0;
+  size_t size_ = 0;
+  std::vector<char> gathered_;
+  int64_t gathered_at_ = 0;
+};
+
+void fail(Report* report, const std::string& text) {
+  report->outcome = Outcome::failed;
+  const size_t length = std::min(text.size(), sizeof report->text - 1);
+  std::memcpy(report->text, text.data(), length);
+  report->text[length] = 0;
+}
+
+/// OpenImageIO's own words, in one line.
+std::string reason_of(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "OpenImageIO gives no reason" : text;
+}
+
+OIIO::TypeDesc type_of(SampleType type) {
+  switch (type) {
+    case SampleType::u8:
+      return OIIO::TypeDesc::UINT8;
+    case SampleType::u32:
+      return OIIO::TypeDesc::UINT32;
+    case SampleType::f32:
+      break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+void add_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
+  switch (attribute.type) {
+    case AttributeType::text:
+      spec.attribute(attribute.name, static_cast<const char*>(attribute.value));
+      break;
+    case AttributeType::integer:
+      spec.attribute(attribute.name, OIIO::TypeInt, attribute.value);
+      break;
+    case AttributeType::real:
+      spec.attribute(attribute.name, OIIO::TypeFloat, attribute.value);
+      break;
+    case AttributeType::matrix:
+      spec.attribute(attribute.name, OIIO::TypeMatrix44, attribute.value);
+      break;
+  }
+}
+
+OIIO::ImageSpec spec_of(const Picture& picture) {
+  const auto count = static_cast<int>(picture.channel_count);
+  OIIO::ImageSpec spec(picture.width, picture.height, count, type_of(picture.channels[0].type));
+  spec.x = picture.x;
+  spec.y = picture.y;
+  spec.full_width = picture.frame_width;
+  spec.full_height = picture.frame_height;
+  spec.channelnames.clear();
+  bool mixed = false;
+  for (size_t i = 0; i < picture.channel_count; ++i) {
+    const Channel& channel = picture.channels[i];
+    spec.channelnames.emplace_back(channel.name);
+    spec.channelformats.push_back(type_of(channel.type));
+    mixed = mixed || channel.type != picture.channels[0].type;
+  }
+  if (!mixed) spec.channelformats.clear();
+  for (size_t i = 0; i < picture.attribute_count; ++i) add_attribute(spec, picture.attributes[i]);
+  return spec;
+}
+
+size_t size_of(SampleType type) { return type == SampleType::u8 ? 1 : 4; }
+
+/// Rows [begin, end) as OpenImageIO takes them: the samples of a pixel side by side, no gaps.
+void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned char>& packed) {
+  size_t pixel_size = 0;
+  for (size_t i = 0; i < picture.channel_count; ++i) {
+    pixel_size += size_of(picture.channels[i].type);
+  }
+  const auto width = static_cast<size_t>(picture.width);
+  const size_t first = static_cast<size_t>(begin) * width;
+  const size_t count = static_cast<size_t>(end - begin) * width;
+  packed.resize(count * pixel_size);
+  size_t offset = 0;
+  for (size_t i = 0; i < picture.channel_count; ++i) {
+    const Channel& channel = picture.channels[i];
+    const size_t size = size_of(channel.type);
+    const unsigned char* from = channel.samples + first * channel.stride;
+    unsigned char* to = packed.data() + offset;
+    for (size_t pixel = 0; pixel < count; ++pixel, from += channel.stride, to += pixel_size) {
+      std::memcpy(to, from, size);
+    }
+    offset += size;
+  }
+}
+
+void write_bands(const Picture& picture, OIIO::ImageOutput& output, const DescriptorProxy& proxy,
+                 Report* report) {
+  std::vector<unsigned char> packed;
+  for (int begin = 0; begin < picture.height && proxy.code() == 0; begin += band_rows) {
+    if (picture.stop(picture.context)) {
+      report->outcome = Outcome::stopped;
+      return;
+    }
+    const int end = std::min(begin + band_rows, picture.height);
+    pack_rows(picture, begin, end, packed);
+    const bool mixed = !output.spec().channelformats.empty();
+    const OIIO::TypeDesc type = mixed ? OIIO::TypeUnknown : type_of(picture.channels[0].type);
+    const int top = output.spec().y;
+    if (!output.write_scanlines(top + begin, top + end, 0, type, packed.data())) {
+      return fail(report, reason_of(output.geterror()));
+    }
+  }
+}
+
+void write_picture(const Picture& picture, int descriptor, Report* report) {
+  // Before OpenImageIO starts pools of its own. One thread means the caller's: -1 to OpenEXR.
+  OIIO::attribute("threads", picture.threads);
+  OIIO::attribute("exr_threads", picture.threads > 1 ? picture.threads : -1);
+  DescriptorProxy proxy(descriptor);
+  const auto output = OIIO::ImageOutput::create(picture.format);
+  if (!output) return fail(report, reason_of(OIIO::geterror()));
+  const std::string name = std::string("picture.") + picture.format;
+  if (!output->set_ioproxy(&proxy) || !output->open(name, spec_of(picture))) {
+    return fail(report, reason_of(output->geterror()));
+  }
+  write_bands(picture, *output, proxy, report);
+  const bool closed = output->close();
+  if (report->outcome == Outcome::done && !closed) fail(report, reason_of(output->geterror()));
+  if (const int code = proxy.finish()) {  // the cause of whatever OpenImageIO complains about
+    report->outcome = Outcome::system_error;
+    report->code = code;
+  }
+}
+
+/// Everything that was asked for is in the header, whatever order the format keeps channels in.
+bool same_shape(const OIIO::ImageSpec& found, const OIIO::ImageSpec& wanted) {
+  if (found.width != wanted.width || found.height != wanted.height ||
+      found.nchannels != wanted.nchannels || found.x != wanted.x || found.y != wanted.y) {
+    return false;
+  }
+  for (int i = 0; i < wanted.nchannels; ++i) {
+    const std::string& name = wanted.channelnames[static_cast<size_t>(i)];
+    const int at = found.channelindex(name);
+    if (at < 0 || found.channelformat(at) != wanted.channelformat(i)) return false;
+  }
+  return true;
+}
+
+void check_picture(const Picture& picture, const char* path, Report* report) {
+  const auto input = OIIO::ImageInput::create(picture.format);
+  OIIO::ImageSpec found;
+  if (!input || !input->open(path, found)) {
+    return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
+  }
+  if (!same_shape(found, spec_of(picture))) {
+    return fail(report, "the file's header is not what was written");
+  }
+  std::vector<unsigned char> row(static_cast<size_t>(found.scanline_bytes(true)));
+  for (const int y : {found.y, found.y + found.height - 1}) {  // BMP ends with the top row
+    if (!input->read_scanline(y, 0, OIIO::TypeUnknown, row.data())) {
+      return fail(report, "unreadable: " + reason_of(input->geterror()));
+    }
+  }
+}
+
+/// Runs a step so that no exception leaves the module.
+template <class Step>
+void guarded(Report* report, Step step) {
+  *report = {};
+  try {
+    step();
+  } catch (const std::exception& error) {
+    fail(report, error.what());
+  } catch (...) {
+    fail(report, "an unknown exception");
+  }
+}
+
+void write(const Picture* picture, int descriptor, Report* report) {
+  guarded(report, [&] { write_picture(*picture, descriptor, report); });
+}
+
+void check(const Picture* picture, const char* path, Report* report) {
+  guarded(report, [&] { check_picture(*picture, path, report); });
+}
+
+constexpr Table table = {version, write, check};
+
+}  // namespace
+}  // namespace boule::image_module
+
+extern "C" [[gnu::visibility("default")]] const boule::image_module::Table* boule_image_module() {
+  return &boule::image_module::table;
+}

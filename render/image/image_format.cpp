@@ -1,0 +1,49 @@
+#include "render/image/image_format.h"
+
+#include <filesystem>
+#include <limits>
+
+namespace boule {
+namespace {
+
+constexpr int any = std::numeric_limits<int>::max();
+
+// hdr stores shared-exponent colours (RGBE), the others what ImageFormat says. TIFF is 8 bit as
+// viewers and office programs expect it; who wants floats takes EXR.
+constexpr ImageFormat formats[] = {
+    {"exr", "openexr", any, true, true},  {"hdr", "hdr", any, true, false},
+    {"rgbe", "hdr", any, true, false},    {"png", "png", any, false, false},
+    {"jpg", "jpeg", 65500, false, false}, {"jpeg", "jpeg", 65500, false, false},
+    {"jpe", "jpeg", 65500, false, false}, {"tif", "tiff", any, false, false},
+    {"tiff", "tiff", any, false, false},  {"webp", "webp", 16383, false, false},
+    {"ppm", "pnm", any, false, false},    {"pnm", "pnm", any, false, false},
+    {"bmp", "bmp", any, false, false},    {"tga", "targa", 65535, false, false},
+};
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+const ImageFormat* find_image_format(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (extension.size() < 2) return nullptr;
+  extension.erase(0, 1);
+  for (char& c : extension) c = lower(c);
+  for (const ImageFormat& format : formats) {
+    if (extension == format.extension) return &format;
+  }
+  return nullptr;
+}
+
+bool is_image_name(const std::string& path) { return find_image_format(path) != nullptr; }
+
+std::string known_image_extensions() {
+  std::string names;
+  for (const ImageFormat& format : formats) {
+    if (!names.empty()) names += ", ";
+    names += format.extension;
+  }
+  return names;
+}
+
+}  // namespace boule

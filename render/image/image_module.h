@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The border between the library and boule_image_io.so, the module that holds OpenImageIO: plain
+/// structs and function pointers, no exceptions, nothing of std, nothing owned across it.
+namespace boule::image_module {
+
+/// Changes with any change of this file; the loader refuses a module of another version.
+inline constexpr std::uint32_t version = 1;
+
+/// The module's one exported symbol: `const Table* boule_image_module()`.
+inline constexpr const char* entry_point = "boule_image_module";
+
+enum class SampleType : std::uint32_t { u8, u32, f32 };
+
+/// One channel of a picture; pixel i's sample lies at samples + i * stride bytes.
+struct Channel {
+  const char* name;
+  SampleType type;
+  const unsigned char* samples;
+  std::size_t stride;
+};
+
+enum class AttributeType : std::uint32_t { text, integer, real, matrix };
+
+/// One header entry; value points to a C string, an int32, a float or 16 floats.
+struct Attribute {
+  const char* name;
+  AttributeType type;
+  const void* value;
+};
+
+/// A picture to write: pixels row by row from the top, channels of equal size.
+struct Picture {
+  const char* format;  ///< OpenImageIO's name of the format
+  int width, height;
+  int x, y, frame_width, frame_height;  ///< the data window in the display window
+  const Channel* channels;
+  std::size_t channel_count;
+  const Attribute* attributes;
+  std::size_t attribute_count;
+  int threads;
+  bool (*stop)(const void* context);  ///< true gives up
+  const void* context;
+};
+
+enum class Outcome : std::uint32_t { done, stopped, system_error, failed };
+
+/// What came of a call: the errno code of a system_error, else a text for failed.
+struct Report {
+  Outcome outcome;
+  int code;
+  char text[400];
+};
+
+/// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
+/// anew and reads its header, its first and its last row.
+struct Table {
+  std::uint32_t version;
+  void (*write)(const Picture* picture, int descriptor, Report* report);
+  void (*check)(const Picture* picture, const char* path, Report* report);
+};
+
+}  // namespace boule::image_module

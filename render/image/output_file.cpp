@@ -1,0 +1,193 @@
+#include "render/image/output_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <cstdint>
+#include <system_error>
+#include <utility>
+
+namespace boule {
+namespace {
+
+std::string system_reason(int code) { return std::generic_category().message(code); }
+
+/// "dir/" of "dir/name", or empty.
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+
+/// The file that a chain of symbolic links ends at, existing or not; 0 or an errno code.
+int follow_links(std::string& path) {
+  constexpr int longest_chain = 40;  // the kernel's own limit
+  for (int links = 0; links <= longest_chain; ++links) {
+    std::array<char, PATH_MAX> text{};
+    const ssize_t length = readlink(path.c_str(), text.data(), text.size());
+    if (length < 0) return errno == EINVAL || errno == ENOENT ? 0 : errno;
+    const std::string link(text.data(), static_cast<std::size_t>(length));
+    path = link.starts_with('/') ? link : folder_of(path) + link;
+  }
+  return ELOOP;
+}
+
+/// ".STEM.XXXXXX.temp.EXT" beside the target, the X random: other programs choose an image format
+/// by the extension. A long stem is cut, so that any legal target has a legal temporary.
+std::string temporary_name(const std::string& target) {
+  constexpr char digits[] = "0123456789abcdefghijklmnopqrstuv";
+  const std::string folder = folder_of(target);
+  const std::string base = target.substr(folder.size());
+  const std::size_t dot = std::min(base.rfind('.'), base.size());
+  std::uint64_t bits = 0;
+  // Too little entropy only means a name in use, and another attempt.
+  [[maybe_unused]] const ssize_t got = getrandom(&bits, sizeof bits, GRND_NONBLOCK);
+  std::string tag;
+  for (int i = 0; i < 6; ++i, bits >>= 5) tag += digits[bits & 31];
+  const std::string tail = "." + tag + ".temp" + base.substr(dot);
+  const std::size_t room = tail.size() < NAME_MAX ? NAME_MAX - 1 - tail.size() : 0;
+  return folder + "." + base.substr(0, std::min(dot, room)) + tail;
+}
+
+/// Writes all bytes; 0 or an errno code.
+int write_all(int descriptor, const char* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t written = ::write(descriptor, bytes, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return EIO;
+    bytes += written;
+    count -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+/// The new name survives a power cut once its folder is written; a file system that cannot do that
+/// is no reason to fail.
+void sync_folder(const std::string& path) {
+  const std::string folder = folder_of(path);
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+}  // namespace
+
+Diagnostic cannot_write(const std::string& name, const std::string& reason) {
+  return {"cannot write " + quote(name, PATH_MAX) + ": " + reason, {}, {}, 0, 0};
+}
+
+Result<OutputFile> OutputFile::create(const std::string& target) {
+  OutputFile file;
+  file.name_ = target;
+  std::string real = target;
+  if (const int code = follow_links(real)) return cannot_write(target, system_reason(code));
+  struct stat old {};
+  const bool exists = stat(real.c_str(), &old) == 0;
+  if (!exists && (errno != ENOENT || real.empty())) {
+    return cannot_write(target, system_reason(errno));
+  }
+  if (exists ? S_ISDIR(old.st_mode) : real.ends_with('/')) {
+    return cannot_write(target, system_reason(EISDIR));
+  }
+  if (exists && !S_ISREG(old.st_mode)) return create_stream(std::move(file), real);
+  // Renaming could replace a write-protected file; writing to it could not.
+  if (exists && faccessat(AT_FDCWD, real.c_str(), W_OK, AT_EACCESS) != 0) {
+    return cannot_write(target, system_reason(errno));
+  }
+  Result<OutputFile> made = create_beside(std::move(file), real);
+  if (made.ok() && exists) fchmod(made.value().descriptor_, old.st_mode & 0777);
+  return made;
+}
+
+Result<OutputFile> OutputFile::create_beside(OutputFile file, const std::string& real_target) {
+  constexpr int attempts = 100;
+  file.real_target_ = real_target;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const std::string path = temporary_name(real_target);
+    file.descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file.descriptor_ >= 0) {
+      file.path_ = path;
+      return Result<OutputFile>(std::move(file));
+    }
+    if (errno != EEXIST) break;
+  }
+  return cannot_write(file.name_, system_reason(errno));
+}
+
+Result<OutputFile> OutputFile::create_stream(OutputFile file, const std::string& real_target) {
+  file.stream_ = open(real_target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (file.stream_ >= 0) file.descriptor_ = memfd_create("boule", MFD_CLOEXEC);
+  if (file.descriptor_ < 0) return cannot_write(file.name_, system_reason(errno));
+  file.path_ = "/proc/self/fd/" + std::to_string(file.descriptor_);
+  return Result<OutputFile>(std::move(file));
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : name_(std::move(other.name_)),
+      real_target_(std::move(other.real_target_)),
+      path_(std::exchange(other.path_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      stream_(std::exchange(other.stream_, -1)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+  std::swap(name_, other.name_);
+  std::swap(real_target_, other.real_target_);
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(stream_, other.stream_);
+  return *this;
+}
+
+OutputFile::~OutputFile() { discard(); }
+
+void OutputFile::discard() {
+  if (!path_.empty() && stream_ < 0) unlink(path_.c_str());
+  if (descriptor_ >= 0) close(descriptor_);
+  if (stream_ >= 0) close(stream_);
+  path_.clear();
+  descriptor_ = stream_ = -1;
+}
+
+Status OutputFile::write(const void* bytes, std::size_t count) {
+  const int code = write_all(descriptor_, static_cast<const char*>(bytes), count);
+  if (code != 0) return cannot_write(name_, system_reason(code));
+  return {};
+}
+
+Status OutputFile::commit() {
+  if (stream_ >= 0) return commit_stream();
+  if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
+  if (close(std::exchange(descriptor_, -1)) != 0) {
+    return cannot_write(name_, system_reason(errno));
+  }
+  if (rename(path_.c_str(), real_target_.c_str()) != 0) {
+    return cannot_write(name_, system_reason(errno));
+  }
+  path_.clear();
+  sync_folder(real_target_);
+  return {};
+}
+
+Status OutputFile::commit_stream() {
+  std::array<char, 1 << 16> buffer;
+  off_t position = 0;
+  for (;;) {
+    const ssize_t count = pread(descriptor_, buffer.data(), buffer.size(), position);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return cannot_write(name_, system_reason(errno));
+    if (count == 0) break;
+    const int code = write_all(stream_, buffer.data(), static_cast<std::size_t>(count));
+    if (code != 0) return cannot_write(name_, system_reason(code));
+    position += count;
+  }
+  path_.clear();  // it named the memory, nothing to remove
+  if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, system_reason(errno));
+  return {};
+}
+
+}  // namespace boule

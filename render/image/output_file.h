@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/base/error.h"
+
+namespace boule {
+
+/// "cannot write 'NAME': REASON", for every failure of an output.
+Diagnostic cannot_write(const std::string& name, const std::string& reason);
+
+/// A file that appears under its name only when it is complete: a temporary beside the target,
+/// renamed by commit(), removed by the destructor. A failure leaves an old file untouched.
+///
+/// The new file has the old one's permissions, else 0666 less the umask. A symbolic link is
+/// followed: the file it names is replaced, the link stays. A device, pipe or socket is never
+/// replaced: the data are gathered in memory and copied into it by commit().
+class OutputFile {
+ public:
+  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason.
+  static Result<OutputFile> create(const std::string& target);
+
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /// The temporary: its path, to be opened and checked, and its descriptor, open for reading,
+  /// writing and seeking.
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+  /// Appends bytes at the descriptor's position.
+  Status write(const void* bytes, std::size_t count);
+
+  /// Makes the data durable and gives the file its name; call it once, after the last write.
+  Status commit();
+
+ private:
+  OutputFile() = default;
+  static Result<OutputFile> create_beside(OutputFile file, const std::string& real_target);
+  static Result<OutputFile> create_stream(OutputFile file, const std::string& real_target);
+  Status commit_stream();
+  void discard();
+
+  std::string name_;         // the target as the caller wrote it, for messages
+  std::string real_target_;  // links resolved; empty for a stream
+  std::string path_;
+  int descriptor_ = -1;
+  int stream_ = -1;  // the device or pipe itself
+};
+
+}  // namespace boule

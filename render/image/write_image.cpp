@@ -1,0 +1,208 @@
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "render/image/image_file.h"
+#include "render/image/image_loader.h"
+#include "render/image/output_file.h"
+#include "render/image/tone.h"
+
+namespace boule {
+namespace {
+
+namespace module = image_module;
+
+/// What the module reads: plain views, and what keeps them alive.
+struct Plan {
+  std::vector<std::uint8_t> codes;  // LDR only
+  std::vector<module::Channel> channels;
+  Metadata metadata;
+  std::vector<module::Attribute> attributes;
+  module::Picture picture{};
+};
+
+const char* compression_name(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return "none";
+    case Compression::rle:
+      return "rle";
+    case Compression::zip:
+      break;
+  }
+  return "zip";
+}
+
+std::size_t sample_count(const ImageChannel& channel) {
+  return std::visit([](const auto& samples) { return samples.size(); }, channel.samples);
+}
+
+/// What is wrong with the extra channels, or an empty text.
+std::string channel_problem(const Image& image, const std::vector<ImageChannel>& channels) {
+  std::set<std::string> names = {"R", "G", "B"};
+  for (const ImageChannel& channel : channels) {
+    if (channel.name.empty() || !names.insert(channel.name).second) {
+      return "channel " + quote(channel.name) + " has no name of its own";
+    }
+    if (sample_count(channel) != image.pixels.size()) {
+      return "channel " + quote(channel.name) + " has not one sample per pixel";
+    }
+  }
+  return {};
+}
+
+/// What is wrong with the arguments, or an empty text.
+std::string find_reason(const Image& image, const ImageFileOptions& options,
+                        const ImageFormat* format) {
+  if (format == nullptr) {
+    return "unknown image extension, expected one of " + known_image_extensions();
+  }
+  if (image.width < 1 || image.height < 1 ||
+      image.pixels.size() !=
+          static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+    return "the picture has no pixels";
+  }
+  if (image.width > format->longest_side || image.height > format->longest_side) {
+    return std::string("a .") + format->extension + " file has at most " +
+           std::to_string(format->longest_side) + " pixels a side";
+  }
+  const CropPlace& crop = options.crop;
+  if (crop.frame_width != 0 &&
+      (crop.x < 0 || crop.y < 0 || crop.frame_width < image.width ||
+       crop.frame_height < image.height || crop.x > crop.frame_width - image.width ||
+       crop.y > crop.frame_height - image.height)) {
+    return "the crop lies outside its frame";
+  }
+  if (!options.channels.empty() && !format->channels) {
+    return std::string("a .") + format->extension + " file has no room for extra channels";
+  }
+  return channel_problem(image, options.channels);
+}
+
+void plan_channels(const Image& image, const ImageFileOptions& options, const ImageFormat& format,
+                   Plan& plan) {
+  static_assert(sizeof(Color) == 3 * sizeof(float));
+  constexpr const char* names[] = {"R", "G", "B"};
+  if (!format.hdr) plan.codes = tone_map(image, options.exposure_stops);
+  const auto* floats = reinterpret_cast<const unsigned char*>(image.pixels.data());
+  for (std::size_t i = 0; i < 3; ++i) {
+    plan.channels.push_back(
+        format.hdr ? module::Channel{names[i], module::SampleType::f32, floats + i * sizeof(float),
+                                     sizeof(Color)}
+                   : module::Channel{names[i], module::SampleType::u8, plan.codes.data() + i, 3});
+  }
+  for (const ImageChannel& channel : options.channels) {
+    const auto* integers = std::get_if<std::vector<std::uint32_t>>(&channel.samples);
+    const void* samples = integers != nullptr
+                              ? static_cast<const void*>(integers->data())
+                              : std::get<std::vector<float>>(channel.samples).data();
+    const auto type = integers != nullptr ? module::SampleType::u32 : module::SampleType::f32;
+    plan.channels.push_back(
+        {channel.name.c_str(), type, static_cast<const unsigned char*>(samples), 4});
+  }
+}
+
+module::Attribute attribute_of(const std::string& name, const MetadataValue& value) {
+  using module::AttributeType;
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    return {name.c_str(), AttributeType::text, text->c_str()};
+  }
+  if (const auto* integer = std::get_if<std::int32_t>(&value)) {
+    return {name.c_str(), AttributeType::integer, integer};
+  }
+  if (const auto* real = std::get_if<float>(&value)) {
+    return {name.c_str(), AttributeType::real, real};
+  }
+  return {name.c_str(), AttributeType::matrix, std::get<MetadataMatrix>(value).data()};
+}
+
+void plan_attributes(const ImageFileOptions& options, const ImageFormat& format, Plan& plan) {
+  const std::string writer = format.writer;
+  plan.metadata = {{"Software", "boule " BOULE_VERSION},
+                   {"DateTime", options.date_time},
+                   {"oiio:ColorSpace", format.hdr ? "Linear" : "sRGB"}};
+  if (writer == "openexr") {
+    plan.metadata.emplace_back("compression", compression_name(options.compression));
+  } else if (writer == "jpeg" || writer == "webp") {
+    plan.metadata.emplace_back("CompressionQuality", 95);
+    plan.metadata.emplace_back("jpeg:subsampling", "4:4:4");
+  } else if (writer == "tiff") {
+    plan.metadata.emplace_back("tiff:write_exif", 0);  // libtiff would reread a half-written file
+  }
+  plan.metadata.insert(plan.metadata.end(), options.metadata.begin(), options.metadata.end());
+  for (const auto& [name, value] : plan.metadata) {
+    plan.attributes.push_back(attribute_of(name, value));
+  }
+}
+
+/// The Plan stays where it is: the picture points into it.
+std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& options,
+                                const ImageFormat& format) {
+  auto plan = std::make_unique<Plan>();
+  plan_channels(image, options, format, *plan);
+  plan_attributes(options, format, *plan);
+  const bool cropped = options.crop.frame_width != 0 && format.channels;
+  const CropPlace place = cropped ? options.crop : CropPlace{image.width, image.height, 0, 0};
+  module::Picture& picture = plan->picture;
+  picture.format = format.writer;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.x = place.x;
+  picture.y = place.y;
+  picture.frame_width = place.frame_width;
+  picture.frame_height = place.frame_height;
+  picture.channels = plan->channels.data();
+  picture.channel_count = plan->channels.size();
+  picture.attributes = plan->attributes.data();
+  picture.attribute_count = plan->attributes.size();
+  picture.threads = options.threads > 1 ? options.threads : 1;
+  picture.stop = [](const void* context) {
+    const auto& stop = static_cast<const ImageFileOptions*>(context)->stop;
+    return stop && stop();
+  };
+  picture.context = &options;
+  return plan;
+}
+
+/// The Diagnostic for a Report that is not `done`.
+Status status_of(const module::Report& report, const std::string& path) {
+  switch (report.outcome) {
+    case module::Outcome::done:
+      return {};
+    case module::Outcome::stopped:
+      return cannot_write(path, "interrupted");
+    case module::Outcome::system_error:
+      return cannot_write(path, std::generic_category().message(report.code));
+    case module::Outcome::failed:
+      break;
+  }
+  return cannot_write(path, report.text);
+}
+
+}  // namespace
+
+Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
+  const ImageFormat* format = find_image_format(path);
+  if (const std::string reason = find_reason(image, options, format); !reason.empty()) {
+    return cannot_write(path, reason);
+  }
+  // The file first: a missing folder is reported without loading anything.
+  Result<OutputFile> created = OutputFile::create(path);
+  if (!created.ok()) return created.error();
+  OutputFile& file = created.value();
+  const Result<const module::Table*> loaded = load_image_module();
+  if (!loaded.ok()) return cannot_write(path, loaded.error().message);
+  const module::Table& table = *loaded.value();
+
+  const std::unique_ptr<Plan> plan = make_plan(image, options, *format);
+  module::Report report{};
+  table.write(&plan->picture, file.descriptor(), &report);
+  if (Status failure = status_of(report, path)) return failure;
+  table.check(&plan->picture, file.path().c_str(), &report);
+  if (Status failure = status_of(report, path)) return failure;
+  return file.commit();
+}
+
+}  // namespace boule

@@ -1,0 +1,188 @@
+#include "render/image/output_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <utility>
+
+#include "tests/image/files.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+class OutputFileTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (dir_.path() / name).string();
+  }
+  [[nodiscard]] Names names() const { return test::names_in(dir_.path()); }
+  /// "cannot write 'NAME': REASON" of a failed create, or empty.
+  static std::string create_error(const std::string& target) {
+    const Result<OutputFile> file = OutputFile::create(target);
+    return file.ok() ? "" : file.error().message;
+  }
+  static Status put(const std::string& target, const std::string& bytes) {
+    Result<OutputFile> file = OutputFile::create(target);
+    if (!file.ok()) return file.error();
+    if (Status failure = file.value().write(bytes.data(), bytes.size())) return failure;
+    return file.value().commit();
+  }
+
+ private:
+  test::TempDir dir_;
+};
+
+mode_t mode_of(const std::string& path) {
+  struct stat info {};
+  stat(path.c_str(), &info);
+  return info.st_mode & 07777;
+}
+
+TEST_F(OutputFileTest, AppearsOnCommit) {
+  Result<OutputFile> file = OutputFile::create(at("a.npy"));
+  ASSERT_TRUE(file.ok());
+  EXPECT_FALSE(file.value().write("hello", 5));
+  EXPECT_FALSE(fs::exists(at("a.npy")));
+  const std::string name = fs::path(file.value().path()).filename();
+  EXPECT_EQ(names(), Names{name});
+  EXPECT_TRUE(name.starts_with(".a.")) << name;
+  EXPECT_TRUE(name.ends_with(".temp.npy")) << name;
+  EXPECT_EQ(test::read_bytes(file.value().path()), "hello");
+  EXPECT_FALSE(file.value().commit());
+  EXPECT_EQ(names(), Names{"a.npy"});
+  EXPECT_EQ(test::read_bytes(at("a.npy")), "hello");
+}
+
+TEST_F(OutputFileTest, LeavesNothingWithoutCommit) {
+  test::write_bytes(at("a.npy"), "old");
+  {
+    Result<OutputFile> file = OutputFile::create(at("a.npy"));
+    ASSERT_TRUE(file.ok());
+    OutputFile moved = std::move(file).value();
+    EXPECT_FALSE(moved.write("new", 3));
+    EXPECT_EQ(names().size(), 2U);
+  }
+  EXPECT_EQ(names(), Names{"a.npy"});
+  EXPECT_EQ(test::read_bytes(at("a.npy")), "old");
+}
+
+TEST_F(OutputFileTest, TwoAtOnceDoNotMeet) {
+  Result<OutputFile> one = OutputFile::create(at("a.json"));
+  Result<OutputFile> two = OutputFile::create(at("a.json"));
+  ASSERT_TRUE(one.ok() && two.ok());
+  EXPECT_NE(one.value().path(), two.value().path());
+  EXPECT_FALSE(one.value().write("1", 1));
+  EXPECT_FALSE(two.value().write("2", 1));
+  EXPECT_FALSE(two.value().commit());
+  EXPECT_FALSE(one.value().commit());
+  EXPECT_EQ(test::read_bytes(at("a.json")), "1");
+  EXPECT_EQ(names(), Names{"a.json"});
+}
+
+TEST_F(OutputFileTest, NewFilesRespectTheUmask) {
+  const mode_t old = umask(027);
+  EXPECT_FALSE(put(at("a"), "x"));
+  umask(old);
+  EXPECT_EQ(mode_of(at("a")), 0640U);
+}
+
+TEST_F(OutputFileTest, OldFilesKeepTheirMode) {
+  test::write_bytes(at("a"), "old");
+  ASSERT_EQ(chmod(at("a").c_str(), 0606), 0);
+  EXPECT_FALSE(put(at("a"), "new"));
+  EXPECT_EQ(mode_of(at("a")), 0606U);
+  EXPECT_EQ(test::read_bytes(at("a")), "new");
+}
+
+TEST_F(OutputFileTest, LinksAreFollowed) {
+  fs::create_directory(at("sub"));
+  test::write_bytes(at("sub/real"), "old");
+  fs::create_symlink("sub/real", at("link"));
+  fs::create_symlink(at("link"), at("chain"));
+  EXPECT_FALSE(put(at("chain"), "new"));
+  EXPECT_TRUE(fs::is_symlink(at("chain")));
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_EQ(test::read_bytes(at("sub/real")), "new");
+  EXPECT_EQ(test::names_in(at("sub")), Names{"real"});
+}
+
+TEST_F(OutputFileTest, DanglingLinkMakesItsFile) {
+  fs::create_symlink("later", at("link"));
+  EXPECT_FALSE(put(at("link"), "x"));
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_EQ(test::read_bytes(at("later")), "x");
+}
+
+TEST_F(OutputFileTest, LongestNameIsLegal) {
+  const std::string name = std::string(251, 'n') + ".exr";
+  EXPECT_FALSE(put(at(name), "x"));
+  EXPECT_EQ(names(), Names{name});
+}
+
+TEST_F(OutputFileTest, RefusalsCarryTheSystemsReason) {
+  fs::create_directory(at("dir.png"));
+  test::write_bytes(at("file"), "x");
+  fs::create_symlink("loop", at("loop"));
+  const std::pair<std::string, std::string> cases[] = {
+      {at("dir.png"), "Is a directory"},
+      {at("new/"), "Is a directory"},
+      {at("missing/a.png"), "No such file or directory"},
+      {at("file/a.png"), "Not a directory"},
+      {at(std::string(256, 'n')), "File name too long"},
+      {at("loop"), "Too many levels of symbolic links"},
+      {"", "No such file or directory"},
+      {"/proc/boule.png", "No such file or directory"},
+  };
+  for (const auto& [target, reason] : cases) {
+    EXPECT_EQ(create_error(target), "cannot write '" + target + "': " + reason);
+  }
+  EXPECT_EQ(names(), (Names{"dir.png", "file", "loop"}));
+}
+
+TEST_F(OutputFileTest, FullDiskKeepsTheOldFile) {
+  test::write_bytes(at("a"), "old");
+  {
+    const test::FileSizeLimit limit(10);
+    const Status failure = put(at("a"), std::string(100, 'x'));
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->message, "cannot write '" + at("a") + "': File too large");
+  }
+  EXPECT_EQ(test::read_bytes(at("a")), "old");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(OutputFileTest, DevicesAreWrittenNotReplaced) {
+  EXPECT_FALSE(put("/dev/null", "x"));
+  const Status failure = put("/dev/full", "x");
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->message, "cannot write '/dev/full': No space left on device");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(OutputFileTest, PipesGetAllAtOnce) {
+  ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
+  const int reader = open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  {
+    Result<OutputFile> abandoned = OutputFile::create(at("pipe"));
+    ASSERT_TRUE(abandoned.ok());
+    EXPECT_FALSE(abandoned.value().write("partial", 7));
+  }
+  EXPECT_FALSE(put(at("pipe"), "whole"));
+  std::array<char, 16> bytes{};
+  const ssize_t count = read(reader, bytes.data(), bytes.size());
+  close(reader);
+  EXPECT_EQ(std::string(bytes.data(), static_cast<std::size_t>(count < 0 ? 0 : count)), "whole");
+  EXPECT_EQ(names(), Names{"pipe"});
+}
+
+}  // namespace
+}  // namespace boule
