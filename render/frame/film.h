@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/math/color.h"
+#include "render/frame/pixel_rect.h"
+#include "render/image/image.h"
+
+namespace boule {
+
+/// The samples of a picture so far, or of a part of it: per pixel their sum and number. Two threads
+/// may add at the same time to different pixels.
+class Film {
+ public:
+  /// A film of the frame's pixels in `rect`, not empty. Throws std::bad_alloc.
+  explicit Film(const PixelRect& rect)
+      : rect_(rect), pixels_(static_cast<std::size_t>(rect.area())) {}
+
+  [[nodiscard]] const PixelRect& rect() const { return rect_; }
+
+  /// Adds a finite sample to pixel (x, y) of the frame.
+  void add(int x, int y, const Color& sample) {
+    Pixel& pixel = pixels_[index(x, y)];
+    pixel.r += double{sample.r};
+    pixel.g += double{sample.g};
+    pixel.b += double{sample.b};
+    ++pixel.samples;
+  }
+
+  /// Samples that pixel (x, y) of the frame has.
+  [[nodiscard]] int samples(int x, int y) const { return pixels_[index(x, y)].samples; }
+
+  /// The mean of each pixel's samples, black where there is none, clamped to the largest float.
+  /// Throws std::bad_alloc.
+  [[nodiscard]] Image to_image() const;
+
+  /// Bytes a film of so many pixels takes.
+  static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(Pixel); }
+
+ private:
+  struct Pixel {
+    double r = 0, g = 0, b = 0;
+    std::int32_t samples = 0;
+  };
+
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+           static_cast<std::size_t>(x - rect_.x0);
+  }
+
+  PixelRect rect_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace boule

@@ -1,0 +1,107 @@
+#include "render/frame/pixel_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "core/math/random.h"
+
+namespace boule {
+namespace {
+
+/// The 16 bits of x, each followed by a 0.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | x << 8) & 0x00ff00ffu;
+  x = (x | x << 4) & 0x0f0f0f0fu;
+  x = (x | x << 2) & 0x33333333u;
+  return (x | x << 1) & 0x55555555u;
+}
+
+/// Place on the Morton curve: the bits of x and y in turn, x lowest.
+template <class Place>
+std::uint32_t curve_position(const Place& place) {
+  return spread(place.x) | spread(place.y) << 1;
+}
+
+/// The coarsest grid of spacing 2^k that a block lies on; block (0, 0) lies on all.
+template <class Place>
+int coarseness(const Place& place) {
+  return std::countr_zero(static_cast<unsigned>(place.x | place.y) | 0x10000u);
+}
+
+std::size_t tiles_along(int pixels, int tile) {
+  return static_cast<std::size_t>((pixels + tile - 1) / tile);
+}
+
+/// Fisher and Yates' shuffle, the same on every machine.
+template <class Place>
+void shuffle(std::vector<Place>& places) {
+  for (std::size_t i = places.size(); i > 1; --i) {
+    const auto words = philox({static_cast<std::uint32_t>(i), 0, 0, 0}, {0x626f756cu, 0x65u});
+    const std::uint64_t pick = (std::uint64_t{words[0]} * i) >> 32;
+    std::swap(places[i - 1], places[static_cast<std::size_t>(pick)]);
+  }
+}
+
+template <class Place>
+void put_in_order(std::vector<Place>& places, PixelOrder order) {
+  const auto along_curve = [](const Place& a, const Place& b) {
+    return curve_position(a) < curve_position(b);
+  };
+  const auto coarse_first = [](const Place& a, const Place& b) {
+    return coarseness(a) > coarseness(b);
+  };
+  switch (order) {
+    case PixelOrder::rows:
+      break;
+    case PixelOrder::tiles:
+      std::sort(places.begin(), places.end(), along_curve);
+      break;
+    case PixelOrder::progressive:
+      std::stable_sort(places.begin(), places.end(), coarse_first);
+      break;
+    case PixelOrder::frameless:
+      shuffle(places);
+      break;
+  }
+}
+
+}  // namespace
+
+BlockOrder::BlockOrder(const PixelRect& rect, int tile, PixelOrder order)
+    : rect_(rect), tile_(tile) {
+  if (rect.empty()) return;
+  const std::size_t columns = tiles_along(rect.width(), tile);
+  const std::size_t rows = tiles_along(rect.height(), tile);
+  places_.reserve(columns * rows);
+  for (std::size_t y = 0; y < rows; ++y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      places_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+    }
+  }
+  put_in_order(places_, order);
+}
+
+PixelRect BlockOrder::operator[](std::size_t i) const {
+  const int x = rect_.x0 + places_[i].x * tile_, y = rect_.y0 + places_[i].y * tile_;
+  return {x, y, std::min(x + tile_, rect_.x1), std::min(y + tile_, rect_.y1)};
+}
+
+std::uint64_t BlockOrder::bytes(const PixelRect& rect, int tile) {
+  return std::uint64_t{tiles_along(rect.width(), tile)} * tiles_along(rect.height(), tile) *
+         sizeof(Place);
+}
+
+std::vector<PixelOffset> block_pixels(int tile) {
+  std::vector<PixelOffset> pixels;
+  pixels.reserve(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile));
+  for (int y = 0; y < tile; ++y) {
+    for (int x = 0; x < tile; ++x) {
+      pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+    }
+  }
+  put_in_order(pixels, PixelOrder::tiles);
+  return pixels;
+}
+
+}  // namespace boule

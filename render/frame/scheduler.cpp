@@ -1,0 +1,107 @@
+#include "render/frame/scheduler.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "render/frame/float_environment.h"
+
+namespace boule {
+namespace {
+
+/// One loop, shared by its workers.
+class Loop {
+ public:
+  Loop(std::size_t count, const Scheduler::Body& body, const std::atomic<bool>* cancel)
+      : count_(count), body_(body), cancel_(cancel) {}
+
+  /// Works until nothing is left. Never throws.
+  void work(unsigned worker) {
+    const FloatEnvironment environment;
+    try {
+      while (!stopped()) {
+        const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
+        if (index >= count_) return;
+        body_(worker, index);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      failed_.store(true, std::memory_order_relaxed);
+    }
+  }
+
+  /// The first exception, or null. Once all have worked.
+  [[nodiscard]] std::exception_ptr error() const { return error_; }
+
+ private:
+  [[nodiscard]] bool stopped() const {
+    return failed_.load(std::memory_order_relaxed) ||
+           (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed));
+  }
+
+  const std::size_t count_;
+  const Scheduler::Body& body_;
+  const std::atomic<bool>* const cancel_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+Diagnostic describe(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return {"out of memory", {}, {}, 0, 0};
+  } catch (const std::exception& exception) {
+    return {exception.what(), {}, {}, 0, 0};
+  } catch (...) {
+    return {"unknown failure in a worker", {}, {}, 0, 0};
+  }
+}
+
+}  // namespace
+
+Scheduler::Scheduler(unsigned threads) {
+  if (threads == 0) threads = std::thread::hardware_concurrency();
+  workers_ = std::clamp(threads, 1u, max_workers);
+}
+
+std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
+                                      const std::atomic<bool>* cancel) {
+  Loop loop(count, body, cancel);
+  std::vector<std::thread> others;
+  const std::size_t wanted = std::min<std::size_t>(workers_, count);
+  try {
+    if (wanted > 1) others.reserve(wanted - 1);
+    while (others.size() + 1 < wanted) {
+      const auto worker = static_cast<unsigned>(others.size() + 1);
+      others.emplace_back([&loop, worker] { loop.work(worker); });
+    }
+  } catch (const std::system_error&) {  // those that started do the work
+  } catch (const std::bad_alloc&) {
+  }
+  loop.work(0);
+  for (std::thread& thread : others) thread.join();
+  threads_used_ = static_cast<unsigned>(others.size() + 1);
+  return loop.error();
+}
+
+Status Scheduler::run(std::size_t count, const Body& body, const std::atomic<bool>* cancel) {
+  if (const std::exception_ptr error = run_all(count, body, cancel)) return describe(error);
+  return std::nullopt;
+}
+
+ParallelFor Scheduler::parallel_for() {
+  return [this](std::size_t count, const std::function<void(std::size_t)>& body) {
+    const auto indexed = [&body](unsigned, std::size_t index) { body(index); };
+    if (const auto error = run_all(count, indexed, nullptr)) std::rethrow_exception(error);
+  };
+}
+
+}  // namespace boule

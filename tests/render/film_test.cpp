@@ -1,0 +1,45 @@
+#include "render/frame/film.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "render/frame/memory.h"
+
+namespace boule {
+namespace {
+
+TEST(Film, HoldsTheMeanOfASamplesInFrameCoordinates) {
+  Film film({10, 20, 13, 22});
+  film.add(12, 21, {1, 2, 3});
+  film.add(12, 21, {0, 1, 5});
+  const Image image = film.to_image();
+  ASSERT_EQ(image.width, 3);
+  ASSERT_EQ(image.height, 2);
+  EXPECT_EQ(image.at(2, 1), (Color{0.5f, 1.5f, 4}));
+  EXPECT_EQ(image.at(0, 0), Color{});
+  EXPECT_EQ(film.samples(12, 21), 2);
+  EXPECT_EQ(film.samples(10, 20), 0);
+}
+
+TEST(Film, SumsOfTheLargestFloatsStayFinite) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  Film film({0, 0, 1, 1});
+  for (int i = 0; i < 7; ++i) film.add(0, 0, gray(largest));
+  EXPECT_EQ(film.to_image().at(0, 0), gray(largest));
+}
+
+TEST(Film, SmallSamplesBesideALargeOneAreKept) {
+  Film film({0, 0, 1, 1});
+  film.add(0, 0, gray(16777216));
+  for (int i = 0; i < 7; ++i) film.add(0, 0, gray(1));  // a float sum would lose each of them
+  EXPECT_EQ(film.to_image().at(0, 0).r, 16777223.0f / 8);
+}
+
+TEST(Memory, IsKnownAndNotAbsurd) {
+  EXPECT_GT(available_memory(), std::uint64_t{1} << 20);
+  EXPECT_LT(available_memory(), std::uint64_t{1} << 50);
+}
+
+}  // namespace
+}  // namespace boule

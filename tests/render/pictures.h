@@ -1,0 +1,74 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "core/reference.h"
+#include "render/renderer/renderer.h"
+#include "tests/support/whitted_oracle.h"
+
+namespace boule::test {
+
+/// The picture, or a failed test and an empty one.
+inline Image render(const Scene& scene, const RenderOptions& options) {
+  auto renderer = Renderer::create(scene, options);
+  if (!renderer) {
+    ADD_FAILURE() << format_diagnostic(renderer.error());
+    return {};
+  }
+  auto image = renderer.value().render();
+  if (!image) {
+    ADD_FAILURE() << format_diagnostic(image.error());
+    return {};
+  }
+  return image.value();
+}
+inline Image render(const Scene& scene) { return render(scene, options_of(scene)); }
+
+inline bool same_bits(const Color& a, const Color& b) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return bits(a.r) == bits(b.r) && bits(a.g) == bits(b.g) && bits(a.b) == bits(b.b);
+}
+
+/// Pixels that differ in any bit; -1 if the sizes differ or there are none.
+inline int differing_pixels(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.pixels.empty()) return -1;
+  int count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    count += same_bits(a.pixels[i], b.pixels[i]) ? 0 : 1;
+  return count;
+}
+
+/// The oracle's colour for the centre of pixel (x, y).
+inline Rgb oracle_pixel(const Scene& scene, int x, int y) {
+  const CameraBasis basis = camera_basis(*scene.camera, scene.image.width, scene.image.height);
+  const Ray ray = reference::primary_ray(basis, x + 0.5, y + 0.5);
+  return WhittedOracle(scene).trace(ray, scene.render.max_depth);
+}
+
+/// |a - b| relative to b's largest component (or 1e-3), the largest over the components.
+inline double distance(const Color& a, const Rgb& b) {
+  const double scale = std::max({std::fabs(b.r), std::fabs(b.g), std::fabs(b.b), 1e-3});
+  return std::max({std::fabs(double{a.r} - b.r), std::fabs(double{a.g} - b.g),
+                   std::fabs(double{a.b} - b.b)}) /
+         scale;
+}
+
+/// The largest distance of a one-sample picture of the scene from the oracle's.
+inline double distance_to_oracle(const Scene& scene, const Image& image) {
+  if (image.width != scene.image.width || image.height != scene.image.height) return HUGE_VAL;
+  double largest = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double d = distance(image.at(x, y), oracle_pixel(scene, x, y));
+      if (!(d <= largest)) largest = d;
+    }
+  }
+  return largest;
+}
+
+}  // namespace boule::test

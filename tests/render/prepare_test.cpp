@@ -1,0 +1,167 @@
+#include "render/prepare/prepared_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "core/reference.h"
+#include "render/prepare/default_view.h"
+#include "tests/render/test_scenes.h"
+
+namespace boule::test {
+namespace {
+
+struct Size {
+  int width, height;
+};
+constexpr Size sizes[] = {{64, 64}, {96, 32}, {20, 90}};
+
+/// Checks that every sphere's silhouette lies inside of the picture: seen from the eye, its angle
+/// from the view's axis plus its angular radius stays below the film's half angle on each axis.
+void expect_framed(const Scene& scene, Size size) {
+  const Camera camera = default_camera(scene, size.width, size.height);
+  ASSERT_FALSE(find_problem(camera));
+  const CameraBasis basis = camera_basis(camera, size.width, size.height);
+  for (const Sphere& s : scene.spheres) {
+    const Vec3d way = vec_cast<double>(s.center) - basis.eye;
+    const double depth = dot(way, basis.forward);
+    for (const Vec3d& axis : {basis.right, basis.up}) {
+      const double off = std::atan2(std::fabs(dot(way, normalize(axis))), depth);
+      const double angular_radius =
+          std::asin(double{s.radius} / std::hypot(dot(way, normalize(axis)), depth));
+      EXPECT_LT(off + angular_radius, std::atan(length(axis)));
+    }
+  }
+}
+
+TEST(DefaultView, HoldsAllSpheres) {
+  Scene one, far_off, many, large;
+  one.spheres = {{{0, 0, 0}, 1, 0}};
+  far_off.spheres = {{{1e5f, -3e4f, 20}, 3, 0}, {{1e5f + 9, -3e4f, 20}, 1, 0}};
+  large.spheres = {{{0, 0, 0}, 1e9f, 0}, {{3e9f, 0, 0}, 1, 0}};
+  CaseRandom random(3);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d center = random.direction() * random.uniform(0, 10);
+    const auto radius = static_cast<float>(random.uniform(0.1, 2));
+    many.spheres.push_back({vec_cast<float>(center), radius, 0});
+  }
+  for (const Scene* scene : {&one, &far_off, &many, &large}) {
+    for (const Size size : sizes) expect_framed(*scene, size);
+  }
+}
+
+TEST(DefaultView, IsValidWithoutSpheresAndWithTinyOnesFarOff) {
+  Scene nothing, plane, tiny;
+  plane.planes = {{{1e6f, 0, 0}, {0, 0, 3}, 0}};
+  tiny.spheres = {{{1e8f, 1e8f, 0}, 1e-6f, 0}};
+  for (const Scene* scene : {&nothing, &plane, &tiny}) {
+    EXPECT_FALSE(find_problem(default_camera(*scene, 40, 30)));
+  }
+  for (const Vec3f& normal : {Vec3f{0, 1, 0}, Vec3f{0, 0, 3}, Vec3f{-1, 2, 5}}) {
+    plane.planes = {{{2, 3, 4}, normal, 0}};
+    const Ray ray =
+        reference::primary_ray(camera_basis(default_camera(plane, 40, 30), 40, 30), 20, 15);
+    EXPECT_EQ(reference::closest_hit(ray, {}, plane.planes).id, 0);
+    EXPECT_LT(dot(vec_cast<double>(ray.dir), vec_cast<double>(normal)), 0);  // sees its outside
+  }
+}
+
+TEST(Prepare, RefusesObjectsThatCannotBeFramed) {
+  Scene scene;
+  add_material(scene, Matte{});
+  scene.spheres = {{{3e38f, 0, 0}, 3e38f, 0}, {{-3e38f, 0, 0}, 3e38f, 0}};
+  const auto prepared = prepare(scene, 10, 10);
+  ASSERT_FALSE(prepared);
+  EXPECT_EQ(prepared.error().key, "camera");
+}
+
+TEST(Prepare, MakesALightAtTheEyeOnlyWhereNothingShines) {
+  Scene scene = empty_scene(10, 10);
+  const auto lit = [&] { return prepare(scene, 10, 10).value().lights; };
+  ASSERT_EQ(lit().size(), 1u);
+  const auto light = std::get<PointLight>(lit()[0]);
+  EXPECT_EQ(light.position, (Vec3f{0, 0, 5}));
+  EXPECT_EQ(light.intensity, gray(1));
+  EXPECT_EQ(light.falloff, Falloff::none);
+  EXPECT_EQ(prepare(scene, 10, 10).value().notes.size(), 1u);
+
+  scene.background = GradientBackground{};
+  EXPECT_TRUE(lit().empty());
+  scene.background = ConstantBackground{gray(1)};
+  EXPECT_EQ(lit().size(), 1u);
+  add_material(scene, Emissive{});
+  EXPECT_TRUE(lit().empty());
+  scene.materials.clear();
+  scene.lights = {DirectionalLight{}};
+  EXPECT_EQ(lit().size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<DirectionalLight>(lit()[0]));
+  EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());
+}
+
+TEST(Prepare, SaysThatItMadeACamera) {
+  Scene scene;
+  scene.lights = {DirectionalLight{}};
+  const auto prepared = prepare(scene, 10, 10);
+  ASSERT_EQ(prepared.value().notes.size(), 1u);
+  EXPECT_NE(prepared.value().notes[0].find("camera"), std::string::npos);
+}
+
+TEST(Prepare, TellsWhatPrimaryRaysHaveInCommon) {
+  Scene scene = empty_scene(10, 10);
+  EXPECT_EQ(prepare(scene, 10, 10).value().coherence, Coherence::common_origin);
+  scene.camera = OrthographicCamera{};
+  EXPECT_EQ(prepare(scene, 10, 10).value().coherence, Coherence::common_direction);
+}
+
+TEST(Prepare, FindsMaterialsByIdSpheresThenPlanes) {
+  Scene scene = empty_scene(10, 10);
+  const auto red = add_material(scene, Matte{{1, 0, 0}});
+  const auto blue = add_material(scene, Matte{{0, 0, 1}});
+  scene.spheres = {{{0, 0, 0}, 1, blue}, {{0, 0, 0}, 2, red}};
+  scene.planes = {{{0, 0, 0}, {0, 1, 0}, blue}, {{0, 0, 0}, {0, 1, 0}, red}};
+  const auto prepared = prepare(scene, 10, 10);
+  const Color expected[] = {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+  for (int id = 0; id < 4; ++id) {
+    EXPECT_EQ(prepared.value().material_of(id).diffuse, expected[id]) << id;
+  }
+}
+
+TEST(FlatMaterial, HasTheTablesCoefficients) {
+  const Color ambient{0.5f, 0.25f, 0}, c{0.5f, 1, 0.25f};
+  const FlatMaterial matte = flatten(Matte{c}, ambient);
+  EXPECT_EQ(matte.constant, c * ambient);
+  EXPECT_EQ(matte.diffuse, c);
+  EXPECT_FALSE(scatters(matte));
+  EXPECT_TRUE(takes_direct_light(matte));
+
+  const FlatMaterial plastic = flatten(Plastic{c, 0.5f, 9, 0.25f}, ambient);
+  EXPECT_EQ(plastic.highlight, 0.5);
+  EXPECT_EQ(plastic.shininess, 9);
+  EXPECT_EQ(plastic.mirror, gray(0.25f));
+  EXPECT_EQ(flatten(Plastic{c, 0.5f, 0, 0}, ambient).highlight, 0);  // no shininess, no highlight
+
+  const FlatMaterial metal = flatten(Metal{c}, ambient);
+  EXPECT_EQ(metal.mirror, c);
+  EXPECT_TRUE(is_black(metal.constant));
+  EXPECT_FALSE(takes_direct_light(metal));
+
+  const FlatMaterial glass = flatten(Glass{c, 1.25f}, ambient);
+  EXPECT_EQ(glass.mirror, gray(1));
+  EXPECT_EQ(glass.transmission, c);
+  EXPECT_EQ(glass.ior, 1.25);
+  EXPECT_TRUE(glass.fresnel && is_black(glass.constant) && !takes_direct_light(glass));
+
+  const FlatMaterial lamp = flatten(Emissive{{3, 2, 1}}, ambient);
+  EXPECT_EQ(lamp.constant, (Color{3, 2, 1}));
+  EXPECT_FALSE(scatters(lamp) || takes_direct_light(lamp));
+
+  const FlatMaterial phong = flatten(Phong{c, 0.25f, 0.5f, 0.125f, 3, 0.75f, 2}, ambient);
+  EXPECT_EQ(phong.constant, (Color{0.375f, 0.5f, 0.0625f}));
+  EXPECT_EQ(phong.diffuse, c * 0.5f);
+  EXPECT_EQ(phong.highlight, 0.125);
+  EXPECT_EQ(phong.mirror, gray(0.125f));
+  EXPECT_EQ(phong.transmission, gray(0.75f));
+  EXPECT_EQ(phong.ior, 2);
+  EXPECT_FALSE(phong.fresnel);
+}
+
+}  // namespace
+}  // namespace boule::test
