@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace boule {
+
+/// The camera of a scene that has none: a pinhole whose picture of `width` x `height` pixels holds
+/// every sphere. With planes only it looks at the first one, with nothing along -z. Coordinates
+/// near the end of float's range can overflow: check it with find_problem().
+Camera default_camera(const Scene& scene, int width, int height);
+
+/// True if nothing in the scene gives light: no light, no emissive material, no gradient.
+bool lacks_light(const Scene& scene);
+
+/// The light of such a scene: white, intensity 1, no falloff, at the camera's eye.
+PointLight light_at_eye(const Camera& camera);
+
+}  // namespace boule

@@ -1,0 +1,56 @@
+#include "render/prepare/prepared_scene.h"
+
+#include "render/prepare/default_view.h"
+#include "simd/build/camera_builder.h"
+
+namespace boule {
+namespace {
+
+std::vector<FlatMaterial> flatten_all(const Scene& scene) {
+  std::vector<FlatMaterial> flat;
+  flat.reserve(scene.materials.size());
+  for (const NamedMaterial& named : scene.materials) {
+    flat.push_back(flatten(named.material, scene.ambient));
+  }
+  return flat;
+}
+
+Coherence primary_coherence(const Camera& camera) {
+  return std::holds_alternative<PinholeCamera>(camera) ? Coherence::common_origin
+                                                       : Coherence::common_direction;
+}
+
+}  // namespace
+
+Result<PreparedScene> prepare(const Scene& scene, int width, int height) {
+  std::vector<std::string> notes;
+  const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
+  if (!scene.camera) {
+    if (const auto problem = find_problem(camera)) {
+      return Diagnostic{"the scene has no camera, and its objects cannot be framed: camera." +
+                            problem->field + " " + problem->message,
+                        "camera",
+                        {},
+                        0,
+                        0};
+    }
+    notes.emplace_back("no camera in the scene: framed on the objects");
+  }
+  std::vector<Light> lights = scene.lights;
+  if (lacks_light(scene)) {
+    lights.emplace_back(light_at_eye(camera));
+    notes.emplace_back("no light in the scene: one white point light at the eye");
+  }
+  return PreparedScene{.geometry = Geometry(scene.spheres, scene.planes),
+                       .spheres = scene.spheres,
+                       .planes = scene.planes,
+                       .materials = flatten_all(scene),
+                       .lights = std::move(lights),
+                       .background = scene.background,
+                       .camera = camera,
+                       .camera_view = build_camera(camera, width, height),
+                       .coherence = primary_coherence(camera),
+                       .notes = std::move(notes)};
+}
+
+}  // namespace boule

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "render/prepare/flat_material.h"
+#include "simd/abi/camera.h"
+#include "simd/abi/isa.h"
+#include "simd/build/geometry_builder.h"
+
+namespace boule {
+
+/// A scene ready to be rendered at one size (the lecture's "preprocess"): complete, with a camera
+/// and a light, and laid out for the kernels. Const once made; any number of threads may read it.
+struct PreparedScene {
+  Geometry geometry;                    ///< what rays are tested against
+  std::vector<Sphere> spheres;          ///< by id: what shading looks up
+  std::vector<Plane> planes;            ///< by id - spheres.size()
+  std::vector<FlatMaterial> materials;  ///< by Sphere::material, Plane::material
+  std::vector<Light> lights;            ///< in file order
+  Background background;
+  Camera camera;                   ///< the scene's, or the default one
+  CameraView camera_view;          ///< the same for the kernels
+  Coherence coherence;             ///< what primary rays have in common
+  std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
+
+  /// The material of the primitive with this id.
+  [[nodiscard]] const FlatMaterial& material_of(std::int32_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    const std::size_t first_plane = spheres.size();
+    return materials[i < first_plane ? spheres[i].material : planes[i - first_plane].material];
+  }
+};
+
+/// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
+/// and none can be made for it. Throws std::bad_alloc.
+Result<PreparedScene> prepare(const Scene& scene, int width, int height);
+
+}  // namespace boule

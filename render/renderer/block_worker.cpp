@@ -1,0 +1,48 @@
+#include "render/renderer/block_worker.h"
+
+#include <utility>
+
+namespace boule {
+namespace {
+
+/// Camera rays per stream: enough to keep bundles full, few enough to stay in the cache.
+constexpr std::size_t camera_stream_size = 1024;
+
+}  // namespace
+
+BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
+    : setup_(setup), integrator_(std::move(integrator)), radiance_(camera_stream_size) {
+  pixels_.reserve(camera_stream_size);
+}
+
+bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
+  pixels_.clear();
+  samples_.resize(camera_stream_size);
+  for (const PixelOffset& offset : setup_.block_pixels) {
+    const int x = block.x0 + offset.x, y = block.y0 + offset.y;
+    if (x >= block.x1 || y >= block.y1) continue;
+    for (int sample = film.samples(x, y); sample < until; ++sample) {
+      const RasterPoint place = setup_.sampler.position(x, y, sample);
+      samples_.set(pixels_.size(), place.x, place.y);
+      pixels_.push_back({x, y});
+      if (pixels_.size() == camera_stream_size && !trace(film)) return false;
+    }
+  }
+  return trace(film);
+}
+
+/// Traces the samples gathered so far into the film.
+bool BlockWorker::trace(Film& film) {
+  const std::size_t count = pixels_.size();
+  if (count == 0) return true;
+  samples_.resize(count);
+  rays_.resize(count);
+  setup_.kernels.primary_rays(setup_.scene.camera_view, samples_.view(), rays_.view());
+  if (!integrator_->trace(rays_, setup_.scene.coherence, radiance_.data())) return false;
+  for (std::size_t k = 0; k < count; ++k) film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
+  pixels_.clear();
+  samples_.resize(camera_stream_size);
+  return true;
+}
+
+}  // namespace boule

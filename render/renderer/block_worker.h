@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "render/frame/film.h"
+#include "render/frame/pixel_order.h"
+#include "render/frame/sampler.h"
+#include "render/integrators/integrator.h"
+#include "render/prepare/prepared_scene.h"
+#include "simd/abi/kernel_table.h"
+#include "simd/build/stream_buffer.h"
+
+namespace boule {
+
+/// What all workers of a renderer share; none of it changes.
+struct BlockSetup {
+  const PreparedScene& scene;
+  const KernelTable& kernels;
+  Sampler sampler;
+  std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
+};
+
+/// Renders blocks on one thread, with memory of its own that it keeps from block to block.
+class BlockWorker {
+ public:
+  /// `setup` must outlive it.
+  BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator);
+
+  /// Brings every pixel of a block to `until` samples. False if it was cancelled: whole samples
+  /// are in the film then, but not all. Throws std::bad_alloc.
+  bool render(const PixelRect& block, int until, Film& film);
+
+  /// All rays traced by this worker.
+  [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
+
+ private:
+  struct Pixel {
+    int x, y;
+  };
+  bool trace(Film& film);
+
+  const BlockSetup& setup_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<Pixel> pixels_;  ///< whose samples the stream holds
+  SampleBuffer samples_;
+  RayBuffer rays_;
+  std::vector<Color> radiance_;
+};
+
+}  // namespace boule

@@ -1,0 +1,62 @@
+#include "render/renderer/render_options.h"
+
+#include "render/frame/film.h"
+#include "render/frame/memory.h"
+#include "render/image/image.h"
+
+namespace boule {
+namespace {
+
+Diagnostic wrong(const char* key, const std::string& message) { return {message, key, {}, 0, 0}; }
+
+Status check_range(const char* key, int value, int low, int high) {
+  if (value >= low && value <= high) return std::nullopt;
+  const std::string range = high == max_count ? std::to_string(low) + " or above"
+                                              : std::to_string(low) + " to " + std::to_string(high);
+  return wrong(key, "must be " + range + ", is " + std::to_string(value));
+}
+
+Status check_memory(const RenderOptions& options) {
+  const PixelRect rect = rendered_rect(options);
+  const std::uint64_t needed =
+      Film::bytes(rect) + rect.area() * sizeof(Color) + BlockOrder::bytes(rect, options.tile);
+  const std::uint64_t available = available_memory();
+  if (needed <= available) return std::nullopt;
+  constexpr std::uint64_t mebibyte = 1024 * 1024;
+  return wrong("image.size", "a picture of " + std::to_string(rect.width()) + " x " +
+                                 std::to_string(rect.height()) + " pixels needs " +
+                                 std::to_string(needed / mebibyte) + " MiB of memory, there are " +
+                                 std::to_string(available / mebibyte));
+}
+
+}  // namespace
+
+RenderOptions options_of(const Scene& scene) {
+  RenderOptions options;
+  options.width = scene.image.width;
+  options.height = scene.image.height;
+  options.spp = scene.image.spp;
+  options.max_depth = scene.render.max_depth;
+  return options;
+}
+
+PixelRect rendered_rect(const RenderOptions& options) {
+  return options.crop.value_or(PixelRect{0, 0, options.width, options.height});
+}
+
+Status validate(const RenderOptions& options) {
+  if (auto bad = check_range("image.size", options.width, 1, max_image_side)) return bad;
+  if (auto bad = check_range("image.size", options.height, 1, max_image_side)) return bad;
+  if (auto bad = check_range("image.spp", options.spp, 1, max_count)) return bad;
+  if (auto bad = check_range("render.max_depth", options.max_depth, 0, max_count)) return bad;
+  if (auto bad = check_range("tile", options.tile, 1, max_tile)) return bad;
+  const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
+  if (rect.empty() || !contains(frame, rect)) {
+    return wrong("crop", "must be at least one pixel and lie within the frame of " +
+                             std::to_string(options.width) + " x " +
+                             std::to_string(options.height));
+  }
+  return check_memory(options);
+}
+
+}  // namespace boule

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/scene/scene.h"
+#include "render/frame/pixel_order.h"
+#include "render/frame/pixel_rect.h"
+#include "simd/abi/isa.h"
+
+namespace boule {
+
+/// How far a pass has come.
+struct Progress {
+  double share = 0;        ///< of its blocks, 0 .. 1
+  std::uint64_t rays = 0;  ///< of all kinds, traced in this pass
+};
+
+/// How a scene is rendered. Only the first six, the crop and solver fast show in the picture.
+struct RenderOptions {
+  int width = 1280;        ///< pixels of the whole frame, 1 .. 65535
+  int height = 720;        ///< likewise
+  int spp = 1;             ///< samples per pixel, >= 1
+  std::uint64_t seed = 0;  ///< of the sample positions
+  int max_depth = 5;       ///< bounces after the primary hit, >= 0
+  Solver solver = Solver::robust;
+  std::optional<PixelRect> crop;  ///< render these pixels of the frame only
+  PixelOrder order = PixelOrder::tiles;
+  int tile = 16;                                  ///< pixels, side of a block, 1 .. 1024
+  unsigned threads = 0;                           ///< 0: as many as the hardware runs at once
+  std::string isa = "auto";                       ///< a name that select_kernels() knows
+  const std::atomic<bool>* cancel = nullptr;      ///< rendering stops soon after it becomes true
+  std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
+};
+
+/// The options a scene asks for.
+RenderOptions options_of(const Scene& scene);
+
+/// The part of the frame that is rendered: the crop, or all.
+PixelRect rendered_rect(const RenderOptions& options);
+
+/// The first option out of range, its key as in RenderOptions, or a picture that needs more memory
+/// than there is.
+Status validate(const RenderOptions& options);
+
+}  // namespace boule

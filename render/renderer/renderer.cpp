@@ -1,0 +1,133 @@
+#include "render/renderer/renderer.h"
+
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <utility>
+
+#include "render/frame/float_environment.h"
+#include "render/integrators/whitted.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule {
+namespace {
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
+
+}  // namespace
+
+Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels)
+    : options_(options),
+      scene_(std::make_unique<const PreparedScene>(std::move(scene))),
+      setup_(std::make_unique<const BlockSetup>(BlockSetup{
+          *scene_, kernels, Sampler(options.spp, options.seed), block_pixels(options.tile)})),
+      blocks_(rendered_rect(options), options.tile, options.order),
+      scheduler_(options.threads),
+      workers_(scheduler_.workers()) {}
+
+Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& options) {
+  const FloatEnvironment environment;
+  const Stopwatch watch;
+  if (auto bad = validate(scene)) return *bad;
+  if (auto bad = validate(options)) return *bad;
+  const Result<const KernelTable*> selected = select_kernels(options.isa);
+  if (!selected) return selected.error();
+  const bool reference = options.solver == Solver::reference;
+  try {
+    Result<PreparedScene> prepared = prepare(scene, options.width, options.height);
+    if (!prepared) return prepared.error();
+    Renderer renderer(options, std::move(prepared).value(),
+                      reference ? reference_kernels() : *selected.value());
+    renderer.prepare_seconds_ = watch.seconds();
+    return renderer;
+  } catch (const std::bad_alloc&) {
+    return failure("out of memory while preparing the scene");
+  }
+}
+
+Result<Image> Renderer::render() {
+  const FloatEnvironment environment;
+  try {
+    Film film(rect());
+    if (auto bad = render_pass(film, options_.spp)) return *bad;
+    return film.to_image();
+  } catch (const std::bad_alloc&) {
+    return failure("out of memory for the picture");
+  }
+}
+
+Status Renderer::render_pass(Film& film, int until) {
+  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  if (until < 1 || until > options_.spp) {
+    return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
+                   std::to_string(until));
+  }
+  const Stopwatch watch;
+  const Status status = run_blocks(film, until);
+  render_seconds_ += watch.seconds();
+  return status;
+}
+
+Status Renderer::run_blocks(Film& film, int until) {
+  const std::uint64_t rays_before = count_rays().total();
+  std::atomic<std::uint64_t> rays{0};
+  std::atomic<std::size_t> done{0};
+  const auto report = [&] {
+    if (!options_.progress) return;
+    options_.progress({static_cast<double>(done) / static_cast<double>(blocks_.size()), rays});
+  };
+  const auto body = [&](unsigned worker, std::size_t block) {
+    if (!workers_[worker]) workers_[worker] = make_worker();
+    BlockWorker& mine = *workers_[worker];
+    const std::uint64_t before = mine.counts().total();
+    if (!mine.render(blocks_[block], until, film)) return;
+    rays += mine.counts().total() - before;
+    ++done;
+    if (worker == 0) report();
+  };
+  if (auto bad = scheduler_.run(blocks_.size(), body, options_.cancel)) return bad;
+  if (done != blocks_.size()) return failure("rendering was cancelled");
+  rays = count_rays().total() - rays_before;
+  report();
+  return std::nullopt;
+}
+
+std::unique_ptr<BlockWorker> Renderer::make_worker() const {
+  IntegratorSettings settings;
+  settings.solver = options_.solver;
+  settings.max_depth = options_.max_depth;
+  settings.cancel = options_.cancel;
+  return std::make_unique<BlockWorker>(
+      *setup_, std::make_unique<Whitted>(*scene_, setup_->kernels, settings));
+}
+
+RayCounts Renderer::count_rays() const {
+  RayCounts rays;
+  for (const auto& worker : workers_) {
+    if (worker) rays += worker->counts();
+  }
+  return rays;
+}
+
+RenderStatistics Renderer::statistics() const {
+  return {count_rays(),
+          prepare_seconds_,
+          render_seconds_,
+          isa_name(setup_->kernels.isa),
+          setup_->kernels.width,
+          options_.solver,
+          scheduler_.threads_used()};
+}
+
+}  // namespace boule

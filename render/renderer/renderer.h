@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/scene.h"
+#include "render/frame/film.h"
+#include "render/frame/scheduler.h"
+#include "render/image/image.h"
+#include "render/integrators/integrator.h"
+#include "render/renderer/block_worker.h"
+#include "render/renderer/render_options.h"
+
+namespace boule {
+
+/// What rendering has cost so far, over all passes.
+struct RenderStatistics {
+  RayCounts rays;
+  double prepare_seconds = 0;
+  double render_seconds = 0;
+  std::string_view isa;  ///< that really ran: "scalar" for solver reference
+  int width = 1;         ///< float lanes of it
+  Solver solver = Solver::robust;
+  unsigned threads = 0;  ///< that the last pass really had
+};
+
+/// A scene and how to render it: the library's public face. The bits of a picture depend on
+/// neither ISA, threads, order, tile size nor crop; the caller's rounding mode and denormal flags
+/// do not matter and are left as they were.
+class Renderer {
+ public:
+  /// Prepares the scene, which is not needed any more afterwards. An error if scene or options are
+  /// invalid, the ISA is not to be had, or the memory does not suffice.
+  static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
+
+  /// The whole picture, or its crop: a film of its own, one pass, the image.
+  Result<Image> render();
+
+  /// One pass: brings every pixel of the film to `until` samples, 1 .. spp; those that have as many
+  /// are left alone. Call it again with the same film and a greater `until` to refine a picture:
+  /// the result is the same as that of one pass. Cancelled or failed, it is an error, and the film
+  /// keeps what was done: calling again goes on from there.
+  Status render_pass(Film& film, int until);
+
+  [[nodiscard]] const RenderOptions& options() const { return options_; }
+  /// The pixels a film for this renderer has.
+  [[nodiscard]] PixelRect rect() const { return rendered_rect(options_); }
+  /// The scene as rendered: its camera is there even if the scene named none.
+  [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
+  /// What was decided for the user, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return scene_->notes; }
+  [[nodiscard]] RenderStatistics statistics() const;
+
+ private:
+  Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels);
+  std::unique_ptr<BlockWorker> make_worker() const;
+  [[nodiscard]] RayCounts count_rays() const;
+  Status run_blocks(Film& film, int until);
+
+  RenderOptions options_;
+  std::unique_ptr<const PreparedScene> scene_;  ///< workers refer to it: it stays where it is
+  std::unique_ptr<const BlockSetup> setup_;     ///< likewise
+  BlockOrder blocks_;
+  Scheduler scheduler_;
+  std::vector<std::unique_ptr<BlockWorker>> workers_;
+  double prepare_seconds_ = 0;
+  double render_seconds_ = 0;
+};
+
+}  // namespace boule

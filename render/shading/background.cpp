@@ -1,0 +1,19 @@
+#include "render/shading/background.h"
+
+#include <algorithm>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+
+Color background_radiance(const Background& background, const Vec3f& direction) {
+  if (const auto* constant = std::get_if<ConstantBackground>(&background)) return constant->color;
+  const auto& gradient = std::get<GradientBackground>(background);
+  const double cosine =
+      dot(normalize(vec_cast<double>(direction)), normalize(vec_cast<double>(gradient.up)));
+  // Within 0..1 in spite of rounding, or a colour could fall below 0.
+  const auto share = static_cast<float>(std::clamp((1 + cosine) / 2, 0.0, 1.0));
+  return gradient.bottom * (1 - share) + gradient.top * share;
+}
+
+}  // namespace boule

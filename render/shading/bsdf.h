@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/math/color.h"
+#include "render/prepare/flat_material.h"
+#include "render/shading/surface.h"
+
+namespace boule {
+
+/// How a surface passes light on to the rays that continue from it. A black weight: no such ray.
+struct Scatter {
+  Color reflection;  ///< weight of the ray along Surface::mirrored
+  Color refraction;  ///< weight of the ray along `refracted`
+  Vec3d refracted;   ///< unit length; only where `refraction` is not black
+};
+
+/// What light of `intensity` from the unit direction `to_light` adds, if nothing is in between:
+/// C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980). Black where n.l <= 0.
+Color direct_light(const FlatMaterial& material, const Surface& surface, const Vec3d& to_light,
+                   const Color& intensity);
+
+/// The weights of the reflected and the refracted ray (Whitted 1980), shared by Fresnel's
+/// equations where the material is a dielectric. At total internal reflection all that would go
+/// through joins the mirror.
+Scatter scatter(const FlatMaterial& material, const Surface& surface);
+
+}  // namespace boule

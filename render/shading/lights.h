@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/scene/light.h"
+#include "render/shading/surface.h"
+
+namespace boule {
+
+/// A light as one point sees it.
+struct LightSample {
+  Vec3d to_light;   ///< unit length; NaN if the point is the light's own
+  Color intensity;  ///< with its falloff over the distance
+};
+
+/// The light as `point` sees it, if nothing is in between.
+LightSample sample_light(const Light& light, const Vec3d& point);
+
+/// The ray that decides whether anything is: from the surface to the light.
+Ray shadow_ray(const Light& light, const Surface& surface);
+
+}  // namespace boule

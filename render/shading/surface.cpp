@@ -1,0 +1,87 @@
+#include "render/shading/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+/// p64 is known to 2^-49 of the distances that made it, axis by axis.
+constexpr double relative_error = 0x1p-49;
+
+void set_normal(Surface& surface, const Vec3d& outward) {
+  const Vec3d normal = surface.inner ? -outward : outward;
+  // A sphere too small for its place: the point is its centre, any normal is right. Face the ray.
+  surface.normal = is_finite(normal) ? normal : -surface.view;
+}
+
+void meet_sphere(Surface& surface, const Sphere& sphere, const Ray& ray) {
+  const Vec3d center = vec_cast<double>(sphere.center);
+  const Vec3d f = center - ray.org;
+  const double r = sphere.radius, ff = dot(f, f);
+  surface.sphere = true;
+  surface.reach = std::sqrt(ff) + r;
+  // From where the ray started, not from the angle: the solver took the second root for the same
+  // sign of the same expression, so a grazing ray cannot change sides.
+  surface.inner = surface.id == ray.source || ff - r * r <= 0;
+  set_normal(surface, normalize(surface.point - center));
+}
+
+void meet_plane(Surface& surface, const Plane& plane, const Ray& ray) {
+  const Vec3d n = vec_cast<double>(plane.normal);
+  const Vec3d to_plane = vec_cast<double>(plane.point) - ray.org;
+  surface.sphere = false;
+  // The plane's own point may lie near the eye while the hit is far away: both count.
+  surface.reach = length(to_plane) + length(surface.point - ray.org);
+  surface.inner = dot(vec_cast<double>(ray.dir), n) > 0;
+  set_normal(surface, normalize(n));
+}
+
+Vec3d moved_point(const Surface& surface, Side side) {
+  const Vec3d& n = surface.normal;
+  const double distance =
+      (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z)) * relative_error * surface.reach;
+  return surface.point + n * (side == Side::viewer ? distance : -distance);
+}
+
+/// Marks the ray as leaving the surface: the solver then leaves out the root it starts from.
+Ray from_surface(Ray ray, const Surface& surface, Side side) {
+  ray.source = surface.id;
+  ray.inside = surface.sphere && surface.inner == (side == Side::viewer);
+  return ray;
+}
+
+}  // namespace
+
+Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+  const Vec3d dir = vec_cast<double>(ray.dir);
+  Surface surface{};
+  surface.id = hit.id;
+  surface.point = ray.org + dir * hit.t;
+  surface.view = normalize(dir);
+  const auto i = static_cast<std::size_t>(hit.id);
+  if (i < scene.spheres.size()) {
+    meet_sphere(surface, scene.spheres[i], ray);
+  } else {
+    meet_plane(surface, scene.planes[i - scene.spheres.size()], ray);
+  }
+  surface.cosine = std::clamp(-dot(surface.normal, surface.view), 0.0, 1.0);
+  surface.mirrored = surface.view + surface.normal * (2 * surface.cosine);
+  return surface;
+}
+
+Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
+  return from_surface({moved_point(surface, side), vec_cast<float>(direction)}, surface, side);
+}
+
+Ray shadow_ray_to(const Surface& surface, const Vec3d& light) {
+  return from_surface(segment(moved_point(surface, Side::viewer), light), surface, Side::viewer);
+}
+
+Ray shadow_ray_along(const Surface& surface, const Vec3f& direction) {
+  return from_surface({moved_point(surface, Side::viewer), direction}, surface, Side::viewer);
+}
+
+}  // namespace boule

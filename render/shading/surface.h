@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/ray.h"
+#include "render/prepare/prepared_scene.h"
+
+namespace boule {
+
+/// Where a ray met a primitive, all in double. This file is the one place that moves a ray's
+/// origin off a surface; there is no epsilon anywhere (lecture "Shadow acne").
+struct Surface {
+  Vec3d point;      ///< org + t dir
+  Vec3d normal;     ///< geometric, unit length, turned towards the viewer
+  Vec3d view;       ///< the ray's direction V, unit length
+  Vec3d mirrored;   ///< R = V - 2 (N.V) N (lecture "Reflection"), unit length
+  double cosine;    ///< -N.V, in [0, 1]
+  double reach;     ///< what the error of `point` is relative to: F + r
+  std::int32_t id;  ///< the primitive
+  bool inner;       ///< it was met on the sphere's inside, or on the plane's back
+  bool sphere;
+};
+
+/// Which way a ray leaves a surface: back to the viewer's side, or through it.
+enum class Side { viewer, beyond };
+
+/// The surface a ray met. `hit` is a hit, not a miss.
+Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit);
+
+/// A ray that leaves the surface along `direction`, rounded to float once.
+Ray leave(const Surface& surface, Side side, const Vec3d& direction);
+
+/// A ray from the surface's viewer side that ends just before `light`.
+Ray shadow_ray_to(const Surface& surface, const Vec3d& light);
+
+/// A ray from the surface's viewer side without end, for light from infinitely far.
+Ray shadow_ray_along(const Surface& surface, const Vec3f& direction);
+
+}  // namespace boule
