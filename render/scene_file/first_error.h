@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "render/scene_file/text_place.h"
+
+namespace boule {
+
+/// Keeps the first error reported about one file; what is reported after it are consequences.
+/// A reader reports and goes on, so that its code reads as the list of what it reads.
+class FirstError {
+ public:
+  explicit FirstError(std::string file) : file_(std::move(file)) {}
+
+  /// Reports an error in the file's text.
+  void report(TextPlace place, std::string key, std::string message) {
+    if (status_) return;
+    status_ = Diagnostic{std::move(message), std::move(key), file_, place.line, place.column};
+  }
+
+  /// The file the errors are about.
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+  /// The first error, or nothing so far.
+  [[nodiscard]] const Status& status() const { return status_; }
+
+ private:
+  std::string file_;
+  Status status_;
+};
+
+}  // namespace boule

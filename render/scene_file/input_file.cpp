@@ -1,0 +1,110 @@
+#include "render/scene_file/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace boule {
+namespace {
+
+Diagnostic cannot_read(const std::string& path, const std::string& reason) {
+  return {"cannot read it: " + reason, "", path, 0, 0};
+}
+
+std::string system_reason() { return std::generic_category().message(errno); }
+
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISFIFO(mode)) return "a FIFO";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+Status refuse_special(const std::string& path, const struct stat& info) {
+  if (S_ISREG(info.st_mode)) return std::nullopt;
+  return cannot_read(path,
+                     std::string("it is ") + kind_of(info.st_mode) + ", expected a regular file");
+}
+
+/// Refuses what is no text, with the place of the first NUL byte.
+Status refuse_binary(const std::string& path, std::string_view text) {
+  const std::string_view start = text.substr(0, 2);
+  if (start == "\xff\xfe" || start == "\xfe\xff") {
+    return Diagnostic{"is UTF-16 text, expected UTF-8", "", path, 1, 1};
+  }
+  const std::size_t nul = text.find('\0');
+  if (nul == std::string_view::npos) return std::nullopt;
+  const std::string_view before = text.substr(0, nul);
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  return Diagnostic{"holds a NUL byte, expected UTF-8 text", "", path,
+                    1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+                    1 + static_cast<int>(nul - line_start)};
+}
+
+}  // namespace
+
+InputFile::InputFile(std::string path, int descriptor, std::uint64_t size)
+    : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_) {}
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<InputFile> InputFile::open(const std::string& path) {
+  if (path.find('\0') != std::string::npos) return cannot_read(path, "its name holds a NUL byte");
+  struct stat info = {};
+  if (::stat(path.c_str(), &info) != 0) return cannot_read(path, system_reason());
+  if (auto special = refuse_special(path, info)) return *special;
+  // O_NONBLOCK: should the name mean a FIFO by now, opening it must not wait for a writer.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return cannot_read(path, system_reason());
+  InputFile file(path, descriptor, 0);
+  if (::fstat(descriptor, &info) != 0) return cannot_read(path, system_reason());
+  if (auto special = refuse_special(path, info)) return *special;
+  file.size_ = static_cast<std::uint64_t>(info.st_size);
+  return file;
+}
+
+Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t got = ::read(descriptor_, static_cast<char*>(buffer) + done, count - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return cannot_read(path_, system_reason());
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
+}
+
+Result<std::string> read_text(const std::string& path) {
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  std::string text(static_cast<std::size_t>(file.value().size()), '\0');
+  const auto got = file.value().read(text.data(), text.size());
+  if (!got) return got.error();
+  text.resize(got.value());
+  if (auto binary = refuse_binary(path, text)) return *binary;
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  return text;
+}
+
+}  // namespace boule

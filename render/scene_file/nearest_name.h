@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boule {
+
+/// "; did you mean 'fov'?" where one of `known` is near enough to `name` to be a slip of the
+/// keyboard (edit distance with swaps, at most a third of the name, at least 1), else "".
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& known);
+
+/// "'a', 'b' or 'c'".
+std::string list_names(const std::vector<std::string_view>& names);
+
+/// A user's name made safe for a dotted key path: control bytes escaped, cut to 40 characters.
+std::string safe_name(std::string_view name);
+
+}  // namespace boule

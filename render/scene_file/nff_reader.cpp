@@ -1,0 +1,225 @@
+#include "render/scene_file/nff_reader.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "render/scene_file/nearest_name.h"
+#include "render/scene_file/nff_cursor.h"
+#include "render/scene_file/nff_polygon.h"
+#include "render/scene_file/nff_view.h"
+
+namespace boule {
+namespace {
+
+/// Where a Problem of core/scene stands in a line: the word's index and NFF's name for it.
+struct FieldWord {
+  std::string_view field;
+  const char* key;
+  std::size_t word;
+};
+
+constexpr FieldWord background_words[] = {{"color", "b.color", 1}};
+constexpr FieldWord light_words[] = {{"position", "l.position", 1}, {"intensity", "l.color", 4}};
+constexpr FieldWord sphere_words[] = {{"center", "s.center", 1}, {"radius", "s.radius", 4}};
+constexpr FieldWord fill_words[] = {{"color", "f.color", 1},    {"kd", "f.Kd", 4},
+                                    {"ks", "f.Ks", 5},          {"shininess", "f.shine", 6},
+                                    {"transmission", "f.T", 7}, {"ior", "f.ior", 8}};
+
+/// Turns NFF text into a Scene, one entity per call of read_entity().
+class NffReader {
+ public:
+  NffReader(std::string_view text, const std::string& path, PolygonPolicy polygons)
+      : error_(path), line_(text, error_), policy_(polygons) {}
+
+  Result<LoadedScene> read();
+
+ private:
+  void read_line();
+  void read_entity(std::string_view name);
+  void read_view();
+  void read_background();
+  void read_light();
+  void read_fill();
+  void read_sphere();
+  void read_polygon(const char* key, bool has_normals);
+  bool read_vertices(const char* key, bool has_normals, int count);
+  void add_plane(TextPlace place, const char* key);
+  std::uint32_t material();
+  void finish();
+
+  /// Reports a Problem of what was read from this line, at its word.
+  template <std::size_t count>
+  void check(const std::optional<Problem>& problem, const FieldWord (&words)[count]);
+
+  FirstError error_;
+  NffCursor line_;
+  PolygonPolicy policy_;
+  Scene scene_;
+  NffView view_;
+  bool has_background_ = false;
+  std::vector<std::size_t> uncolored_lights_;
+  std::vector<Vec3f> vertices_;  // of one polygon; kept for its memory
+  TextPlace first_polygon_;
+};
+
+Result<LoadedScene> NffReader::read() {
+  while (!error_.status() && line_.next_line()) read_line();
+  finish();
+  if (error_.status()) return *error_.status();
+  std::vector<std::string> warnings;
+  if (!scene_.planes.empty()) {
+    warnings.push_back(error_.file() + ":" + std::to_string(first_polygon_.line) +
+                       ": warning: a polygon becomes its infinite plane (" +
+                       std::to_string(scene_.planes.size()) + " in this file)");
+  }
+  return LoadedScene{std::move(scene_), std::move(warnings)};
+}
+
+void NffReader::read_line() {
+  const std::string_view name = line_.take_word();
+  if (view_.is_open()) {
+    if (view_.read_member(name, line_, error_)) return;
+    view_.end(scene_, error_);
+  }
+  read_entity(name);
+}
+
+void NffReader::read_entity(std::string_view name) {
+  if (name == "s") return read_sphere();
+  if (name == "p") return read_polygon("p", false);
+  if (name == "pp") return read_polygon("pp", true);
+  if (name == "f") return read_fill();
+  if (name == "l") return read_light();
+  if (name == "b") return read_background();
+  if (name == "v") return read_view();
+  error_.report(line_.place(), safe_name(name),
+                "unknown entity " + quote(std::string(name)) +
+                    ", expected 'v', 'b', 'l', 'f', 's', 'p', 'pp' or a comment");
+}
+
+template <std::size_t count>
+void NffReader::check(const std::optional<Problem>& problem, const FieldWord (&words)[count]) {
+  if (!problem) return;
+  for (const FieldWord& word : words) {
+    if (word.field == problem->field) {
+      error_.report(line_.place(word.word), word.key, problem->message);
+    }
+  }
+}
+
+void NffReader::read_view() {
+  if (!view_.begin(line_.place())) error_.report(line_.place(), "v", "a second v block");
+  line_.take_line_end("v");
+}
+
+void NffReader::read_background() {
+  ConstantBackground background;
+  if (has_background_) error_.report(line_.place(), "b", "a second background");
+  has_background_ = true;
+  if (!line_.take("b.color", background.color) || !line_.take_line_end("b")) return;
+  check(find_problem(Background{background}), background_words);
+  scene_.background = background;
+}
+
+void NffReader::read_light() {
+  PointLight light;
+  if (!line_.take("l.position", light.position)) return;
+  if (line_.at_line_end()) {
+    uncolored_lights_.push_back(scene_.lights.size());
+  } else if (!line_.take("l.color", light.intensity) || !line_.take_line_end("l")) {
+    return;
+  }
+  check(find_problem(Light{light}), light_words);
+  scene_.lights.emplace_back(light);
+}
+
+void NffReader::read_fill() {
+  Phong fill;
+  const bool is_complete = line_.take("f.color", fill.color) && line_.take("f.Kd", fill.kd) &&
+                           line_.take("f.Ks", fill.ks) && line_.take("f.shine", fill.shininess) &&
+                           line_.take("f.T", fill.transmission) && line_.take("f.ior", fill.ior) &&
+                           line_.take_line_end("f");
+  if (!is_complete) return;
+  // Some of the SPD programs (teapot) write 0 for what opaque surfaces have no use for.
+  if (fill.ior == 0 && fill.transmission == 0) fill.ior = 1;
+  check(find_problem(Material{fill}), fill_words);
+  scene_.materials.push_back({"f@" + std::to_string(line_.place().line), fill});
+}
+
+void NffReader::read_sphere() {
+  Sphere sphere;
+  const bool is_complete = line_.take("s.center", sphere.center) &&
+                           line_.take("s.radius", sphere.radius) && line_.take_line_end("s");
+  if (!is_complete) return;
+  check(find_problem(sphere), sphere_words);
+  sphere.material = material();
+  scene_.spheres.push_back(sphere);
+}
+
+void NffReader::read_polygon(const char* key, bool has_normals) {
+  const TextPlace place = line_.place(), count_place = line_.place(1);
+  int count = 0;
+  if (policy_ == PolygonPolicy::error) error_.report(place, key, "polygons are not accepted");
+  if (!line_.take(key, count) || !line_.take_line_end(key)) return;
+  if (count < 3) {
+    error_.report(count_place, key,
+                  "a polygon has 3 vertices or more, not " + std::to_string(count));
+  }
+  if (error_.status() || !read_vertices(key, has_normals, count)) return;
+  if (policy_ == PolygonPolicy::plane) add_plane(place, key);
+}
+
+/// Reads `count` lines of a vertex each, in `pp` with its shading normal, which planes ignore.
+bool NffReader::read_vertices(const char* key, bool has_normals, int count) {
+  vertices_.clear();  // not reserved: `count` may be anything
+  for (int i = 0; i < count; ++i) {
+    Vec3f vertex, normal;
+    if (!line_.next_line()) {
+      error_.report(line_.end_place(), key,
+                    "the file ends after " + std::to_string(i) + " of " + std::to_string(count) +
+                        " vertices");
+      return false;
+    }
+    const bool is_complete = line_.take(key, vertex) && (!has_normals || line_.take(key, normal)) &&
+                             line_.take_line_end(key);
+    if (!is_complete) return false;
+    vertices_.push_back(vertex);
+  }
+  return true;
+}
+
+void NffReader::add_plane(TextPlace place, const char* key) {
+  auto plane = plane_through(vertices_);
+  if (!plane) return error_.report(place, key, plane.error().message);
+  plane.value().material = material();
+  if (scene_.planes.empty()) first_polygon_ = place;
+  scene_.planes.push_back(plane.value());
+}
+
+/// The latest `f`; before the first, NFF's white.
+std::uint32_t NffReader::material() {
+  if (scene_.materials.empty()) scene_.materials.push_back({"default", Phong{{1, 1, 1}}});
+  return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+}
+
+void NffReader::finish() {
+  if (view_.is_open()) view_.end(scene_, error_);
+  if (!view_.is_there()) error_.report(line_.end_place(), "v", "the file has no v block");
+  // Haines: lights without a colour share what one would give.
+  const double share = 1 / std::sqrt(static_cast<double>(scene_.lights.size()));
+  for (const std::size_t i : uncolored_lights_) {
+    std::get<PointLight>(scene_.lights[i]).intensity = gray(static_cast<float>(share));
+  }
+  if (error_.status()) return;
+  if (const auto bad = validate(scene_)) error_.report({}, bad->key, bad->message);
+}
+
+}  // namespace
+
+Result<LoadedScene> read_nff(std::string_view text, const std::string& path,
+                             PolygonPolicy polygons) {
+  return NffReader(text, path, polygons).read();
+}
+
+}  // namespace boule

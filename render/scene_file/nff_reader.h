@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "render/scene_file/scene_file.h"
+
+namespace boule {
+
+/// Reads Haines' Neutral File Format as the Standard Procedural Databases write it: v b l f s p pp
+/// and comments; lines are the unit. `path` names the text in errors. The scene has passed
+/// validate().
+Result<LoadedScene> read_nff(std::string_view text, const std::string& path,
+                             PolygonPolicy polygons);
+
+}  // namespace boule

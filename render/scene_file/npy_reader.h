@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/primitive.h"
+
+namespace boule {
+
+/// Which spheres a .npy file holds: N x 4 numbers (centre, radius), or N x 3 and one radius.
+struct NpySpheres {
+  std::string path;
+  std::optional<float> radius;  ///< above 0; required for N x 3, refused for N x 4
+  std::uint32_t material = 0;   ///< of all of them
+};
+
+/// Appends the file's spheres: little-endian float32 or float64, C order, each number rounded to
+/// float once. Sizes are checked before anything is allocated; a bad sphere is named by its row,
+/// from 0 ("row 17"). On an error `spheres` is as it was.
+Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres);
+
+}  // namespace boule

@@ -1,0 +1,44 @@
+#include "render/scene_file/scene_file.h"
+
+#include <algorithm>
+#include <new>
+#include <string_view>
+
+#include "render/scene_file/input_file.h"
+#include "render/scene_file/nff_reader.h"
+#include "render/scene_file/toml_reader.h"
+
+namespace boule {
+namespace {
+
+/// True if `path` ends with `extension` (lower case), in either case.
+bool has_extension(std::string_view path, std::string_view extension) {
+  if (path.size() < extension.size()) return false;
+  path.remove_prefix(path.size() - extension.size());
+  return std::equal(path.begin(), path.end(), extension.begin(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
+}
+
+Result<LoadedScene> load(const std::string& path, const SceneFileOptions& options) {
+  const bool is_toml = has_extension(path, ".toml");
+  if (!is_toml && !has_extension(path, ".nff")) {
+    return Diagnostic{"not a scene file by its name, expected an extension .toml or .nff", "", path,
+                      0, 0};
+  }
+  const auto text = read_text(path);
+  if (!text) return text.error();
+  return is_toml ? read_toml(text.value(), path) : read_nff(text.value(), path, options.polygons);
+}
+
+}  // namespace
+
+Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
+  try {
+    return load(path, options);
+  } catch (const std::bad_alloc&) {
+    return Diagnostic{"needs more memory than there is", "", path, 0, 0};
+  }
+}
+
+}  // namespace boule

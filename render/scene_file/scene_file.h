@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/scene.h"
+
+namespace boule {
+
+/// What an NFF polygon becomes: its infinite plane, nothing, or an error.
+enum class PolygonPolicy { plane, skip, error };
+
+/// How a scene file is read.
+struct SceneFileOptions {
+  PolygonPolicy polygons = PolygonPolicy::plane;
+};
+
+/// A scene that passed validate(), and remarks for the user that are not errors.
+struct LoadedScene {
+  Scene scene;
+  std::vector<std::string> warnings;  ///< each "FILE:LINE: warning: TEXT"
+};
+
+/// Reads a scene by its extension: .toml, or .nff (Haines' SPD). Anything wrong is a Diagnostic
+/// with file, line, column and key. Only regular files are read.
+Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options = {});
+
+}  // namespace boule

@@ -1,0 +1,151 @@
+#include "render/scene_file/toml_entities.h"
+
+namespace boule {
+namespace {
+
+void read_keys(TomlTable& table, CameraPose& pose) {
+  table.read("eye", pose.eye);
+  table.read("look_at", pose.look_at);
+  table.read("up", pose.up);
+}
+
+PinholeCamera read_pinhole(TomlTable& table) {
+  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::max};
+  PinholeCamera camera;
+  read_keys(table, camera.pose);
+  table.read("fov", camera.fov);
+  camera.fov_axis = axes[table.choose("fov_axis", {"x", "y", "max"})];
+  return camera;
+}
+
+OrthographicCamera read_orthographic(TomlTable& table) {
+  OrthographicCamera camera;
+  read_keys(table, camera.pose);
+  table.read("height", camera.height);
+  return camera;
+}
+
+ConstantBackground read_constant(TomlTable& table) {
+  ConstantBackground background;
+  table.read("color", background.color);
+  return background;
+}
+
+GradientBackground read_gradient(TomlTable& table) {
+  GradientBackground background;
+  table.read("bottom", background.bottom);
+  table.read("top", background.top);
+  table.read("up", background.up);
+  return background;
+}
+
+void read_keys(TomlTable& table, Matte& matte) { table.read("color", matte.color); }
+
+void read_keys(TomlTable& table, Plastic& plastic) {
+  table.read("color", plastic.color);
+  table.read("specular", plastic.specular);
+  table.read("shininess", plastic.shininess);
+  table.read("reflect", plastic.reflect);
+}
+
+void read_keys(TomlTable& table, Metal& metal) { table.read("color", metal.color); }
+
+void read_keys(TomlTable& table, Glass& glass) {
+  table.read("color", glass.color);
+  table.read("ior", glass.ior);
+}
+
+void read_keys(TomlTable& table, Emissive& emissive) { table.read("radiance", emissive.radiance); }
+
+void read_keys(TomlTable& table, Phong& phong) {
+  table.read("color", phong.color);
+  table.read("ka", phong.ka);
+  table.read("kd", phong.kd);
+  table.read("ks", phong.ks);
+  table.read("shininess", phong.shininess);
+  table.read("transmission", phong.transmission);
+  table.read("ior", phong.ior);
+}
+
+PointLight read_point(TomlTable& table) {
+  constexpr Falloff falloffs[] = {Falloff::none, Falloff::inverse_square};
+  PointLight light;
+  table.read("position", light.position);
+  table.read("intensity", light.intensity);
+  light.falloff = falloffs[table.choose("falloff", {"none", "inverse_square"})];
+  return light;
+}
+
+DirectionalLight read_directional(TomlTable& table) {
+  DirectionalLight light;
+  table.read("direction", light.direction);
+  table.read("intensity", light.intensity);
+  return light;
+}
+
+}  // namespace
+
+ImageSettings read_image(TomlTable& table) {
+  ImageSettings image;
+  table.read("size", image.width, image.height);
+  table.read("spp", image.spp);
+  table.finish();
+  return image;
+}
+
+RenderSettings read_render(TomlTable& table) {
+  RenderSettings render;
+  table.choose("method", {"whitted"}, {"path"});
+  table.read("max_depth", render.max_depth);
+  table.finish();
+  return render;
+}
+
+Camera read_camera(TomlTable& table) {
+  Camera camera;
+  if (table.choose("type", {"pinhole", "orthographic"}, {"thin_lens", "lens", "fisheye"}) == 0) {
+    camera = read_pinhole(table);
+  } else {
+    camera = read_orthographic(table);
+  }
+  table.finish({"eye", "look_at"});
+  table.check(find_problem(camera));
+  return camera;
+}
+
+Background read_background(TomlTable& table, Color& ambient) {
+  Background background;
+  if (table.choose("type", {"constant", "gradient"}, {"environment"}) == 0) {
+    background = read_constant(table);
+  } else {
+    background = read_gradient(table);
+  }
+  table.read("ambient", ambient);
+  table.finish();
+  table.check(find_problem(background));
+  return background;
+}
+
+Material read_material(TomlTable& table) {
+  Material kinds[] = {Matte{}, Plastic{}, Metal{}, Glass{}, Emissive{}, Phong{}};
+  Material& material =
+      kinds[table.choose("type", {"matte", "plastic", "metal", "glass", "emissive", "phong"})];
+  std::visit([&](auto& kind) { read_keys(table, kind); }, material);
+  table.finish();
+  table.check(find_problem(material));
+  return material;
+}
+
+Light read_light(TomlTable& table) {
+  Light light;
+  if (table.choose("type", {"point", "directional"}, {"sphere"}) == 0) {
+    light = read_point(table);
+  } else {
+    light = read_directional(table);
+  }
+  table.finish();
+  table.check(find_problem(light));
+  return light;
+}
+
+}  // namespace boule

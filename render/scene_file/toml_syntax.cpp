@@ -1,0 +1,123 @@
+#include "render/scene_file/toml_syntax.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+
+#include "render/scene_file/nearest_name.h"
+
+namespace boule {
+namespace {
+
+constexpr int most_key_parts = 32;
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Cuts the first line off `rest`.
+std::string_view take_line(std::string_view& rest) {
+  const std::size_t end = std::min(rest.find('\n'), rest.size());
+  const std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return line;
+}
+
+/// The name inside "[name]" or "[[name]]", or nothing.
+std::string_view header_name(std::string_view line) {
+  if (line.substr(0, 1) != "[") return {};
+  line.remove_prefix(line.substr(0, 2) == "[[" ? 2 : 1);
+  return trim(line.substr(0, line.find(']')));
+}
+
+/// Where the quoted string that begins at `from` ends: behind its closing quote. A string that is
+/// not closed on its line ends there; in a multi-line string the quotes come in threes.
+std::size_t skip_string(std::string_view text, std::size_t from) {
+  const char mark = text[from];
+  const std::string three(3, mark);
+  const bool multi_line = text.substr(from, 3) == three;
+  std::size_t i = from + (multi_line ? 3 : 1);
+  for (; i < text.size(); ++i) {
+    if (text[i] == '\\' && mark == '"') {
+      ++i;
+    } else if (multi_line ? text.substr(i, 3) == three : text[i] == mark) {
+      return i + three.size() - (multi_line ? 0 : 2);
+    } else if (text[i] == '\n' && !multi_line) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+TextPlace place_at(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(offset - line_start)};
+}
+
+}  // namespace
+
+Status refuse_deep_keys(std::string_view text, const std::string& file) {
+  int parts = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = skip_string(text, i);
+      continue;
+    }
+    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    // A number has one dot and any of these before the next: only a key collects more.
+    if (c == '\n' || c == '#' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
+    if (c == '.' && ++parts > most_key_parts) {
+      const TextPlace place = place_at(text, i);
+      return Diagnostic{"a key has at most " + std::to_string(most_key_parts) + " dotted parts",
+                        key_on_line(text, place.line), file, place.line, place.column};
+    }
+    ++i;
+  }
+  return std::nullopt;
+}
+
+std::string key_on_line(std::string_view text, int line) {
+  std::map<std::string_view, int> seen;  // how often each [[name]] came
+  std::string header;
+  for (int number = 1; number <= line && !text.empty(); ++number) {
+    const std::string_view shown = trim(take_line(text));
+    const std::string_view name = header_name(shown);
+    if (!name.empty()) {
+      header = safe_name(name);
+      if (shown.substr(0, 2) == "[[") header += "[" + std::to_string(seen[name]++) + "]";
+      if (number == line) return header;
+    }
+    const std::size_t equals = shown.find('=');
+    if (number < line || equals == std::string_view::npos) continue;
+    const std::string key = safe_name(trim(shown.substr(0, equals)));
+    return header.empty() ? key : header + "." + key;
+  }
+  return "";
+}
+
+TextPlace literal_place(std::string_view text, TextPlace reported, std::string_view description) {
+  const std::size_t open = description.find('\'');
+  const std::size_t close = description.rfind('\'');
+  if (open == std::string_view::npos || close <= open + 1) return reported;
+  const std::string_view literal = description.substr(open + 1, close - open - 1);
+  std::string_view line;
+  for (int number = 1; number <= reported.line; ++number) line = take_line(text);
+  const std::size_t behind = static_cast<std::size_t>(reported.column) - 1;
+  if (behind < literal.size() || behind > line.size()) return reported;
+  const std::size_t start = behind - literal.size();
+  if (line.substr(start, literal.size()) != literal) return reported;
+  return {reported.line, static_cast<int>(start) + 1};
+}
+
+std::string without_prefix(std::string_view text, std::string_view prefix) {
+  if (text.substr(0, prefix.size()) == prefix) text.remove_prefix(prefix.size());
+  return std::string(text);
+}
+
+}  // namespace boule

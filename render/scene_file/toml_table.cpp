@@ -1,0 +1,211 @@
+#include "render/scene_file/toml_table.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "render/scene_file/float32.h"
+#include "render/scene_file/nearest_name.h"
+
+namespace boule {
+namespace {
+
+/// What a value is called in messages; in the order of TomlValue's alternatives.
+const char* type_name(const TomlValue& value) {
+  constexpr const char* names[] = {"a date or time", "a boolean", "an integer", "a number",
+                                   "a string",       "an array",  "a table"};
+  static_assert(std::size(names) == std::variant_size_v<decltype(TomlValue::data)>);
+  return names[value.data.index()];
+}
+
+const TomlValue* find_member(const TomlMembers& members, std::string_view key) {
+  const auto found = std::find_if(members.begin(), members.end(),
+                                  [&](const TomlMember& member) { return member.key == key; });
+  return found == members.end() ? nullptr : &found->value;
+}
+
+}  // namespace
+
+TomlTable::TomlTable(const TomlMembers& members, TextPlace place, std::string path,
+                     FirstError& error)
+    : members_(&members), place_(place), path_(std::move(path)), error_(&error) {}
+
+bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }
+
+const TomlValue* TomlTable::find(std::string_view key) {
+  known_.push_back(key);
+  return find_member(*members_, key);
+}
+
+void TomlTable::report_at(TextPlace place, std::string_view key, std::string message) {
+  const std::string name = safe_name(key);
+  error_->report(place, path_.empty() ? name : path_ + "." + name, std::move(message));
+}
+
+void TomlTable::report(std::string_view key, std::string message) {
+  const TomlValue* value = find_member(*members_, key);
+  report_at(value != nullptr ? value->place : place_, key, std::move(message));
+}
+
+void TomlTable::report_type(const TomlValue& value, std::string_view key,
+                            const std::string& expected) {
+  report_at(value.place, key, "expected " + expected + ", got " + type_name(value));
+}
+
+void TomlTable::check(const std::optional<Problem>& problem) {
+  if (problem) report(problem->field, problem->message);
+}
+
+void TomlTable::convert(const TomlValue& value, std::string_view key, float& out) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data)) {
+    out = static_cast<float>(*integer);
+    return;
+  }
+  const auto* number = std::get_if<double>(&value.data);
+  if (number == nullptr) return report_type(value, key, "a number");
+  const std::optional<float> rounded = to_float32(*number);
+  if (!rounded) return report_at(value.place, key, "is too large for a 32-bit float");
+  out = *rounded;
+}
+
+void TomlTable::convert(const TomlValue& value, std::string_view key, int& out) {
+  const auto* integer = std::get_if<std::int64_t>(&value.data);
+  if (integer == nullptr) return report_type(value, key, "an integer");
+  constexpr int least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
+  if (*integer < least || *integer > most) {
+    return report_at(value.place, key,
+                     "must be an integer of 32 bits, is " + std::to_string(*integer));
+  }
+  out = static_cast<int>(*integer);
+}
+
+const TomlArray* TomlTable::find_array(std::string_view key, std::size_t count,
+                                       const char* of_what) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return nullptr;
+  const std::string expected = "an array of " + std::to_string(count) + " " + of_what;
+  const auto* array = std::get_if<TomlArray>(&value->data);
+  if (array == nullptr) {
+    report_type(*value, key, expected);
+  } else if (array->size() != count) {
+    report_at(value->place, key, "expected " + expected + ", got " + std::to_string(array->size()));
+    return nullptr;
+  }
+  return array;
+}
+
+void TomlTable::read(std::string_view key, float& out) {
+  if (const TomlValue* value = find(key)) convert(*value, key, out);
+}
+
+void TomlTable::read(std::string_view key, int& out) {
+  if (const TomlValue* value = find(key)) convert(*value, key, out);
+}
+
+void TomlTable::read(std::string_view key, int& first, int& second) {
+  const TomlArray* array = find_array(key, 2, "integers");
+  if (array == nullptr) return;
+  convert((*array)[0], key, first);
+  convert((*array)[1], key, second);
+}
+
+void TomlTable::read(std::string_view key, Vec3f& out) {
+  const TomlArray* array = find_array(key, 3, "numbers");
+  if (array == nullptr) return;
+  convert((*array)[0], key, out.x);
+  convert((*array)[1], key, out.y);
+  convert((*array)[2], key, out.z);
+}
+
+void TomlTable::read(std::string_view key, Color& out) {
+  Vec3f rgb{out.r, out.g, out.b};
+  read(key, rgb);
+  out = {rgb.x, rgb.y, rgb.z};
+}
+
+void TomlTable::read(std::string_view key, std::string& out) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return;
+  const auto* text = std::get_if<std::string>(&value->data);
+  if (text == nullptr) return report_type(*value, key, "a string");
+  out = *text;
+}
+
+std::size_t TomlTable::choose(std::string_view key, const std::vector<std::string_view>& names,
+                              const std::vector<std::string_view>& later) {
+  std::string name{names[0]};
+  read(key, name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const bool is_later = std::find(later.begin(), later.end(), name) != later.end();
+  const std::string what =
+      is_later ? quote(name) + " is not supported yet" : "unknown " + quote(name);
+  report(key,
+         what + ", expected " + list_names(names) + (is_later ? "" : did_you_mean(name, names)));
+  return 0;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  const auto* members = std::get_if<TomlMembers>(&value->data);
+  if (members != nullptr) return TomlTable(*members, value->place, std::string(key), *error_);
+  report_type(*value, key, "a table");
+  return std::nullopt;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  std::vector<TomlTable> list;
+  const TomlValue* value = find(key);
+  if (value == nullptr) return list;
+  const std::string expected = "tables, each under a header [[" + std::string(key) + "]]";
+  const auto* array = std::get_if<TomlArray>(&value->data);
+  if (array == nullptr) {
+    report_type(*value, key, expected);
+    return list;
+  }
+  for (const TomlValue& element : *array) {
+    const auto* members = std::get_if<TomlMembers>(&element.data);
+    const std::string path = std::string(key) + "[" + std::to_string(list.size()) + "]";
+    if (members == nullptr) {
+      report_type(element, path, expected);
+      return list;
+    }
+    list.push_back(TomlTable(*members, element.place, path, *error_));
+  }
+  return list;
+}
+
+std::vector<TomlTable> TomlTable::named_tables(std::string_view key) {
+  std::vector<TomlTable> list;
+  const std::optional<TomlTable> outer = table(key);
+  if (!outer) return list;
+  for (const TomlMember& member : *outer->members_) {
+    const auto* members = std::get_if<TomlMembers>(&member.value.data);
+    const std::string path = std::string(key) + "." + safe_name(member.key);
+    if (members == nullptr) {
+      error_->report(member.value.place, path,
+                     std::string("expected a table, got ") + type_name(member.value));
+      return list;
+    }
+    list.push_back(TomlTable(*members, member.value.place, path, *error_));
+    list.back().name_ = member.key;
+  }
+  return list;
+}
+
+void TomlTable::finish(std::initializer_list<std::string_view> required) {
+  for (const TomlMember& member : *members_) {
+    if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+    std::string advice = did_you_mean(member.key, known_);
+    if (advice.empty()) advice = ", expected " + list_names(known_);
+    return report_at(member.place, member.key, "unknown key " + quote(member.key) + advice);
+  }
+  for (const std::string_view key : required) {
+    if (find_member(*members_, key) == nullptr) {
+      return report_at(place_, key, "missing key " + quote(std::string(key)));
+    }
+  }
+}
+
+}  // namespace boule

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/color.h"
+#include "core/math/vec.h"
+#include "core/scene/primitive.h"
+#include "render/scene_file/first_error.h"
+#include "render/scene_file/toml_document.h"
+
+namespace boule {
+
+/// Reads one table key by key. A key that is absent leaves its variable as it is; a wrong one is
+/// reported with its place and dotted path. Every key asked for counts as known: finish() refuses
+/// the others, so the known keys are those the code reads, whatever the table's `type`.
+class TomlTable {
+ public:
+  /// `members` and `error` must outlive it; `path` is the table's own ("camera", "sphere[3]").
+  TomlTable(const TomlMembers& members, TextPlace place, std::string path, FirstError& error);
+
+  /// True if the table has `key`, which becomes known.
+  bool has(std::string_view key);
+
+  /// One number, integer or not, rounded to float once; too large for a float is an error.
+  void read(std::string_view key, float& out);
+  /// One integer of 32 bits.
+  void read(std::string_view key, int& out);
+  /// Two integers of 32 bits, as an array.
+  void read(std::string_view key, int& first, int& second);
+  /// Three numbers, as an array.
+  void read(std::string_view key, Vec3f& out);
+  void read(std::string_view key, Color& out);
+  void read(std::string_view key, std::string& out);
+
+  /// The index in `names` of the name under `key`; 0 if it is absent. Names in `later` are
+  /// refused as not supported yet.
+  std::size_t choose(std::string_view key, const std::vector<std::string_view>& names,
+                     const std::vector<std::string_view>& later = {});
+
+  /// The table under `key`, or nothing.
+  std::optional<TomlTable> table(std::string_view key);
+  /// The tables of the array under `key` ([[key]]), in order.
+  std::vector<TomlTable> tables(std::string_view key);
+  /// The tables inside the table under `key` ([key.NAME]), in the order of the file.
+  std::vector<TomlTable> named_tables(std::string_view key);
+
+  /// Refuses the keys that nobody asked for, then the absence of a required one.
+  void finish(std::initializer_list<std::string_view> required = {});
+
+  /// Reports a Problem of what was read from this table, at its field.
+  void check(const std::optional<Problem>& problem);
+
+  /// Reports an error of `key`: at its value, or at the table where it is absent.
+  void report(std::string_view key, std::string message);
+
+  /// Where the table begins.
+  [[nodiscard]] TextPlace place() const { return place_; }
+  /// Its name in the table around it: "red" for [material.red]; else "".
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  const TomlValue* find(std::string_view key);
+  void report_at(TextPlace place, std::string_view key, std::string message);
+  void report_type(const TomlValue& value, std::string_view key, const std::string& expected);
+  const TomlArray* find_array(std::string_view key, std::size_t count, const char* of_what);
+  void convert(const TomlValue& value, std::string_view key, float& out);
+  void convert(const TomlValue& value, std::string_view key, int& out);
+
+  const TomlMembers* members_;
+  TextPlace place_;
+  std::string path_;
+  std::string name_;
+  FirstError* error_;
+  std::vector<std::string_view> known_;
+};
+
+}  // namespace boule
