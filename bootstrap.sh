@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# From a clean clone on Debian 12 to a picture or a tested build: see usage().
+set -euo pipefail
+
+readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev libcli11-dev
+  libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
+readonly test_packages=(binutils clang-format libgmock-dev libgtest-dev libmpfr-dev qemu-user)
+
+usage() {
+  cat <<'TEXT'
+usage: ./bootstrap.sh render|test
+  render  install what is missing, build a release, render scenes/first_light.toml to first_light.png
+  test    install what is missing, build the tests in build/test and run them
+TEXT
+}
+
+is_installed() {
+  [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]
+}
+
+# install_missing PACKAGE...: asks apt only where something is missing.
+install_missing() {
+  local missing=() package as_root=()
+  for package in "$@"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  ((${#missing[@]} > 0)) || return 0
+  echo "bootstrap: installing ${missing[*]}"
+  ((EUID == 0)) || as_root=(sudo)
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+render() {
+  install_missing "${build_packages[@]}"
+  cmake --preset release -G Ninja -DBOULE_TESTS=OFF
+  cmake --build build/release
+  build/release/bin/boule render scenes/first_light.toml -o first_light.png
+  echo "bootstrap: the picture is $PWD/first_light.png"
+}
+
+run_tests() {
+  install_missing "${build_packages[@]}" "${test_packages[@]}"
+  # As users run it, and a warning is an error.
+  cmake --preset release -G Ninja -B build/test -DBOULE_TESTS=ON -DBOULE_WERROR=ON
+  cmake --build build/test
+  exec ctest --test-dir build/test -j2 --output-on-failure
+}
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+[[ $# -eq 1 ]] || { usage >&2; exit 2; }
+case "$1" in
+  render) render ;;
+  test) run_tests ;;
+  -h | --help | help) usage ;;
+  *) usage >&2; exit 2 ;;
+esac

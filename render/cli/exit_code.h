@@ -1,0 +1,13 @@
+#pragma once
+
+namespace boule::cli {
+
+/// What the program's exit status says; 128 + n means ended by signal n.
+enum ExitCode : int {
+  done = 0,
+  failed = 1,         ///< rendering or output failed
+  wrong_usage = 2,    ///< the command line
+  invalid_input = 3,  ///< the scene or a data file
+};
+
+}  // namespace boule::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <atomic>
+
+namespace boule::cli {
+
+/// Makes SIGINT, SIGTERM and SIGHUP end the program at once with "boule: interrupted (SIGTERM),
+/// nothing written" and exit status 128 + n: right from the signal's handler, except while a
+/// WriteGuard lives.
+void install_interrupt_handlers();
+
+/// While a temporary file may exist a signal only raises a flag, so that the file is removed.
+class WriteGuard {
+ public:
+  WriteGuard();
+  ~WriteGuard();
+  WriteGuard(const WriteGuard&) = delete;
+  WriteGuard& operator=(const WriteGuard&) = delete;
+
+  /// True after a signal.
+  static bool interrupted();
+};
+
+/// Ends the program as the handler would have, if a signal came while a WriteGuard lived.
+void exit_if_interrupted();
+
+}  // namespace boule::cli

@@ -1,0 +1,130 @@
+// What goes wrong: one clear error, the right exit code, nothing left behind.
+#include "tests/cli/program.h"
+
+namespace boule::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class Errors : public ProgramTest {
+ protected:
+  /// Runs `boule render` and checks what holds for every refusal.
+  ProgramRun refused(const std::vector<std::string>& arguments, int code,
+                     const std::vector<std::string>& environment = {}) {
+    const auto before = files();
+    std::vector<std::string> all = {"render"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    ProgramRun run = boule_run(all, environment);
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_THAT(run.out, IsEmpty());
+    EXPECT_THAT(run.err, HasSubstr("error: "));
+    EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
+    EXPECT_EQ(files(), before);
+    return run;
+  }
+};
+
+TEST(Usage, NothingOrNonsenseIsWrongUsage) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"rander"},
+                                             {"render"},
+                                             {"render", "a.toml"},
+                                             {"render", "-o", "x.png"},
+                                             {"isa", "--yaml"},
+                                             {"isa", "more"},
+                                             {"--nonsense"}}) {
+    const ProgramRun run = boule_run(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.out, IsEmpty());
+    EXPECT_THAT(run.err, StartsWith("boule: error: "));
+  }
+}
+
+TEST_F(Errors, ABadOptionValueIsWrongUsage) {
+  const std::string scene = small_scene();
+  const std::vector<std::pair<std::string, std::string>> options = {
+      {"--size", "640"},        {"--size", "640x"},
+      {"--size", "0x480"},      {"--size", "640x65536"},
+      {"--size", "-1x5"},       {"--size", "640x480x2"},
+      {"--size", "1e3x5"},      {"--spp", "0"},
+      {"--spp", "many"},        {"--spp", "1.5"},
+      {"--seed", "-1"},         {"--seed", "x"},
+      {"--max-depth", "-1"},    {"--max-depth", "deep"},
+      {"--isa", "sse9"},        {"--isa", ""},
+      {"--solver", "exact"},    {"-t", "-1"},
+      {"-t", "100000"},         {"--tile", "0"},
+      {"--tile", "5000"},       {"--compression", "lzw"},
+      {"--polygons", "cut"},    {"--order", "random"},
+      {"--crop", "1,2,3"},      {"--crop", "4,0,4,9"},
+      {"--crop", "-1,0,4,9"},   {"--crop", "0,0,33,18"},
+      {"--exposure", "bright"}, {"--nonsense", "1"}};
+  for (const auto& [option, value] : options) {
+    SCOPED_TRACE(option + " " + value);
+    const ProgramRun run = refused({scene, "-o", path("out.png"), option + "=" + value}, 2);
+    EXPECT_THAT(run.err, StartsWith("boule: error: "));
+  }
+}
+
+TEST_F(Errors, AnEmptyOrUnknownExtensionIsWrongUsageBeforeTheSceneIsRead) {
+  for (const char* name : {"picture", "picture.", "picture.xyz", "png", ".png"}) {
+    SCOPED_TRACE(name);
+    refused({path("missing.toml"), "-o", path(name)}, 2);
+  }
+}
+
+TEST_F(Errors, AnUnknownIsaInTheEnvironmentIsWrongUsage) {
+  const ProgramRun run = refused({small_scene(), "-o", path("x.png")}, 2, {"BOULE_ISA=sse9"});
+  EXPECT_THAT(run.err, HasSubstr("BOULE_ISA: 'sse9'"));
+  EXPECT_EQ(boule_run({"isa"}, {"BOULE_ISA=sse9"}).exit_code, 2);
+}
+
+TEST_F(Errors, AMissingSceneIsInvalidInputWithTheSystemsReason) {
+  const ProgramRun run = refused({path("none.toml"), "-o", path("x.png")}, 3);
+  EXPECT_THAT(run.err, HasSubstr("none.toml"));
+  EXPECT_THAT(run.err, HasSubstr("No such file or directory"));
+}
+
+TEST_F(Errors, ABadSceneNamesFileLineColumnAndKey) {
+  const std::string scene = write("bad.toml",
+                                  "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"
+                                  "fov = 190\n");
+  const ProgramRun run = refused({scene, "-o", path("x.png")}, 3);
+  EXPECT_THAT(run.err, StartsWith(scene + ":5:"));
+  EXPECT_THAT(run.err, HasSubstr("(key 'camera.fov')"));
+}
+
+TEST_F(Errors, AnOldPictureSurvivesABadScene) {
+  write("x.png", "old");
+  refused({write("bad.toml", "schema = 2\n"), "-o", path("x.png")}, 3);
+  EXPECT_EQ(read("x.png"), "old");
+}
+
+TEST_F(Errors, AnOutputThatCannotBeWrittenGivesTheSystemsReason) {
+  const std::string scene = small_scene();
+  const ProgramRun missing = refused({scene, "-o", path("no/such/x.png"), "-q"}, 1);
+  EXPECT_THAT(missing.err, HasSubstr("cannot write '"));
+  EXPECT_THAT(missing.err, HasSubstr("No such file or directory"));
+  std::filesystem::create_directory(path("folder.png"));
+  const ProgramRun folder = refused({scene, "-o", path("folder.png"), "-q"}, 1);
+  EXPECT_THAT(folder.err, HasSubstr("Is a directory"));
+}
+
+TEST_F(Errors, ATargetThatIsFullIsAnError) {
+  std::filesystem::create_symlink("/dev/full", path("full.png"));
+  const ProgramRun run = refused({small_scene(), "-o", path("full.png"), "-q"}, 1);
+  EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+}
+
+TEST_F(Errors, QuotedInputIsCutAndEscaped) {
+  const ProgramRun run =
+      refused({small_scene(), "-o", path("x.png"), "--solver=" + std::string(100, 'a')}, 2);
+  EXPECT_THAT(run.err, HasSubstr(std::string(40, 'a') + "..."));
+  EXPECT_THAT(run.err, testing::Not(HasSubstr(std::string(41, 'a'))));
+}
+
+}  // namespace
+}  // namespace boule::test

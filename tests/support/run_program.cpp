@@ -1,0 +1,69 @@
+#include "tests/support/run_program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+std::string read_all(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// In the child: streams into files, the environment, the program.
+[[noreturn]] void become(const std::string& path, const ProgramCall& call,
+                         const std::filesystem::path& folder) {
+  const auto redirect = [](const std::filesystem::path& file, int descriptor) {
+    const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(125);
+  };
+  redirect(folder / "out", STDOUT_FILENO);
+  redirect(folder / "err", STDERR_FILENO);
+  for (const std::string& entry : call.environment) {
+    const std::size_t equals = entry.find('=');
+    ::setenv(entry.substr(0, equals).c_str(), entry.substr(equals + 1).c_str(), 1);
+  }
+  std::vector<char*> argv = {const_cast<char*>(path.c_str())};
+  for (const std::string& argument : call.arguments) {
+    argv.push_back(const_cast<char*>(argument.c_str()));
+  }
+  argv.push_back(nullptr);
+  ::execv(path.c_str(), argv.data());
+  ::_exit(126);
+}
+
+}  // namespace
+
+ProgramRun run_program(const std::string& path, const ProgramCall& call) {
+  const TempDir folder;
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) become(path, call, folder.path());
+  if (call.signal_after_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(call.signal_after_ms));
+    ::kill(child, call.signal);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ProgramRun run;
+  run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  run.out = read_all(folder.path() / "out");
+  run.err = read_all(folder.path() / "err");
+  return run;
+}
+
+}  // namespace boule::test

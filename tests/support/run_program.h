@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace boule::test {
+
+/// How a program ended and what it said.
+struct ProgramRun {
+  int exit_code = -1;  ///< 128 + n if signal n killed it
+  std::string out, err;
+};
+
+/// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end.
+/// `signal_after_ms` > 0: sends it `signal` after so many milliseconds.
+struct ProgramCall {
+  std::vector<std::string> arguments;
+  std::vector<std::string> environment;
+  int signal = 0;
+  int signal_after_ms = 0;
+};
+ProgramRun run_program(const std::string& path, const ProgramCall& call);
+
+}  // namespace boule::test
