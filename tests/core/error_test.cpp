@@ -1,0 +1,76 @@
+#include "core/base/error.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace boule {
+namespace {
+
+struct FormatCase {
+  Diagnostic diagnostic;
+  const char* text;
+};
+
+TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
+  const FormatCase cases[] = {
+      {{"is wrong", "", "", 0, 0}, "error: is wrong"},
+      {{"is wrong", "camera.fov", "", 0, 0}, "error: is wrong (key 'camera.fov')"},
+      {{"is wrong", "", "a.toml", 0, 0}, "a.toml: error: is wrong"},
+      {{"is wrong", "", "a.toml", 3, 14}, "a.toml:3:14: error: is wrong"},
+      {{"is wrong", "camera.fov", "a.toml", 3, 14},
+       "a.toml:3:14: error: is wrong (key 'camera.fov')"}};
+  for (const FormatCase& c : cases) EXPECT_EQ(format_diagnostic(c.diagnostic), c.text);
+}
+
+struct QuoteCase {
+  std::string text;
+  std::string quoted;
+};
+
+TEST(Quote, EscapesControlBytesAndCuts) {
+  const std::string forty(40, 'x');
+  const QuoteCase cases[] = {{"", "''"},
+                             {"plain text", "'plain text'"},
+                             {"a\nb", "'a\\x0ab'"},
+                             {"\x1b[31m", "'\\x1b[31m'"},
+                             {"\x7f", "'\\x7f'"},
+                             {std::string("a\0b", 3), "'a\\x00b'"},
+                             {"caf\xc3\xa9", "'caf\xc3\xa9'"},  // text beyond ASCII stays readable
+                             {forty, "'" + forty + "'"},
+                             {forty + "y", "'" + forty + "...'"},
+                             {std::string(41, '\n'), "'" + [] {
+                                std::string escaped;
+                                for (int i = 0; i < 40; ++i) escaped += "\\x0a";
+                                return escaped;
+                              }() + "...'"}};
+  for (const QuoteCase& c : cases) EXPECT_EQ(quote(c.text), c.quoted);
+}
+
+TEST(Quote, TakesAnotherLimit) {
+  EXPECT_EQ(quote("abcdef", 3), "'abc...'");
+  EXPECT_EQ(quote("abc", 3), "'abc'");
+}
+
+TEST(Result, HoldsAValueOrADiagnostic) {
+  const Result<int> good = 7;
+  ASSERT_TRUE(good.ok());
+  EXPECT_TRUE(static_cast<bool>(good));
+  EXPECT_EQ(good.value(), 7);
+
+  const Result<int> bad = Diagnostic{"no number", "size", "", 0, 0};
+  EXPECT_FALSE(bad.ok());
+  EXPECT_FALSE(static_cast<bool>(bad));
+  EXPECT_EQ(bad.error().message, "no number");
+  EXPECT_EQ(bad.error().key, "size");
+}
+
+TEST(Result, GivesUpWhatCannotBeCopied) {
+  Result<std::unique_ptr<int>> result = std::make_unique<int>(3);
+  *result.value() = 4;
+  const std::unique_ptr<int> taken = std::move(result).value();
+  EXPECT_EQ(*taken, 4);
+}
+
+}  // namespace
+}  // namespace boule

@@ -1,0 +1,64 @@
+#include "core/math/random.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace boule {
+namespace {
+
+using Counter = std::array<std::uint32_t, 4>;
+using Key = std::array<std::uint32_t, 2>;
+
+// Random123's known-answer vectors for philox4x32-10 (kat_vectors).
+TEST(Philox, GivesTheKnownAnswers) {
+  EXPECT_EQ(philox(Counter{0, 0, 0, 0}, Key{0, 0}),
+            (Counter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  constexpr std::uint32_t ones = 0xffffffff;
+  EXPECT_EQ(philox(Counter{ones, ones, ones, ones}, Key{ones, ones}),
+            (Counter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(
+      philox(Counter{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, Key{0xa4093822, 0x299f31d0}),
+      (Counter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(UnitInterval, CoversZeroToBelowOne) {
+  EXPECT_EQ(unit_interval(0), 0);
+  EXPECT_EQ(unit_interval(1), 0x1p-32);
+  EXPECT_EQ(unit_interval(0x80000000), 0.5);
+  EXPECT_EQ(unit_interval(0xffffffff), 1 - 0x1p-32);
+}
+
+TEST(Random4, IsPhiloxOfItsArguments) {
+  const auto words = philox(Counter{3, 5, 7, 11}, Key{0x89abcdef, 0x01234567});
+  const auto numbers = random4(3, 5, 7, 11, 0x0123456789abcdef);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(numbers[i], words[i] * 0x1p-32);
+}
+
+TEST(Random4, EveryArgumentMatters) {
+  const auto base = random4(1, 2, 3, 4, 5);
+  EXPECT_EQ(random4(1, 2, 3, 4, 5), base);
+  EXPECT_NE(random4(2, 2, 3, 4, 5), base);
+  EXPECT_NE(random4(1, 3, 3, 4, 5), base);
+  EXPECT_NE(random4(1, 2, 4, 4, 5), base);
+  EXPECT_NE(random4(1, 2, 3, 5, 5), base);
+  EXPECT_NE(random4(1, 2, 3, 4, 6), base);
+  EXPECT_NE(random4(1, 2, 3, 4, 5 + (std::uint64_t{1} << 32)), base);
+  EXPECT_NE(random4(2, 1, 3, 4, 5), base);
+}
+
+TEST(Random4, FillsTheIntervalEvenly) {
+  // 64 bins of 4 x 16384 numbers: 1024 each, standard deviation 32; six of them allowed.
+  std::vector<int> bins(64);
+  for (std::uint32_t sample = 0; sample < 16384; ++sample) {
+    for (const double x : random4(17, 4, sample, 0, 1)) {
+      ASSERT_GE(x, 0);
+      ASSERT_LT(x, 1);
+      ++bins[static_cast<std::size_t>(x * 64)];
+    }
+  }
+  for (const int count : bins) EXPECT_NEAR(count, 1024, 6 * 32);
+}
+
+}  // namespace
+}  // namespace boule
