@@ -41,6 +41,8 @@ void handle(int signal) {
 }  // namespace
 
 void install_interrupt_handlers() {
+  // A closed pipe or a size limit is an error to report, not a reason to die in silence.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = handle;
   sigfillset(&action.sa_mask);

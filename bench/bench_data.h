@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/half_b.h"
+#include "core/scene/primitive.h"
+#include "simd/build/aligned_array.h"
+#include "simd/build/geometry_builder.h"
+#include "simd/build/stream_buffer.h"
+
+namespace boule::bench {
+
+/// n random spheres in the unit cube, or n random planes, and 1024 camera rays, in packets, from
+/// the eye (0.5, 0.5, -1.2) across 25.61 degrees. sparse: a sphere covers 1e-4 of the picture;
+/// ordinary: the spheres cover it four times over; every: each test survives the reject.
+struct BenchData {
+  std::vector<Sphere> spheres;
+  std::vector<Plane> planes;
+  Geometry geometry;
+  RayBuffer rays;
+  HitBuffer hits;
+
+  // The same for the half-b contenders.
+  AlignedArray<float> center_x, center_y, center_z, radius_squared;
+  AlignedArray<float> org_x, org_y, org_z, t;
+  HalfBData half_b;
+};
+
+/// The data of one experiment, made once and kept. `kind`: sparse, ordinary, every, planes.
+BenchData& bench_data(const std::string& kind, std::size_t n);
+
+}  // namespace boule::bench
