@@ -2,7 +2,6 @@
 
 #include "render/shading/background.h"
 #include "render/shading/bsdf.h"
-#include "render/shading/lights.h"
 
 namespace boule {
 
@@ -67,11 +66,9 @@ void Whitted::add_light(const Light& light) {
   for (const Point& point : points_) {
     if (!takes_direct_light(*point.material)) continue;
     const LightSample sample = sample_light(light, point.surface.point);
-    const Color radiance =
-        direct_light(*point.material, point.surface, sample.to_light, sample.intensity);
-    if (is_black(radiance)) continue;
+    if (!faces(point.surface, sample.to_light)) continue;
     shadow_rays_.set(arrivals_.size(), shadow_ray(light, point.surface));
-    arrivals_.push_back({point.ray, radiance});
+    arrivals_.push_back({&point, sample});
   }
   if (arrivals_.empty()) return;
   shadow_rays_.resize(arrivals_.size());
@@ -81,8 +78,10 @@ void Whitted::add_light(const Light& light) {
   kernels_.any_hit(geometry_, shadow_rays_.view(), query, occluded_.data());
   for (std::size_t k = 0; k < arrivals_.size(); ++k) {
     if (occluded_[k] != 0) continue;
-    Color& radiance = radiance_[arrivals_[k].ray];
-    radiance = radiance + arrivals_[k].radiance;
+    const auto& [point, arriving] = arrivals_[k];
+    Color& radiance = radiance_[point->ray];
+    radiance = radiance + direct_light(*point->material, point->surface, arriving.to_light,
+                                       arriving.intensity);
   }
 }
 

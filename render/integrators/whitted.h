@@ -6,6 +6,7 @@
 #include "render/integrators/integrator.h"
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
+#include "render/shading/lights.h"
 #include "render/shading/surface.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/build/aligned_array.h"
@@ -32,10 +33,10 @@ class Whitted final : public Integrator {
     const FlatMaterial* material;
     Surface surface;
   };
-  /// Light that arrives at a ray's hit unless its shadow ray is blocked.
+  /// Light that arrives at a point unless its shadow ray is blocked.
   struct Arrival {
-    std::uint32_t ray;
-    Color radiance;
+    const Point* point;
+    LightSample light;
   };
 
   void shade(const PathStream& stream, Coherence coherence);

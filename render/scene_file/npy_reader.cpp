@@ -61,7 +61,7 @@ double decode(const unsigned char* bytes, std::size_t width) {
   std::uint64_t bits = 0;
   for (std::size_t i = width; i-- > 0;) bits = bits << 8 | bytes[i];
   if (width == 8) return std::bit_cast<double>(bits);
-  return double{std::bit_cast<float>(static_cast<std::uint32_t>(bits))};
+  return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
 }
 
 /// The sphere of one row, or what is wrong with it.

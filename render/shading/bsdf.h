@@ -13,8 +13,14 @@ struct Scatter {
   Vec3d refracted;   ///< unit length; only where `refraction` is not black
 };
 
-/// What light of `intensity` from the unit direction `to_light` adds, if nothing is in between:
-/// C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980). Black where n.l <= 0.
+/// True if light from `to_light` falls on the viewer's side: n.l > 0. False for NaN, where the
+/// light is in the very point.
+inline bool faces(const Surface& surface, const Vec3d& to_light) {
+  return dot(surface.normal, to_light) > 0;
+}
+
+/// What light of `intensity` from the unit direction `to_light`, which the surface faces, adds if
+/// nothing is in between: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980).
 Color direct_light(const FlatMaterial& material, const Surface& surface, const Vec3d& to_light,
                    const Color& intensity);
 

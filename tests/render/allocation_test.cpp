@@ -58,5 +58,26 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyState) {
   }
 }
 
+/// Two parallel mirrors: one ray for ever.
+TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
+  Scene scene = empty_scene(1, 1);
+  const auto mirror = add_material(scene, Metal{gray(1)});
+  scene.planes = {{{0, 0, -1}, {0, 0, 1}, mirror}, {{0, 0, 6}, {0, 0, -1}, mirror}};
+  const PreparedScene prepared = prepare(scene, 1, 1).value();
+  const auto allocated_at_depth = [&](int max_depth) {
+    IntegratorSettings settings;
+    settings.max_depth = max_depth;
+    Whitted whitted(prepared, *select_kernels("auto").value(), settings);
+    RayBuffer ray(1);
+    ray.set(0, {{0, 0, 5}, {0, 0, -1}});
+    Color radiance;
+    const long start = allocations;
+    EXPECT_TRUE(whitted.trace(ray, Coherence::common_origin, &radiance));
+    EXPECT_EQ(whitted.counts().continuation, static_cast<std::uint64_t>(max_depth));
+    return allocations - start;
+  };
+  EXPECT_EQ(allocated_at_depth(10000), allocated_at_depth(100));
+}
+
 }  // namespace
 }  // namespace boule::test

@@ -109,7 +109,8 @@ TEST(Renderer, ACancelledPassGoesOnWhereItStopped) {
   RenderOptions options = options_of(scene);
   options.threads = 1;
   options.cancel = &cancel;
-  options.progress = [&](const Progress& progress) { cancel = progress.share > 0.3; };
+  bool impatient = true;
+  options.progress = [&](const Progress& progress) { cancel = impatient && progress.share > 0.3; };
   auto renderer = Renderer::create(scene, options);
   ASSERT_TRUE(renderer);
   Film film(renderer.value().rect());
@@ -117,11 +118,9 @@ TEST(Renderer, ACancelledPassGoesOnWhereItStopped) {
   ASSERT_TRUE(stopped);
   EXPECT_EQ(film.samples(0, 0), 2);
   EXPECT_EQ(film.samples(63, 63), 0);
-  int passes = 0;
-  do {
-    cancel = false;
-    ASSERT_LT(++passes, 100);
-  } while (renderer.value().render_pass(film, 2));
+  impatient = false;
+  cancel = false;
+  EXPECT_FALSE(renderer.value().render_pass(film, 2));
   EXPECT_EQ(differing_pixels(film.to_image(), render(scene)), 0);
 }
 

@@ -115,11 +115,22 @@ TEST(DirectLight, IsPhongsFormula) {
   EXPECT_FLOAT_EQ(c.b, 0.25f);
 }
 
-TEST(DirectLight, IsNothingFromBehindOrFromThePointItself) {
+TEST(DirectLight, FallsOnTheViewersSideOnly) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const FlatMaterial m = flatten(Phong{gray(1), 0, 1, 1, 4, 0, 1}, {});
+  EXPECT_TRUE(faces(seen_at(0.3), {1, 1e-30, 0}));
   for (const Vec3d& l : {Vec3d{0, -1, 0}, Vec3d{1, 0, 0}, Vec3d{nan, nan, nan}}) {
-    EXPECT_TRUE(is_black(direct_light(m, seen_at(0.3), l, gray(1))));
+    EXPECT_FALSE(faces(seen_at(0.3), l));
+  }
+}
+
+TEST(DirectLight, TakesAnyExponent) {
+  for (const float exponent : {0.5f, 1.0f, 2.0f, 3.08f, 50.0f, 1023.0f, 1024.0f, 1025.0f, 5e6f}) {
+    const FlatMaterial m = flatten(Phong{gray(0), 0, 0, 1, exponent, 0, 1}, {});
+    for (const double angle : {0.0, 0.001, 0.2, 1.0, 1.5}) {
+      const double expected = std::pow(std::cos(angle), double{exponent});
+      EXPECT_NEAR(direct_light(m, seen_at(angle), up, gray(1)).r, expected,
+                  1e-7 * expected + 1e-40);
+    }
   }
 }
 

@@ -85,7 +85,9 @@ TEST(Surface, ShadowRaysEndBeforeTheLight) {
   const PreparedScene scene = prepared({{{0, 0, 0}, 1, 0}}, {});
   const Surface surface = hit_by(scene, {{0, 0, 5}, {0, 0, -1}});
   const Ray ray = shadow_ray_to(surface, {0, 3, 1});
-  EXPECT_EQ(ray.dir, (Vec3f{0, 3, 0}));  // the offset is far below a float's resolution
+  EXPECT_EQ(ray.dir.x, 0);
+  EXPECT_EQ(ray.dir.y, 3);
+  EXPECT_NEAR(ray.dir.z, 0, 0x1p-45);  // what the origin was moved by
   EXPECT_EQ(ray.tmax, 1 - 0x1p-22f);
   EXPECT_EQ(ray.source, 0);
   EXPECT_FALSE(ray.inside);
@@ -163,7 +165,7 @@ TEST(Surface, ReflectedAndShadowRaysNeverMeetAConvexSourceAgain) {
         rays.push_back(shadow_ray_to(b.surface, b.surface.point + b.scattered * 10.0));
       }
     }
-    ASSERT_GT(rays.size(), 500u) << place.name;
+    ASSERT_GT(rays.size(), 300u) << place.name;
     for (const KernelTable* kernels : {select_kernels("auto").value(), &reference_kernels()}) {
       for (const Hit& hit : run_closest(*kernels, scene.geometry.view(), rays, {})) {
         ASSERT_EQ(hit.id, no_primitive) << place.name;
@@ -190,7 +192,7 @@ TEST(Surface, RaysThatGoInsideMeetTheFarSide) {
                        std::fabs(dot(direction, b.surface.normal)));
     }
     const auto hits = run_closest(*select_kernels("auto").value(), scene.geometry.view(), rays, {});
-    ASSERT_GT(hits.size(), 500u) << place.name;
+    ASSERT_GT(hits.size(), 300u) << place.name;
     for (std::size_t k = 0; k < hits.size(); ++k) {
       ASSERT_EQ(hits[k].id, 0) << place.name;
       // The direction is a float: the chord is known to 6e-8 of the diameter, not better.

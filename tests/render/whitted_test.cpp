@@ -165,8 +165,9 @@ TEST(Whitted, WhatOverflowsIsTheLargestFloatAndNeverNan) {
   scene.background = ConstantBackground{gray(3e38f)};
   scene.lights = {PointLight{{3, 5, 4}, {3e38f, 0, 1}, Falloff::inverse_square},
                   PointLight{{0, 1, 1.5f}, {3e38f, 0, 1e-45f}, Falloff::inverse_square}};
-  add_material(scene, Phong{{0, 3e38f, 1}, 3e38f, 3e38f, 3e38f, 3e38f, 3e38f, 1e-38f});
-  for (Sphere& s : scene.spheres) s.material = 8;
+  const auto wild =
+      add_material(scene, Phong{{0, 3e38f, 1}, 3e38f, 3e38f, 3e38f, 3e38f, 3e38f, 1e-38f});
+  for (Sphere& s : scene.spheres) s.material = wild;
   for (const Color& c : render(scene).pixels) {
     for (const float x : {c.r, c.g, c.b}) EXPECT_TRUE(x >= 0 && x <= largest);
   }

@@ -1,0 +1,123 @@
+# Who may include what, and who owns what: ARCHITECTURE's layers and owners, from the text alone.
+# Reads source files by their path from the root; prints "PATH:LINE: what is wrong".
+
+BEGIN {
+  any = ""
+  word = "[^_a-zA-Z0-9.>]"  # what may stand before a name
+  plain_std = "^<[a-z_0-9]+>$"
+  # What holds no containers, strings, streams and makes no call into another object.
+  kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
+  kernel_core = "^core/(base/platform|math/vec|math/elementary)\\.h$"
+  narrow = "^(core|simd/(abi|build|dispatch))/"
+
+  layer("^core/", "^core/", plain_std)
+  layer("^simd/abi/", "^(simd/abi/|core/base/platform\\.h$)", kernel_std)
+  layer("^simd/build/", "^(core|simd/(abi|build))/", plain_std)
+  layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
+  layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
+  layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
+  layer("^render/scene_file/", "^(core|render/scene_file)/", any)
+  layer("^render/image/", "^(core|render/image)/", any)
+  layer("^render/frame/", "^(core|render/(image|frame))/", any)
+  layer("^render/prepare/", narrow "|^render/prepare/", any)
+  layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
+  layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
+  layer("^render/renderer/",
+        narrow "|^render/(image|frame|prepare|shading|integrators|renderer)/", any)
+  layer("^render/cli/", narrow "|^render/", any)
+  layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
+  layer("^(tests|bench)/", narrow "|^render/(scene_file|image|frame|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+
+  # Outside things and their one owner; tests and benchmarks are free to use them.
+  owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
+  owner("#include <OpenImageIO/", "^render/image/image_file\\.cpp$", "OpenImageIO")
+  owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/frame/scheduler\\.", "threads")
+  owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/frame/scheduler\\.", "threads")
+  owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
+  owner("#include <(iostream|print)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?f?printf|f?puts|f?putc|putchar|fmt::print|perror)[ (]", "^render/cli/", "the terminal")
+  owner(word "(_exit|_Exit|exit|quick_exit|abort|terminate)[ ]*\\(", "^render/cli/", "the end of the process")
+  owner(word "(secure_)?getenv[ ]*\\(", "^(render/cli|simd/dispatch)/", "the environment")
+  anywhere("^[ \t]*#[ \t]*define[ \t]", "^core/base/platform\\.h$", "a macro")
+}
+
+function layer(path, project, outside) {
+  layer_path[++layers] = path
+  layer_project[layers] = project
+  layer_std[layers] = outside
+}
+function owner(pattern, path, what) {
+  owner_pattern[++owners] = pattern
+  owner_path[owners] = path
+  owner_what[owners] = what
+}
+function anywhere(pattern, path, what) {
+  owner(pattern, path, what)
+  owner_everywhere[owners] = 1
+}
+
+function complain(text) {
+  print FILENAME ":" FNR ": " text
+  wrong = 1
+}
+
+function check_include(line,    name, outside) {
+  name = line
+  sub(/^[ \t]*#[ \t]*include[ \t]*/, "", name)
+  sub(/[ \t]*$/, "", name)
+  if (!own) {
+    complain("belongs to no layer")
+  } else if (name ~ /^</) {
+    outside = layer_std[own]
+    if (outside != "" && name !~ outside) complain("may not include " name)
+  } else {
+    gsub(/"/, "", name)
+    if (name !~ /^(core|simd|render|tests|bench)\// || name ~ /\.\.?\//) {
+      complain("include \"" name "\" is not written from the root")
+    } else if (name !~ layer_project[own]) {
+      complain("may not include " name)
+    }
+  }
+}
+
+FNR == 1 {
+  finish()
+  file = FILENAME
+  own = 0
+  for (i = 1; i <= layers && !own; ++i) {
+    if (FILENAME ~ layer_path[i]) own = i
+  }
+}
+
+{
+  lines = FNR
+  code = $0
+  if (code ~ /^[ \t]*#[ \t]*include/) {
+    sub(/[ \t]*\/\/.*/, "", code)
+    check_include(code)
+  } else {
+    # Comments and literals say what they like. A quote inside a character is not a string's.
+    gsub(/'\\?.'/, "0", code)
+    gsub(/\\./, "", code)
+    gsub(/"[^"]*"/, "0", code)
+    sub(/\/\/.*/, "", code)
+
+  }
+  for (i = 1; i <= owners; ++i) {
+    if (!owner_everywhere[i] && FILENAME ~ /^(tests|bench)\//) continue
+    if ((" " code " ") ~ owner_pattern[i] && FILENAME !~ owner_path[i]) {
+      complain(owner_what[i] " has another owner")
+    }
+  }
+}
+
+function finish() {
+  if (file != "" && lines > 500) {
+    print file ":" lines ": longer than 500 lines"
+    wrong = 1
+  }
+}
+
+END {
+  finish()
+  exit wrong
+}
