@@ -12,9 +12,9 @@ struct SphereView {
   const float* center_y;
   const float* center_z;
   const float* radius;
-  /// -(r^2 (1 + 8u) + 1e-36), rounded outward; -inf where the reject must not decide.
+  /// -r2p of filter_bounds.h; -inf where the reject must not decide.
   const float* reject_threshold;
-  /// r (1 + 8u) + 1e-18, rounded outward; inf where the reject must not decide.
+  /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
   std::size_t size;
 };

@@ -58,7 +58,7 @@ void Geometry::set_sphere(std::size_t i, const Sphere& sphere) {
     return;
   }
   const double r = std::fabs(double{sphere.radius});
-  constexpr double outward = 1 + filter::radius_slack * filter::u;
+  constexpr double outward = 1 + filter::slack * filter::u;
   threshold_[i] = -round_up(r * r * outward + filter::squared_floor);
   reject_radius_[i] = round_up(r * outward + filter::floor);
 }

@@ -27,7 +27,8 @@ struct ExactRays {
 /// The rays as the float filter sees them: distances along the unit direction h.
 struct FilterRays {
   Vec3<Real> org;       ///< rounded to float
-  Vec3<Real> h;         ///< dir / |dir|, computed in double, rounded; NaN: let everything through
+  Vec3<Real> h;         ///< dir / |dir| (1 + slack u / 2), rounded; NaN: let everything pass
+  Vec3<Real> unit;      ///< dir / |dir|, rounded: for solver fast
   Real origin_error;    ///< bound of |org - exact origin|, plus filter::floor
   bool origins_exact;   ///< every origin is a float
   Wide length;          ///< |dir|
@@ -59,15 +60,19 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   out.org = narrow(rays.org);
   const Wide error = sum_abs(rays.org - widen(out.org));
   out.origins_exact = !any(Wide(0.0) < error);
-  out.origin_error = narrow(error * Wide(1 + 8 * filter::u) + Wide(filter::floor));
+  out.origin_error = narrow(error * Wide(1 + filter::slack * filter::u) + Wide(filter::floor));
   out.length = sqrt(rays.a);
   const Wide inverse_length = Wide(1.0) / out.length;
   out.inverse_length = narrow(inverse_length);
-  out.h = narrow(rays.dir * inverse_length);  // NaN for dir 0 and for anything not finite
+  // NaN for dir 0 and for anything not finite.
+  out.unit = narrow(rays.dir * inverse_length);
+  out.h = narrow(rays.dir * (inverse_length * Wide(1 + filter::slack / 2 * filter::u)));
   const Real limit(filter::limit);
   const RealMask small =
       (abs(out.org.x) < limit) & (abs(out.org.y) < limit) & (abs(out.org.z) < limit);
-  out.h.x = select(small, out.h.x, Real(std::numeric_limits<float>::quiet_NaN()));
+  const Real nan(std::numeric_limits<float>::quiet_NaN());
+  out.h.x = select(small, out.h.x, nan);
+  out.unit.x = select(small, out.unit.x, nan);
   const Real zero(0.0F);
   out.nearest =
       select(narrow(rays.tmin) < zero, Real(-std::numeric_limits<float>::infinity()), zero);

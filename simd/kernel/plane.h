@@ -25,7 +25,7 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const PlaneLanes& plane) 
 /// Solver fast: the same in float, along the unit direction; a nearly parallel plane makes it
 /// wrong.
 BOULE_INLINE Roots solve_fast(const RayLanes& rays, const PlaneLanes& plane) {
-  const Vec3<Real>&n = plane.normal, &h = rays.filter.h;
+  const Vec3<Real>&n = plane.normal, &h = rays.filter.unit;
   const Vec3<Real> f = plane.point - rays.filter.org;
   const Real along = filter_fma(h.z, n.z, filter_fma(h.y, n.y, h.x * n.x));
   const Real height = filter_fma(f.z, n.z, filter_fma(f.y, n.y, f.x * n.x));

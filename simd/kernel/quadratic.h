@@ -18,7 +18,7 @@ struct SphereLanes {
 /// it lies.
 struct Approach {
   Vec3<Real> f;  ///< centre - origin
-  Real b;        ///< f.h
+  Real b;        ///< f.h, a little too long: 1 + slack u / 2
 };
 
 BOULE_INLINE Approach approach(const FilterRays& rays, const Vec3<Real>& center) {
@@ -32,10 +32,9 @@ BOULE_INLINE Approach approach(const FilterRays& rays, const Vec3<Real>& center)
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected(const FilterRays& rays, const Approach& near,
                                const Real& reject_threshold, const Real& reject_radius) {
-  constexpr auto minus_shrunk = static_cast<float>(-(1 - filter::slack * filter::u));
   const Vec3<Real>& f = near.f;
-  const Real s = filter_fma(f.z, f.z, filter_fma(f.y, f.y, f.x * f.x));
-  const Real value = filter_fma(near.b, near.b, s * Real(minus_shrunk));
+  const Real value =
+      filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, near.b * near.b)));
   if constexpr (origins_exact) {
     return value < reject_threshold;
   } else {
@@ -85,24 +84,23 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
 
 /// Solver fast: closest approach in float along the unit direction. Wrong decisions only within
 /// 3u max(F, r) of the rim; spheres and origins beyond filter::limit are missed.
-BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere,
-                              const Approach& near) {
+BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   const FilterRays& filter = rays.filter;
-  const Real minus_b = Real(0.0F) - near.b;
-  const Vec3<Real> l{filter_fma(minus_b, filter.h.x, near.f.x),
-                     filter_fma(minus_b, filter.h.y, near.f.y),
-                     filter_fma(minus_b, filter.h.z, near.f.z)};
+  const Vec3<Real> f = sphere.center - filter.org;
+  const Vec3<Real>& h = filter.unit;
+  const Real b = filter_fma(f.z, h.z, filter_fma(f.y, h.y, f.x * h.x));
+  const Vec3<Real> l{filter_fnma(b, h.x, f.x), filter_fnma(b, h.y, f.y), filter_fnma(b, h.z, f.z)};
   const Real l2 = filter_fma(l.z, l.z, filter_fma(l.y, l.y, l.x * l.x));
   const Real discriminant = filter_fma(sphere.radius, sphere.radius, Real(0.0F) - l2);
   const Real half_chord = sqrt(discriminant);
-  const Wide first = widen((near.b - half_chord) * filter.inverse_length);
-  const Wide second = widen((near.b + half_chord) * filter.inverse_length);
+  const Wide first = widen((b - half_chord) * filter.inverse_length);
+  const Wide second = widen((b + half_chord) * filter.inverse_length);
   Roots roots = first_in_range(first, second, rays.exact);
   roots.hit = roots.hit & widen(Real(0.0F) <= discriminant);
 
   if (rays.exact.has_source) {
     const WideMask leaves = rays.exact.source == sphere.id;
-    const Wide across = widen((near.b + near.b) * filter.inverse_length);
+    const Wide across = widen((b + b) * filter.inverse_length);
     const WideMask is_sphere = widen(sphere.radius <= sphere.radius);
     const WideMask again = rays.exact.inside & is_sphere & in_range(across, rays.exact);
     roots.t = select(leaves, across, roots.t);

@@ -96,7 +96,7 @@ BOULE_INLINE void solve_step(const RayLanes& rays, const SphereView& spheres, st
       out_of_range(rays.filter, near, sphere.radius, best.reach);
   if (all(out)) return;
   if constexpr (solver == Solver::fast) {
-    best.offer(solve_fast(rays, sphere, near), sphere.id, rays);
+    best.offer(solve_fast(rays, sphere), sphere.id, rays);
   } else {
     best.offer(solve_robust(rays.exact, sphere), sphere.id, rays);
   }

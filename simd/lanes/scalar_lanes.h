@@ -69,6 +69,8 @@ BOULE_INLINE Wide abs(Wide a) { return std::fabs(a.v); }
 BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) { return std::copysign(magnitude.v, sign.v); }
 BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return a.v * b.v + c.v; }
 
+BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) { return c.v - a.v * b.v; }
+
 BOULE_INLINE Wide widen(Real a) { return static_cast<double>(a.v); }
 BOULE_INLINE Real narrow(Wide a) { return static_cast<float>(a.v); }
 BOULE_INLINE WideMask widen(RealMask a) { return {a.m}; }

@@ -42,6 +42,9 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
   return _mm512_insertf32x8(low, _mm512_cvtpd_ps(hi), 1);
 }
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a, b, c); }
+BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
+  return _mm512_fnmadd_ps(a, b, c);
+}
 
 #elif defined(__AVX2__)
 
@@ -59,6 +62,9 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
   return _mm256_insertf128_ps(low, _mm256_cvtpd_ps(hi), 1);
 }
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }
+BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
+  return _mm256_fnmadd_ps(a, b, c);
+}
 
 #elif defined(__SSE4_2__)
 
@@ -72,6 +78,7 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
   return _mm_movelh_ps(_mm_cvtpd_ps(lo), _mm_cvtpd_ps(hi));
 }
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
+BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) { return c - a * b; }
 
 #else
 
@@ -95,6 +102,9 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
   return vcvt_high_f32_f64(vcvt_f32_f64(lo), hi);
 }
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return vfmaq_f32(c, a, b); }
+BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
+  return vfmsq_f32(c, a, b);
+}
 
 #endif
 

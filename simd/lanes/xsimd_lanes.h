@@ -88,8 +88,12 @@ BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) {
   return {xsimd::copysign(magnitude.lo, sign.lo), xsimd::copysign(magnitude.hi, sign.hi)};
 }
 
-/// a b + c, fused where the ISA can: for filters and solver fast only, never for an exact path.
+/// a b + c and c - a b, fused where the ISA can: for filters and solver fast only, never for an
+/// exact path.
 BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return gaps::multiply_add(a.v, b.v, c.v); }
+BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
+  return gaps::negated_multiply_add(a.v, b.v, c.v);
+}
 
 BOULE_INLINE Wide widen(Real a) { return {gaps::widen_low(a.v), gaps::widen_high(a.v)}; }
 BOULE_INLINE WideMask widen(RealMask a) { return {gaps::widen_low(a.m), gaps::widen_high(a.m)}; }

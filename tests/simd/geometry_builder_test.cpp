@@ -54,7 +54,7 @@ TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
   const SphereView view = geometry.view().spheres;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const double r = spheres[i].radius;
-    const double r2p = r * r * (1 + 8 * 0x1p-24) + 1e-36, rp = r * (1 + 8 * 0x1p-24) + 1e-18;
+    const double r2p = r * r * (1 + 24 * 0x1p-24) + 1e-36, rp = r * (1 + 24 * 0x1p-24) + 1e-18;
     ASSERT_GE(-double{view.reject_threshold[i]}, r2p);
     ASSERT_LE(-double{view.reject_threshold[i]}, r2p * (1 + 2 * 0x1p-23));
     ASSERT_GE(double{view.reject_radius[i]}, rp);

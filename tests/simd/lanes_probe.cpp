@@ -17,6 +17,7 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.sqrt, sqrt(a));
   store(out.abs, abs(a));
   store(out.fma, filter_fma(a, b, c));
+  store(out.fnma, filter_fnma(a, b, c));
   store(out.select, select(a < b, a, c));
   store(out.narrow, narrow(x));
   store(out.wide_add, x + y);

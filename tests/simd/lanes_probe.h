@@ -14,7 +14,8 @@ struct LaneInputs {
 struct LaneOutputs {
   int width;
   alignas(64) float add[most_lanes], sub[most_lanes], mul[most_lanes], div[most_lanes];
-  alignas(64) float sqrt[most_lanes], abs[most_lanes], fma[most_lanes], select[most_lanes];
+  alignas(64) float sqrt[most_lanes], abs[most_lanes], fma[most_lanes], fnma[most_lanes],
+      select[most_lanes];
   alignas(64) float narrow[most_lanes];
   alignas(64) double wide_add[most_lanes], wide_sub[most_lanes], wide_mul[most_lanes];
   alignas(64) double wide_div[most_lanes], wide_sqrt[most_lanes], wide_abs[most_lanes];

@@ -151,6 +151,7 @@ TEST_P(Lanes, FilterFmaIsFusedWhereTheIsaCan) {
   for_all_lanes([fused](const LaneInputs& in, const LaneOutputs& out, int i) {
     const float a = in.a[i], b = in.b[i], c = in.c[i];
     ASSERT_TRUE(same(out.fma[i], fused ? std::fma(a, b, c) : a * b + c));
+    ASSERT_TRUE(same(out.fnma[i], fused ? std::fma(-a, b, c) : c - a * b));
   });
 }
 
