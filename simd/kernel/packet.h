@@ -26,14 +26,15 @@ struct ExactRays {
 
 /// The rays as the float filter sees them: distances along the unit direction h.
 struct FilterRays {
-  Vec3<Real> org;       ///< rounded to float
-  Vec3<Real> h;         ///< dir / |dir| (1 + slack u / 2), rounded; NaN: let everything pass
-  Vec3<Real> unit;      ///< dir / |dir|, rounded: for solver fast
-  Real origin_error;    ///< bound of |org - exact origin|, plus filter::floor
-  bool origins_exact;   ///< every origin is a float
-  Wide length;          ///< |dir|
-  Real inverse_length;  ///< 1 / |dir|
-  Real nearest;         ///< lower bound of live t |dir|: 0, or -inf where tmin < 0
+  Vec3<Real> org;           ///< rounded to float
+  Vec3<Real> h;             ///< dir / |dir| (1 + slack u / 2), rounded; NaN: let everything pass
+  Vec3<Real> unit;          ///< dir / |dir|, rounded: for solver fast
+  Real origin_error;        ///< bound of |org - exact origin|, plus filter::floor
+  bool origins_exact;       ///< every origin is a float
+  Wide length;              ///< |dir|
+  Real inverse_length;      ///< 1 / |dir|
+  Real live_from, live_to;  ///< inner bounds of the live interval of t |dir|
+  Real dead_below;          ///< nothing is live below this t |dir|: 0, or -inf where tmin < 0
 };
 
 struct RayLanes {
@@ -55,6 +56,11 @@ BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
   return {narrow(v.x), narrow(v.y), narrow(v.z)};
 }
 
+/// a.b for filters, fused where the ISA can.
+BOULE_INLINE Real filter_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return filter_fma(a.z, b.z, filter_fma(a.y, b.y, a.x * b.x));
+}
+
 BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   FilterRays out;
   out.org = narrow(rays.org);
@@ -73,9 +79,11 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   const Real nan(std::numeric_limits<float>::quiet_NaN());
   out.h.x = select(small, out.h.x, nan);
   out.unit.x = select(small, out.unit.x, nan);
-  const Real zero(0.0F);
-  out.nearest =
-      select(narrow(rays.tmin) < zero, Real(-std::numeric_limits<float>::infinity()), zero);
+  const Real from = narrow(rays.tmin * out.length), to = narrow(rays.tmax * out.length);
+  const Real zero(0.0F), slack(static_cast<float>(8 * filter::u));
+  out.live_from = from + abs(from) * slack;
+  out.live_to = to - abs(to) * slack;
+  out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
   return out;
 }
 

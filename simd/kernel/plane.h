@@ -27,8 +27,8 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const PlaneLanes& plane) 
 BOULE_INLINE Roots solve_fast(const RayLanes& rays, const PlaneLanes& plane) {
   const Vec3<Real>&n = plane.normal, &h = rays.filter.unit;
   const Vec3<Real> f = plane.point - rays.filter.org;
-  const Real along = filter_fma(h.z, n.z, filter_fma(h.y, n.y, h.x * n.x));
-  const Real height = filter_fma(f.z, n.z, filter_fma(f.y, n.y, f.x * n.x));
+  const Real along = filter_dot(h, n);
+  const Real height = filter_dot(f, n);
   const Wide t = widen(height / along * rays.filter.inverse_length);
   const WideMask crosses = widen(Real(0.0F) < abs(along));
   const WideMask leaves = rays.exact.source == plane.id;

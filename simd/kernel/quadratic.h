@@ -14,43 +14,20 @@ struct SphereLanes {
   Wide id;
 };
 
-/// What the filter computes of a pair: the centre seen from the origin, and how far along the ray
-/// it lies.
-struct Approach {
-  Vec3<Real> f;  ///< centre - origin
-  Real b;        ///< f.h, a little too long: 1 + slack u / 2
-};
-
-BOULE_INLINE Approach approach(const FilterRays& rays, const Vec3<Real>& center) {
-  const Vec3<Real> f = center - rays.org;
-  const Real b = filter_fma(f.z, rays.h.z, filter_fma(f.y, rays.h.y, f.x * rays.h.x));
-  return {f, b};
-}
-
 /// Lanes that certainly miss (filter_bounds.h). `origins_exact` is FilterRays::origins_exact: else
 /// the sphere grows by the origin's rounding error.
 template <bool origins_exact>
-BOULE_INLINE RealMask rejected(const FilterRays& rays, const Approach& near,
+BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& reject_threshold, const Real& reject_radius) {
-  const Vec3<Real>& f = near.f;
-  const Real value =
-      filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, near.b * near.b)));
+  const Vec3<Real> f = center - rays.org;
+  const Real b = filter_dot(f, rays.h);
+  const Real value = filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, b * b)));
   if constexpr (origins_exact) {
     return value < reject_threshold;
   } else {
     const Real grown = reject_radius + rays.origin_error;
     return filter_fma(grown, grown, value) < Real(0.0F);
   }
-}
-
-/// Lanes that meet the sphere, if at all, certainly before t = 0 or beyond `reach` = best t |dir|.
-BOULE_INLINE RealMask out_of_range(const FilterRays& rays, const Approach& near, const Real& radius,
-                                   const Real& reach) {
-  constexpr auto slack = static_cast<float>(filter::range_slack * filter::u);
-  const Vec3<Real>& f = near.f;
-  const Real extent = abs(radius) * Real(1 + slack) + rays.origin_error +
-                      Real(slack) * (abs(f.x) + abs(f.y) + abs(f.z));
-  return (reach < near.b - extent) | (near.b + extent < rays.nearest);
 }
 
 /// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.
@@ -88,10 +65,9 @@ BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   const FilterRays& filter = rays.filter;
   const Vec3<Real> f = sphere.center - filter.org;
   const Vec3<Real>& h = filter.unit;
-  const Real b = filter_fma(f.z, h.z, filter_fma(f.y, h.y, f.x * h.x));
+  const Real b = filter_dot(f, h);
   const Vec3<Real> l{filter_fnma(b, h.x, f.x), filter_fnma(b, h.y, f.y), filter_fnma(b, h.z, f.z)};
-  const Real l2 = filter_fma(l.z, l.z, filter_fma(l.y, l.y, l.x * l.x));
-  const Real discriminant = filter_fma(sphere.radius, sphere.radius, Real(0.0F) - l2);
+  const Real discriminant = filter_fma(sphere.radius, sphere.radius, Real(0.0F) - filter_dot(l, l));
   const Real half_chord = sqrt(discriminant);
   const Wide first = widen((b - half_chord) * filter.inverse_length);
   const Wide second = widen((b + half_chord) * filter.inverse_length);

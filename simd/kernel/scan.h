@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
+#include "simd/kernel/interval.h"
 #include "simd/kernel/primitive_access.h"
 
 /// Brute force: every primitive against the rays. A hot float loop lists the steps that some lane
@@ -13,7 +14,7 @@ namespace boule::BOULE_KERNEL_ISA {
 /// The nearest hit so far, per lane.
 struct ClosestHit {
   Wide t, id;
-  Real reach;  ///< upper bound of live t |dir|
+  Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
       : t(no_hit), id(-1.0), reach(bound(rays.exact.tmax, rays)) {}
@@ -22,28 +23,46 @@ struct ClosestHit {
     return narrow(t * rays.filter.length) * Real(static_cast<float>(1 + 8 * filter::u));
   }
 
+  /// Takes what float knows of a sphere; false if the double solve can add nothing.
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out,
+                             const FilterRays& rays) {
+    const Real high = highest(roots, rays);
+    reach = select(high < reach, high, reach);
+    return wants(low, out);
+  }
+  /// Whether a sphere whose roots begin at `low` could still be the nearest in a lane not `out`.
+  BOULE_INLINE bool wants(const Real& low, unsigned out) const {
+    return (bits(reach < low) | out) != all_lanes;
+  }
+
   BOULE_INLINE void offer(const Roots& roots, const Wide& primitive, const RayLanes& rays) {
     const WideMask nearer = (roots.t < t) | ((roots.t == t) & (primitive < id));
     const WideMask better = roots.hit & nearer;
     if (!any(better)) return;
     t = select(better, roots.t, t);
     id = select(better, primitive, id);
-    const Wide end = select(t < rays.exact.tmax, t, rays.exact.tmax);
-    reach = bound(end, rays);
+    const Real end = bound(t, rays);
+    reach = select(end < reach, end, reach);
   }
   static constexpr bool done() { return false; }
   static constexpr std::size_t chunk = 256;
 };
 
-/// Whether anything is hit, per lane; `done` says what ends the search.
+/// Whether anything is hit, per lane; `one_ray`: all lanes are the same ray, one hit is enough.
 template <bool one_ray>
 struct AnyHit {
   unsigned hit = 0;
-  Real reach;
 
-  BOULE_INLINE explicit AnyHit(const RayLanes& rays)
-      : reach(ClosestHit::bound(rays.exact.tmax, rays)) {}
+  BOULE_INLINE explicit AnyHit(const RayLanes&) {}
 
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out,
+                             const FilterRays& rays) {
+    hit |= bits(live(roots, rays));
+    return wants(low, out);
+  }
+  BOULE_INLINE bool wants(const Real&, unsigned out) const {
+    return !done() && (out | hit) != all_lanes;
+  }
   BOULE_INLINE void offer(const Roots& roots, const Wide&, const RayLanes&) {
     hit |= bits(roots.hit);
   }
@@ -64,7 +83,7 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const SphereView& spher
                                  std::size_t begin, std::size_t end,
                                  Survivors<capacity>& survivors) {
   const auto test = [&](std::size_t step) {
-    return rejected<origins_exact>(rays, approach(rays, sphere_center<Access>(spheres, step)),
+    return rejected<origins_exact>(rays, sphere_center<Access>(spheres, step),
                                    Access::get(spheres.reject_threshold, step),
                                    Access::get(spheres.reject_radius, step));
   };
@@ -85,19 +104,54 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const SphereView& spher
   for (; step < end; ++step) append(step, test(step));
 }
 
-/// The solves of one surviving step, for the lanes that need them.
-template <Solver solver, class Access, class Best>
-BOULE_INLINE void solve_step(const RayLanes& rays, const SphereView& spheres, std::size_t step,
-                             Best& best) {
-  const SphereLanes sphere = get_sphere<Access>(spheres, step);
-  const Approach near = approach(rays.filter, sphere.center);
-  const RealMask out =
-      rejected<false>(rays.filter, near, sphere.reject_threshold, sphere.reject_radius) |
-      out_of_range(rays.filter, near, sphere.radius, best.reach);
-  if (all(out)) return;
-  if constexpr (solver == Solver::fast) {
-    best.offer(solve_fast(rays, sphere), sphere.id, rays);
-  } else {
+/// Survivors that only the double solve can decide.
+template <std::size_t capacity>
+struct Candidates {
+  alignas(64) float low[capacity][width];  ///< lower bounds of their roots
+  std::uint32_t offset[capacity];
+  unsigned out[capacity];  ///< lanes that have no live root
+  std::size_t count = 0;
+
+  BOULE_INLINE void append(std::uint32_t step_offset, const Real& lower, unsigned dead_lanes) {
+    store(low[count], lower);
+    out[count] = dead_lanes;
+    offset[count++] = step_offset;
+  }
+};
+
+/// Everything that float can decide about the survivors; what it cannot is left to the solver.
+template <class Access, class Best, std::size_t capacity>
+BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& spheres,
+                                  std::size_t begin, const Survivors<capacity>& survivors,
+                                  Candidates<capacity>& candidates, Best& best) {
+  for (std::size_t k = 0; k < survivors.count; ++k) {
+    const std::size_t step = begin + survivors.offset[k];
+    if (rays.exact.has_source && any(rays.exact.source == Access::id(0, step))) {
+      // Leaving this very sphere: only the solver knows what that means.
+      candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
+      continue;
+    }
+    const RootBounds roots = bound_roots(rays.filter, sphere_center<Access>(spheres, step),
+                                         Access::get(spheres.radius, step));
+    const Real low = lowest(roots, rays.filter);
+    const unsigned out = bits(dead(roots, rays.filter));
+    if (best.consider(roots, low, out, rays.filter)) {
+      candidates.append(survivors.offset[k], low, out);
+    }
+  }
+}
+
+/// Solver robust on survivors: first everything that float can decide, then the double solves that
+/// are left.
+template <class Access, class Best, std::size_t capacity>
+BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& spheres,
+                                  std::size_t begin, const Survivors<capacity>& survivors,
+                                  Best& best) {
+  Candidates<capacity> candidates;
+  list_candidates<Access>(rays, spheres, begin, survivors, candidates, best);
+  for (std::size_t k = 0; k < candidates.count; ++k) {
+    if (!best.wants(load(candidates.low[k]), candidates.out[k])) continue;
+    const SphereLanes sphere = get_sphere<Access>(spheres, begin + candidates.offset[k]);
     best.offer(solve_robust(rays.exact, sphere), sphere.id, rays);
   }
 }
@@ -109,8 +163,13 @@ BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, 
     const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
     Survivors<Best::chunk> survivors;
     list_survivors<Access, origins_exact>(rays.filter, spheres, begin, end, survivors);
-    for (std::size_t k = 0; k < survivors.count; ++k) {
-      solve_step<solver, Access>(rays, spheres, begin + survivors.offset[k], best);
+    if constexpr (solver == Solver::robust) {
+      solve_survivors<Access>(rays, spheres, begin, survivors, best);
+    } else {
+      for (std::size_t k = 0; k < survivors.count; ++k) {
+        const SphereLanes sphere = get_sphere<Access>(spheres, begin + survivors.offset[k]);
+        best.offer(solve_fast(rays, sphere), sphere.id, rays);
+      }
     }
   }
 }

@@ -5,7 +5,7 @@
 #include "core/base/platform.h"
 
 /// What xsimd 8.1 lacks or gets wrong, once per instruction set: mask bits, float <-> double of a
-/// whole register, and a multiply-add that is fused wherever the ISA can.
+/// whole register, a multiply-add that is fused wherever the ISA can, exact division.
 namespace boule::BOULE_KERNEL_ISA {
 
 #if defined(__AVX512F__)
@@ -45,6 +45,7 @@ BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm512_f
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return _mm512_fnmadd_ps(a, b, c);
 }
+BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
 
 #elif defined(__AVX2__)
 
@@ -65,6 +66,7 @@ BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_f
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return _mm256_fnmadd_ps(a, b, c);
 }
+BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
 
 #elif defined(__SSE4_2__)
 
@@ -79,6 +81,7 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
 }
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) { return c - a * b; }
+BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
 
 #else
 
@@ -105,6 +108,8 @@ BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return vfmaq_f3
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return vfmsq_f32(c, a, b);
 }
+// xsimd's own is ARMv7's: an estimate and two Newton steps, not correctly rounded.
+BOULE_INLINE Floats divide(Floats a, Floats b) { return vdivq_f32(a, b); }
 
 #endif
 

@@ -49,7 +49,7 @@ BOULE_INLINE Wide lane_numbers() {
 BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }
 BOULE_INLINE Real operator-(Real a, Real b) { return a.v - b.v; }
 BOULE_INLINE Real operator*(Real a, Real b) { return a.v * b.v; }
-BOULE_INLINE Real operator/(Real a, Real b) { return a.v / b.v; }
+BOULE_INLINE Real operator/(Real a, Real b) { return gaps::divide(a.v, b.v); }
 BOULE_INLINE Wide operator+(Wide a, Wide b) { return {a.lo + b.lo, a.hi + b.hi}; }
 BOULE_INLINE Wide operator-(Wide a, Wide b) { return {a.lo - b.lo, a.hi - b.hi}; }
 BOULE_INLINE Wide operator*(Wide a, Wide b) { return {a.lo * b.lo, a.hi * b.hi}; }

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "simd/kernel/quadratic.h"
+
+/// What float knows for certain of a sphere that survived the reject: where its roots lie. Most
+/// survivors need no double solve then: another sphere is certainly nearer.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Bounds of both roots as distances t |dir|, outward by filter_bounds.h. NaN where float cannot
+/// tell: every comparison with it is false, so nothing follows from it.
+struct RootBounds {
+  Real first_low, first_high, second_low, second_high;
+  RealMask certain;  ///< the line meets the sphere: all four bounds hold
+  RealMask misses;   ///< it does not
+};
+
+BOULE_INLINE RootBounds bound_roots(const FilterRays& rays, const Vec3<Real>& center,
+                                    const Real& signed_radius) {
+  constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
+  const Vec3<Real> f = center - rays.org;
+  const Real b = filter_dot(f, rays.unit), r = abs(signed_radius);
+  const Vec3<Real> l{filter_fnma(b, rays.unit.x, f.x), filter_fnma(b, rays.unit.y, f.y),
+                     filter_fnma(b, rays.unit.z, f.z)};
+  const Real square = r * r, discriminant = square - filter_dot(l, l);
+  const Real spread =
+      filter_fma(abs(f.x) + abs(f.y) + abs(f.z) + r, Real(unit_spread), rays.origin_error);
+  const Real doubt = spread * (r + r + Real(3.0F) * spread) + Real(unit_spread) * square;
+
+  RootBounds bounds;
+  bounds.certain = doubt < discriminant;
+  bounds.misses = discriminant + doubt < Real(0.0F);
+  const Real least = sqrt(discriminant - doubt), most = sqrt(discriminant + doubt);
+  bounds.first_low = b - spread - most;
+  bounds.first_high = b + spread - least;
+  bounds.second_low = b - spread + least;
+  bounds.second_high = b + spread + most;
+  return bounds;
+}
+
+/// Lower bound of the root that could be the hit.
+BOULE_INLINE Real lowest(const RootBounds& roots, const FilterRays& rays) {
+  return select(roots.first_high < rays.dead_below, roots.second_low, roots.first_low);
+}
+
+/// Lanes without a live root.
+BOULE_INLINE RealMask dead(const RootBounds& roots, const FilterRays& rays) {
+  return roots.misses | (roots.second_high < rays.dead_below);
+}
+
+/// Upper bound of the first live root, or inf: nothing live lies beyond it that could be nearer.
+BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
+  const Real none(static_cast<float>(no_hit));
+  const Real second = select(rays.live_from < roots.second_low, roots.second_high, none);
+  const Real first = select(rays.live_from < roots.first_low, roots.first_high, second);
+  return select(roots.certain, first, none);
+}
+
+/// Lanes with a root that is live for certain.
+BOULE_INLINE RealMask live(const RootBounds& roots, const FilterRays& rays) {
+  const RealMask first = (rays.live_from < roots.first_low) & (roots.first_high <= rays.live_to);
+  const RealMask second = (rays.live_from < roots.second_low) & (roots.second_high <= rays.live_to);
+  return roots.certain & (first | second);
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
