@@ -79,7 +79,7 @@ Result<NpyHeader> parse_npy_dict(std::string_view text) {
   LiteralReader reader(text);
   bool has_descr = false, has_order = false, has_shape = false;
   if (!reader.take("{")) return broken("its header is no dict");
-  while (!reader.take("}")) {
+  for (bool more = true; more && !reader.take("}");) {
     std::string key;
     if (!reader.take_string(key) || !reader.take(":")) return broken("a key was expected");
     bool* seen = key == "descr"           ? &has_descr
@@ -92,7 +92,8 @@ Result<NpyHeader> parse_npy_dict(std::string_view text) {
             : seen == &has_order ? reader.take_boolean(header.fortran_order)
                                  : reader.take_shape(header.shape);
     if (!*seen) return broken("header key " + quote(key) + " has an unexpected value");
-    if (!reader.take(",") && !reader.take("}")) return broken("a ',' or '}' was expected");
+    more = reader.take(",");
+    if (!more && !reader.take("}")) return broken("a ',' or '}' was expected");
   }
   if (!has_descr || !has_order || !has_shape) {
     return broken("its header lacks 'descr', 'fortran_order' or 'shape'");

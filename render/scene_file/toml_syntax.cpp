@@ -33,23 +33,25 @@ std::string_view header_name(std::string_view line) {
   return trim(line.substr(0, line.find(']')));
 }
 
-/// Where the quoted string that begins at `from` ends: behind its closing quote. A string that is
-/// not closed on its line ends there; in a multi-line string the quotes come in threes.
+/// Where the string that begins at `from` ends: behind its closing quote, or at the line's end.
 std::size_t skip_string(std::string_view text, std::size_t from) {
   const char mark = text[from];
-  const std::string three(3, mark);
-  const bool multi_line = text.substr(from, 3) == three;
-  std::size_t i = from + (multi_line ? 3 : 1);
-  for (; i < text.size(); ++i) {
-    if (text[i] == '\\' && mark == '"') {
-      ++i;
-    } else if (multi_line ? text.substr(i, 3) == three : text[i] == mark) {
-      return i + three.size() - (multi_line ? 0 : 2);
-    } else if (text[i] == '\n' && !multi_line) {
-      return i;
-    }
+  for (std::size_t i = from + 1; i < text.size() && text[i] != '\n'; ++i) {
+    if (text[i] == mark) return i + 1;
+    if (text[i] == '\\' && mark == '"') ++i;
   }
-  return text.size();
+  return std::min(text.find('\n', from), text.size());
+}
+
+/// What is wrong with a string that begins at `from`, or nullptr. toml++ reads a string that
+/// follows a bare value without a blank as part of it.
+const char* string_fault(std::string_view text, std::size_t from) {
+  constexpr std::string_view before = " \t\r\n=[{,.";
+  if (from > 0 && before.find(text[from - 1]) == std::string_view::npos) {
+    return "a string cannot begin here";
+  }
+  const std::string three(3, text[from]);
+  return text.substr(from, 3) == three ? "multi-line strings are not supported" : nullptr;
 }
 
 TextPlace place_at(std::string_view text, std::size_t offset) {
@@ -61,25 +63,29 @@ TextPlace place_at(std::string_view text, std::size_t offset) {
 
 }  // namespace
 
-Status refuse_deep_keys(std::string_view text, const std::string& file) {
+Status refuse_untrusted(std::string_view text, const std::string& file) {
   int parts = 1;
-  for (std::size_t i = 0; i < text.size();) {
+  const char* fault = nullptr;
+  std::size_t i = 0;
+  while (i < text.size()) {
     const char c = text[i];
-    if (c == '"' || c == '\'') {
-      i = skip_string(text, i);
-      continue;
-    }
-    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    const bool is_string = c == '"' || c == '\'';
+    if (is_string) fault = string_fault(text, i);
+    if (static_cast<unsigned char>(c) >= 0x7f)
+      fault = "only strings and comments may hold such a character";
     // A number has one dot and any of these before the next: only a key collects more.
-    if (c == '\n' || c == '#' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
-    if (c == '.' && ++parts > most_key_parts) {
-      const TextPlace place = place_at(text, i);
-      return Diagnostic{"a key has at most " + std::to_string(most_key_parts) + " dotted parts",
-                        key_on_line(text, place.line), file, place.line, place.column};
+    if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
+    if (c == '.' && ++parts > most_key_parts) fault = "a key has at most 32 dotted parts";
+    if (fault != nullptr) break;
+    if (is_string) {
+      i = skip_string(text, i);
+    } else {
+      i = c == '#' ? std::min(text.find('\n', i), text.size()) : i + 1;
     }
-    ++i;
   }
-  return std::nullopt;
+  if (fault == nullptr) return std::nullopt;
+  const TextPlace place = place_at(text, i);
+  return Diagnostic{fault, key_on_line(text, place.line), file, place.line, place.column};
 }
 
 std::string key_on_line(std::string_view text, int line) {

@@ -3,10 +3,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "render/scene_file/npy_header.h"
 #include "tests/scene_file/scene_dump.h"
 #include "tests/scene_file/scene_files.h"
-
-#include "render/scene_file/npy_header.h"
 
 // Bulk spheres: what .npy files hold, good and hostile.
 
@@ -208,7 +207,7 @@ const BadCloud bad_clouds[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Clouds, BadNpy, testing::ValuesIn(bad_clouds),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(NpyHeader, EveryPrefixOfADictIsRefused) {
   const std::string whole = "{\"shape\": (2, 4), 'descr': '<f4', 'fortran_order': False}";

@@ -4,9 +4,8 @@
 
 #include <filesystem>
 
-#include "tests/scene_file/scene_files.h"
-
 #include "render/scene_file/nearest_name.h"
+#include "tests/scene_file/scene_files.h"
 
 // What is a scene file at all, before anything in it is read.
 

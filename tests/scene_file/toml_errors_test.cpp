@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Whole, TomlErrors, testing::ValuesIn(whole), test::refu
 
 const Refusal syntax[] = {
     {"Garbage", scene("[image]\nspp = = 1\n"), 3, 7, "image.spp", "not valid TOML"},
-    {"NameGivenTwice", scene("[image]\nspp = 1\nspp = 2\n"), 4, 5, "image.spp",
+    {"NameGivenTwice", scene("[image]\nspp = 1\nspp = 2\n"), 4, 7, "image.spp",
      "cannot redefine existing integer 'spp'"},
     {"MaterialGivenTwice", scene("[material.red]\n[material.red]\n"), 3, 1, "material.red",
      "cannot redefine existing table 'material.red'"},
@@ -53,6 +53,13 @@ const Refusal syntax[] = {
     {"NumberBeyondInt64", scene("[image]\nspp = 99999999999999999999\n"), 3, 7, "image.spp",
      "not representable in 64 bits"},
     {"InvalidUtf8", scene("a = \"\xff\"\n"), 2, 5, "a", "utf-8"},
+    {"BeyondAscii", scene("[image]\nspp = 4\xc3\xa9\n"), 3, 8, "image.spp",
+     "only strings and comments"},
+    {"BareKeyBeyondAscii", scene("gr\xc3\xbcn = 1\n"), 2, 3, "gr\xc3\xbcn", "only strings"},
+    {"StringBehindValue", scene("a = 1\"\xc3\xa9\"\n"), 2, 6, "a", "a string cannot begin here"},
+    {"MultiLineString", scene("a = \"\"\"b\"\"\"\n"), 2, 5, "a", "multi-line strings are not"},
+    {"MultiLineLiteral", scene("a = \'\'\'b\'\'\'\n"), 2, 5, "a", "multi-line strings are not"},
+    {"EscapedQuote", scene("a = \"\\\"\xc3\xa9\" \xc3\xa9\n"), 2, 12, "a", "only strings"},
     {"EndsInString", scene("a = \"b\n"), 2, 7, "a", "not valid TOML"},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, TomlErrors, testing::ValuesIn(syntax), test::refusal_name);

@@ -224,6 +224,14 @@ TEST(TomlScene, AKeyOfManyPartsIsRefusedAtAnyLength) {
   }
 }
 
+TEST(TomlScene, NamesBeyondAscii) {
+  const Scene scene = load(
+      "schema = 1 # gr\xc3\xbcn\n[material.\"gr\xc3\xbcn\"]\n"
+      "[[sphere]]\nmaterial = 'gr\xc3\xbcn'\n");
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].name, "gr\xc3\xbcn");
+}
+
 TEST(TomlScene, DotsInStringsCommentsAndListsAreNoKeys) {
   std::string dots(100, '.'), list = "[[0.5, 0.5, 0.5]";
   for (int i = 0; i < 40; ++i) list += ", [0.5, 0.5, 0.5]";
