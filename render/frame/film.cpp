@@ -7,7 +7,7 @@ namespace boule {
 namespace {
 
 float mean(double sum, std::int32_t samples) {
-  constexpr double largest = std::numeric_limits<float>::max();
+  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::min(sum / samples, largest));
 }
 

@@ -23,9 +23,9 @@ class Film {
   /// Adds a finite sample to pixel (x, y) of the frame.
   void add(int x, int y, const Color& sample) {
     Pixel& pixel = pixels_[index(x, y)];
-    pixel.r += double{sample.r};
-    pixel.g += double{sample.g};
-    pixel.b += double{sample.b};
+    pixel.r += static_cast<double>(sample.r);
+    pixel.g += static_cast<double>(sample.g);
+    pixel.b += static_cast<double>(sample.b);
     ++pixel.samples;
   }
 

@@ -10,7 +10,7 @@
 namespace boule {
 namespace {
 
-constexpr float default_fov = 45;
+constexpr double default_fov = 45;
 
 /// Empty space around the objects, as a factor on the distance.
 constexpr double margin = 1.05;
@@ -26,14 +26,14 @@ Enclosure enclose(const std::vector<Sphere>& spheres) {
   Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
   for (const Sphere& s : spheres) {
     const Vec3d c = vec_cast<double>(s.center);
-    const double r = s.radius;
+    const auto r = static_cast<double>(s.radius);
     low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
     high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
   }
   Enclosure enclosure{(low + high) * 0.5};
   for (const Sphere& s : spheres) {
-    const double reach = length(vec_cast<double>(s.center) - enclosure.center) + double{s.radius};
-    enclosure.radius = std::max(enclosure.radius, reach);
+    const double away = length(vec_cast<double>(s.center) - enclosure.center);
+    enclosure.radius = std::max(enclosure.radius, away + static_cast<double>(s.radius));
   }
   return enclosure;
 }
@@ -43,7 +43,7 @@ double smallest_distance(const Vec3d& point) { return length(point) * 0x1p-12; }
 
 CameraPose pose_on_spheres(const std::vector<Sphere>& spheres) {
   const Enclosure enclosure = enclose(spheres);
-  const double tangent = elementary::tan_acute(double{default_fov} * (elementary::pi / 360));
+  const double tangent = elementary::tan_acute(default_fov * (elementary::pi / 360));
   const double sine = tangent / std::sqrt(1 + tangent * tangent);
   const double distance =
       std::max(enclosure.radius / sine * margin, smallest_distance(enclosure.center));
@@ -73,7 +73,8 @@ CameraPose default_pose(const Scene& scene) {
 
 Camera default_camera(const Scene& scene, int width, int height) {
   // The shorter side spans the field of view, so that the objects fit into both.
-  return PinholeCamera{default_pose(scene), default_fov, width <= height ? FovAxis::x : FovAxis::y};
+  return PinholeCamera{default_pose(scene), static_cast<float>(default_fov),
+                       width <= height ? FovAxis::x : FovAxis::y};
 }
 
 bool lacks_light(const Scene& scene) {

@@ -29,7 +29,7 @@ struct Flatten {
     FlatMaterial flat;
     flat.mirror = gray(1);
     flat.transmission = m.color;
-    flat.ior = m.ior;
+    flat.ior = static_cast<double>(m.ior);
     flat.fresnel = true;
     return flat;
   }
@@ -45,15 +45,15 @@ struct Flatten {
     set_highlight(flat, m.ks, m.shininess);
     flat.mirror = gray(m.ks);
     flat.transmission = gray(m.transmission);
-    flat.ior = m.ior;
+    flat.ior = static_cast<double>(m.ior);
     return flat;
   }
 
  private:
   static void set_highlight(FlatMaterial& flat, float specular, float shininess) {
     if (!(shininess > 0)) return;
-    flat.highlight = specular;
-    flat.shininess = shininess;
+    flat.highlight = static_cast<double>(specular);
+    flat.shininess = static_cast<double>(shininess);
   }
 };
 

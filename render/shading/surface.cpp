@@ -20,7 +20,8 @@ void set_normal(Surface& surface, const Vec3d& outward) {
 void meet_sphere(Surface& surface, const Sphere& sphere, const Ray& ray) {
   const Vec3d center = vec_cast<double>(sphere.center);
   const Vec3d f = center - ray.org;
-  const double r = sphere.radius, ff = dot(f, f);
+  const auto r = static_cast<double>(sphere.radius);
+  const double ff = dot(f, f);
   surface.sphere = true;
   surface.reach = std::sqrt(ff) + r;
   // From where the ray started, not from the angle: the solver took the second root for the same

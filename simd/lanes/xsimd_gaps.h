@@ -5,7 +5,8 @@
 #include "core/base/platform.h"
 
 /// What xsimd 8.1 lacks or gets wrong, once per instruction set: mask bits, float <-> double of a
-/// whole register, a multiply-add that is fused wherever the ISA can, exact division.
+/// whole register, a multiply-add that is fused wherever the ISA can, correctly rounded
+/// division and square root.
 namespace boule::BOULE_KERNEL_ISA {
 
 #if defined(__AVX512F__)
@@ -46,6 +47,7 @@ BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return _mm512_fnmadd_ps(a, b, c);
 }
 BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
+BOULE_INLINE Floats square_root(Floats a) { return xsimd::sqrt(a); }
 
 #elif defined(__AVX2__)
 
@@ -67,6 +69,7 @@ BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return _mm256_fnmadd_ps(a, b, c);
 }
 BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
+BOULE_INLINE Floats square_root(Floats a) { return xsimd::sqrt(a); }
 
 #elif defined(__SSE4_2__)
 
@@ -82,6 +85,7 @@ BOULE_INLINE Floats narrow(Doubles lo, Doubles hi) {
 BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) { return c - a * b; }
 BOULE_INLINE Floats divide(Floats a, Floats b) { return a / b; }
+BOULE_INLINE Floats square_root(Floats a) { return xsimd::sqrt(a); }
 
 #else
 
@@ -108,8 +112,9 @@ BOULE_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return vfmaq_f3
 BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
   return vfmsq_f32(c, a, b);
 }
-// xsimd's own is ARMv7's: an estimate and two Newton steps, not correctly rounded.
+// xsimd's own are ARMv7's: estimates and Newton steps, not correctly rounded.
 BOULE_INLINE Floats divide(Floats a, Floats b) { return vdivq_f32(a, b); }
+BOULE_INLINE Floats square_root(Floats a) { return vsqrtq_f32(a); }
 
 #endif
 

@@ -80,7 +80,7 @@ BOULE_INLINE Wide select(WideMask m, Wide a, Wide b) {
   return {xsimd::select(m.lo, a.lo, b.lo), xsimd::select(m.hi, a.hi, b.hi)};
 }
 
-BOULE_INLINE Real sqrt(Real a) { return xsimd::sqrt(a.v); }
+BOULE_INLINE Real sqrt(Real a) { return gaps::square_root(a.v); }
 BOULE_INLINE Wide sqrt(Wide a) { return {xsimd::sqrt(a.lo), xsimd::sqrt(a.hi)}; }
 BOULE_INLINE Real abs(Real a) { return xsimd::abs(a.v); }
 BOULE_INLINE Wide abs(Wide a) { return {xsimd::abs(a.lo), xsimd::abs(a.hi)}; }

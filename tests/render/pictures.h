@@ -53,8 +53,9 @@ inline Rgb oracle_pixel(const Scene& scene, int x, int y) {
 /// |a - b| relative to b's largest component (or 1e-3), the largest over the components.
 inline double distance(const Color& a, const Rgb& b) {
   const double scale = std::max({std::fabs(b.r), std::fabs(b.g), std::fabs(b.b), 1e-3});
-  return std::max({std::fabs(double{a.r} - b.r), std::fabs(double{a.g} - b.g),
-                   std::fabs(double{a.b} - b.b)}) /
+  return std::max({std::fabs(static_cast<double>(a.r) - b.r),
+                   std::fabs(static_cast<double>(a.g) - b.g),
+                   std::fabs(static_cast<double>(a.b) - b.b)}) /
          scale;
 }
 

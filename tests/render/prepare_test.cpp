@@ -26,7 +26,7 @@ void expect_framed(const Scene& scene, Size size) {
     for (const Vec3d& axis : {basis.right, basis.up}) {
       const double off = std::atan2(std::fabs(dot(way, normalize(axis))), depth);
       const double angular_radius =
-          std::asin(double{s.radius} / std::hypot(dot(way, normalize(axis)), depth));
+          std::asin(static_cast<double>(s.radius) / std::hypot(dot(way, normalize(axis)), depth));
       EXPECT_LT(off + angular_radius, std::atan(length(axis)));
     }
   }

@@ -127,7 +127,7 @@ TEST(DirectLight, TakesAnyExponent) {
   for (const float exponent : {0.5f, 1.0f, 2.0f, 3.08f, 50.0f, 1023.0f, 1024.0f, 1025.0f, 5e6f}) {
     const FlatMaterial m = flatten(Phong{gray(0), 0, 0, 1, exponent, 0, 1}, {});
     for (const double angle : {0.0, 0.001, 0.2, 1.0, 1.5}) {
-      const double expected = std::pow(std::cos(angle), double{exponent});
+      const double expected = std::pow(std::cos(angle), static_cast<double>(exponent));
       EXPECT_NEAR(direct_light(m, seen_at(angle), up, gray(1)).r, expected,
                   1e-7 * expected + 1e-40);
     }

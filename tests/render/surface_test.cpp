@@ -188,7 +188,7 @@ TEST(Surface, RaysThatGoInsideMeetTheFarSide) {
       const Side side = b.surface.inner ? Side::viewer : Side::beyond;
       const Vec3d direction = b.surface.inner ? b.scattered : -b.scattered;
       rays.push_back(leave(b.surface, side, direction));
-      chords.push_back(2 * double{place.spheres[0].radius} *
+      chords.push_back(2 * static_cast<double>(place.spheres[0].radius) *
                        std::fabs(dot(direction, b.surface.normal)));
     }
     const auto hits = run_closest(*select_kernels("auto").value(), scene.geometry.view(), rays, {});
@@ -196,7 +196,8 @@ TEST(Surface, RaysThatGoInsideMeetTheFarSide) {
     for (std::size_t k = 0; k < hits.size(); ++k) {
       ASSERT_EQ(hits[k].id, 0) << place.name;
       // The direction is a float: the chord is known to 6e-8 of the diameter, not better.
-      ASSERT_NEAR(hits[k].t, chords[k], 4e-7 * double{place.spheres[0].radius}) << place.name;
+      ASSERT_NEAR(hits[k].t, chords[k], 4e-7 * static_cast<double>(place.spheres[0].radius))
+          << place.name;
     }
   }
 }

@@ -1,14 +1,25 @@
 #include "tests/support/hard_cases.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "core/math/elementary.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
+
+// No libm that may round otherwise elsewhere: the hashes of hash_test.cpp cover these inputs.
+
+/// 10^k, correctly rounded for |k| <= 22.
+double power_of_ten(int k) {
+  double power = 1;
+  for (int i = 0; i < std::abs(k); ++i) power *= 10;
+  return k < 0 ? 1 / power : power;
+}
 
 /// A ray from distance F that passes the centre at beta r, along a random axis, both ends rounded
 /// to float. Length and interval vary: the answers may not depend on them.
@@ -18,7 +29,7 @@ Ray impact(CaseRandom& random, const Sphere& sphere, double distance, double bet
   const double sine = std::fmin(beta * double{sphere.radius} / distance, 1.0);
   const Vec3d dir = view * std::sqrt(1 - sine * sine) + across * sine;
   const Vec3d org = vec_cast<double>(sphere.center) - view * distance;
-  const double scale = random.chance(0.5) ? 1.0 : std::exp2(random.uniform(-3, 3));
+  const double scale = random.chance(0.5) ? 1.0 : elementary::pow(2, random.uniform(-3, 3));
   Ray ray;
   ray.org = vec_cast<double>(vec_cast<float>(org));
   ray.dir = vec_cast<float>(dir * scale);
@@ -44,13 +55,13 @@ SpherePair draw_pair(CaseRandom& random, const char* row, int k) {
   const auto sphere = [](Vec3f center, double radius) {
     return Sphere{center, static_cast<float>(radius), 0};
   };
-  if (is("S1")) return {sphere(far_point(random, 1), 1), 2 * std::pow(10, k), near};
-  if (is("S3")) return {sphere(far_point(random, 1), std::pow(10, -k)), 3, near};
+  if (is("S1")) return {sphere(far_point(random, 1), 1), 2 * power_of_ten(k), near};
+  if (is("S3")) return {sphere(far_point(random, 1), power_of_ten(-k)), 3, near};
   if (is("S4") || is("S4b")) {
-    const double beta = 1 + random.sign() * std::exp2(-k);
+    const double beta = 1 + random.sign() * std::ldexp(1.0, -k);
     return {sphere(far_point(random, 1), 1), is("S4") ? 10.0 : 1000.0, beta};
   }
-  if (is("S10")) return {sphere(far_point(random, std::pow(10, k)), 1), 10, near};
+  if (is("S10")) return {sphere(far_point(random, power_of_ten(k)), 1), 10, near};
   const double radius = random.uniform(0.5, 2);
   const double distance = random.uniform(3, 30);
   return {sphere(far_point(random, 5), radius), distance, near};
@@ -58,7 +69,7 @@ SpherePair draw_pair(CaseRandom& random, const char* row, int k) {
 
 /// S2: a ground sphere, the eye within 5 units of its top, half of the rays grazing.
 void ground(CaseRandom& random, int k, std::size_t rays, HardCase& out) {
-  const double radius = std::pow(10, k);
+  const double radius = power_of_ten(k);
   out.spheres = {{{0, static_cast<float>(-radius), 0}, static_cast<float>(radius), 0}};
   for (std::size_t i = 0; i < rays; ++i) {
     const double x = random.uniform(-5, 5);
@@ -125,7 +136,8 @@ void plane_pair(CaseRandom& random, const HardCaseSpec& spec, HardCase& out, Pla
   const Vec3d away = random.direction();
   Vec3d org = vec_cast<double>(plane.point) + away * 10.0;
   Vec3d dir = random.direction();
-  if (std::strcmp(spec.row, "P1") == 0) dir = across + n * (random.sign() * std::exp2(-spec.k));
+  if (std::strcmp(spec.row, "P1") == 0)
+    dir = across + n * (random.sign() * std::ldexp(1.0, -spec.k));
   if (std::strcmp(spec.row, "P2") == 0)
     org = vec_cast<double>(plane.point) + across * random.uniform(0, 10);
   Ray ray;
@@ -137,7 +149,7 @@ void plane_pair(CaseRandom& random, const HardCaseSpec& spec, HardCase& out, Pla
 
 void planes(CaseRandom& random, const HardCaseSpec& spec, std::size_t count, std::size_t rays,
             HardCase& out) {
-  const double magnitude = std::strcmp(spec.row, "P2") == 0 ? std::pow(10, spec.k) : 5;
+  const double magnitude = std::strcmp(spec.row, "P2") == 0 ? power_of_ten(spec.k) : 5;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3f point = far_point(random, magnitude);
     const Vec3d normal = random.direction();
@@ -166,7 +178,7 @@ void leaving(CaseRandom& random, int k, HardCase& out) {
       const Plane& plane = out.planes[static_cast<std::size_t>(id - spheres)];
       n = normalize(vec_cast<double>(plane.normal));
       const Vec3d across = random.perpendicular(n);
-      at = vec_cast<double>(plane.point) + across * random.uniform(0, std::pow(10, k));
+      at = vec_cast<double>(plane.point) + across * random.uniform(0, power_of_ten(k));
     }
     ray.org = at;
     ray.dir = vec_cast<float>(dir);

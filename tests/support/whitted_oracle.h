@@ -15,7 +15,8 @@ struct Rgb {
 
   Rgb() = default;
   Rgb(double red, double green, double blue) : r(red), g(green), b(blue) {}
-  explicit Rgb(const Color& c) : r(c.r), g(c.g), b(c.b) {}
+  explicit Rgb(const Color& c)
+      : r(static_cast<double>(c.r)), g(static_cast<double>(c.g)), b(static_cast<double>(c.b)) {}
   explicit Rgb(double value) : Rgb(value, value, value) {}
 };
 inline Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
@@ -141,9 +142,11 @@ class WhittedOracle {
     return Rgb(m.color) * Rgb(scene_.ambient) + direct(at, Rgb(m.color), 1, 0, 0);
   }
   [[nodiscard]] Rgb shade(const Plastic& m, const Local& at, int bounces) const {
-    Rgb sum = Rgb(m.color) * Rgb(scene_.ambient) +
-              direct(at, Rgb(m.color), 1, double{m.specular}, double{m.shininess});
-    if (m.reflect > 0) sum = sum + follow(at, at.r, false, bounces) * double{m.reflect};
+    Rgb sum = Rgb(m.color) * Rgb(scene_.ambient) + direct(at, Rgb(m.color), 1,
+                                                          static_cast<double>(m.specular),
+                                                          static_cast<double>(m.shininess));
+    if (m.reflect > 0)
+      sum = sum + follow(at, at.r, false, bounces) * static_cast<double>(m.reflect);
     return sum;
   }
   [[nodiscard]] Rgb shade(const Metal& m, const Local& at, int bounces) const {
@@ -151,7 +154,8 @@ class WhittedOracle {
   }
   [[nodiscard]] Rgb shade(const Glass& m, const Local& at, int bounces) const {
     // Fresnel's equations with the indices on both sides written out.
-    const double n1 = at.back ? double{m.ior} : 1.0, n2 = at.back ? 1.0 : double{m.ior};
+    const double n1 = at.back ? static_cast<double>(m.ior) : 1.0,
+                 n2 = at.back ? 1.0 : static_cast<double>(m.ior);
     const double c1 = -dot(at.n, at.v), c2 = cosine_beyond(c1, n1 / n2);
     if (c2 < 0) return follow(at, at.r, false, bounces);
     const double s = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
@@ -162,16 +166,17 @@ class WhittedOracle {
   }
   [[nodiscard]] Rgb shade(const Emissive& m, const Local&, int) const { return Rgb(m.radiance); }
   [[nodiscard]] Rgb shade(const Phong& m, const Local& at, int bounces) const {
-    Rgb sum = Rgb(m.color) * (Rgb(double{m.ka}) + Rgb(scene_.ambient)) +
-              direct(at, Rgb(m.color), double{m.kd}, double{m.ks}, double{m.shininess});
-    double mirror = m.ks;
+    Rgb sum = Rgb(m.color) * (Rgb(static_cast<double>(m.ka)) + Rgb(scene_.ambient)) +
+              direct(at, Rgb(m.color), static_cast<double>(m.kd), static_cast<double>(m.ks),
+                     static_cast<double>(m.shininess));
+    auto mirror = static_cast<double>(m.ks);
     if (m.transmission > 0) {
-      const double eta = at.back ? double{m.ior} : 1 / double{m.ior};
+      const double eta = at.back ? static_cast<double>(m.ior) : 1 / static_cast<double>(m.ior);
       const double beyond = cosine_beyond(-dot(at.n, at.v), eta);
       if (beyond < 0) {
-        mirror += double{m.transmission};
+        mirror += static_cast<double>(m.transmission);
       } else {
-        sum = sum + refracted(at, eta, beyond, bounces) * double{m.transmission};
+        sum = sum + refracted(at, eta, beyond, bounces) * static_cast<double>(m.transmission);
       }
     }
     if (mirror > 0) sum = sum + follow(at, at.r, false, bounces) * mirror;
