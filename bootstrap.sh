@@ -2,8 +2,9 @@
 # From a clean clone on Debian 12 to a picture or a tested build: see usage().
 set -euo pipefail
 
-readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev libcli11-dev
-  libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
+# openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
+readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 readonly test_packages=(binutils clang-format libgmock-dev libgtest-dev libmpfr-dev qemu-user)
 
 usage() {

@@ -8,6 +8,9 @@ namespace boule::cli {
 /// Renders a scene file to a picture file.
 ExitCode run(const RenderCommand& command);
 
+/// Tells what a scene holds, on standard output.
+ExitCode run(const InfoCommand& command);
+
 /// Lists the instruction sets on standard output.
 ExitCode run(const IsaCommand& command);
 

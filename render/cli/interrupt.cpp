@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 
@@ -10,23 +11,34 @@ namespace {
 
 std::atomic<int> pending_signal{0};
 std::atomic<bool> writing{false};
+std::atomic<bool> picture_written{false};
+std::atomic<bool> line_open{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-const char* message_of(int signal) {
+const char* name_of(int signal) {
   switch (signal) {
     case SIGINT:
-      return "boule: interrupted (SIGINT), nothing written\n";
+      return "SIGINT";
     case SIGHUP:
-      return "boule: interrupted (SIGHUP), nothing written\n";
+      return "SIGHUP";
     default:
-      return "boule: interrupted (SIGTERM), nothing written\n";
+      return "SIGTERM";
   }
+}
+
+/// Async-signal-safe: one line, in one write.
+void print_end(int signal) {
+  char text[96] = "";
+  if (line_open) std::strcat(text, "\n");
+  std::strcat(text, "boule: interrupted (");
+  std::strcat(text, name_of(signal));
+  std::strcat(text, picture_written ? "), the picture had been written\n" : "), nothing written\n");
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
 /// Async-signal-safe.
 [[noreturn]] void leave(int signal) {
-  const char* const message = message_of(signal);
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, std::strlen(message));
+  print_end(signal);
   ::_exit(128 + signal);
 }
 
@@ -57,6 +69,9 @@ void install_interrupt_handlers() {
 WriteGuard::WriteGuard() { writing = true; }
 WriteGuard::~WriteGuard() { writing = false; }
 bool WriteGuard::interrupted() { return pending_signal != 0; }
+
+void set_picture_written() { picture_written = true; }
+void set_line_open(bool open) { line_open = open; }
 
 void exit_if_interrupted() {
   if (pending_signal != 0) leave(pending_signal);

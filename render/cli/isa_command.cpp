@@ -38,8 +38,7 @@ ExitCode run(const IsaCommand& command) {
   if (!kernels) return report(kernels.error(), wrong_usage);
   const Isa selected = kernels.value()->isa;
   const std::vector<IsaInfo> isas = list_isas();
-  print_data(command.json ? as_json(isas, selected) : as_table(isas, selected));
-  return done;
+  return print_as_result(command.json ? as_json(isas, selected) : as_table(isas, selected));
 }
 
 }  // namespace boule::cli

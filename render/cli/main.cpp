@@ -9,10 +9,7 @@ namespace {
 using namespace boule::cli;
 
 struct Run {
-  ExitCode operator()(const TextCommand& text) const {
-    print_data(text.text);
-    return done;
-  }
+  ExitCode operator()(const TextCommand& text) const { return print_as_result(text.text); }
   ExitCode operator()(const UsageError& error) const { return report_usage(error.text); }
   template <class Command>
   ExitCode operator()(const Command& command) const {

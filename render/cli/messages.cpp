@@ -1,12 +1,36 @@
 #include "render/cli/messages.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
+
+#include "render/image/output_file.h"
 
 namespace boule::cli {
 
-void print_data(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+Status print_data(const std::string& text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return std::nullopt;
+  return cannot_write("standard output", std::generic_category().message(errno));
+}
 
-void print_note(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
+ExitCode print_as_result(const std::string& text) {
+  const Status bad = print_data(text);
+  return bad ? report(*bad, failed) : done;
+}
+
+void print_note(const std::string& text) { print_raw(text + "\n"); }
+
+void print_raw(const std::string& text) {
+  // Nobody could be told that standard error is gone.
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
 
 ExitCode report(const Diagnostic& error, ExitCode code) {
   const std::string program = error.file.empty() ? "boule: " : "";

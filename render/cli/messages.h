@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "core/base/error.h"
@@ -8,10 +9,19 @@
 namespace boule::cli {
 
 /// Writes to standard output: data only.
-void print_data(const std::string& text);
+Status print_data(const std::string& text);
+
+/// The same for a command that does nothing else: done, or failed after the error's line.
+ExitCode print_as_result(const std::string& text);
 
 /// A line for people, on standard error.
 void print_note(const std::string& text);
+
+/// Text on standard error as it is, in one piece.
+void print_raw(const std::string& text);
+
+/// "1 sphere", "2 spheres".
+std::string counted(std::size_t count, const std::string& noun);
 
 /// The line of an error on standard error; returns `code`, for the caller to return.
 ExitCode report(const Diagnostic& error, ExitCode code);

@@ -2,11 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
-#include <map>
-#include <vector>
+#include <limits>
 
 #include "core/scene/scene.h"
+#include "render/cli/option_values.h"
 
 namespace boule::cli {
 namespace {
@@ -14,46 +13,41 @@ namespace {
 constexpr const char* description =
     "Boule renders scenes of spheres and planes: exact hits, the same bits on every machine.";
 
-/// The whole numbers of `text`, separated by `separator`; nothing if it is not just that.
-std::optional<std::vector<int>> split_numbers(const std::string& text, char separator) {
-  std::vector<int> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    int number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc{}) return std::nullopt;
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    if (*next != separator) return std::nullopt;
-    at = next + 1;
-  }
+/// "--threads" of "-t,--threads".
+std::string long_name(const std::string& names) { return names.substr(names.rfind(',') + 1); }
+
+/// CLI11 repeats what was typed: as quote() makes it, without the quotation marks.
+std::string printable(const std::string& message) {
+  const std::string quoted = quote(message, 400);
+  return quoted.substr(1, quoted.size() - 2);
 }
 
-CLI::ValidationError refuse(const std::string& option, const std::string& text,
+CLI::ValidationError refuse(const std::string& names, const std::string& text,
                             const std::string& expected) {
-  return CLI::ValidationError(option, quote(text) + " is not understood, expected " + expected);
+  return CLI::ValidationError(long_name(names),
+                              quote(text) + " is not understood, expected " + expected);
 }
 
-Size parse_size(const std::string& text) {
-  const auto numbers = split_numbers(text, 'x');
-  const auto fits = [](int side) { return side >= 1 && side <= max_image_side; };
-  if (!numbers || numbers->size() != 2 || !fits((*numbers)[0]) || !fits((*numbers)[1])) {
-    throw refuse("--size", text, "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720");
-  }
-  return {(*numbers)[0], (*numbers)[1]};
+/// An option whose value `parse` makes a std::optional of; none is refused.
+template <class Target, class Parse>
+void add_parsed(CLI::App& app, const std::string& names, Target& target, const Parse& parse,
+                const std::string& expected, const std::string& type, const std::string& help) {
+  const auto store = [&target, names, parse, expected](const std::string& text) {
+    const auto value = parse(text);
+    if (!value) throw refuse(names, text, expected);
+    target = *value;
+  };
+  app.add_option_function<std::string>(names, store, help)->type_name(type);
 }
 
-PixelRect parse_crop(const std::string& text) {
-  const auto numbers = split_numbers(text, ',');
-  if (!numbers || numbers->size() != 4) {
-    throw refuse("--crop", text, "X0,Y0,X1,Y1 in pixels from the upper left corner");
-  }
-  const PixelRect rect{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
-  if (rect.empty() || rect.x0 < 0 || rect.y0 < 0) {
-    throw refuse("--crop", text, "0 <= X0 < X1 and 0 <= Y0 < Y1");
-  }
-  return rect;
+/// An option that takes a whole number within low .. high.
+template <class Number, class Target>
+void add_whole(CLI::App& app, const std::string& names, Target& target, Number low, Number high,
+               const std::string& help) {
+  const auto parse = [low, high](const std::string& text) { return parse_number(text, low, high); };
+  add_parsed(app, names, target, parse,
+             "a whole number from " + std::to_string(low) + " to " + std::to_string(high), "N",
+             help);
 }
 
 template <class T>
@@ -69,35 +63,60 @@ void add_choice(CLI::App& app, const std::string& name, T& target,
   std::string names;
   for (const Choice<T>& choice : choices)
     names += (names.empty() ? "" : "|") + std::string(choice.name);
-  const auto parse = [&target, name, choices, names](const std::string& text) {
+  const auto parse = [choices](const std::string& text) -> std::optional<T> {
     for (const Choice<T>& choice : choices) {
-      if (text == choice.name) return void(target = choice.value);
+      if (text == choice.name) return choice.value;
     }
-    throw refuse(name, text, "one of " + names);
+    return std::nullopt;
   };
-  app.add_option_function<std::string>(name, parse, help)->type_name(names);
+  add_parsed(app, name, target, parse, "one of " + names, names, help);
 }
 
+/// The method is one so far; the other's name is known, so that it gets a better answer.
+void add_method(CLI::App& app) {
+  const auto check = [](const std::string& text) {
+    if (text == "path") {
+      throw CLI::ValidationError("--method", "'path' is not available yet, expected whitted");
+    }
+    if (text != "whitted") throw refuse("--method", text, "whitted");
+  };
+  app.add_option_function<std::string>("--method", check, "How light is followed (whitted)")
+      ->type_name("whitted");
+}
+
+void add_scene(CLI::App& app, std::string& scene) {
+  app.add_option("scene", scene, "Scene file, .toml or .nff")->required()->type_name("FILE");
+}
+
+/// What shows in the picture, and how it is stored.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
-  app.add_option("scene", command.scene, "Scene file, .toml or .nff")->required();
+  add_scene(app, command.scene);
   app.add_option("-o,--output", command.output, "Picture to write; its extension names the format")
       ->required()
       ->type_name("IMAGE");
-  app.add_option_function<std::string>(
-         "--size", [&](const std::string& text) { command.size = parse_size(text); },
-         "Pixels of the picture")
-      ->type_name("WxH");
-  app.add_option("--spp", command.spp, "Samples per pixel")->check(CLI::Range(1, max_count));
-  app.add_option("--seed", command.seed, "Seed of the sample positions");
-  app.add_option("--max-depth", command.max_depth, "Bounces after the first hit")
-      ->check(CLI::Range(0, max_count));
-  app.add_option_function<std::string>(
-         "--crop", [&](const std::string& text) { command.crop = parse_crop(text); },
-         "Render these pixels of the frame only")
-      ->type_name("X0,Y0,X1,Y1");
-  app.add_option("--exposure", command.exposure_stops, "Brighten 8-bit pictures by 2^STOPS")
-      ->check(CLI::Range(-100.0F, 100.0F))
-      ->type_name("STOPS");
+  add_parsed(app, "--size", command.size, parse_size,
+             "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
+             "Pixels of the picture");
+  add_whole(app, "--spp", command.spp, 1, max_count, "Samples per pixel");
+  add_whole(app, "--seed", command.seed, std::uint64_t{0},
+            std::numeric_limits<std::uint64_t>::max(), "Seed of the sample positions (0)");
+  add_method(app);
+  add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
+  add_parsed(app, "--crop", command.crop, parse_crop,
+             "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
+             "X0,Y0,X1,Y1", "Render these pixels of the frame only");
+  add_parsed(app, "--aov", command.views, parse_views,
+             "some of depth,normal,position,id,albedo, each once", "NAMES",
+             "More channels in an EXR picture, each pixel's centre, unfiltered: any of "
+             "depth,normal,position,id,albedo");
+}
+
+void add_file_options(CLI::App& app, RenderCommand& command) {
+  const auto parse_stops = [](const std::string& text) {
+    return parse_number(text, -100.0F, 100.0F);
+  };
+  add_parsed(app, "--exposure", command.exposure_stops, parse_stops, "a number from -100 to 100",
+             "STOPS", "Brighten 8-bit pictures by 2^STOPS (0)");
   add_choice(app, "--compression", command.compression,
              std::array{Choice{"none", Compression::none}, Choice{"rle", Compression::rle},
                         Choice{"zip", Compression::zip}},
@@ -115,29 +134,61 @@ void add_machine_options(CLI::App& app, RenderCommand& command) {
              std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
                         Choice{"reference", Solver::reference}},
              "How hits are found (robust)");
-  app.add_option("-t,--threads", command.threads, "Threads, 0: all (0)")
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--tile", command.tile, "Side of a tile in pixels (16)")
-      ->check(CLI::Range(1, max_tile));
+  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+  add_whole(app, "--tile", command.tile, 1, max_tile, "Side of a tile in pixels (16)");
   add_choice(app, "--order", command.order,
              std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
                         Choice{"progressive", PixelOrder::progressive},
                         Choice{"frameless", PixelOrder::frameless}},
              "Order of the pixels; never shows in the picture (tiles)");
-  app.add_flag("-q,--quiet", command.quiet, "No notes, only errors");
+}
+
+/// What is told while and after rendering.
+void add_report_options(CLI::App& app, RenderCommand& command) {
+  add_choice(app, "--progress", command.progress,
+             std::array{Choice{"auto", ProgressStyle::automatic}, Choice{"bar", ProgressStyle::bar},
+                        Choice{"plain", ProgressStyle::plain}, Choice{"json", ProgressStyle::json},
+                        Choice{"none", ProgressStyle::none}},
+             "Progress on standard error (auto: bar on a terminal, else plain)");
+  add_parsed(app, "--stats", command.stats, parse_stats, "text, json or json:FILE",
+             "text|json[:FILE]",
+             "Times and ray counts: text on standard error, JSON to FILE or standard output");
+  const auto set = [&command](Verbosity verbosity) {
+    return [&command, verbosity](std::int64_t) { command.verbosity = verbosity; };
+  };
+  CLI::Option* const quiet = app.add_flag_function(
+      "-q,--quiet", set(Verbosity::quiet), "No progress, no notes and warnings, only errors");
+  app.add_flag_function("-v,--verbose", set(Verbosity::verbose), "More notes")->excludes(quiet);
+}
+
+/// What is wrong with a command line that CLI11 refused. Unknown words come first: where there is
+/// no command CLI11 would only say that one is required.
+UsageError explain(const CLI::App& app, const CLI::ParseError& error) {
+  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const auto unknown = app.remaining(true);
+  if (!unknown.empty() && (extra || app.get_subcommands().empty())) {
+    return {"argument not expected: " + quote(unknown.front())};
+  }
+  return {printable(error.what())};
 }
 
 }  // namespace
 
 Command parse_command_line(int argc, const char* const* argv) {
   RenderCommand render;
+  InfoCommand info;
   IsaCommand isa;
   CLI::App app(description, "boule");
   app.set_version_flag("--version", "boule " BOULE_VERSION);
   app.require_subcommand(1);
   CLI::App* const render_app = app.add_subcommand("render", "Render a scene to a picture");
   add_picture_options(*render_app, render);
+  add_file_options(*render_app, render);
   add_machine_options(*render_app, render);
+  add_report_options(*render_app, render);
+  CLI::App* const info_app = app.add_subcommand("info", "Tell what a scene holds");
+  add_scene(*info_app, info.scene);
+  info_app->add_flag("--json", info.json, "As JSON, for programs");
   CLI::App* const isa_app = app.add_subcommand("isa", "List the instruction sets");
   isa_app->add_flag("--json", isa.json, "As JSON, for programs");
   try {
@@ -148,9 +199,10 @@ Command parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     return TextCommand{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
-    return UsageError{error.what()};
+    return explain(app, error);
   }
   if (render_app->parsed()) return render;
+  if (info_app->parsed()) return info;
   return isa;
 }
 

@@ -5,9 +5,11 @@
 #include <string>
 #include <variant>
 
+#include "render/cli/progress_bar.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/image/image_file.h"
+#include "render/renderer/view_channels.h"
 #include "render/scene_file/scene_file.h"
 #include "simd/abi/isa.h"
 
@@ -18,6 +20,18 @@ struct Size {
   int width, height;
 };
 
+/// How statistics are written: text for people, on standard error, or JSON.
+enum class StatsForm { none, text, json };
+
+/// Whether and where statistics go.
+struct StatsTarget {
+  StatsForm form = StatsForm::none;
+  std::string file;  ///< of JSON; "-" is standard output
+};
+
+/// How much is said on standard error besides errors.
+enum class Verbosity { quiet, normal, verbose };
+
 /// `boule render`: what is not given comes from the scene.
 struct RenderCommand {
   std::string scene;
@@ -26,6 +40,7 @@ struct RenderCommand {
   std::optional<int> spp;
   std::optional<int> max_depth;
   std::optional<PixelRect> crop;
+  ViewSelection views;
   std::uint64_t seed = 0;
   int tile = 16;
   PixelOrder order = PixelOrder::tiles;
@@ -35,7 +50,15 @@ struct RenderCommand {
   Compression compression = Compression::zip;
   float exposure_stops = 0;
   PolygonPolicy polygons = PolygonPolicy::plane;
-  bool quiet = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+  StatsTarget stats;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// `boule info`.
+struct InfoCommand {
+  std::string scene;
+  bool json = false;
 };
 
 /// `boule isa`.
@@ -53,7 +76,7 @@ struct UsageError {
   std::string text;
 };
 
-using Command = std::variant<RenderCommand, IsaCommand, TextCommand, UsageError>;
+using Command = std::variant<RenderCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
 
 /// What the command line asks for.
 Command parse_command_line(int argc, const char* const* argv);

@@ -18,8 +18,9 @@ Status check_range(const char* key, int value, int low, int high) {
 
 Status check_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
-  const std::uint64_t needed =
-      Film::bytes(rect) + rect.area() * sizeof(Color) + BlockOrder::bytes(rect, options.tile);
+  const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
+                               BlockOrder::bytes(rect, options.tile) +
+                               ViewChannels::bytes(options.views, rect);
   const std::uint64_t available = available_memory();
   if (needed <= available) return std::nullopt;
   constexpr std::uint64_t mebibyte = 1024 * 1024;

@@ -10,6 +10,7 @@
 #include "core/scene/scene.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
+#include "render/renderer/view_channels.h"
 #include "simd/abi/isa.h"
 
 namespace boule {
@@ -29,6 +30,7 @@ struct RenderOptions {
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
   Solver solver = Solver::robust;
   std::optional<PixelRect> crop;  ///< render these pixels of the frame only
+  ViewSelection views;            ///< what render_views() finds
   PixelOrder order = PixelOrder::tiles;
   int tile = 16;                                  ///< pixels, side of a block, 1 .. 1024
   unsigned threads = 0;                           ///< 0: as many as the hardware runs at once

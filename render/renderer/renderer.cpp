@@ -7,6 +7,7 @@
 
 #include "render/frame/float_environment.h"
 #include "render/integrators/whitted.h"
+#include "render/renderer/view_worker.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
@@ -103,6 +104,37 @@ Status Renderer::run_blocks(Film& film, int until) {
   return std::nullopt;
 }
 
+Result<std::vector<ImageChannel>> Renderer::render_views() {
+  const FloatEnvironment environment;
+  const Stopwatch watch;
+  try {
+    ViewChannels channels(options_.views, rect());
+    const Status status = options_.views.any() ? find_views(channels) : std::nullopt;
+    render_seconds_ += watch.seconds();
+    if (status) return *status;
+    return channels.release();
+  } catch (const std::bad_alloc&) {
+    return failure("out of memory for the views");
+  }
+}
+
+Status Renderer::find_views(ViewChannels& channels) {
+  std::vector<std::unique_ptr<ViewWorker>> workers(scheduler_.workers());
+  std::atomic<std::size_t> done{0};
+  const auto body = [&](unsigned worker, std::size_t block) {
+    auto& mine = workers[worker];
+    if (!mine) mine = std::make_unique<ViewWorker>(*setup_, options_.solver);
+    mine->render(blocks_[block], channels);
+    ++done;
+  };
+  const Status status = scheduler_.run(blocks_.size(), body, options_.cancel);
+  for (const auto& worker : workers) {
+    if (worker) view_rays_ += worker->counts();
+  }
+  if (!status && done != blocks_.size()) return failure("rendering was cancelled");
+  return status;
+}
+
 std::unique_ptr<BlockWorker> Renderer::make_worker() const {
   IntegratorSettings settings;
   settings.solver = options_.solver;
@@ -113,7 +145,7 @@ std::unique_ptr<BlockWorker> Renderer::make_worker() const {
 }
 
 RayCounts Renderer::count_rays() const {
-  RayCounts rays;
+  RayCounts rays = view_rays_;
   for (const auto& worker : workers_) {
     if (worker) rays += worker->counts();
   }

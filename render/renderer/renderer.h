@@ -45,6 +45,10 @@ class Renderer {
   /// keeps what was done: calling again goes on from there.
   Status render_pass(Film& film, int until);
 
+  /// The views that the options select, of the rays through the pixels' centres, unfiltered: as
+  /// extra channels for write_image. Their rays count as primary ones. Cancelled, it is an error.
+  Result<std::vector<ImageChannel>> render_views();
+
   [[nodiscard]] const RenderOptions& options() const { return options_; }
   /// The pixels a film for this renderer has.
   [[nodiscard]] PixelRect rect() const { return rendered_rect(options_); }
@@ -59,6 +63,7 @@ class Renderer {
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] RayCounts count_rays() const;
   Status run_blocks(Film& film, int until);
+  Status find_views(ViewChannels& channels);
 
   RenderOptions options_;
   std::unique_ptr<const PreparedScene> scene_;  ///< workers refer to it: it stays where it is
@@ -66,6 +71,7 @@ class Renderer {
   BlockOrder blocks_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<BlockWorker>> workers_;
+  RayCounts view_rays_;
   double prepare_seconds_ = 0;
   double render_seconds_ = 0;
 };

@@ -4,7 +4,7 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work"/{core,simd/lanes,render,tests,bench}
+mkdir -p "$work"/{core,simd/lanes,simd/kernel,render,tests,bench}
 failures=0
 
 # expect RESULT HEADER TEXT: the tree with just this header passes or fails.
@@ -28,5 +28,10 @@ expect fails core/a.h 'inline int twice = 0;'
 expect passes simd/lanes/a.h $'#pragma once\n#if !defined(ONE) && !defined(TWO)\n#error\n#endif'
 expect fails simd/lanes/a.h $'#pragma once\n#ifdef TWO\n#error\n#endif'
 expect fails simd/lanes/a.h $'#pragma once\n#ifdef ONE\n#error\n#endif'
+expect fails simd/kernel/a.h $'#pragma once\n#ifdef TWO\n#error\n#endif'
+echo $'#include <vector>\n#include "core/a.h"' >"$work/core/a.cpp"
+expect fails core/a.h $'#pragma once\ninline std::vector<int> x;'
+echo $'#include "core/a.h"' >"$work/core/a.cpp"
+expect fails core/a.h 'struct NoPragma {};'
 ((failures == 0)) || exit 1
 echo "every rule bites"

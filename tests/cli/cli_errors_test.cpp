@@ -34,6 +34,8 @@ TEST(Usage, NothingOrNonsenseIsWrongUsage) {
                                              {"render"},
                                              {"render", "a.toml"},
                                              {"render", "-o", "x.png"},
+                                             {"info"},
+                                             {"info", "a.toml", "--yaml"},
                                              {"isa", "--yaml"},
                                              {"isa", "more"},
                                              {"--nonsense"}}) {
@@ -47,21 +49,55 @@ TEST(Usage, NothingOrNonsenseIsWrongUsage) {
 TEST_F(Errors, ABadOptionValueIsWrongUsage) {
   const std::string scene = small_scene();
   const std::vector<std::pair<std::string, std::string>> options = {
-      {"--size", "640"},        {"--size", "640x"},
-      {"--size", "0x480"},      {"--size", "640x65536"},
-      {"--size", "-1x5"},       {"--size", "640x480x2"},
-      {"--size", "1e3x5"},      {"--spp", "0"},
-      {"--spp", "many"},        {"--spp", "1.5"},
-      {"--seed", "-1"},         {"--seed", "x"},
-      {"--max-depth", "-1"},    {"--max-depth", "deep"},
-      {"--isa", "sse9"},        {"--isa", ""},
-      {"--solver", "exact"},    {"-t", "-1"},
-      {"-t", "100000"},         {"--tile", "0"},
-      {"--tile", "5000"},       {"--compression", "lzw"},
-      {"--polygons", "cut"},    {"--order", "random"},
-      {"--crop", "1,2,3"},      {"--crop", "4,0,4,9"},
-      {"--crop", "-1,0,4,9"},   {"--crop", "0,0,33,18"},
-      {"--exposure", "bright"}, {"--nonsense", "1"}};
+      {"--size", "640"},
+      {"--size", "640x"},
+      {"--size", "0x480"},
+      {"--size", "640x65536"},
+      {"--size", "-1x5"},
+      {"--size", "640x480x2"},
+      {"--size", "1e3x5"},
+      {"--spp", "0"},
+      {"--spp", "many"},
+      {"--spp", "1.5"},
+      {"--spp", "+1"},
+      {"--spp", "0x10"},
+      {"--spp", "2147483648"},
+      {"--seed", "18446744073709551616"},
+      {"--seed", "-1"},
+      {"--seed", "x"},
+      {"--max-depth", "-1"},
+      {"--max-depth", "deep"},
+      {"--isa", "sse9"},
+      {"--isa", ""},
+      {"--solver", "exact"},
+      {"-t", "-1"},
+      {"-t", "100000"},
+      {"--tile", "0"},
+      {"--tile", "5000"},
+      {"--compression", "lzw"},
+      {"--polygons", "cut"},
+      {"--order", "random"},
+      {"--crop", "1,2,3"},
+      {"--crop", "4,0,4,9"},
+      {"--crop", "-1,0,4,9"},
+      {"--crop", "0,0,33,18"},
+      {"--exposure", "bright"},
+      {"--exposure", "nan"},
+      {"--exposure", "101"},
+      {"--nonsense", "1"},
+      {"--method", "path"},
+      {"--method", "rays"},
+      {"--progress", "dots"},
+      {"--progress", ""},
+      {"--stats", "yaml"},
+      {"--stats", "json:"},
+      {"--stats", "text:x"},
+      {"--stats", "json:" + path("out.png")},
+      {"--aov", ""},
+      {"--aov", "depth,"},
+      {"--aov", "depth,depth"},
+      {"--aov", "height"},
+      {"--aov", "depth"}};  // not into a .png
   for (const auto& [option, value] : options) {
     SCOPED_TRACE(option + " " + value);
     const ProgramRun run = refused({scene, "-o", path("out.png"), option + "=" + value}, 2);
@@ -80,6 +116,31 @@ TEST_F(Errors, AnUnknownIsaInTheEnvironmentIsWrongUsage) {
   const ProgramRun run = refused({small_scene(), "-o", path("x.png")}, 2, {"BOULE_ISA=sse9"});
   EXPECT_THAT(run.err, HasSubstr("BOULE_ISA: 'sse9'"));
   EXPECT_EQ(boule_run({"isa"}, {"BOULE_ISA=sse9"}).exit_code, 2);
+}
+
+TEST_F(Errors, AovsNeedAFormatWithRoomForThem) {
+  for (const char* name : {"x.png", "x.jpg", "x.hdr", "x.tif", "x.ppm"}) {
+    const ProgramRun run = refused({path("missing.toml"), "-o", path(name), "--aov", "id"}, 2);
+    EXPECT_THAT(run.err, HasSubstr("(key '--aov')"));
+  }
+}
+
+TEST_F(Errors, TheSourceDateIsParsedStrictly) {
+  for (const char* date :
+       {"", "-1", "1.5", "1e9", " 1", "1 ", "0x1", "now", "253402300800", "99999999999999999999"}) {
+    const ProgramRun run = refused({small_scene(), "-o", path("x.png")}, 2,
+                                   {std::string("SOURCE_DATE_EPOCH=") + date});
+    EXPECT_THAT(run.err, HasSubstr("SOURCE_DATE_EPOCH: '" + std::string(date) + "'"));
+  }
+}
+
+TEST_F(Errors, QuietAndVerboseExcludeEachOther) {
+  refused({small_scene(), "-o", path("x.png"), "-q", "-v"}, 2);
+}
+
+TEST_F(Errors, AnUnknownMethodOfTheSceneIsInvalidInput) {
+  refused({write("path.toml", "schema = 1\n[render]\nmethod = \"path\"\n"), "-o", path("x.png")},
+          3);
 }
 
 TEST_F(Errors, AMissingSceneIsInvalidInputWithTheSystemsReason) {
@@ -124,6 +185,24 @@ TEST_F(Errors, QuotedInputIsCutAndEscaped) {
       refused({small_scene(), "-o", path("x.png"), "--solver=" + std::string(100, 'a')}, 2);
   EXPECT_THAT(run.err, HasSubstr(std::string(40, 'a') + "..."));
   EXPECT_THAT(run.err, testing::Not(HasSubstr(std::string(41, 'a'))));
+  const ProgramRun word = boule_run({"\x1b[31m\n" + std::string(100, 'b')});
+  EXPECT_EQ(word.exit_code, 2);
+  EXPECT_THAT(word.err, HasSubstr("'\\x1b[31m\\x0abbb"));
+  EXPECT_THAT(word.err, testing::Not(HasSubstr(std::string(41, 'b'))));
+  const ProgramRun flag = boule_run({"isa", "--json=\x1b"});
+  EXPECT_EQ(flag.exit_code, 2);
+  EXPECT_THAT(flag.err, testing::Not(HasSubstr("\x1b")));
+}
+
+TEST_F(Errors, StandardOutputThatCannotBeWrittenIsAnError) {
+  for (const char* command : {"isa", "--help", "--version", "isa --json", "info scene.toml"}) {
+    small_scene();
+    const std::string line =
+        "cd " + path("") + " && \"" BOULE_PROGRAM "\" " + command + " > /dev/full";
+    const ProgramRun run = run_program("/bin/sh", {{"-c", line}, {}});
+    EXPECT_EQ(run.exit_code, 1) << command;
+    EXPECT_THAT(run.err, HasSubstr("cannot write 'standard output': No space left on device"));
+  }
 }
 
 }  // namespace

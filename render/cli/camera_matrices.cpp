@@ -1,0 +1,53 @@
+#include "render/cli/camera_matrices.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/math/geometry.h"
+
+namespace boule::cli {
+namespace {
+
+/// One column of a matrix for row vectors: what makes one coordinate of the product.
+struct Column {
+  Vec3d linear;
+  double constant;
+};
+
+/// The distance of a point from the eye along `axis`, times `scale`.
+Column along(const CameraBasis& basis, const Vec3d& axis, double scale) {
+  const Vec3d scaled = axis * scale;
+  return {scaled, -dot(basis.eye, scaled)};
+}
+
+float finite_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -largest, largest));
+}
+
+MetadataMatrix matrix_of(const Column (&columns)[4]) {
+  MetadataMatrix matrix{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    matrix[c] = finite_float(columns[c].linear.x);
+    matrix[4 + c] = finite_float(columns[c].linear.y);
+    matrix[8 + c] = finite_float(columns[c].linear.z);
+    matrix[12 + c] = finite_float(columns[c].constant);
+  }
+  return matrix;
+}
+
+}  // namespace
+
+CameraMatrices camera_matrices(const Camera& camera, int width, int height) {
+  const CameraBasis basis = camera_basis(camera, width, height);
+  const double half_width = length(basis.right), half_height = length(basis.up);
+  const Vec3d u = basis.right * (1 / half_width), v = basis.up * (1 / half_height);
+  const Column z = along(basis, basis.forward, 1), one = {{}, 1};
+  const Column film_x = along(basis, u, 1 / half_width), film_y = along(basis, v, 1 / half_height);
+  const Column& third = basis.parallel ? z : one;
+  const Column& divisor = basis.parallel ? one : z;
+  return {matrix_of({along(basis, u, 1), along(basis, v, 1), z, one}),
+          matrix_of({film_x, film_y, third, divisor})};
+}
+
+}  // namespace boule::cli

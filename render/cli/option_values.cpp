@@ -1,0 +1,78 @@
+#include "render/cli/option_values.h"
+
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace boule::cli {
+namespace {
+
+/// The parts of `text` between the separators, empty ones too.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+/// The `count` whole numbers from `low` on that `text` consists of.
+std::optional<std::vector<int>> split_numbers(const std::string& text, char separator,
+                                              std::size_t count, int low, int high) {
+  std::vector<int> numbers;
+  for (const std::string& part : split(text, separator)) {
+    const auto number = parse_number(part, low, high);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+/// The switch that a view's name stands for, or null.
+bool* find_view(ViewSelection& views, const std::string& name) {
+  if (name == "depth") return &views.depth;
+  if (name == "normal") return &views.normal;
+  if (name == "position") return &views.position;
+  if (name == "id") return &views.id;
+  if (name == "albedo") return &views.albedo;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Size> parse_size(const std::string& text) {
+  const auto sides = split_numbers(text, 'x', 2, 1, max_image_side);
+  if (!sides) return std::nullopt;
+  return Size{(*sides)[0], (*sides)[1]};
+}
+
+std::optional<PixelRect> parse_crop(const std::string& text) {
+  const auto corners = split_numbers(text, ',', 4, 0, max_image_side);
+  if (!corners) return std::nullopt;
+  const PixelRect rect{(*corners)[0], (*corners)[1], (*corners)[2], (*corners)[3]};
+  return rect.empty() ? std::nullopt : std::optional(rect);
+}
+
+std::optional<ViewSelection> parse_views(const std::string& text) {
+  ViewSelection views;
+  for (const std::string& name : split(text, ',')) {
+    bool* const view = find_view(views, name);
+    if (view == nullptr || *view) return std::nullopt;
+    *view = true;
+  }
+  return views;
+}
+
+std::optional<StatsTarget> parse_stats(const std::string& text) {
+  const std::string json_to = "json:";
+  if (text == "text") return StatsTarget{StatsForm::text, {}};
+  if (text == "json") return StatsTarget{StatsForm::json, "-"};
+  if (!text.starts_with(json_to) || text == json_to) return std::nullopt;
+  return StatsTarget{StatsForm::json, text.substr(json_to.size())};
+}
+
+}  // namespace boule::cli

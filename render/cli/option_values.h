@@ -1,0 +1,33 @@
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string>
+
+#include "render/cli/options.h"
+
+namespace boule::cli {
+
+/// A number in decimal within low .. high, nothing before or after it; else none. Not NaN.
+template <class Number>
+std::optional<Number> parse_number(const std::string& text, Number low, Number high) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, number);
+  const bool good = error == std::errc{} && next == end && number >= low && number <= high;
+  return good ? std::optional(number) : std::nullopt;
+}
+
+/// "1280x720", each side 1 to 65535.
+std::optional<Size> parse_size(const std::string& text);
+
+/// "X0,Y0,X1,Y1" with 0 <= X0 < X1 and 0 <= Y0 < Y1.
+std::optional<PixelRect> parse_crop(const std::string& text);
+
+/// Some of "depth,normal,position,id,albedo", each once, at least one.
+std::optional<ViewSelection> parse_views(const std::string& text);
+
+/// "text", "json" or "json:FILE", FILE not empty.
+std::optional<StatsTarget> parse_stats(const std::string& text);
+
+}  // namespace boule::cli

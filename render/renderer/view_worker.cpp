@@ -1,0 +1,41 @@
+#include "render/renderer/view_worker.h"
+
+namespace boule {
+namespace {
+
+constexpr std::size_t stream_size = 1024;  // rays, as few as stay in the cache
+
+}  // namespace
+
+ViewWorker::ViewWorker(const BlockSetup& setup, Solver solver)
+    : setup_(setup), finder_(setup.scene, setup.kernels, solver), views_(stream_size) {
+  pixels_.reserve(stream_size);
+  samples_.resize(stream_size);
+  rays_.resize(stream_size);
+}
+
+void ViewWorker::render(const PixelRect& block, ViewChannels& channels) {
+  for (const PixelOffset& offset : setup_.block_pixels) {
+    const int x = block.x0 + offset.x, y = block.y0 + offset.y;
+    if (x >= block.x1 || y >= block.y1) continue;
+    samples_.set(pixels_.size(), x + 0.5, y + 0.5);
+    pixels_.push_back({x, y});
+    if (pixels_.size() == stream_size) trace(channels);
+  }
+  trace(channels);
+}
+
+/// Traces the rays gathered so far.
+void ViewWorker::trace(ViewChannels& channels) {
+  if (pixels_.empty()) return;
+  samples_.resize(pixels_.size());
+  rays_.resize(pixels_.size());
+  setup_.kernels.primary_rays(setup_.scene.camera_view, samples_.view(), rays_.view());
+  finder_.trace(rays_, setup_.scene.coherence, views_.data());
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    channels.set(pixels_[k].x, pixels_[k].y, views_[k]);
+  }
+  pixels_.clear();
+}
+
+}  // namespace boule

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# flags.sh COMPILE_COMMANDS ROOT: every source of ours is compiled with -ffp-contract=off, and with
+# nothing that lets the compiler change results (NUMERICS section 3).
+set -euo pipefail
+
+# One line per entry: the database writes an entry's members on lines of their own.
+awk -v root="$2/" '
+  /"command":/ { command = $0 }
+  /"file":/ {
+    file = $0
+    sub(/^[^:]*: *"/, "", file)
+    sub(/",? *$/, "", file)
+    if (index(file, root) != 1) next
+    ++sources
+    if (command !~ / -ffp-contract=off /) {
+      print file ": compiled without -ffp-contract=off"
+      wrong = 1
+    }
+    # The last one counts, and any other value would be a mistake.
+    if (match(command, / -(ffast-math|Ofast|funsafe-math-optimizations|fassociative-math|freciprocal-math|ffinite-math-only|fno-signed-zeros|ffp-contract=(fast|on)|march=native|mfpmath=387)/)) {
+      print file ": compiled with" substr(command, RSTART, RLENGTH)
+      wrong = 1
+    }
+    command = ""
+  }
+  END {
+    if (!sources) print "no sources of " root " in the compile commands"
+    else if (!wrong) print sources " compilations keep to exact arithmetic"
+    exit wrong || !sources
+  }' "$1"

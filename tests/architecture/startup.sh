@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# startup.sh PROGRAM MILLISECONDS: help, isa and a refused scene are done within the time, best of
+# several runs, and load nothing of OpenImageIO.
+set -euo pipefail
+program="$1" limit_us=$(($2 * 1000))
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+export LC_ALL=C
+
+echo 'schema = 1 2' >"$work/refused.toml"
+
+# run EXPECTED_CODE ARGUMENT...: the program, quietly, with this exit code.
+run() {
+  local expected="$1" code=0
+  shift
+  "$program" "$@" >"$work/out" 2>"$work/err" || code=$?
+  ((code == expected)) ||
+    { echo "boule $*: exit code $code, expected $expected"; cat "$work/err"; exit 1; }
+}
+
+now_us() {
+  local now="$EPOCHREALTIME"
+  echo "${now//[!0-9]/}"
+}
+
+# check EXPECTED_CODE ARGUMENT...: libraries and time of one command.
+check() {
+  local best="$((1 << 62))" start taken i
+  LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" run "$@"
+  grep -qh 'libstdc++' "$work"/loaded.* || { echo "cannot see what is loaded"; exit 1; }
+  if grep -qhiE 'OpenImageIO|boule_image_io' "$work"/loaded.*; then
+    echo "boule ${*:2} loads OpenImageIO"
+    exit 1
+  fi
+  rm -f "$work"/loaded.*
+
+  for ((i = 0; i < 15; ++i)); do
+    start="$(now_us)"
+    run "$@"
+    taken=$(($(now_us) - start))
+    ((taken < best)) && best="$taken"
+  done
+  echo "boule ${*:2}: $((best / 1000)).$((best % 1000 / 100)) ms"
+  ((best < limit_us)) || { echo "longer than $((limit_us / 1000)) ms"; exit 1; }
+}
+
+check 0 --help
+check 0 --version
+check 0 isa
+check 3 render "$work/refused.toml" -o "$work/picture.png"
+check 3 render "$work/missing.toml" -o "$work/picture.png"

@@ -1,0 +1,145 @@
+// boule info: what a scene holds.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace boule::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+class Info : public ProgramTest {
+ protected:
+  static json info(const std::string& scene) {
+    const ProgramRun run = boule_run({"info", scene, "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, IsEmpty());
+    return json::parse(run.out);
+  }
+};
+
+TEST_F(Info, JsonTellsEverything) {
+  const std::string scene = small_scene();
+  const json found = info(scene);
+  EXPECT_EQ(found.at("schema"), 1);
+  EXPECT_EQ(found.at("file"), scene);
+  EXPECT_EQ(found.at("hash").get<std::string>().size(), 16u);
+  EXPECT_EQ(found.at("size"), json({32, 18}));
+  EXPECT_EQ(found.at("spp"), 1);
+  EXPECT_EQ(found.at("max_depth"), 5);
+  EXPECT_EQ(found.at("spheres"), 1);
+  EXPECT_EQ(found.at("planes"), 1);
+  EXPECT_EQ(found.at("bounds"), json::parse(R"({"min": [-1, 0, -1], "max": [1, 2, 1]})"));
+  EXPECT_EQ(found.at("camera"), json::parse(R"({"type": "pinhole", "eye": [0, 1, 5],
+      "look_at": [0, 0.8, 0], "up": [0, 1, 0], "fov": 45, "fov_axis": "x"})"));
+  EXPECT_EQ(found.at("background"),
+            json::parse(R"({"type": "constant", "color": [0.2, 0.3, 0.5]})"));
+  EXPECT_EQ(found.at("ambient"), json({0, 0, 0}));
+  EXPECT_EQ(found.at("lights"),
+            json::parse(R"([{"type": "point", "position": [3, 5, 4], "intensity": [1, 1, 1],
+                             "falloff": "none"}])"));
+  EXPECT_EQ(found.at("materials"), json::parse(R"([
+      {"name": "shiny", "type": "phong", "color": [0.8, 0.3, 0.1], "ka": 0, "kd": 0.7, "ks": 0.3,
+       "shininess": 20, "transmission": 0.2, "ior": 1.3},
+      {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8]}])"));
+  EXPECT_EQ(found.at("warnings"), json::array());
+  EXPECT_EQ(found.at("notes"), json::array());
+  EXPECT_EQ(found.size(), 16u);
+}
+
+TEST_F(Info, EveryKindOfThingIsNamed) {
+  const json found = info(write("all.toml", R"(schema = 1
+[camera]
+type = "orthographic"
+eye = [0, 0, 5]
+look_at = [0, 0, 0]
+height = 3
+[background]
+type = "gradient"
+[material.a]
+type = "matte"
+[material.b]
+type = "plastic"
+[material.c]
+type = "metal"
+[material.d]
+type = "glass"
+[material.e]
+type = "emissive"
+[[light]]
+type = "directional"
+direction = [0, -1, 0]
+[[light]]
+type = "point"
+position = [0, 9, 0]
+falloff = "inverse_square"
+)"));
+  EXPECT_EQ(found.at("camera").at("type"), "orthographic");
+  EXPECT_EQ(found.at("camera").at("height"), 3);
+  EXPECT_EQ(found.at("background").at("type"), "gradient");
+  EXPECT_EQ(found.at("background").at("top"), json({0.5, 0.7, 1}));
+  EXPECT_EQ(found.at("bounds"), nullptr);
+  std::vector<std::string> types;
+  for (const json& material : found.at("materials")) types.push_back(material.at("type"));
+  EXPECT_THAT(types, testing::ElementsAre("matte", "plastic", "metal", "glass", "emissive"));
+  EXPECT_EQ(found.at("materials").at(1).at("specular"), 0.04);
+  EXPECT_EQ(found.at("materials").at(3).at("ior"), 1.5);
+  EXPECT_EQ(found.at("materials").at(4).at("radiance"), json({1, 1, 1}));
+  EXPECT_EQ(found.at("lights").at(0),
+            json::parse(R"({"type": "directional", "direction": [0, -1, 0],
+                            "intensity": [1, 1, 1]})"));
+  EXPECT_EQ(found.at("lights").at(1).at("falloff"), "inverse_square");
+}
+
+TEST_F(Info, WhatTheSceneLeavesOutIsThereAndNoted) {
+  const json found = info(write("bare.toml",
+                                "schema = 1\n[[sphere]]\ncenter = [1, 2, 3]\n"
+                                "radius = 0.5\n"));
+  EXPECT_EQ(found.at("camera").at("look_at"), json({1, 2, 3}));
+  ASSERT_EQ(found.at("lights").size(), 1u);
+  EXPECT_EQ(found.at("lights").at(0).at("position"), found.at("camera").at("eye"));
+  ASSERT_EQ(found.at("notes").size(), 2u);
+  EXPECT_THAT(found.at("notes").at(0).get<std::string>(), HasSubstr("no camera"));
+  EXPECT_THAT(found.at("notes").at(1).get<std::string>(), HasSubstr("no light"));
+}
+
+TEST_F(Info, WarningsAreThere) {
+  const json found =
+      info(write("s.nff",
+                 "v\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\n"
+                 "resolution 16 9\nf 1 0 0 1 0 0 0 1\np 3\n-1 -1 0\n1 -1 0\n0 1 0\n"));
+  ASSERT_EQ(found.at("warnings").size(), 1u);
+  EXPECT_THAT(found.at("warnings").at(0).get<std::string>(), HasSubstr("s.nff:9"));
+  EXPECT_EQ(found.at("planes"), 1);
+}
+
+TEST_F(Info, TextSaysTheSame) {
+  const ProgramRun run = boule_run({"info", small_scene()});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, IsEmpty());
+  EXPECT_THAT(run.out, StartsWith("file: " + path("scene.toml") + "\n"));
+  for (const char* line :
+       {"size: 32 18\n", "spheres: 1\n", "planes: 1\n",
+        "bounds: min -1.0 0.0 -1.0, max 1.0 2.0 1.0", "camera: type pinhole, eye 0.0 1.0 5.0, ",
+        "lights: 1\n  type point, position 3.0 5.0 4.0",
+        "materials: 2\n  name shiny, type phong, color 0.8 0.3 0.1, "}) {
+    EXPECT_THAT(run.out, HasSubstr(line));
+  }
+  EXPECT_THAT(run.out, Not(HasSubstr("warnings")));
+}
+
+TEST_F(Info, ABadSceneIsInvalidInput) {
+  const ProgramRun run = boule_run({"info", write("bad.toml", "schema = 2\n"), "--json"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.out, IsEmpty());
+  EXPECT_THAT(run.err, HasSubstr("bad.toml:1:"));
+  EXPECT_EQ(boule_run({"info", path("none.toml")}).exit_code, 3);
+  EXPECT_EQ(boule_run({"info"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace boule::test

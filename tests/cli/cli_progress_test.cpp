@@ -1,0 +1,129 @@
+// What is told while rendering: on a terminal, on a pipe, for programs, or not at all.
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/cli/program.h"
+#include "tests/cli/running_program.h"
+
+namespace boule::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+class Progressing : public ProgramTest {
+ protected:
+  std::vector<std::string> command(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments = {"render", small_scene(), "-o", path("x.ppm")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+  }
+  ProgramRun render(const std::vector<std::string>& options) const {
+    ProgramRun run = boule_run(command(options));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, IsEmpty());
+    return run;
+  }
+  static std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+  }
+};
+
+const std::vector<std::string> half_a_second = {"--size", "640x360", "--spp", "4"};
+
+/// "boule: 42 % [##..] 0.5 s elapsed, 0.7 s left, 12.3 Mray/s"
+const std::regex drawn_line(
+    R"(boule: +(\d+) % \[#*\.*\] \d+\.\d s elapsed, \d[\d.:]*( s)? left, \d+\.\d Mray/s *)");
+
+TEST_F(Progressing, ATerminalHasOneLineThatIsRewritten) {
+  RunningProgram program(command(half_a_second));
+  const Watch watch;
+  const ProgramRun run = program.finish();
+  const double seconds = watch.seconds();
+  EXPECT_EQ(run.exit_code, 0);
+  const auto lines = split(run.out, '\n');
+  ASSERT_EQ(lines.size(), 2u) << run.out;  // the bar's line, the summary
+  EXPECT_THAT(lines[1], HasSubstr("640 x 360 pixels"));
+  auto drawn = split(lines[0], '\r');
+  ASSERT_GE(drawn.size(), 2u);
+  EXPECT_THAT(drawn[0], IsEmpty());
+  drawn.erase(drawn.begin());
+  EXPECT_LE(static_cast<double>(drawn.size()), 10 * seconds + 2);
+  int last = 0;
+  for (const std::string& line : drawn) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_match(line, found, drawn_line)) << line;
+    EXPECT_GE(std::stoi(found[1]), last);
+    last = std::stoi(found[1]);
+  }
+  EXPECT_EQ(last, 100);
+}
+
+TEST_F(Progressing, ANarrowTerminalIsNotOverrun) {
+  RunningProgram program(command({}), 30);
+  const auto lines = split(program.finish().out, '\n');
+  ASSERT_EQ(lines.size(), 2u);
+  for (const std::string& drawn : split(lines[0], '\r')) EXPECT_LE(drawn.size(), 29u) << drawn;
+}
+
+TEST_F(Progressing, APipeHasPlainLinesByDefault) {
+  const auto lines = split(render({"--size", "320x180"}).err, '\n');
+  EXPECT_EQ(lines.size(), 11u);  // 10, 20 .. 100 %, and the summary
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    EXPECT_THAT(lines[i], StartsWith("boule: "));
+    EXPECT_EQ(std::stoul(lines[i].substr(7)) / 10, i + 1) << lines[i];
+    EXPECT_THAT(lines[i], EndsWith(" Mray/s"));
+  }
+}
+
+TEST_F(Progressing, TheStyleCanBeChosen) {
+  EXPECT_THAT(render({"--progress", "bar"}).err, StartsWith("\rboule: "));
+  EXPECT_THAT(render({"--progress", "auto"}).err, HasSubstr("boule: 100 %, "));
+  EXPECT_THAT(render({"--progress", "none"}).err, Not(HasSubstr("%")));
+  RunningProgram on_terminal(command({"--progress", "plain"}));
+  EXPECT_THAT(on_terminal.finish().out, HasSubstr("boule: 100 %, "));
+}
+
+TEST_F(Progressing, JsonLinesAreForPrograms) {
+  auto options = half_a_second;
+  options.insert(options.end(), {"--progress", "json"});
+  auto lines = split(render(options).err, '\n');
+  ASSERT_GE(lines.size(), 3u);
+  lines.pop_back();  // the summary
+  double last = 0;
+  for (const std::string& line : lines) {
+    const auto json = nlohmann::json::parse(line);
+    EXPECT_EQ(json.size(), 4u);
+    EXPECT_GE(json.at("share").get<double>(), last);
+    last = json.at("share").get<double>();
+    EXPECT_GE(json.at("elapsed_s").get<double>(), 0);
+    EXPECT_TRUE(json.at("remaining_s").is_number());
+    EXPECT_GT(json.at("mrays_per_s").get<double>(), 0);
+  }
+  EXPECT_EQ(last, 1);
+}
+
+TEST_F(Progressing, QuietSilencesEveryStyle) {
+  for (const char* style : {"auto", "bar", "plain", "json", "none"}) {
+    EXPECT_THAT(render({"-q", "--progress", style}).err, IsEmpty()) << style;
+  }
+  RunningProgram on_terminal(command({"-q"}));
+  EXPECT_THAT(on_terminal.finish().out, IsEmpty());
+}
+
+TEST_F(Progressing, VerboseAddsNotes) {
+  const ProgramRun run = render({"-v"});
+  EXPECT_THAT(run.err, HasSubstr("scene.toml: 1 sphere, 1 plane, 1 light, 2 materials, read in"));
+  EXPECT_THAT(run.err, HasSubstr("note: prepared in "));
+  EXPECT_THAT(run.err, HasSubstr("note: written in "));
+  EXPECT_THAT(render({}).err, Not(HasSubstr("note")));
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,74 @@
+// Signals: the program is gone within a second, says so, and leaves nothing behind.
+#include <csignal>
+#include <tuple>
+
+#include "tests/cli/program.h"
+#include "tests/cli/running_program.h"
+
+namespace boule::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::EndsWith;
+
+const std::tuple<int, int, const char*> signals[] = {
+    {SIGINT, 130, "SIGINT"}, {SIGTERM, 143, "SIGTERM"}, {SIGHUP, 129, "SIGHUP"}};
+
+class Signals : public ProgramTest {
+ protected:
+  std::string message(const char* name) const {
+    return std::string("boule: interrupted (") + name + "), nothing written\r\n";
+  }
+};
+
+TEST_F(Signals, WhileRenderingEndTheBarsLineFirst) {
+  for (const auto& [signal, code, name] : signals) {
+    RunningProgram program(
+        {"render", small_scene(), "-o", path("out.png"), "--size", "2000x2000", "--spp", "1000"});
+    ASSERT_TRUE(program.wait_for("Mray/s"));
+    const Watch watch;
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, code);
+    EXPECT_THAT(run.out, EndsWith("\r\n" + message(name)));
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 2) << run.out;
+    EXPECT_THAT(files(), ElementsAre("scene.toml"));
+  }
+}
+
+TEST_F(Signals, WhileLoadingEndItAtOnce) {
+  std::string text = "schema = 1\n";
+  for (int i = 0; i < 400'000; ++i) text += "[[sphere]]\ncenter = [1.0, 2.0, 3.0]\nradius = 1.5\n";
+  const std::string scene = write("long.toml", text);  // takes seconds to read
+  for (const auto& [signal, code, name] : signals) {
+    RunningProgram program({"render", scene, "-o", path("out.png"), "-v"});
+    program.wait(300);
+    const Watch watch;
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, code);
+    EXPECT_EQ(run.out, message(name));  // no note yet: it was still reading
+    EXPECT_THAT(files(), ElementsAre("long.toml"));
+  }
+}
+
+TEST_F(Signals, WhileWritingRemoveTheTemporaryFile) {
+  for (const auto& [signal, code, name] : signals) {
+    RunningProgram program({"render", small_scene(), "-o", path("out.exr"), "--size", "2400x2400",
+                            "--max-depth", "0", "--aov", "depth,normal,position,id,albedo",
+                            "--progress", "none"});
+    ASSERT_TRUE(program.wait_for_file(path(""), ".temp.exr"));
+    const Watch watch;
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, code);
+    EXPECT_EQ(run.out, message(name));
+    EXPECT_THAT(files(), ElementsAre("scene.toml"));
+  }
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,82 @@
+#include "tests/cli/running_program.h"
+
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+
+namespace boule::test {
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, unsigned short columns) {
+  std::vector<char*> argv = {const_cast<char*>(BOULE_PROGRAM)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const winsize size{24, columns, 0, 0};
+  child_ = forkpty(&terminal_, nullptr, nullptr, &size);
+  if (child_ < 0) throw std::runtime_error("forkpty failed");
+  if (child_ == 0) {
+    ::execv(argv[0], argv.data());
+    ::_exit(126);
+  }
+}
+
+RunningProgram::~RunningProgram() {
+  if (child_ > 0) {
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  ::close(terminal_);
+}
+
+/// False once the program has closed its terminal.
+bool RunningProgram::read_some(int timeout_ms) {
+  pollfd waiting{terminal_, POLLIN, 0};
+  if (::poll(&waiting, 1, timeout_ms) <= 0) return true;
+  std::array<char, 4096> buffer{};
+  const ssize_t count = ::read(terminal_, buffer.data(), buffer.size());
+  if (count > 0) {
+    shown_.append(buffer.data(), static_cast<std::size_t>(count));
+  } else {
+    ended_ = true;  // a pty without a writer is an input error
+  }
+  return !ended_;
+}
+
+bool RunningProgram::wait_for(const std::string& text) {
+  while (shown_.find(text) == std::string::npos) {
+    if (!read_some(1000)) return shown_.find(text) != std::string::npos;
+  }
+  return true;
+}
+
+bool RunningProgram::wait_for_file(const std::string& folder, const std::string& part) {
+  while (!ended_) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().filename().string().find(part) != std::string::npos) return true;
+    }
+    read_some(1);
+  }
+  return false;
+}
+
+void RunningProgram::wait(int milliseconds) {
+  const Watch watch;
+  while (!ended_ && watch.seconds() * 1000 < milliseconds) read_some(10);
+}
+
+void RunningProgram::send(int signal) const { ::kill(child_, signal); }
+
+ProgramRun RunningProgram::finish() {
+  while (read_some(1000)) continue;
+  int status = 0;
+  ::waitpid(child_, &status, 0);
+  child_ = -1;
+  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), shown_, {}};
+}
+
+}  // namespace boule::test

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "tests/support/run_program.h"
+
+namespace boule::test {
+
+/// The built program while it runs on a terminal of its own (a pty), which is its standard input,
+/// output and error. Killed at the end if it still runs.
+class RunningProgram {
+ public:
+  /// A terminal of so many columns.
+  explicit RunningProgram(const std::vector<std::string>& arguments, unsigned short columns = 100);
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+  ~RunningProgram();
+
+  /// Reads until `text` has been shown on the terminal; false if the program ends before.
+  bool wait_for(const std::string& text);
+
+  /// Reads until a file whose name contains `part` is in `folder`; false if the program ends
+  /// before.
+  bool wait_for_file(const std::string& folder, const std::string& part);
+
+  /// Reads for so long.
+  void wait(int milliseconds);
+
+  void send(int signal) const;
+
+  /// Reads to the end: the exit code, and all that was shown as `out`, each line ended by "\r\n".
+  ProgramRun finish();
+
+ private:
+  bool read_some(int timeout_ms);
+
+  pid_t child_ = -1;
+  int terminal_ = -1;
+  bool ended_ = false;
+  std::string shown_;
+};
+
+/// Seconds since its construction.
+class Watch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace boule::test

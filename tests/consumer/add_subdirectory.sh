@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# add_subdirectory.sh CMAKE GENERATOR CXX flags=FLAGS SOURCE: boule inside an outside project builds neither tests
+# nor benchmarks, installs nothing and leaves the project's own flags alone.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
+boule="$1"
+
+build add_subdirectory -DBOULE_SOURCE="$boule"
+inherits hits.cpp "-I$boule"
+prints 'ray 0: primitive 0 at t = 5
+ray 1: primitive 1 at t = 0.5' "$work/build/hits"
+
+for folder in tests bench; do
+  [[ ! -e "$work/build/boule/$folder" ]] || { echo "$folder are part of the build"; exit 1; }
+done
+"$cmake" --install "$work/build" --prefix "$work/installed" >/dev/null
+if find "$work/installed" -type f 2>/dev/null | grep .; then
+  echo "installed with the outside project"
+  exit 1
+fi

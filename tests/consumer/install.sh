@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# install.sh CMAKE BUILD SOURCE PREFIX: what an installation holds, and that it can be moved: it is
+# installed elsewhere first.
+set -euo pipefail
+cmake="$1" build="$2" source="$3" prefix="$4"
+
+rm -rf "$prefix" "$prefix-before"
+"$cmake" --install "$build" --prefix "$prefix-before" >/dev/null
+mv "$prefix-before" "$prefix"
+cd "$prefix"
+
+lib="$(dirname "$(find . -name libboule.a)")"
+for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.so" \
+  "$lib"/cmake/boule/boule-config{,-version}.cmake \
+  include/boule/{core/scene/scene.h,simd/dispatch/dispatch.h,render/renderer/renderer.h}; do
+  [[ -f "$file" ]] || { echo "$file is not installed"; exit 1; }
+done
+if find include | grep -E '/(kernel|lanes|cli)(/|$)'; then
+  echo "headers that are nobody's business outside"
+  exit 1
+fi
+if grep -rnF -e "$source" -e "$build" -e "$prefix" include "$lib/cmake"; then
+  echo "paths of the machine it was built on"
+  exit 1
+fi
+for word in boule_flags -Wall ffp-contract; do
+  if grep -rn -e "$word" "$lib/cmake"; then
+    echo "flags that are ours alone"
+    exit 1
+  fi
+done
+echo "installed: $(find . -type f | wc -l) files"
