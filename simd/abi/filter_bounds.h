@@ -20,8 +20,8 @@ namespace boule::filter {
 ///              taken off one after the other, u F^2 each time           4 u F^2
 ///                                                               sum    17 u F^2
 ///
-/// 24 is shipped. Of 2.1 million hits in the hard cases a slack of 7 and more drops none, 6 drops 2,
-/// 4 drops 1662: with 4 the equivalence tests must fail.
+/// 24 is shipped. Of 2.1 million hits in the hard cases a slack of 7 and more drops none, 6 drops
+/// 2, 4 drops 1662: with 4 the equivalence tests must fail.
 inline constexpr double u = 0x1p-24;
 inline constexpr double slack = 24;
 

@@ -24,15 +24,17 @@ class PictureFile {
     auto input = OIIO::ImageInput::open(path);
     if (!input) throw std::runtime_error(OIIO::geterror());
     spec = input->spec();
-    samples_.resize(static_cast<std::size_t>(spec.width * spec.height * spec.nchannels));
-    // As double: it holds every float and every uint32.
-    input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::DOUBLE, samples_.data());
+    for (int channel = 0; channel < spec.nchannels; ++channel) {
+      const bool integers = spec.channelformat(channel) == OIIO::TypeDesc::UINT32;
+      channels_.push_back(integers ? read_channel<std::uint32_t>(*input, channel)
+                                   : read_channel<float>(*input, channel));
+    }
   }
   /// A sample of the data window, counted from its upper left pixel.
   [[nodiscard]] double at(const char* channel, int x, int y) const {
     const int index = spec.channelindex(channel);
     if (index < 0) throw std::runtime_error(channel);
-    return samples_[static_cast<std::size_t>((y * spec.width + x) * spec.nchannels + index)];
+    return channels_[static_cast<std::size_t>(index)][static_cast<std::size_t>(y * spec.width + x)];
   }
   [[nodiscard]] std::array<float, 16> matrix(const char* name) const {
     const auto* attribute = spec.find_attribute(name, OIIO::TypeMatrix44);
@@ -45,7 +47,15 @@ class PictureFile {
   OIIO::ImageSpec spec;
 
  private:
-  std::vector<double> samples_;
+  /// Without OpenImageIO's conversion, which maps integers to 0 .. 1.
+  template <class T>
+  std::vector<double> read_channel(OIIO::ImageInput& input, int channel) const {
+    std::vector<T> samples(static_cast<std::size_t>(spec.width * spec.height));
+    input.read_image(0, 0, channel, channel + 1, OIIO::BaseTypeFromC<T>::value, samples.data());
+    return {samples.begin(), samples.end()};
+  }
+
+  std::vector<std::vector<double>> channels_;
 };
 
 using Point = std::array<double, 3>;

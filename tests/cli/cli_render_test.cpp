@@ -59,6 +59,10 @@ TEST_F(Render, ReferenceAndRobustAgree) {
   EXPECT_EQ(picture({"--solver", "fast"}, "c.ppm").size(), robust.size());
 }
 
+TEST_F(Render, WhittedIsTheMethod) {
+  EXPECT_EQ(picture({"--method", "whitted"}, "a.ppm"), picture({}, "b.ppm"));
+}
+
 TEST_F(Render, SizeSppSeedDepthAndExposureShow) {
   const std::string plain = picture({}, "a.ppm");
   EXPECT_EQ(plain.substr(0, 12), "P6\n32 18\n255");

@@ -55,18 +55,21 @@ TEST_F(Signals, WhileLoadingEndItAtOnce) {
 }
 
 TEST_F(Signals, WhileWritingRemoveTheTemporaryFile) {
+  // Quick to render, seconds to pack.
+  const std::string scene = write("sky.toml",
+                                  "schema = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [1, 2, 3]\n"
+                                  "[background]\ntype = \"gradient\"\n");
   for (const auto& [signal, code, name] : signals) {
-    RunningProgram program({"render", small_scene(), "-o", path("out.exr"), "--size", "2400x2400",
-                            "--max-depth", "0", "--aov", "depth,normal,position,id,albedo",
-                            "--progress", "none"});
-    ASSERT_TRUE(program.wait_for_file(path(""), ".temp.exr"));
+    RunningProgram program(
+        {"render", scene, "-o", path("out.exr"), "--size", "2000x3000", "--progress", "none"});
+    ASSERT_TRUE(program.wait_for_file(path(""), ".temp.exr", 1 << 20));
     const Watch watch;
     program.send(signal);
     const ProgramRun run = program.finish();
     EXPECT_LT(watch.seconds(), 1);
     EXPECT_EQ(run.exit_code, code);
     EXPECT_EQ(run.out, message(name));
-    EXPECT_THAT(files(), ElementsAre("scene.toml"));
+    EXPECT_THAT(files(), ElementsAre("sky.toml"));
   }
 }
 

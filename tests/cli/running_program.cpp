@@ -54,10 +54,14 @@ bool RunningProgram::wait_for(const std::string& text) {
   return true;
 }
 
-bool RunningProgram::wait_for_file(const std::string& folder, const std::string& part) {
+bool RunningProgram::wait_for_file(const std::string& folder, const std::string& part,
+                                   std::uintmax_t bytes) {
   while (!ended_) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().filename().string().find(part) != std::string::npos) return true;
+      const bool named = entry.path().filename().string().find(part) != std::string::npos;
+      std::error_code gone;
+      const std::uintmax_t size = named ? entry.file_size(gone) : 0;
+      if (named && !gone && size >= bytes) return true;
     }
     read_some(1);
   }

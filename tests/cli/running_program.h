@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ class RunningProgram {
   /// Reads until `text` has been shown on the terminal; false if the program ends before.
   bool wait_for(const std::string& text);
 
-  /// Reads until a file whose name contains `part` is in `folder`; false if the program ends
-  /// before.
-  bool wait_for_file(const std::string& folder, const std::string& part);
+  /// Reads until `folder` has a file of so many bytes whose name contains `part`; false if the
+  /// program ends before.
+  bool wait_for_file(const std::string& folder, const std::string& part, std::uintmax_t bytes);
 
   /// Reads for so long.
   void wait(int milliseconds);

@@ -205,7 +205,7 @@ TEST(Views, ADistanceBeyondFloatStaysFinite) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
   scene.planes = {{{0, 0, -3e38f}, {0, 0, 1}, 0}};
-  const View view = views_of(scene, {{{0, 0, 3e38}, {0, 0, -1}}})[0];
+  const View view = views_of(scene, {{{0, 0, 3e38}, {0, 0, -2}}})[0];
   EXPECT_EQ(view.depth, std::numeric_limits<float>::max());
   EXPECT_EQ(view.position.z, -3e38f);
 }

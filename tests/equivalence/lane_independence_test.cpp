@@ -32,8 +32,7 @@ class LaneIndependence : public testing::TestWithParam<std::string> {
 
   /// Nearest hits for every form and both solvers; calls check(hits, solver) with each.
   template <class Check>
-  void for_all_queries(const HardCase& scene, const std::vector<Ray>& rays,
-                       const Check& check) {
+  void for_all_queries(const HardCase& scene, const std::vector<Ray>& rays, const Check& check) {
     const Geometry geometry(scene.spheres, scene.planes);
     for (const Solver solver : {Solver::fast, Solver::robust}) {
       for (const Form form : forms) {

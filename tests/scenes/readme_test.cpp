@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/scene_file/scene_file.h"
+#include "tests/scenes/shipped.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+/// The fenced blocks of one language in a Markdown text.
+std::vector<std::string> code_blocks(const std::string& markdown, const std::string& language) {
+  const std::string open = "\n```" + language + "\n", close = "\n```\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = 0; (at = markdown.find(open, at)) != std::string::npos;) {
+    const std::size_t begin = at + open.size();
+    at = markdown.find(close, begin);
+    if (at == std::string::npos) break;
+    blocks.push_back(markdown.substr(begin, at - begin + 1));
+  }
+  return blocks;
+}
+
+/// What `np.save` writes for float32 rows of three, two of them.
+std::string two_centers() {
+  std::string dict = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
+  dict.resize(117, ' ');
+  return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dict + '\n' + std::string(24, '\0');
+}
+
+/// A folder with the data files that the README's scenes name.
+class ReadmeFolder {
+ public:
+  ReadmeFolder() {
+    write("cloud.npy", two_centers());
+    write("sphereflake.npy", read_bytes(scenes_folder() / "sphereflake.npy"));
+  }
+  [[nodiscard]] Result<LoadedScene> load(const std::string& name, const std::string& text) const {
+    return load_scene(write(name, text));
+  }
+
+ private:
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (dir_.path() / name).string();
+  }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+
+  TempDir dir_;
+};
+
+void expect_all_load(const std::string& language, std::size_t at_least) {
+  const ReadmeFolder folder;
+  const auto blocks = code_blocks(read_bytes(scenes_folder() / "README.md"), language);
+  EXPECT_GE(blocks.size(), at_least);
+  for (const std::string& block : blocks) {
+    const auto loaded = folder.load("block." + language, block);
+    EXPECT_TRUE(loaded.ok()) << block << format_diagnostic(loaded.error());
+  }
+}
+
+TEST(ScenesReadme, EveryTomlBlockIsAScene) { expect_all_load("toml", 7); }
+
+TEST(ScenesReadme, EveryNffBlockIsAScene) { expect_all_load("nff", 1); }
+
+TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
+  const std::string readme = read_bytes(scenes_folder() / "README.md");
+  const ReadmeFolder folder;
+  // A reader lists the keys it knows in its error about one it does not.
+  for (const char* table : {"[image]", "[render]", "[camera]", "[background]", "[[light]]",
+                            "[material.a]", "[[sphere]]", "[[spheres]]", "[[plane]]"}) {
+    const auto loaded = folder.load("key.toml", "schema = 1\n" + std::string(table) + "\nzzzzzz=1");
+    ASSERT_FALSE(loaded.ok()) << table;
+    const std::string message = loaded.error().message;
+    std::size_t at = message.find("expected");
+    ASSERT_NE(at, std::string::npos) << message;
+    for (at = message.find('\'', at); at != std::string::npos; at = message.find('\'', at + 1)) {
+      const std::size_t end = message.find('\'', at + 1);
+      const std::string key = message.substr(at + 1, end - at - 1);
+      const bool is_there = readme.find('`' + key + '`') != std::string::npos ||
+                            readme.find('.' + key + '`') != std::string::npos;
+      EXPECT_TRUE(is_there) << table << " " << key;
+      at = end;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boule::test
