@@ -21,7 +21,7 @@ Column along(const CameraBasis& basis, const Vec3d& axis, double scale) {
 }
 
 float finite_float(double x) {
-  constexpr double largest = std::numeric_limits<float>::max();
+  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::clamp(x, -largest, largest));
 }
 

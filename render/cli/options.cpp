@@ -55,6 +55,8 @@ struct Choice {
   const char* name;
   T value;
 };
+template <class T>
+Choice(const char*, T) -> Choice<T>;
 
 /// An option that takes one of a few names.
 template <class T, std::size_t n>

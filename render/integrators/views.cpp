@@ -11,7 +11,7 @@ namespace {
 
 /// Rounded to float, the largest one instead of infinity.
 float finite_float(double x) {
-  constexpr double largest = std::numeric_limits<float>::max();
+  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::clamp(x, -largest, largest));
 }
 

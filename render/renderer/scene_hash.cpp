@@ -40,7 +40,7 @@ class Hasher {
   template <class... Kinds>
   void add(const std::variant<Kinds...>& one_of) {
     add(std::uint64_t{one_of.index()});
-    std::visit([this](const auto& value) { add(value); }, one_of);
+    std::visit([this](const auto& value) { this->add(value); }, one_of);
   }
   template <class T>
   void add(const std::vector<T>& list) {

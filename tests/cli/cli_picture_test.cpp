@@ -64,8 +64,8 @@ using Point = std::array<double, 3>;
 std::array<double, 4> transform(const Point& p, const std::array<float, 16>& m) {
   std::array<double, 4> result{};
   for (std::size_t c = 0; c < 4; ++c) {
-    result[c] = double{m[12 + c]};
-    for (std::size_t r = 0; r < 3; ++r) result[c] += p[r] * double{m[4 * r + c]};
+    result[c] = static_cast<double>(m[12 + c]);
+    for (std::size_t r = 0; r < 3; ++r) result[c] += p[r] * static_cast<double>(m[4 * r + c]);
   }
   return result;
 }
@@ -128,7 +128,7 @@ TEST_F(Picture, ViewsAreOfThePixelsCentreAndMissesAreMarked) {
   }
   EXPECT_EQ(file.at("N.Y", 2, 17), 1);
   EXPECT_EQ(file.at("P.Y", 2, 17), 0);
-  EXPECT_EQ(file.at("albedo.R", 2, 17), double{0.8F});
+  EXPECT_EQ(file.at("albedo.R", 2, 17), static_cast<double>(0.8F));
   const double x = file.at("P.X", 16, 9), y = file.at("P.Y", 16, 9), z = file.at("P.Z", 16, 9);
   EXPECT_NEAR(x * x + (y - 1) * (y - 1) + z * z, 1, 1e-6);
   EXPECT_NEAR(file.at("Z", 16, 9), std::hypot(x, y - 1, z - 5), 1e-6);

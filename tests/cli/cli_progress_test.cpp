@@ -73,7 +73,7 @@ TEST_F(Progressing, ANarrowTerminalIsNotOverrun) {
 }
 
 TEST_F(Progressing, APipeHasPlainLinesByDefault) {
-  const auto lines = split(render({"--size", "320x180"}).err, '\n');
+  const auto lines = split(render({"--size", "320x180", "-t", "1"}).err, '\n');
   EXPECT_EQ(lines.size(), 11u);  // 10, 20 .. 100 %, and the summary
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     EXPECT_THAT(lines[i], StartsWith("boule: "));

@@ -72,7 +72,7 @@ TEST_P(ShippedScene, HasASmallPictureAndAPlaceInTheGallery) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(scene_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& scene) { return scene.param; });
 
 }  // namespace
 }  // namespace boule::test
