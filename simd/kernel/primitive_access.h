@@ -38,9 +38,7 @@ BOULE_INLINE Vec3<Real> sphere_center(const SphereView& s, std::size_t step) {
 
 template <class Access>
 BOULE_INLINE SphereLanes get_sphere(const SphereView& s, std::size_t step) {
-  return {sphere_center<Access>(s, step), Access::get(s.radius, step),
-          Access::get(s.reject_threshold, step), Access::get(s.reject_radius, step),
-          Access::id(0, step)};
+  return {sphere_center<Access>(s, step), Access::get(s.radius, step), Access::id(0, step)};
 }
 
 template <class Access>

@@ -9,8 +9,6 @@ namespace boule::BOULE_KERNEL_ISA {
 struct SphereLanes {
   Vec3<Real> center;
   Real radius;
-  Real reject_threshold;
-  Real reject_radius;
   Wide id;
 };
 
