@@ -101,13 +101,6 @@ struct LightProblem {
   }
 };
 
-Status in_range(const char* key, int value, int low, int high) {
-  if (value >= low && value <= high) return std::nullopt;
-  const std::string range = high == max_count ? std::to_string(low) + " or above"
-                                              : std::to_string(low) + " to " + std::to_string(high);
-  return Diagnostic{"must be " + range + ", is " + std::to_string(value), key, {}, 0, 0};
-}
-
 Status located(const std::string& place, const std::optional<Problem>& problem) {
   if (!problem) return std::nullopt;
   return Diagnostic{problem->message, place + "." + problem->field, {}, 0, 0};
@@ -128,13 +121,20 @@ Status check_primitives(const char* name, const std::vector<Primitive>& primitiv
 }
 
 Status check_settings(const Scene& scene) {
-  if (auto bad = in_range("image.size", scene.image.width, 1, max_image_side)) return bad;
-  if (auto bad = in_range("image.size", scene.image.height, 1, max_image_side)) return bad;
-  if (auto bad = in_range("image.spp", scene.image.spp, 1, max_count)) return bad;
-  return in_range("render.max_depth", scene.render.max_depth, 0, max_count);
+  if (auto bad = check_range("image.size", scene.image.width, 1, max_image_side)) return bad;
+  if (auto bad = check_range("image.size", scene.image.height, 1, max_image_side)) return bad;
+  if (auto bad = check_range("image.spp", scene.image.spp, 1, max_count)) return bad;
+  return check_range("render.max_depth", scene.render.max_depth, 0, max_count);
 }
 
 }  // namespace
+
+Status check_range(const char* key, int value, int low, int high) {
+  if (value >= low && value <= high) return std::nullopt;
+  const std::string range = high == max_count ? std::to_string(low) + " or above"
+                                              : std::to_string(low) + " to " + std::to_string(high);
+  return Diagnostic{"must be " + range + ", is " + std::to_string(value), key, {}, 0, 0};
+}
 
 std::optional<Problem> find_problem(const Sphere& sphere) {
   // The checker words its messages beforehand; there may be millions of good spheres.

@@ -55,4 +55,8 @@ struct Scene {
 /// made in memory calls this first; the readers return only scenes that pass.
 Status validate(const Scene& scene);
 
+/// Nothing, or a Diagnostic with this key that says which whole numbers would do: low to high, or
+/// low and above where `high` is max_count.
+Status check_range(const char* key, int value, int low, int high);
+
 }  // namespace boule

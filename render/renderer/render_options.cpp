@@ -9,13 +9,6 @@ namespace {
 
 Diagnostic wrong(const char* key, const std::string& message) { return {message, key, {}, 0, 0}; }
 
-Status check_range(const char* key, int value, int low, int high) {
-  if (value >= low && value <= high) return std::nullopt;
-  const std::string range = high == max_count ? std::to_string(low) + " or above"
-                                              : std::to_string(low) + " to " + std::to_string(high);
-  return wrong(key, "must be " + range + ", is " + std::to_string(value));
-}
-
 Status check_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
