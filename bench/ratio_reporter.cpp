@@ -27,15 +27,16 @@ void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
 }
 
 void RatioReporter::Finalize() {
-  std::printf("\n%-34s %-22s %8s %8s   G tests/s min..max of %s\n", "experiment", "against",
-              "ratio", "G/s", "repetitions");
+  std::printf("\n%-34s %-26s %7s %7s   G tests/s: median, min..max of repetitions\n", "experiment",
+              "against", "medians", "bests");
   for (const Pair& pair : pairs_) {
     const auto a = rates_.find(pair.experiment), b = rates_.find(pair.contender);
     if (a == rates_.end() || b == rates_.end()) continue;
     const auto [low, high] = std::minmax_element(a->second.begin(), a->second.end());
-    std::printf("%-34s %-22s %8.2f %8.3f   %.3f..%.3f\n", pair.experiment.c_str(),
+    const double contender_best = *std::max_element(b->second.begin(), b->second.end());
+    std::printf("%-34s %-26s %7.2f %7.2f   %.3f, %.3f..%.3f\n", pair.experiment.c_str(),
                 pair.contender.c_str(), median(a->second) / median(b->second),
-                median(a->second) * 1e-9, *low * 1e-9, *high * 1e-9);
+                *high / contender_best, median(a->second) * 1e-9, *low * 1e-9, *high * 1e-9);
   }
 }
 

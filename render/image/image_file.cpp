@@ -16,9 +16,15 @@
 namespace boule::image_module {
 namespace {
 
-/// Rows per call: enough for EXR's zip blocks of 16 rows on several threads, few enough to stop
-/// soon.
-constexpr int band_rows = 64;
+/// Rows per call: a multiple of EXR's zip blocks of 16 rows, enough of them to keep several threads
+/// busy, and about a MiB, so that packing stops soon after a signal.
+int band_rows(const Picture& picture, const OIIO::ImageSpec& spec) {
+  constexpr int block = 16, most_blocks = 16;
+  constexpr size_t enough_bytes = 1 << 20;
+  const size_t block_bytes = static_cast<size_t>(spec.scanline_bytes(true)) * block;
+  const auto blocks = static_cast<int>(std::min<size_t>(enough_bytes / block_bytes, most_blocks));
+  return block * std::max(blocks, std::max(picture.threads, 1));
+}
 
 /// Hands OpenImageIO's bytes to a file descriptor, gathered: its PNM writer writes single bytes.
 /// After a failure it keeps the errno code and pretends to go on: libjpeg would end the process,
@@ -180,12 +186,13 @@ void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned 
 void write_bands(const Picture& picture, OIIO::ImageOutput& output, const DescriptorProxy& proxy,
                  Report* report) {
   std::vector<unsigned char> packed;
-  for (int begin = 0; begin < picture.height && proxy.code() == 0; begin += band_rows) {
+  const int rows = band_rows(picture, output.spec());
+  for (int begin = 0; begin < picture.height && proxy.code() == 0; begin += rows) {
     if (picture.stop(picture.context)) {
       report->outcome = Outcome::stopped;
       return;
     }
-    const int end = std::min(begin + band_rows, picture.height);
+    const int end = std::min(begin + rows, picture.height);
     pack_rows(picture, begin, end, packed);
     const bool mixed = !output.spec().channelformats.empty();
     const OIIO::TypeDesc type = mixed ? OIIO::TypeUnknown : type_of(picture.channels[0].type);

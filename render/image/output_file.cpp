@@ -1,6 +1,7 @@
 #include "render/image/output_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/random.h>
 #include <sys/stat.h>
@@ -65,6 +66,25 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
+/// Writes all bytes to a pipe or device that does not block, as its reader takes them; 0 or an
+/// errno code, ECANCELED where `stop` says so.
+int stream_all(int stream, const char* bytes, std::size_t count,
+               const std::function<bool()>& stop) {
+  constexpr int patience_ms = 100;
+  while (count > 0) {
+    if (stop && stop()) return ECANCELED;
+    pollfd ready{stream, POLLOUT, 0};
+    if (poll(&ready, 1, patience_ms) == 0) continue;
+    const ssize_t written = ::write(stream, bytes, count);
+    if (written < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (written < 0) return errno;
+    if (written == 0) return EIO;
+    bytes += written;
+    count -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
 /// The new name survives a power cut once its folder is written; a file system that cannot do that
 /// is no reason to fail.
 void sync_folder(const std::string& path) {
@@ -121,6 +141,8 @@ Result<OutputFile> OutputFile::create_beside(OutputFile file, const std::string&
 
 Result<OutputFile> OutputFile::create_stream(OutputFile file, const std::string& real_target) {
   file.stream_ = open(real_target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  // A slow reader must not hold up a signal. (The flag is this opening's own, nobody shares it.)
+  if (file.stream_ >= 0) fcntl(file.stream_, F_SETFL, O_WRONLY | O_NONBLOCK);
   if (file.stream_ >= 0) file.descriptor_ = memfd_create("boule", MFD_CLOEXEC);
   if (file.descriptor_ < 0) return cannot_write(file.name_, system_reason(errno));
   file.path_ = "/proc/self/fd/" + std::to_string(file.descriptor_);
@@ -159,9 +181,10 @@ Status OutputFile::write(const void* bytes, std::size_t count) {
   return {};
 }
 
-Status OutputFile::commit() {
-  if (stream_ >= 0) return commit_stream();
+Status OutputFile::commit(const std::function<bool()>& stop) {
+  if (stream_ >= 0) return commit_stream(stop);
   if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
+  if (stop && stop()) return cannot_write(name_, "interrupted");
   if (close(std::exchange(descriptor_, -1)) != 0) {
     return cannot_write(name_, system_reason(errno));
   }
@@ -173,7 +196,7 @@ Status OutputFile::commit() {
   return {};
 }
 
-Status OutputFile::commit_stream() {
+Status OutputFile::commit_stream(const std::function<bool()>& stop) {
   std::array<char, 1 << 16> buffer;
   off_t position = 0;
   for (;;) {
@@ -181,7 +204,8 @@ Status OutputFile::commit_stream() {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return cannot_write(name_, system_reason(errno));
     if (count == 0) break;
-    const int code = write_all(stream_, buffer.data(), static_cast<std::size_t>(count));
+    const int code = stream_all(stream_, buffer.data(), static_cast<std::size_t>(count), stop);
+    if (code == ECANCELED) return cannot_write(name_, "interrupted");
     if (code != 0) return cannot_write(name_, system_reason(code));
     position += count;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "core/base/error.h"
@@ -36,13 +37,15 @@ class OutputFile {
   Status write(const void* bytes, std::size_t count);
 
   /// Makes the data durable and gives the file its name; call it once, after the last write.
-  Status commit();
+  /// `stop` is asked before that, and ten times a second while a pipe's reader is slow: true gives
+  /// up, with "interrupted" as the reason.
+  Status commit(const std::function<bool()>& stop = {});
 
  private:
   OutputFile() = default;
   static Result<OutputFile> create_beside(OutputFile file, const std::string& real_target);
   static Result<OutputFile> create_stream(OutputFile file, const std::string& real_target);
-  Status commit_stream();
+  Status commit_stream(const std::function<bool()>& stop);
   void discard();
 
   std::string name_;         // the target as the caller wrote it, for messages

@@ -202,7 +202,7 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   if (Status failure = status_of(report, path)) return failure;
   table.check(&plan->picture, file.path().c_str(), &report);
   if (Status failure = status_of(report, path)) return failure;
-  return file.commit();
+  return file.commit(options.stop);
 }
 
 }  // namespace boule

@@ -68,7 +68,7 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   out.origins_exact = !any(Wide(0.0) < error);
   out.origin_error = narrow(error * Wide(1 + filter::slack * filter::u) + Wide(filter::floor));
   out.length = sqrt(rays.a);
-  const Wide inverse_length = Wide(1.0) / out.length;
+  const Wide inverse_length = out.length * rays.inverse_a;
   out.inverse_length = narrow(inverse_length);
   // NaN for dir 0 and for anything not finite.
   out.unit = narrow(rays.dir * inverse_length);

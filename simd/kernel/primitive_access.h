@@ -41,6 +41,21 @@ BOULE_INLINE SphereLanes get_sphere(const SphereView& s, std::size_t step) {
   return {sphere_center<Access>(s, step), Access::get(s.radius, step), Access::id(0, step)};
 }
 
+/// Sphere `index` of each lane; any sphere where that is negative.
+BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Wide& index) {
+  alignas(64) double lanes[width];
+  alignas(64) float x[width], y[width], z[width], r[width];
+  store(lanes, index);
+  for (int lane = 0; lane < width; ++lane) {
+    const std::size_t i = lanes[lane] < 0 ? 0 : static_cast<std::size_t>(lanes[lane]);
+    x[lane] = s.center_x[i];
+    y[lane] = s.center_y[i];
+    z[lane] = s.center_z[i];
+    r[lane] = s.radius[i];
+  }
+  return {{load(x), load(y), load(z)}, load(r), index};
+}
+
 template <class Access>
 BOULE_INLINE PlaneLanes get_plane(const PlaneView& p, std::size_t step) {
   return {

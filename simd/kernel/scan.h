@@ -11,24 +11,39 @@
 /// survives; the double solves run over that list, outside it.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The nearest hit so far, per lane.
+/// The nearest hit so far, per lane. Most lanes need one double solve at all: while float can tell
+/// for certain which sphere is the nearest, that sphere is only `pending`; settle() solves it.
 struct ClosestHit {
-  Wide t, id;
+  Wide t, id;    ///< the nearest hit that is solved
+  Wide pending;  ///< sphere that is hit for certain and nearer than that for certain, or -1
+  Real
+      nearest;  ///< lower bound of t |dir| of the pending hit, else of the solved one, else of tmax
   Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
-      : t(no_hit), id(-1.0), reach(bound(rays.exact.tmax, rays)) {}
+      : t(no_hit),
+        id(-1.0),
+        pending(-1.0),
+        nearest(rays.filter.live_to),
+        reach(outward(rays.exact.tmax, rays, 1)) {}
 
-  BOULE_INLINE static Real bound(const Wide& t, const RayLanes& rays) {
-    return narrow(t * rays.filter.length) * Real(static_cast<float>(1 + 8 * filter::u));
+  /// A bound of t |dir|, from above (side 1) or below (-1).
+  BOULE_INLINE static Real outward(const Wide& t, const RayLanes& rays, float side) {
+    const Real distance = narrow(t * rays.filter.length);
+    return distance + abs(distance) * Real(side * static_cast<float>(8 * filter::u));
   }
 
-  /// Takes what float knows of a sphere; false if the double solve can add nothing.
-  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out,
-                             const FilterRays& rays) {
+  /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if
+  /// that is all it takes: only where float cannot tell which hit is nearer is it left to solve.
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
+                             const Wide& sphere, const FilterRays& rays) {
     const Real high = highest(roots, rays);
+    const RealMask first = high < nearest;
+    out |= bits(first | (reach < low));
     reach = select(high < reach, high, reach);
-    return wants(low, out);
+    nearest = select(first, low, nearest);
+    pending = select(widen(first), sphere, pending);
+    return out != all_lanes;
   }
   /// Whether a sphere whose roots begin at `low` could still be the nearest in a lane not `out`.
   BOULE_INLINE bool wants(const Real& low, unsigned out) const {
@@ -38,14 +53,29 @@ struct ClosestHit {
   BOULE_INLINE void offer(const Roots& roots, const Wide& primitive, const RayLanes& rays) {
     const WideMask nearer = (roots.t < t) | ((roots.t == t) & (primitive < id));
     const WideMask better = roots.hit & nearer;
-    if (!any(better)) return;
-    t = select(better, roots.t, t);
-    id = select(better, primitive, id);
-    const Real end = bound(t, rays);
-    reach = select(end < reach, end, reach);
+    if (any(better)) take(roots.t, primitive, better, rays);
+  }
+  /// Solves the pending hits: one double solve, each lane against its own sphere.
+  BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
+    const WideMask is_pending = Wide(-1.0) < pending;
+    if (!any(is_pending)) return;
+    const Roots roots = solve_robust(rays.exact, gather_spheres(spheres, pending));
+    take(roots.t, pending, roots.hit & is_pending, rays);
+    pending = Wide(-1.0);
   }
   static constexpr bool done() { return false; }
   static constexpr std::size_t chunk = 256;
+
+ private:
+  BOULE_INLINE void take(const Wide& new_t, const Wide& new_id, const WideMask& lanes,
+                         const RayLanes& rays) {
+    t = select(lanes, new_t, t);
+    id = select(lanes, new_id, id);
+    const Real end = outward(t, rays, 1);
+    reach = select(end < reach, end, reach);
+    const Real begin = outward(t, rays, -1);
+    nearest = select(begin < rays.filter.live_to, begin, rays.filter.live_to);
+  }
 };
 
 /// Whether anything is hit, per lane; `one_ray`: all lanes are the same ray, one hit is enough.
@@ -55,7 +85,7 @@ struct AnyHit {
 
   BOULE_INLINE explicit AnyHit(const RayLanes&) {}
 
-  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out,
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Wide&,
                              const FilterRays& rays) {
     hit |= bits(live(roots, rays));
     return wants(low, out);
@@ -66,6 +96,7 @@ struct AnyHit {
   BOULE_INLINE void offer(const Roots& roots, const Wide&, const RayLanes&) {
     hit |= bits(roots.hit);
   }
+  static void settle(const SphereView&, const RayLanes&) {}
   [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
   static constexpr std::size_t chunk = 64;
 };
@@ -109,7 +140,7 @@ template <std::size_t capacity>
 struct Candidates {
   alignas(64) float low[capacity][width];  ///< lower bounds of their roots
   std::uint32_t offset[capacity];
-  unsigned out[capacity];  ///< lanes that have no live root
+  unsigned out[capacity];  ///< lanes that need no solve
   std::size_t count = 0;
 
   BOULE_INLINE void append(std::uint32_t step_offset, const Real& lower, unsigned dead_lanes) {
@@ -134,8 +165,8 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& sphere
     const RootBounds roots = bound_roots(rays.filter, sphere_center<Access>(spheres, step),
                                          Access::get(spheres.radius, step));
     const Real low = lowest(roots, rays.filter);
-    const unsigned out = bits(dead(roots, rays.filter));
-    if (best.consider(roots, low, out, rays.filter)) {
+    unsigned out = bits(dead(roots, rays.filter));
+    if (best.consider(roots, low, out, Access::id(0, step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);
     }
   }
@@ -151,6 +182,7 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& sphere
   list_candidates<Access>(rays, spheres, begin, survivors, candidates, best);
   for (std::size_t k = 0; k < candidates.count; ++k) {
     if (!best.wants(load(candidates.low[k]), candidates.out[k])) continue;
+    best.settle(spheres, rays);
     const SphereLanes sphere = get_sphere<Access>(spheres, begin + candidates.offset[k]);
     best.offer(solve_robust(rays.exact, sphere), sphere.id, rays);
   }
@@ -172,6 +204,7 @@ BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, 
       }
     }
   }
+  best.settle(spheres, rays);
 }
 
 template <Solver solver, class Access, class Best>

@@ -1,4 +1,9 @@
 // Signals: the program is gone within a second, says so, and leaves nothing behind.
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <tuple>
 
@@ -70,6 +75,26 @@ TEST_F(Signals, WhileWritingRemoveTheTemporaryFile) {
     EXPECT_EQ(run.exit_code, code);
     EXPECT_EQ(run.out, message(name));
     EXPECT_THAT(files(), ElementsAre("sky.toml"));
+  }
+}
+
+TEST_F(Signals, WhileAPipesReaderIsSlowStopTheWait) {
+  const std::string pipe = path("out.ppm");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto& [signal, code, name] : signals) {
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // and never reads
+    RunningProgram program(
+        {"render", small_scene(), "-o", pipe, "--size", "640x480", "--progress", "none"});
+    pollfd filled{reader, POLLIN, 0};
+    ASSERT_EQ(poll(&filled, 1, 20'000), 1);
+    program.wait(100);  // by now the pipe is full
+    const Watch watch;
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, code);
+    EXPECT_THAT(run.out, EndsWith(message(name)));
+    close(reader);
   }
 }
 
