@@ -31,6 +31,7 @@ bool none(Mask m) { return !m; }
 float pick(Mask m, float a, float b) { return m ? a : b; }
 float root(float x) { return __builtin_sqrtf(x); }
 float multiply_add(float a, float b, float c) { return a * b + c; }
+float negated_multiply_add(float a, float b, float c) { return c - a * b; }
 Floats get(const float* p) { return *p; }
 void put(float* p, Floats v) { *p = v; }
 Floats all(float x) { return x; }
@@ -47,14 +48,17 @@ Floats pick(Mask m, Floats a, Floats b) { return m ? a : b; }
 bool none(Mask m) { return _mm512_movepi32_mask(reinterpret_cast<__m512i>(m)) == 0; }
 Floats root(Floats x) { return _mm512_sqrt_ps(x); }
 Floats multiply_add(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a, b, c); }
+Floats negated_multiply_add(Floats a, Floats b, Floats c) { return _mm512_fnmadd_ps(a, b, c); }
 #elif defined(__AVX2__)
 bool none(Mask m) { return _mm256_movemask_ps(reinterpret_cast<__m256>(m)) == 0; }
 Floats root(Floats x) { return _mm256_sqrt_ps(x); }
 Floats multiply_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }
+Floats negated_multiply_add(Floats a, Floats b, Floats c) { return _mm256_fnmadd_ps(a, b, c); }
 #elif defined(__SSE4_2__)
 bool none(Mask m) { return _mm_movemask_ps(reinterpret_cast<__m128>(m)) == 0; }
 Floats root(Floats x) { return _mm_sqrt_ps(x); }
 Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
+Floats negated_multiply_add(Floats a, Floats b, Floats c) { return c - a * b; }
 #else
 bool none(Mask m) { return (m[0] | m[1] | m[2] | m[3]) == 0; }
 Floats root(Floats x) {
@@ -62,6 +66,7 @@ Floats root(Floats x) {
   return x;
 }
 Floats multiply_add(Floats a, Floats b, Floats c) { return a * b + c; }
+Floats negated_multiply_add(Floats a, Floats b, Floats c) { return c - a * b; }
 #endif
 #endif
 
@@ -73,15 +78,15 @@ struct Quadratic {
   Floats b, discriminant;
 };
 
-/// f = c - o, b = f.d, discriminant = b^2 - (f.f - r^2), for unit d.
+/// f = c - o, b = f.d, discriminant = b^2 + (r^2 - f.f), for unit d.
 [[gnu::always_inline]] inline Quadratic quadratic(const Packet& p, const HalfBData& s,
                                                   std::size_t i) {
   const Floats fx = all(s.center_x[i]) - p.ox, fy = all(s.center_y[i]) - p.oy;
   const Floats fz = all(s.center_z[i]) - p.oz;
   const Floats b = multiply_add(fz, p.dz, multiply_add(fy, p.dy, fx * p.dx));
-  const Floats cc =
-      multiply_add(fz, fz, multiply_add(fy, fy, multiply_add(fx, fx, all(-s.radius_squared[i]))));
-  return {b, multiply_add(b, b, -cc)};
+  const Floats rest = negated_multiply_add(
+      fz, fz, negated_multiply_add(fy, fy, negated_multiply_add(fx, fx, all(s.radius_squared[i]))));
+  return {b, multiply_add(b, b, rest)};
 }
 
 [[gnu::always_inline]] inline Floats nearer(const Quadratic& q, Floats best) {

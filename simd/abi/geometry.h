@@ -12,8 +12,8 @@ struct SphereView {
   const float* center_y;
   const float* center_z;
   const float* radius;
-  /// -r2p of filter_bounds.h; -inf where the reject must not decide.
-  const float* reject_threshold;
+  /// r2p of filter_bounds.h; inf where the reject must not decide.
+  const float* reject_squared;
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
   std::size_t size;

@@ -28,13 +28,13 @@ bool filter_applies(const Sphere& s) {
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes)
     : sphere_count_(spheres.size()),
       plane_count_(planes.size()),
-      // Padding: a sphere of radius NaN is missed by every exact solve; the threshold +inf makes
-      // the filter reject it first.
+      // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
+      // filter reject it first.
       center_x_(sphere_count_),
       center_y_(sphere_count_),
       center_z_(sphere_count_),
       radius_(sphere_count_, nan),
-      threshold_(sphere_count_, inf),
+      reject_squared_(sphere_count_, -inf),
       reject_radius_(sphere_count_),
       // Padding: a normal of 0 gives n.d = 0, a miss.
       point_x_(plane_count_),
@@ -53,13 +53,13 @@ void Geometry::set_sphere(std::size_t i, const Sphere& sphere) {
   center_z_[i] = sphere.center.z;
   radius_[i] = sphere.radius;
   if (!filter_applies(sphere)) {
-    threshold_[i] = -inf;
+    reject_squared_[i] = inf;
     reject_radius_[i] = inf;
     return;
   }
   const double r = std::fabs(double{sphere.radius});
   constexpr double outward = 1 + filter::slack * filter::u;
-  threshold_[i] = -round_up(r * r * outward + filter::squared_floor);
+  reject_squared_[i] = round_up(r * r * outward + filter::squared_floor);
   reject_radius_[i] = round_up(r * outward + filter::floor);
 }
 
@@ -74,8 +74,8 @@ void Geometry::set_plane(std::size_t i, const Plane& plane) {
 
 GeometryView Geometry::view() const {
   GeometryView view{};
-  view.spheres = {center_x_.data(),  center_y_.data(),      center_z_.data(), radius_.data(),
-                  threshold_.data(), reject_radius_.data(), sphere_count_};
+  view.spheres = {center_x_.data(),       center_y_.data(),      center_z_.data(), radius_.data(),
+                  reject_squared_.data(), reject_radius_.data(), sphere_count_};
   view.planes = {point_x_.data(),  point_y_.data(),
                  point_z_.data(),  normal_x_.data(),
                  normal_y_.data(), normal_z_.data(),

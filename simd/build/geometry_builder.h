@@ -23,7 +23,7 @@ class Geometry {
   void set_plane(std::size_t i, const Plane& plane);
 
   std::size_t sphere_count_, plane_count_;
-  AlignedArray<float> center_x_, center_y_, center_z_, radius_, threshold_, reject_radius_;
+  AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
   AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
 };
 

@@ -16,16 +16,16 @@ struct SphereLanes {
 /// the sphere grows by the origin's rounding error.
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
-                               const Real& reject_threshold, const Real& reject_radius) {
+                               const Real& reject_squared, const Real& reject_radius) {
   const Vec3<Real> f = center - rays.org;
   const Real b = filter_dot(f, rays.h);
-  const Real value = filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, b * b)));
-  if constexpr (origins_exact) {
-    return value < reject_threshold;
-  } else {
+  Real r2p = reject_squared;
+  if constexpr (!origins_exact) {
     const Real grown = reject_radius + rays.origin_error;
-    return filter_fma(grown, grown, value) < Real(0.0F);
+    r2p = grown * grown;
   }
+  const Real rest = filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, r2p)));
+  return filter_fma(b, b, rest) < Real(0.0F);
 }
 
 /// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.

@@ -64,7 +64,7 @@ struct ClosestHit {
     pending = Wide(-1.0);
   }
   static constexpr bool done() { return false; }
-  static constexpr std::size_t chunk = 256;
+  static constexpr std::size_t chunk = 1024;
 
  private:
   BOULE_INLINE void take(const Wide& new_t, const Wide& new_id, const WideMask& lanes,
@@ -115,7 +115,7 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const SphereView& spher
                                  Survivors<capacity>& survivors) {
   const auto test = [&](std::size_t step) {
     return rejected<origins_exact>(rays, sphere_center<Access>(spheres, step),
-                                   Access::get(spheres.reject_threshold, step),
+                                   Access::get(spheres.reject_squared, step),
                                    Access::get(spheres.reject_radius, step));
   };
   const auto append = [&](std::size_t step, RealMask out) {

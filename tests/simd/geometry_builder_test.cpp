@@ -36,7 +36,7 @@ TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
   const GeometryView view = geometry.view();
   for (std::size_t i = 1; i < max_width; ++i) {
     EXPECT_TRUE(std::isnan(view.spheres.radius[i]));
-    EXPECT_EQ(view.spheres.reject_threshold[i], inf);
+    EXPECT_EQ(view.spheres.reject_squared[i], -inf);
     EXPECT_EQ(view.planes.normal_x[i], 0);
     EXPECT_EQ(view.planes.normal_y[i], 0);
     EXPECT_EQ(view.planes.normal_z[i], 0);
@@ -55,8 +55,8 @@ TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const double r = spheres[i].radius;
     const double r2p = r * r * (1 + 24 * 0x1p-24) + 1e-36, rp = r * (1 + 24 * 0x1p-24) + 1e-18;
-    ASSERT_GE(-double{view.reject_threshold[i]}, r2p);
-    ASSERT_LE(-double{view.reject_threshold[i]}, r2p * (1 + 2 * 0x1p-23));
+    ASSERT_GE(double{view.reject_squared[i]}, r2p);
+    ASSERT_LE(double{view.reject_squared[i]}, r2p * (1 + 2 * 0x1p-23));
     ASSERT_GE(double{view.reject_radius[i]}, rp);
     ASSERT_LE(double{view.reject_radius[i]}, rp * (1 + 2 * 0x1p-23));
   }
@@ -69,7 +69,7 @@ TEST(GeometryBuilder, TheFilterDecidesNothingBeyondItsRange) {
   const Geometry geometry(spheres, {});
   const SphereView view = geometry.view().spheres;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    EXPECT_EQ(view.reject_threshold[i], -inf) << i;
+    EXPECT_EQ(view.reject_squared[i], inf) << i;
     EXPECT_EQ(view.reject_radius[i], inf) << i;
   }
 }
