@@ -73,8 +73,9 @@ double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
   if (!(discriminant >= 0)) return no_hit;  // NaN is a miss; exactly 0, a tangent, is a hit
   const double half_chord = std::sqrt(dot(d, d) * discriminant);
   const double q = std::signbit(b) ? b - half_chord : b + half_chord;
-  const double from_cc = (dot(f, f) - r * r) / q;
   const double from_a = q * inverse_a;
+  // A tangent has one root twice. (From a point on the sphere cc / q is then noise over noise.)
+  const double from_cc = discriminant > 0 ? (dot(f, f) - r * r) / q : from_a;
   const double first = from_cc < from_a ? from_cc : from_a;
   const double second = from_cc < from_a ? from_a : from_cc;
   if (in_range(first, ray)) return first;
@@ -82,8 +83,8 @@ double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
 }
 
 // Ray-plane. The lecture substitutes P = O + tD into (P - P0).N = 0: t = (P0 - O).N / D.N.
-// D.N = 0 is a ray along the plane, a miss. Products of two floats are exact in double, so a small
-// D.N is still known to full precision.
+// D.N = 0 is a ray along the plane, a miss. Products of two floats are exact in double, so only the
+// sum is rounded: D.N is known to 2^-52 of |D||N|, however small.
 double intersect(const Ray& ray, const Plane& plane, bool leaves) {
   if (leaves) return no_hit;  // flat: a ray that leaves it never comes back
   const Vec3d n = vec_cast<double>(plane.normal);

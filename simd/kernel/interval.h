@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "simd/kernel/quadratic.h"
 
 /// What float knows for certain of a sphere that survived the reject: where its roots lie. Most
@@ -27,8 +29,10 @@ BOULE_INLINE RootBounds bound_roots(const FilterRays& rays, const Vec3<Real>& ce
   const Real doubt = spread * (r + r + Real(3.0F) * spread) + Real(unit_spread) * square;
 
   RootBounds bounds;
+  const Real largest(std::numeric_limits<float>::max());
   bounds.certain = doubt < discriminant;
-  bounds.misses = discriminant + doubt < Real(0.0F);
+  // Beyond filter::limit l.l may overflow: nothing follows from infinity.
+  bounds.misses = (Real(0.0F) - largest <= discriminant) & (discriminant + doubt < Real(0.0F));
   const Real least = sqrt(discriminant - doubt), most = sqrt(discriminant + doubt);
   bounds.first_low = b - spread - most;
   bounds.first_high = b + spread - least;

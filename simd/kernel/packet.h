@@ -79,7 +79,9 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   const Real nan(std::numeric_limits<float>::quiet_NaN());
   out.h.x = select(small, out.h.x, nan);
   out.unit.x = select(small, out.unit.x, nan);
-  const Real from = narrow(rays.tmin * out.length), to = narrow(rays.tmax * out.length);
+  const Real largest(std::numeric_limits<float>::max());
+  const Real from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
+  const Real to = select(largest < far, largest, far);  // NaN stays: nothing is live then
   const Real zero(0.0F), slack(static_cast<float>(8 * filter::u));
   out.live_from = from + abs(from) * slack;
   out.live_to = to - abs(to) * slack;

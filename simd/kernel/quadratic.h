@@ -37,8 +37,10 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
   const Wide discriminant = r * r - dot(l, l);
 
   const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
-  const Wide from_cc = (dot(f, f) - r * r) / q;
   const Wide from_a = q * rays.inverse_a;
+  // A tangent has one root twice. (And cc / q could be noise over noise.)
+  const WideMask secant = Wide(0.0) < discriminant;
+  const Wide from_cc = select(secant, (dot(f, f) - r * r) / q, from_a);
 
   const WideMask ordered = from_cc < from_a;
   Roots roots =
@@ -58,7 +60,7 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
 }
 
 /// Solver fast: closest approach in float along the unit direction. Wrong decisions only within
-/// 3u max(F, r) of the rim; spheres and origins beyond filter::limit are missed.
+/// 3u max(F, r) of the rim, for sizes from 1e-18 to filter::limit: beyond it spheres are missed.
 BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   const FilterRays& filter = rays.filter;
   const Vec3<Real> f = sphere.center - filter.org;

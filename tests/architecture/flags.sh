@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# flags.sh COMPILE_COMMANDS ROOT: every source of ours is compiled with -ffp-contract=off, and with
-# nothing that lets the compiler change results (NUMERICS section 3).
+# flags.sh COMPILE_COMMANDS ROOT COMPILER: every source of ours is compiled with -ffp-contract=off,
+# by COMPILER GNU without the vectoriser that loses roundings too, and with nothing that lets the
+# compiler change results (NUMERICS section 3).
 set -euo pipefail
 
 # One line per entry: the database writes an entry's members on lines of their own.
-awk -v root="$2/" '
+awk -v root="$2/" -v compiler="$3" '
   /"command":/ { command = $0 }
   /"file":/ {
     file = $0
@@ -14,6 +15,10 @@ awk -v root="$2/" '
     ++sources
     if (command !~ / -ffp-contract=off /) {
       print file ": compiled without -ffp-contract=off"
+      wrong = 1
+    }
+    if (compiler == "GNU" && command !~ / -fno-tree-slp-vectorize /) {
+      print file ": compiled without -fno-tree-slp-vectorize"
       wrong = 1
     }
     # The last one counts, and any other value would be a mistake.

@@ -6,6 +6,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 failures=0
 
+compiler=Clang
 # expect RESULT FLAGS...: a database of one entry per argument passes or fails.
 expect() {
   local wanted="$1" result=fails flags
@@ -18,7 +19,7 @@ expect() {
     done
     echo ']'
   } >"$work/commands.json"
-  "$here/flags.sh" "$work/commands.json" /src >"$work/out" && result=passes
+  "$here/flags.sh" "$work/commands.json" /src $compiler >"$work/out" && result=passes
   [[ "$result" == "$wanted" ]] && return
   echo "$result: $*"
   failures=$((failures + 1))
@@ -35,5 +36,8 @@ for flag in -ffast-math -Ofast -funsafe-math-optimizations -ffinite-math-only -f
   expect fails "-ffp-contract=off $flag"
   expect fails "$flag -ffp-contract=off"
 done
+compiler=GNU
+expect fails '-O2 -ffp-contract=off -Wall'
+expect passes '-O2 -ffp-contract=off -fno-tree-slp-vectorize -Wall'
 ((failures == 0)) || exit 1
 echo "every rule bites"

@@ -23,6 +23,17 @@ TEST(Vec3, Arithmetic) {
   EXPECT_EQ(Vec3d{}, (Vec3d{0, 0, 0}));
 }
 
+/// GCC 12's SLP vectoriser takes this for nothing at all, if it is let (CMakeLists.txt).
+[[gnu::noinline]] Vec3d there_and_back(const Vec3d& v) {
+  return vec_cast<double>(vec_cast<float>(v));
+}
+
+TEST(Vec3, CastsToFloatAndBackRoundEveryComponent) {
+  const double third = 1.0 / 3, rounded = 0x1.555556p-2;
+  EXPECT_EQ(there_and_back({third, 2 * third, 4 * third}),
+            (Vec3d{rounded, 2 * rounded, 4 * rounded}));
+}
+
 TEST(Vec3, EqualityLooksAtEveryComponent) {
   const Vec3f a{1, 2, 3};
   EXPECT_TRUE(a == (Vec3f{1, 2, 3}));

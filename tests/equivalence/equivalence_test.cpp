@@ -63,8 +63,10 @@ TEST(HardCases, EveryRowHasHitsAndMisses) {
       hits += reference::any_hit(ray, hard_case.spheres, hard_case.planes) ? 1U : 0U;
     }
     EXPECT_GT(hits, hard_case.rays.size() / 10) << name_of(spec);
+    const bool from_the_centre = std::string(spec.row) == "S7";
     const bool planes_fill_the_view = spec.row[0] == 'P' || spec.row[0] == 'L';
-    EXPECT_TRUE(planes_fill_the_view || hits < hard_case.rays.size()) << name_of(spec);
+    EXPECT_TRUE(planes_fill_the_view || from_the_centre || hits < hard_case.rays.size())
+        << name_of(spec);
   }
 }
 

@@ -26,6 +26,15 @@ double residual(const Ray& ray, const Sphere& sphere, double t) {
   return std::fabs(off) / (unit_roundoff * std::fmax(length(f), double{sphere.radius}));
 }
 
+/// Rows on which the band is promised: rays that leave no surface, and sizes whose squares float
+/// can hold.
+bool has_band(const HardCaseSpec& spec) {
+  const std::string row = spec.row;
+  const bool scaled = row == "S9" || row == "P4" || row == "P6";
+  return row != "S12" && row != "S13" && !leaves_surfaces(spec) &&
+         !(scaled && std::abs(spec.k) >= 18);
+}
+
 class FastBand : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -39,7 +48,7 @@ TEST_P(FastBand, SphereDecisionsAreWrongOnlyNearTheRim) {
   double worst_decision = 0, worst_residual = 0;
   std::size_t hits_seen = 0;
   for (const HardCaseSpec& spec : hard_case_specs()) {
-    if (spec.row[0] != 'S' || std::string(spec.row) == "S12") continue;
+    if (spec.row[0] != 'S' || !has_band(spec)) continue;
     const HardCase all = make_hard_case(spec, 1, 2000);
     const Geometry geometry(all.spheres, {});
     std::vector<Ray> rays = all.rays;
@@ -72,7 +81,7 @@ TEST_P(FastBand, SphereDecisionsAreWrongOnlyNearTheRim) {
 TEST_P(FastBand, PlaneDecisionsAreWrongOnlyNearTheHorizon) {
   double worst = 0;
   for (const HardCaseSpec& spec : hard_case_specs()) {
-    if (spec.row[0] != 'P') continue;
+    if (spec.row[0] != 'P' || !has_band(spec)) continue;
     const HardCase all = make_hard_case(spec, 1, 2000);
     const Geometry geometry({}, all.planes);
     const Vec3d n = normalize(vec_cast<double>(all.planes[0].normal));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/math/random.h"
 
@@ -12,17 +13,24 @@ namespace boule::test {
 /// a call's arguments is not defined.
 class CaseRandom {
  public:
-  explicit CaseRandom(std::uint64_t seed) : seed_(seed) {}
+  /// Different streams of one seed are independent: item i of a case is the same in a case of any
+  /// size.
+  explicit CaseRandom(std::uint64_t seed, std::uint64_t stream = 0)
+      : seed_(seed), stream_(stream) {}
 
   /// In [0, 1).
   double uniform() {
-    const auto words = philox({count_++, 0, 0, 0}, {static_cast<std::uint32_t>(seed_),
-                                                    static_cast<std::uint32_t>(seed_ >> 32)});
+    const auto words =
+        philox({count_++, static_cast<std::uint32_t>(stream_),
+                static_cast<std::uint32_t>(stream_ >> 32), 0},
+               {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
     return (words[0] + words[1] * 0x1p-32) * 0x1p-32;
   }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   int below(int count) { return static_cast<int>(uniform() * count); }
   bool chance(double probability) { return uniform() < probability; }
+  /// Log-uniform in [10^low, 10^high).
+  double decade(double low, double high) { return elementary::pow(10, uniform(low, high)); }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
 
   /// Uniform on the unit sphere.
@@ -45,7 +53,7 @@ class CaseRandom {
   }
 
  private:
-  std::uint64_t seed_;
+  std::uint64_t seed_, stream_;
   std::uint32_t count_ = 0;
 };
 

@@ -2,87 +2,163 @@
 
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
-#include "core/math/elementary.h"
-#include "tests/support/case_random.h"
+#include "tests/support/hard_rows.h"
 
 namespace boule::test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// No libm that may round otherwise elsewhere: the hashes of hash_test.cpp cover these inputs.
+constexpr HardCaseSpec specs[] = {{"S0", 0, 0x594444b0b63b4a4f},   {"S1", 0, 0x98a32de3099ed38b},
+                                  {"S1", 1, 0x553d3ea788a39482},   {"S1", 2, 0x69df447ba62f5eb4},
+                                  {"S1", 3, 0xe1f98f6269bc9952},   {"S1", 4, 0xbcb91b94a13539ce},
+                                  {"S1", 5, 0x4394870af978b423},   {"S1", 6, 0x872f35c443ba798a},
+                                  {"S1", 7, 0xfd44233f3a456a36},   {"S2", 3, 0x8e7b9c10fd02c1ea},
+                                  {"S2", 4, 0x63cc670dcdf7c321},   {"S2", 5, 0x1d7c7681436fbe5d},
+                                  {"S2", 6, 0x697ff04740f2248f},   {"S2", 7, 0xe67569f41fc36db6},
+                                  {"S3", 1, 0x36df91bbf9dc61ce},   {"S3", 2, 0x3765794af0bbd753},
+                                  {"S3", 3, 0x272a4b320b566739},   {"S3", 4, 0xc09182d6b9539a16},
+                                  {"S3", 5, 0xa4950f1446e2e287},   {"S3", 6, 0x9c4390526597c723},
+                                  {"S3", 7, 0x3f88ed724912423a},   {"S4", 4, 0xd74ceea71d410a7d},
+                                  {"S4", 8, 0x3356514fa01f01f4},   {"S4", 12, 0x864389b76d9a8e17},
+                                  {"S4", 16, 0x59cad81cb7fa3877},  {"S4", 20, 0xce06a5c70097500b},
+                                  {"S4", 24, 0xf04d1abd1c3d959e},  {"S4b", 4, 0xd23e771288b2552e},
+                                  {"S4b", 8, 0x9fda4a51b4899b88},  {"S4b", 12, 0x5993659eff17b5f6},
+                                  {"S4b", 16, 0x6fc5d57d5a13a98c}, {"S4b", 20, 0x9f6fb2f1cd5dd765},
+                                  {"S4b", 24, 0x7ad8562e25b19c37}, {"S5", 0, 0xa92f9b5ffbbc11ff},
+                                  {"S5", 2, 0x78f9b3830398cc72},   {"S5", 4, 0x5ab722ea02bd3eda},
+                                  {"S5", 6, 0x8a9c7832775bb126},   {"S6", 4, 0x24e99ffe285dc954},
+                                  {"S6", 8, 0x23ba7cda946e6d70},   {"S6", 12, 0xfa017da33fb78297},
+                                  {"S6", 16, 0x5caf6172aebefa12},  {"S6", 20, 0x1c4e2246e65b6294},
+                                  {"S7", 0, 0xbffef1340a7e24da},   {"S8", -18, 0xb899e16ad168b41c},
+                                  {"S8", -10, 0x1568f9c7fc149a15}, {"S8", -6, 0x16b9e277a8095778},
+                                  {"S8", -3, 0x14ebe3e31bf544},    {"S8", 3, 0x8e9148a96ec2f230},
+                                  {"S8", 6, 0x78a60e6ef630e4de},   {"S8", 10, 0xd5279c6094774022},
+                                  {"S8", 18, 0xe69587f8b476cd42},  {"S9", -36, 0x854f04eaf7143bf0},
+                                  {"S9", -30, 0xff7b2e3657d382b4}, {"S9", -20, 0x948ff2cc8e57d30c},
+                                  {"S9", -18, 0xe5711f8bd2befdc9}, {"S9", -12, 0xc1a04d61acde37b4},
+                                  {"S9", 12, 0x2147882e25d14cf},   {"S9", 18, 0x516dfb38d654413f},
+                                  {"S9", 20, 0xeb61c84778759f39},  {"S9", 30, 0xb8d5026aaaecae1a},
+                                  {"S9", 36, 0x7d71fd7707ceefb8},  {"S10", 3, 0xe3e87f53ff38ffe0},
+                                  {"S10", 4, 0x54ff51bf664e4391},  {"S10", 5, 0x9b09499df03b6c43},
+                                  {"S10", 6, 0x2f4c96c31a0a8a9a},  {"S10", 7, 0x562cbd43ea987e51},
+                                  {"S11", 1, 0x1d5ece0b3e966220},  {"S11", 2, 0xaffffc12e5e3e96e},
+                                  {"S11", 3, 0xf95d9af2f8c42609},  {"S11", 4, 0x1151eb02fcea7ec1},
+                                  {"S11", 5, 0x367a647bb43959ee},  {"S11", 6, 0xc85282f775784dce},
+                                  {"S12", 0, 0xee9f455517bec8e6},  {"S13", 3, 0x69f721842d957d5b},
+                                  {"S13", 4, 0xeaafd469a83451c1},  {"S13", 5, 0x9d970c7d6d4eeec},
+                                  {"S13", 6, 0x84c3507738e1e9a1},  {"P0", 0, 0xed3853e31eca464b},
+                                  {"P1", 4, 0xa84a788834fdc7ba},   {"P1", 8, 0x536d1a5bac168de},
+                                  {"P1", 12, 0x5213428cb02de80a},  {"P1", 16, 0x75551af6f4473085},
+                                  {"P1", 20, 0xa06de1d4ee582f65},  {"P1", 24, 0xbe975827524d620c},
+                                  {"P1", 28, 0x29ceb624175129f0},  {"P2", 0, 0x454cbdce8c4a7811},
+                                  {"P2", 1, 0xb5a3e03cb06f7386},   {"P2", 2, 0xbafa0eacd5663d2b},
+                                  {"P2", 3, 0xeceb0b61cfe2c61},    {"P2", 4, 0x8d68010d2b28ab06},
+                                  {"P2", 5, 0xf7aefd307840a62d},   {"P2", 6, 0xcfbf81f87a39f13b},
+                                  {"P3", 3, 0xa086af97842dcf0},    {"P3", 4, 0x6fe253c35023d5de},
+                                  {"P3", 5, 0xb801ce03ac77cae1},   {"P3", 6, 0x16412819d18be383},
+                                  {"P3", 7, 0xcd9d73fbbf71e7ec},   {"P4", -30, 0x93feb7027c6ab220},
+                                  {"P4", -18, 0x53ab6c764f41f6ac}, {"P4", -6, 0x775d1f1e63cbd05c},
+                                  {"P4", 6, 0x31579e5c29d21eb},    {"P4", 18, 0xaaf48b04bba32493},
+                                  {"P4", 30, 0x592cfa03078397e2},  {"P5", 0, 0xb29efdb2de45628c},
+                                  {"P6", -36, 0x8c6bff43fe044798}, {"P6", -20, 0x3a2beb42e72e3f98},
+                                  {"P6", 20, 0xbb093eb7c84cdc83},  {"P6", 36, 0xad6f6f4de1203d0d},
+                                  {"L", 0, 0xb54a8745e8db386d},    {"L", 3, 0x655512584d86652c},
+                                  {"L", 6, 0x102d8e85b7e94efa}};
 
-/// 10^k, correctly rounded for |k| <= 22.
-double power_of_ten(int k) {
-  double power = 1;
-  for (int i = 0; i < std::abs(k); ++i) power *= 10;
-  return k < 0 ? 1 / power : power;
+/// Primitive j, ray i and the special values of either are drawn from streams of their own.
+enum class Draw : std::uint64_t { primitive, ray, spoil_primitive, spoil_ray, plane };
+
+CaseRandom random_for(const HardCaseSpec& spec, Draw draw, std::size_t index) {
+  std::uint64_t seed = static_cast<std::uint64_t>(spec.k + 1000);
+  for (const char* c = spec.row; *c != 0; ++c) seed = seed * 257 + static_cast<std::uint64_t>(*c);
+  return CaseRandom(seed, static_cast<std::uint64_t>(draw) << 56U | index);
 }
 
-/// A ray from distance F that passes the centre at beta r, along a random axis, both ends rounded
-/// to float. Length and interval vary: the answers may not depend on them.
-Ray impact(CaseRandom& random, const Sphere& sphere, double distance, double beta) {
-  const Vec3d view = random.direction();
-  const Vec3d across = random.perpendicular(view);
-  const double sine = std::fmin(beta * double{sphere.radius} / distance, 1.0);
-  const Vec3d dir = view * std::sqrt(1 - sine * sine) + across * sine;
-  const Vec3d org = vec_cast<double>(sphere.center) - view * distance;
-  const double scale = random.chance(0.5) ? 1.0 : elementary::pow(2, random.uniform(-3, 3));
+template <class Primitive>
+const HardRow<Primitive>& row_of(std::span<const HardRow<Primitive>> rows, const char* name) {
+  for (const HardRow<Primitive>& row : rows) {
+    if (std::strcmp(row.name, name) == 0) return row;
+  }
+  return rows[0];  // S12 and L are made of the ordinary rows
+}
+
+bool is(const HardCaseSpec& spec, const char* row) { return std::strcmp(spec.row, row) == 0; }
+
+bool has_one_primitive(const HardCaseSpec& spec) {
+  return is(spec, "S2") || is(spec, "S11") || is(spec, "P5");
+}
+
+template <class Primitive>
+void draw_primitives(const HardCaseSpec& spec, const HardRow<Primitive>& row, Draw draw,
+                     std::size_t count, std::vector<Primitive>& out) {
+  for (std::size_t j = 0; j < count; ++j) {
+    CaseRandom random = random_for(spec, draw, j);
+    out.push_back(row.primitive(random, spec.k));
+  }
+}
+
+template <class Primitive>
+void draw_rays(const HardCaseSpec& spec, const HardRow<Primitive>& row,
+               const std::vector<Primitive>& primitives, std::size_t first, std::size_t count,
+               std::vector<Ray>& out) {
+  for (std::size_t i = first; i < first + count; ++i) {
+    CaseRandom random = random_for(spec, Draw::ray, i);
+    out.push_back(row.ray(random, primitives[i % primitives.size()], spec.k));
+  }
+}
+
+/// L: any of the case's primitives, left on either side from a double origin.
+Ray leave_any(CaseRandom& random, const HardCase& crowd, int k) {
+  const auto spheres = static_cast<int>(crowd.spheres.size());
+  const int id = random.below(spheres + static_cast<int>(crowd.planes.size()));
   Ray ray;
-  ray.org = vec_cast<double>(vec_cast<float>(org));
-  ray.dir = vec_cast<float>(dir * scale);
-  if (random.chance(0.25)) ray.tmin = static_cast<float>(random.uniform(0, 1.2) * distance / scale);
-  if (random.chance(0.25)) ray.tmax = static_cast<float>(random.uniform(0, 2) * distance / scale);
+  ray.source = id;
+  const Vec3d n = random.direction();
+  const Vec3d dir = random.direction();
+  if (id < spheres) {
+    const Sphere& sphere = crowd.spheres[static_cast<std::size_t>(id)];
+    ray.org = vec_cast<double>(sphere.center) + n * double{sphere.radius};
+    ray.inside = dot(n, dir) < 0;
+  } else {
+    const Plane& plane = crowd.planes[static_cast<std::size_t>(id - spheres)];
+    const Vec3d across = random.perpendicular(normalize(vec_cast<double>(plane.normal)));
+    ray.org = vec_cast<double>(plane.point) + across * random.uniform(0, power_of_ten(k));
+  }
+  ray.dir = vec_cast<float>(dir);
+  ray.tmax = random.chance(0.25) ? static_cast<float>(random.uniform(0, 2)) : inf;
   return ray;
 }
 
-Vec3f far_point(CaseRandom& random, double magnitude) {
-  const Vec3d direction = random.direction();
-  return vec_cast<float>(direction * magnitude);
-}
-
-struct SpherePair {
-  Sphere sphere;
-  double distance, beta;
-};
-
-/// The rows that are a sphere seen from distance F with impact parameter beta r.
-SpherePair draw_pair(CaseRandom& random, const char* row, int k) {
-  const double near = random.uniform(0, 1.2);
-  const auto is = [row](const char* name) { return std::strcmp(row, name) == 0; };
-  const auto sphere = [](Vec3f center, double radius) {
-    return Sphere{center, static_cast<float>(radius), 0};
-  };
-  if (is("S1")) return {sphere(far_point(random, 1), 1), 2 * power_of_ten(k), near};
-  if (is("S3")) return {sphere(far_point(random, 1), power_of_ten(-k)), 3, near};
-  if (is("S4") || is("S4b")) {
-    const double beta = 1 + random.sign() * std::ldexp(1.0, -k);
-    return {sphere(far_point(random, 1), 1), is("S4") ? 10.0 : 1000.0, beta};
+/// Spheres and planes together: the crowd of S12 and L.
+HardCase mixed_case(const HardCaseSpec& spec, std::size_t primitives, std::size_t rays) {
+  constexpr std::size_t planes = 5;
+  const HardRow<Sphere>& sphere_row = row_of(sphere_rows(), spec.row);
+  const HardRow<Plane>& plane_row = row_of(plane_rows(), spec.row);
+  HardCase out;
+  draw_primitives(spec, sphere_row, Draw::primitive, primitives, out.spheres);
+  draw_primitives(spec, plane_row, Draw::plane, planes, out.planes);
+  if (is(spec, "L")) {
+    for (std::size_t i = 0; i < rays; ++i) {
+      CaseRandom random = random_for(spec, Draw::ray, i);
+      out.rays.push_back(leave_any(random, out, spec.k));
+    }
+    return out;
   }
-  if (is("S10")) return {sphere(far_point(random, power_of_ten(k)), 1), 10, near};
-  const double radius = random.uniform(0.5, 2);
-  const double distance = random.uniform(3, 30);
-  return {sphere(far_point(random, 5), radius), distance, near};
-}
-
-/// S2: a ground sphere, the eye within 5 units of its top, half of the rays grazing.
-void ground(CaseRandom& random, int k, std::size_t rays, HardCase& out) {
-  const double radius = power_of_ten(k);
-  out.spheres = {{{0, static_cast<float>(-radius), 0}, static_cast<float>(radius), 0}};
+  draw_rays(spec, sphere_row, out.spheres, 0, rays - rays / 4, out.rays);
+  draw_rays(spec, plane_row, out.planes, rays - rays / 4, rays / 4, out.rays);
+  for (std::size_t j = 0; j < primitives + planes; ++j) {
+    CaseRandom random = random_for(spec, Draw::spoil_primitive, j);
+    j < primitives ? spoil(random, out.spheres[j]) : spoil(random, out.planes[j - primitives]);
+  }
   for (std::size_t i = 0; i < rays; ++i) {
-    const double x = random.uniform(-5, 5);
-    const double y = random.uniform(0.01, 5);
-    const double z = random.uniform(-5, 5);
-    Vec3d dir = random.direction();
-    if (i % 2 == 0)
-      dir = normalize(Vec3d{dir.x, -std::sqrt(2 * y / radius) * random.uniform(0.9, 1.1), dir.z});
-    Ray ray;
-    ray.org = vec_cast<double>(vec_cast<float>(Vec3d{x, y, z}));
-    ray.dir = vec_cast<float>(dir);
-    out.rays.push_back(ray);
+    CaseRandom random = random_for(spec, Draw::spoil_ray, i);
+    spoil(random, out.rays[i]);
   }
+  return out;
 }
 
 float special_value(CaseRandom& random) {
@@ -100,148 +176,60 @@ float special_value(CaseRandom& random) {
                               1e-19F,
                               1.0F,
                               -1.0F};
-  return values[random.below(14)];
+  return values[random.below(static_cast<int>(std::size(values)))];
+}
+
+void spoil(CaseRandom& random, float& component) {
+  if (random.chance(0.25)) component = special_value(random);
 }
 
 void spoil(CaseRandom& random, Vec3f& v) {
-  for (float* component : {&v.x, &v.y, &v.z}) {
-    if (random.chance(0.25)) *component = special_value(random);
-  }
-}
-
-/// S12: every component replaced by a special value with probability 1/4.
-void spoil_all(CaseRandom& random, HardCase& out) {
-  for (Sphere& sphere : out.spheres) {
-    spoil(random, sphere.center);
-    if (random.chance(0.25)) sphere.radius = special_value(random);
-  }
-  for (Plane& plane : out.planes) {
-    spoil(random, plane.point);
-    spoil(random, plane.normal);
-  }
-  for (Ray& ray : out.rays) {
-    Vec3f org = vec_cast<float>(ray.org);
-    spoil(random, org);
-    ray.org = vec_cast<double>(org);
-    spoil(random, ray.dir);
-    if (random.chance(0.25)) ray.tmin = special_value(random);
-    if (random.chance(0.25)) ray.tmax = special_value(random);
-  }
-}
-
-/// P0 ordinary, P1 n.d = 2^-k, P2 origin on the plane with |p| ~ 10^k.
-void plane_pair(CaseRandom& random, const HardCaseSpec& spec, HardCase& out, Plane plane) {
-  const Vec3d n = normalize(vec_cast<double>(plane.normal));
-  const Vec3d across = random.perpendicular(n);
-  const Vec3d away = random.direction();
-  Vec3d org = vec_cast<double>(plane.point) + away * 10.0;
-  Vec3d dir = random.direction();
-  if (std::strcmp(spec.row, "P1") == 0)
-    dir = across + n * (random.sign() * std::ldexp(1.0, -spec.k));
-  if (std::strcmp(spec.row, "P2") == 0)
-    org = vec_cast<double>(plane.point) + across * random.uniform(0, 10);
-  Ray ray;
-  ray.org = vec_cast<double>(vec_cast<float>(org));
-  ray.dir = vec_cast<float>(dir);
-  if (random.chance(0.25)) ray.tmax = static_cast<float>(random.uniform(0, 20));
-  out.rays.push_back(ray);
-}
-
-void planes(CaseRandom& random, const HardCaseSpec& spec, std::size_t count, std::size_t rays,
-            HardCase& out) {
-  const double magnitude = std::strcmp(spec.row, "P2") == 0 ? power_of_ten(spec.k) : 5;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3f point = far_point(random, magnitude);
-    const Vec3d normal = random.direction();
-    out.planes.push_back({point, vec_cast<float>(normal * random.uniform(0.5, 2)), 0});
-  }
-  for (std::size_t i = 0; i < rays; ++i) {
-    plane_pair(random, spec, out, out.planes[i % out.planes.size()]);
-  }
-}
-
-/// L: secondary rays, their origins doubles on a sphere or plane, leaving it on either side.
-void leaving(CaseRandom& random, int k, HardCase& out) {
-  const auto spheres = static_cast<int>(out.spheres.size());
-  const auto all = spheres + static_cast<int>(out.planes.size());
-  for (Ray& ray : out.rays) {
-    const int id = random.below(all);
-    ray.source = id;
-    Vec3d n = random.direction();
-    const Vec3d dir = random.direction();
-    Vec3d at;
-    if (id < spheres) {
-      const Sphere& sphere = out.spheres[static_cast<std::size_t>(id)];
-      at = vec_cast<double>(sphere.center) + n * double{sphere.radius};
-      ray.inside = dot(n, dir) < 0;
-    } else {
-      const Plane& plane = out.planes[static_cast<std::size_t>(id - spheres)];
-      n = normalize(vec_cast<double>(plane.normal));
-      const Vec3d across = random.perpendicular(n);
-      at = vec_cast<double>(plane.point) + across * random.uniform(0, power_of_ten(k));
-    }
-    ray.org = at;
-    ray.dir = vec_cast<float>(dir);
-    ray.tmin = 0;
-    ray.tmax = random.chance(0.25) ? static_cast<float>(random.uniform(0, 2)) : inf;
-  }
-}
-
-void spheres(CaseRandom& random, const HardCaseSpec& spec, std::size_t count, std::size_t rays,
-             HardCase& out) {
-  std::vector<SpherePair> pairs;
-  for (std::size_t i = 0; i < count; ++i) {
-    pairs.push_back(draw_pair(random, spec.row, spec.k));
-    out.spheres.push_back(pairs.back().sphere);
-  }
-  for (std::size_t i = 0; i < rays; ++i) {
-    const SpherePair& pair = pairs[i % count];
-    const SpherePair other = draw_pair(random, spec.row, spec.k);  // fresh distance and beta
-    out.rays.push_back(impact(random, pair.sphere, other.distance, other.beta));
-  }
+  for (float* component : {&v.x, &v.y, &v.z}) spoil(random, *component);
 }
 
 }  // namespace
 
+void spoil(CaseRandom& random, Sphere& sphere) {
+  spoil(random, sphere.center);
+  spoil(random, sphere.radius);
+}
+
+void spoil(CaseRandom& random, Plane& plane) {
+  spoil(random, plane.point);
+  spoil(random, plane.normal);
+}
+
+void spoil(CaseRandom& random, Ray& ray) {
+  Vec3f org = vec_cast<float>(ray.org);
+  spoil(random, org);
+  ray.org = vec_cast<double>(org);
+  spoil(random, ray.dir);
+  spoil(random, ray.tmin);
+  spoil(random, ray.tmax);
+}
+
 std::string name_of(const HardCaseSpec& spec) {
-  return std::string(spec.row) + "_k" + std::to_string(spec.k);
+  const std::string sign = spec.k < 0 ? "m" : "";
+  return std::string(spec.row) + "_k" + sign + std::to_string(std::abs(spec.k));
 }
 
-std::vector<HardCaseSpec> hard_case_specs() {
-  std::vector<HardCaseSpec> specs = {{"S0"}, {"S12"}, {"P0"}};
-  for (int k = 0; k <= 7; ++k) specs.push_back({"S1", k});
-  for (int k = 3; k <= 7; ++k) specs.push_back({"S2", k});
-  for (int k = 1; k <= 7; ++k) specs.push_back({"S3", k});
-  for (int k = 4; k <= 24; k += 4) specs.push_back({"S4", k});
-  for (int k = 4; k <= 24; k += 4) specs.push_back({"S4b", k});
-  for (int k = 3; k <= 7; ++k) specs.push_back({"S10", k});
-  for (int k = 4; k <= 28; k += 4) specs.push_back({"P1", k});
-  for (int k = 0; k <= 6; ++k) specs.push_back({"P2", k});
-  for (int k = 0; k <= 6; k += 3) specs.push_back({"L", k});
-  return specs;
-}
+std::span<const HardCaseSpec> hard_case_specs() { return specs; }
 
-HardCase make_hard_case(const HardCaseSpec& spec, std::size_t primitives, std::size_t rays,
-                        std::uint64_t seed) {
-  CaseRandom random(seed * 1000003 + static_cast<std::uint64_t>(spec.k) * 131 +
-                    static_cast<std::uint64_t>(spec.row[0]) * 17 +
-                    static_cast<std::uint64_t>(spec.row[1]));
+bool leaves_surfaces(const HardCaseSpec& spec) { return is(spec, "S11") || is(spec, "L"); }
+
+HardCase make_hard_case(const HardCaseSpec& spec, std::size_t primitives, std::size_t rays) {
+  if (is(spec, "S12") || is(spec, "L")) return mixed_case(spec, primitives, rays);
+  if (has_one_primitive(spec)) primitives = 1;
   HardCase out;
-  if (std::strcmp(spec.row, "S2") == 0) {
-    ground(random, spec.k, rays, out);
-    return out;
+  if (spec.row[0] == 'S') {
+    const HardRow<Sphere>& row = row_of(sphere_rows(), spec.row);
+    draw_primitives(spec, row, Draw::primitive, primitives, out.spheres);
+    draw_rays(spec, row, out.spheres, 0, rays, out.rays);
+  } else {
+    const HardRow<Plane>& row = row_of(plane_rows(), spec.row);
+    draw_primitives(spec, row, Draw::primitive, primitives, out.planes);
+    draw_rays(spec, row, out.planes, 0, rays, out.rays);
   }
-  if (spec.row[0] != 'P') spheres(random, spec, primitives, rays, out);
-  const bool mixed = std::strcmp(spec.row, "S12") == 0 || spec.row[0] == 'L';
-  if (spec.row[0] == 'P') planes(random, spec, primitives, rays, out);
-  if (mixed) {
-    HardCase more;
-    planes(random, {"P0"}, 5, rays / 4, more);
-    out.planes = more.planes;
-    out.rays.insert(out.rays.end(), more.rays.begin(), more.rays.end());
-  }
-  if (std::strcmp(spec.row, "S12") == 0) spoil_all(random, out);
-  if (spec.row[0] == 'L') leaving(random, spec.k, out);
   return out;
 }
 
