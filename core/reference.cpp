@@ -83,12 +83,23 @@ double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
 }
 
 // Ray-plane. The lecture substitutes P = O + tD into (P - P0).N = 0: t = (P0 - O).N / D.N.
-// D.N = 0 is a ray along the plane, a miss. Products of two floats are exact in double, so only the
-// sum is rounded: D.N is known to 2^-52 of |D||N|, however small.
+// D.N = 0 is a ray along the plane, a miss. What if D.N is small? Products of two floats are exact
+// in double; their sum is rounded, and nearly parallel it would lose what is left after the
+// cancellation. So the error of each addition is found (Knuth, TAOCP 2, 4.2.2) and added at the
+// end.
+double denominator(const Vec3d& d, const Vec3d& n) {
+  const double xy = d.x * n.x + d.y * n.y, z = d.z * n.z, sum = xy + z;
+  const auto error_of = [](double a, double b, double rounded) {
+    const double b_part = rounded - a;
+    return (a - (rounded - b_part)) + (b - b_part);
+  };
+  return sum + (error_of(d.x * n.x, d.y * n.y, xy) + error_of(xy, z, sum));
+}
+
 double intersect(const Ray& ray, const Plane& plane, bool leaves) {
   if (leaves) return no_hit;  // flat: a ray that leaves it never comes back
   const Vec3d n = vec_cast<double>(plane.normal);
-  const double along = dot(vec_cast<double>(ray.dir), n);
+  const double along = denominator(vec_cast<double>(ray.dir), n);
   if (along == 0 || !std::isfinite(along)) return no_hit;
   const double t = dot(vec_cast<double>(plane.point) - ray.org, n) / along;
   return in_range(t, ray) ? t : no_hit;

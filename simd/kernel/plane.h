@@ -11,10 +11,24 @@ struct PlaneLanes {
   Wide id;
 };
 
-/// Solver robust: in double, never fused; products of two floats are exact in it.
+/// What rounding took from the sum of a and b.
+BOULE_INLINE Wide lost(const Wide& a, const Wide& b, const Wide& sum) {
+  const Wide b_part = sum - a;
+  return (a - (sum - b_part)) + (b - b_part);
+}
+
+/// d.n of floats as if summed exactly: their products are exact in double, the two sums' errors are
+/// added at the end. core/reference.cpp says why.
+BOULE_INLINE Wide exact_dot(const Vec3<Wide>& d, const Vec3<Wide>& n) {
+  const Wide x = d.x * n.x, y = d.y * n.y, z = d.z * n.z;
+  const Wide xy = x + y, sum = xy + z;
+  return sum + (lost(x, y, xy) + lost(xy, z, sum));
+}
+
+/// Solver robust: in double, never fused.
 BOULE_INLINE Roots solve_robust(const ExactRays& rays, const PlaneLanes& plane) {
   const Vec3<Wide> n = widen(plane.normal);
-  const Wide along = dot(rays.dir, n);
+  const Wide along = exact_dot(rays.dir, n);
   const Wide t = dot(widen(plane.point) - rays.org, n) / along;
   const Wide infinite(no_hit);
   const WideMask crosses = (Wide(0.0) < abs(along)) & (abs(along) < infinite);

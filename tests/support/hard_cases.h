@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct HardCaseSpec {
 
 /// "S4_k12", "S8_km3": fit for a test's name.
 std::string name_of(const HardCaseSpec& spec);
+inline void PrintTo(const HardCaseSpec& spec, std::ostream* out) { *out << name_of(spec); }
 
 /// Every row at all its parameters.
 std::span<const HardCaseSpec> hard_case_specs();

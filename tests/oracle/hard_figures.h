@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tests/oracle/oracle.h"
+
+namespace boule::test {
+
+/// What a contender did wrong on the pairs of a case, in three columns: decisions and roots, ulp of
+/// t, distance from the surface. Scale: max(F, r), F = |o - c| or |o - p0|.
+class HardFigures {
+ public:
+  /// Adds one ray against one primitive. `t` is the contender's, in double; inf is a miss.
+  template <class Primitive>
+  void add(const Ray& ray, const Primitive& primitive, double t,
+           const std::optional<OracleHit>& truth);
+
+  std::size_t pairs = 0, hits = 0;
+  std::size_t wrong_decisions = 0;  ///< a hit for a miss or a miss for a hit
+  std::size_t wrong_roots = 0;      ///< nearer to the sphere's other root
+  double max_far_ulp = 0;           ///< error of float t in ulp where |t||d| > 2^-20 scale
+  /// The same where the origin is not within 2^-22 scale of the sphere: nearer, a grazing ray's t
+  /// is ill-posed however large it is.
+  double max_clear_ulp = 0;
+  double max_residual = 0;    ///< of float t, in u scale
+  double max_residual64 = 0;  ///< of the double t, in 2^-48 scale
+  double max_excess = 0;      ///< residual of float t over 0.5 ulp(t)|d| + 2^-48 scale
+
+  /// The p-quantile of the error of float t in ulp, over all hits; 0 where there are none.
+  [[nodiscard]] double ulp_quantile(double p);
+
+ private:
+  std::vector<double> ulps_;
+};
+
+}  // namespace boule::test

@@ -1,0 +1,76 @@
+#include "tests/oracle/oracle.h"
+
+#include <limits>
+
+#include "core/math/vec.h"
+
+namespace boule::test {
+namespace {
+
+using BigVec = Vec3<BigFloat>;
+
+template <class T>
+BigVec big(const Vec3<T>& v) {
+  return {BigFloat(double{v.x}), BigFloat(double{v.y}), BigFloat(double{v.z})};
+}
+
+bool is_live(const BigFloat& t, const Ray& ray) {
+  const BigFloat largest(double{std::numeric_limits<float>::max()});
+  if (!(t <= largest) || !(BigFloat(double{ray.tmin}) < t)) return false;
+  return ray.tmax == std::numeric_limits<float>::infinity() || t <= BigFloat(double{ray.tmax});
+}
+
+BigVec at(const Ray& ray, double t) { return big(ray.org) + big(ray.dir) * BigFloat(t); }
+
+}  // namespace
+
+std::optional<OracleHit> oracle_hit(const Ray& ray, const Sphere& sphere) {
+  const BigVec d = big(ray.dir), f = big(sphere.center) - big(ray.org);
+  const BigFloat r(double{sphere.radius});
+  const BigFloat a = dot(d, d), b = dot(f, d), cc = dot(f, f) - r * r;
+  const BigFloat discriminant = b * b - a * cc;
+  if (discriminant.sign() < 0) return {};
+  const BigFloat half_chord = sqrt(discriminant);
+  const BigFloat first = (b - half_chord) / a, second = (b + half_chord) / a;
+  if (is_live(first, ray)) return OracleHit{first, second};
+  if (is_live(second, ray)) return OracleHit{second, first};
+  return {};
+}
+
+std::optional<OracleHit> oracle_hit(const Ray& ray, const Plane& plane) {
+  const BigVec n = big(plane.normal);
+  const BigFloat along = dot(big(ray.dir), n);
+  if (along.sign() == 0) return {};
+  const BigFloat t = dot(big(plane.point) - big(ray.org), n) / along;
+  if (!is_live(t, ray)) return {};
+  return OracleHit{t, {}};
+}
+
+std::int32_t oracle_closest(const Ray& ray, std::span<const Sphere> spheres,
+                            std::span<const Plane> planes) {
+  std::int32_t nearest = no_primitive, id = 0;
+  std::optional<BigFloat> nearest_t;
+  const auto offer = [&](const auto& primitive) {
+    const auto hit = oracle_hit(ray, primitive);
+    if (hit && (!nearest_t || hit->t < *nearest_t)) {
+      nearest_t = hit->t;
+      nearest = id;
+    }
+    ++id;
+  };
+  for (const Sphere& sphere : spheres) offer(sphere);
+  for (const Plane& plane : planes) offer(plane);
+  return nearest;
+}
+
+BigFloat oracle_residual(const Ray& ray, const Sphere& sphere, double t) {
+  const BigVec from_center = at(ray, t) - big(sphere.center);
+  return sqrt(dot(from_center, from_center)) - abs(BigFloat(double{sphere.radius}));
+}
+
+BigFloat oracle_residual(const Ray& ray, const Plane& plane, double t) {
+  const BigVec n = big(plane.normal);
+  return dot(at(ray, t) - big(plane.point), n) / sqrt(dot(n, n));
+}
+
+}  // namespace boule::test
