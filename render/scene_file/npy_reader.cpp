@@ -1,12 +1,12 @@
 #include "render/scene_file/npy_reader.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include "render/scene_file/float32.h"
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/npy_header.h"
+#include "render/scene_file/npy_rows.h"
 
 namespace boule {
 namespace {
@@ -22,24 +22,17 @@ struct RowLayout {
 
 Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
 
-std::string shape_text(const std::vector<std::uint64_t>& shape) {
-  std::string text = "(";
-  for (const std::uint64_t count : shape) {
-    text += (text.size() > 1 ? ", " : "") + std::to_string(count);
-  }
-  return text + ")";
-}
-
 /// The declared layout, if it is one of spheres and the file is exactly as long as it says.
 Result<RowLayout> check_layout(const NpyHeader& header, bool has_radius, std::uint64_t file_size) {
   if (header.descr != "<f4" && header.descr != "<f8") {
     return refusal("holds " + quote(header.descr) +
                    ", expected '<f4' or '<f8' (little-endian float32 or float64)");
   }
-  if (header.fortran_order) return refusal("is in Fortran order, expected C order (row by row)");
+  if (auto bad = check_npy_order(header)) return *bad;
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
-    return refusal("has shape " + shape_text(shape) + ", expected (N, 4), or (N, 3) and `radius`");
+    return refusal("has shape " + npy_shape_text(header) +
+                   ", expected (N, 4), or (N, 3) and `radius`");
   }
   if (shape[1] == 3 && !has_radius) return refusal("has 3 columns: the key 'radius' is missing");
   if (shape[1] == 4 && has_radius) {
@@ -47,21 +40,13 @@ Result<RowLayout> check_layout(const NpyHeader& header, bool has_radius, std::ui
   }
   const RowLayout layout{shape[0], static_cast<std::size_t>(shape[1]),
                          header.descr == "<f4" ? std::size_t{4} : std::size_t{8}};
-  const std::uint64_t present = file_size - header.size;
-  if (present % layout.bytes() != 0 || present / layout.bytes() != layout.rows) {
-    return refusal("declares " + std::to_string(layout.rows) + " rows of " +
-                   std::to_string(layout.bytes()) + " bytes, but holds " + std::to_string(present) +
-                   " bytes of data");
-  }
+  if (auto bad = check_npy_length(header, layout.bytes(), file_size)) return *bad;
   return layout;
 }
 
-/// One little-endian number of 4 or 8 bytes, whatever the machine's own order.
+/// One number of 4 or 8 bytes.
 double decode(const unsigned char* bytes, std::size_t width) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = width; i-- > 0;) bits = bits << 8 | bytes[i];
-  if (width == 8) return std::bit_cast<double>(bits);
-  return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+  return width == 8 ? npy_float64(bytes) : double{npy_float32(bytes)};
 }
 
 /// The sphere of one row, or what is wrong with it.
@@ -87,9 +72,7 @@ Status append_rows(InputFile& file, const RowLayout& layout, const NpySpheres& r
   for (std::uint64_t row = 0; row < layout.rows;) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(rows_per_block, layout.rows - row));
-    const auto got = file.read(block.data(), count * layout.bytes());
-    if (!got) return got.error();
-    if (got.value() < count * layout.bytes()) return refusal("became shorter while it was read");
+    if (auto bad = read_npy_rows(file, block.data(), count * layout.bytes())) return *bad;
     for (std::size_t i = 0; i < count; ++i, ++row) {
       const auto sphere = decode_row(block.data() + i * layout.bytes(), layout, request);
       if (!sphere) return refusal("row " + std::to_string(row) + ": " + sphere.error().message);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/base/error.h"
+#include "render/scene_file/input_file.h"
+#include "render/scene_file/npy_header.h"
+
+namespace boule {
+
+/// What readers of .npy files with rows of numbers share. Errors have a message only, except those
+/// of the system.
+
+/// "(3, 4)".
+std::string npy_shape_text(const NpyHeader& header);
+
+/// Refuses Fortran order.
+Status check_npy_order(const NpyHeader& header);
+
+/// Refuses a file of `file_size` bytes unless it is exactly as long as its header and shape[0] rows
+/// of `row_bytes` bytes each.
+Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uint64_t file_size);
+
+/// Reads the next `bytes` bytes of rows; that there are less now is an error.
+Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes);
+
+/// One little-endian number, whatever the machine's own order.
+float npy_float32(const unsigned char* bytes);
+double npy_float64(const unsigned char* bytes);
+
+}  // namespace boule
