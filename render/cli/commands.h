@@ -8,6 +8,9 @@ namespace boule::cli {
 /// Renders a scene file to a picture file.
 ExitCode run(const RenderCommand& command);
 
+/// Traces the rays of a file against a scene, to a file of hits.
+ExitCode run(const TraceCommand& command);
+
 /// Tells what a scene holds, on standard output.
 ExitCode run(const InfoCommand& command);
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <climits>
 #include <csignal>
 #include <cstring>
 
@@ -11,9 +12,14 @@ namespace {
 
 std::atomic<int> pending_signal{0};
 std::atomic<bool> writing{false};
-std::atomic<bool> picture_written{false};
+std::atomic<bool> removing{false};
+std::atomic<const char*> end_of_line{"nothing written"};
 std::atomic<bool> line_open{false};
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
+              std::atomic<const char*>::is_always_lock_free);
+
+/// What to remove while `removing`. No file can be made whose name is longer.
+char temporary[PATH_MAX] = "";
 
 const char* name_of(int signal) {
   switch (signal) {
@@ -32,12 +38,15 @@ void print_end(int signal) {
   if (line_open) std::strcat(text, "\n");
   std::strcat(text, "boule: interrupted (");
   std::strcat(text, name_of(signal));
-  std::strcat(text, picture_written ? "), the picture had been written\n" : "), nothing written\n");
+  std::strcat(text, "), ");
+  std::strcat(text, end_of_line);
+  std::strcat(text, "\n");
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
 /// Async-signal-safe.
 [[noreturn]] void leave(int signal) {
+  if (removing) ::unlink(temporary);
   print_end(signal);
   ::_exit(128 + signal);
 }
@@ -70,7 +79,18 @@ WriteGuard::WriteGuard() { writing = true; }
 WriteGuard::~WriteGuard() { writing = false; }
 bool WriteGuard::interrupted() { return pending_signal != 0; }
 
-void set_picture_written() { picture_written = true; }
+RemovalGuard::RemovalGuard(const std::string& path) {
+  temporary[path.copy(temporary, sizeof temporary - 1)] = '\0';
+  removing = true;
+  writing = false;
+  exit_if_interrupted();
+}
+RemovalGuard::~RemovalGuard() {
+  writing = true;
+  removing = false;
+}
+
+void set_written(const char* end) { end_of_line = end; }
 void set_line_open(bool open) { line_open = open; }
 
 void exit_if_interrupted() {

@@ -90,12 +90,15 @@ void add_scene(CLI::App& app, std::string& scene) {
   app.add_option("scene", scene, "Scene file, .toml or .nff")->required()->type_name("FILE");
 }
 
+void add_output(CLI::App& app, std::string& output, const std::string& type,
+                const std::string& help) {
+  app.add_option("-o,--output", output, help)->required()->type_name(type);
+}
+
 /// What shows in the picture, and how it is stored.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_scene(app, command.scene);
-  app.add_option("-o,--output", command.output, "Picture to write; its extension names the format")
-      ->required()
-      ->type_name("IMAGE");
+  add_output(app, command.output, "IMAGE", "Picture to write; its extension names the format");
   add_parsed(app, "--size", command.size, parse_size,
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
@@ -129,14 +132,7 @@ void add_file_options(CLI::App& app, RenderCommand& command) {
              "What an NFF polygon becomes (plane)");
 }
 
-void add_machine_options(CLI::App& app, RenderCommand& command) {
-  app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
-      ->type_name("NAME");
-  add_choice(app, "--solver", command.solver,
-             std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
-                        Choice{"reference", Solver::reference}},
-             "How hits are found (robust)");
-  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+void add_block_options(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--tile", command.tile, 1, max_tile, "Side of a tile in pixels (16)");
   add_choice(app, "--order", command.order,
              std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
@@ -145,8 +141,33 @@ void add_machine_options(CLI::App& app, RenderCommand& command) {
              "Order of the pixels; never shows in the picture (tiles)");
 }
 
-/// What is told while and after rendering.
-void add_report_options(CLI::App& app, RenderCommand& command) {
+/// What is traced, and where the hits go.
+void add_trace_options(CLI::App& app, TraceCommand& command) {
+  add_scene(app, command.scene);
+  app.add_option("--rays", command.rays,
+                 "Rays, .npy: float32, N x 8: origin x y z, tmin, direction x y z, tmax")
+      ->required()
+      ->type_name("RAYS.npy");
+  add_output(
+      app, command.output, "HITS.npy",
+      "Hits to write, .npy: N records of t (float64), id (int32), normal (3 float32); a miss "
+      "is inf, -1, 0");
+  app.add_flag("--any-hit", command.any_hit,
+               "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
+}
+
+void add_machine_options(CLI::App& app, RunOptions& command) {
+  app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
+      ->type_name("NAME");
+  add_choice(app, "--solver", command.solver,
+             std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
+                        Choice{"reference", Solver::reference}},
+             "How hits are found (robust)");
+  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+}
+
+/// What is told while and after the work.
+void add_report_options(CLI::App& app, RunOptions& command) {
   add_choice(app, "--progress", command.progress,
              std::array{Choice{"auto", ProgressStyle::automatic}, Choice{"bar", ProgressStyle::bar},
                         Choice{"plain", ProgressStyle::plain}, Choice{"json", ProgressStyle::json},
@@ -178,6 +199,7 @@ UsageError explain(const CLI::App& app, const CLI::ParseError& error) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   RenderCommand render;
+  TraceCommand trace;
   InfoCommand info;
   IsaCommand isa;
   CLI::App app(description, "boule");
@@ -186,8 +208,13 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App* const render_app = app.add_subcommand("render", "Render a scene to a picture");
   add_picture_options(*render_app, render);
   add_file_options(*render_app, render);
+  add_block_options(*render_app, render);
   add_machine_options(*render_app, render);
   add_report_options(*render_app, render);
+  CLI::App* const trace_app = app.add_subcommand("trace", "Trace the rays of a file to hits");
+  add_trace_options(*trace_app, trace);
+  add_machine_options(*trace_app, trace);
+  add_report_options(*trace_app, trace);
   CLI::App* const info_app = app.add_subcommand("info", "Tell what a scene holds");
   add_scene(*info_app, info.scene);
   info_app->add_flag("--json", info.json, "As JSON, for programs");
@@ -204,6 +231,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     return explain(app, error);
   }
   if (render_app->parsed()) return render;
+  if (trace_app->parsed()) return trace;
   if (info_app->parsed()) return info;
   return isa;
 }

@@ -32,10 +32,20 @@ struct StatsTarget {
 /// How much is said on standard error besides errors.
 enum class Verbosity { quiet, normal, verbose };
 
-/// `boule render`: what is not given comes from the scene.
-struct RenderCommand {
+/// What render and trace have in common.
+struct RunOptions {
   std::string scene;
   std::string output;
+  unsigned threads = 0;
+  std::string isa = "auto";
+  Solver solver = Solver::robust;
+  ProgressStyle progress = ProgressStyle::automatic;
+  StatsTarget stats;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// `boule render`: what is not given comes from the scene.
+struct RenderCommand : RunOptions {
   std::optional<Size> size;
   std::optional<int> spp;
   std::optional<int> max_depth;
@@ -44,15 +54,15 @@ struct RenderCommand {
   std::uint64_t seed = 0;
   int tile = 16;
   PixelOrder order = PixelOrder::tiles;
-  unsigned threads = 0;
-  std::string isa = "auto";
-  Solver solver = Solver::robust;
   Compression compression = Compression::zip;
   float exposure_stops = 0;
   PolygonPolicy polygons = PolygonPolicy::plane;
-  ProgressStyle progress = ProgressStyle::automatic;
-  StatsTarget stats;
-  Verbosity verbosity = Verbosity::normal;
+};
+
+/// `boule trace`.
+struct TraceCommand : RunOptions {
+  std::string rays;
+  bool any_hit = false;
 };
 
 /// `boule info`.
@@ -76,7 +86,8 @@ struct UsageError {
   std::string text;
 };
 
-using Command = std::variant<RenderCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
+using Command =
+    std::variant<RenderCommand, TraceCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
 
 /// What the command line asks for.
 Command parse_command_line(int argc, const char* const* argv);

@@ -3,20 +3,9 @@
 #include <fmt/format.h>
 
 #include "render/cli/camera_matrices.h"
+#include "render/cli/stats.h"
 
 namespace boule::cli {
-
-const char* solver_name(Solver solver) {
-  switch (solver) {
-    case Solver::fast:
-      return "fast";
-    case Solver::reference:
-      return "reference";
-    case Solver::robust:
-      break;
-  }
-  return "robust";
-}
 
 Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash) {
   const RenderOptions& options = renderer.options();

@@ -12,7 +12,4 @@ namespace boule::cli {
 /// Nothing of it depends on ISA, threads or time: equal pictures stay equal files.
 Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash);
 
-/// "fast", "robust", "reference".
-const char* solver_name(Solver solver);
-
 }  // namespace boule::cli

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "render/renderer/render_options.h"
+#include "render/frame/progress.h"
 
 namespace boule::cli {
 

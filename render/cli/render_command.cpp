@@ -4,39 +4,33 @@
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/picture_header.h"
+#include "render/cli/run_report.h"
 #include "render/cli/source_date.h"
-#include "render/cli/stats.h"
+#include "render/frame/stopwatch.h"
 #include "render/image/image_format.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
-#include "simd/dispatch/dispatch.h"
 
 namespace boule::cli {
 namespace {
-
-Diagnostic usage(const std::string& message, const char* key) { return {message, key, {}, 0, 0}; }
 
 /// What can be told wrong without reading the scene.
 Status check(const RenderCommand& command) {
   const ImageFormat* const format = find_image_format(command.output);
   if (format == nullptr) {
-    return usage("no picture format has the extension of " + quote(command.output) +
-                     ", expected one of " + known_image_extensions(),
-                 "--output");
+    return wrong_option("no picture format has the extension of " + quote(command.output) +
+                            ", expected one of " + known_image_extensions(),
+                        "--output");
   }
   if (command.views.any() && !format->channels) {
-    return usage(std::string("a .") + format->extension +
-                     " file has no room for extra channels, expected --output to be an .exr file",
-                 "--aov");
-  }
-  if (command.stats.file == command.output) {
-    return usage("statistics would replace the picture, expected another file", "--stats");
+    return wrong_option(
+        std::string("a .") + format->extension +
+            " file has no room for extra channels, expected --output to be an .exr file",
+        "--aov");
   }
   const auto date = source_date();
   if (!date) return date.error();
-  const auto kernels = select_kernels(command.isa);
-  if (!kernels) return kernels.error();
-  return std::nullopt;
+  return check_run(command, "picture");
 }
 
 RenderOptions combine(const Scene& scene, const RenderCommand& command) {
@@ -69,7 +63,7 @@ ExitCode report_refusal(Diagnostic error, const RenderCommand& command) {
 /// One run of `boule render`, step by step; each step that fails leaves its exit code.
 class Rendering {
  public:
-  explicit Rendering(const RenderCommand& command) : command_(command) {}
+  explicit Rendering(const RenderCommand& command) : command_(command), report_(command) {}
 
   ExitCode run();
 
@@ -79,16 +73,9 @@ class Rendering {
   ExitCode finish(const Renderer& renderer, const Image& image);
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
-  void note(const std::string& text) const {
-    if (command_.verbosity != Verbosity::quiet) print_note(text);
-  }
-  void detail(const std::string& text) const {
-    if (command_.verbosity == Verbosity::verbose) print_note("boule: note: " + text);
-  }
-
   const RenderCommand& command_;
+  RunReport report_;
   Stopwatch watch_;
-  std::optional<ProgressBar> bar_;  ///< while rendering
   Stats stats_;
   std::uint64_t scene_hash_ = 0;
 };
@@ -99,32 +86,24 @@ ExitCode Rendering::run() {
   if (!loaded) return report(loaded.error(), invalid_input);
   const Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
-  for (const std::string& warning : loaded.value().warnings) note(warning);
-  detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", command_.scene,
-                     counted(scene.spheres.size(), "sphere"), counted(scene.planes.size(), "plane"),
-                     counted(scene.lights.size(), "light"),
-                     counted(scene.materials.size(), "material"), stats_.load_seconds));
+  report_.loaded(loaded.value(), stats_.load_seconds);
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);
-  options.progress = [this](const Progress& progress) {
-    if (bar_) bar_->update(progress);
-  };
+  options.progress = [this](const Progress& progress) { report_.progress(progress); };
   auto renderer = Renderer::create(scene, options);
   if (!renderer) return report_refusal(renderer.error(), command_);
-  for (const std::string& text : renderer.value().notes()) note("boule: note: " + text);
+  for (const std::string& text : renderer.value().notes()) {
+    report_.note("boule: note: " + text);
+  }
   return render(renderer.value());
 }
 
 ExitCode Rendering::render(Renderer& renderer) {
-  const RenderStatistics prepared = renderer.statistics();
-  detail(fmt::format("prepared in {:.3f} s for {} ({}), solver {}", prepared.prepare_seconds,
-                     prepared.isa, counted(static_cast<std::size_t>(prepared.width), "lane"),
-                     solver_name(prepared.solver)));
-  const bool quiet = command_.verbosity == Verbosity::quiet;
-  bar_.emplace(quiet ? ProgressStyle::none : command_.progress);
+  report_.prepared(renderer.statistics());
+  report_.start_progress();
   const auto image = renderer.render();
-  bar_.reset();
+  report_.end_progress();
   if (!image) return report(image.error(), failed);
   ImageFileOptions options = file_options(renderer);
   if (command_.views.any()) {
@@ -157,7 +136,7 @@ ExitCode Rendering::write(const Image& image, const ImageFileOptions& options) {
   {
     const WriteGuard guard;
     status = write_image(image, command_.output, options);
-    if (!status) set_picture_written();
+    if (!status) set_written("the picture had been written");
   }
   exit_if_interrupted();
   stats_.write_seconds = watch.seconds();
@@ -166,22 +145,18 @@ ExitCode Rendering::write(const Image& image, const ImageFileOptions& options) {
 
 /// After the picture: the line that says so, and the statistics.
 ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
-  stats_.rendering = renderer.statistics();
-  stats_.size = {image.width, image.height};
-  stats_.spp = renderer.options().spp;
+  const RenderStatistics rendering = renderer.statistics();
+  static_cast<RunStatistics&>(stats_) = rendering;
+  stats_.work_seconds = rendering.render_seconds;
+  stats_.rays = rendering.rays.total();
+  const int spp = renderer.options().spp;
+  stats_.picture = {{image.width, image.height}, spp, rendering.rays};
   stats_.total_seconds = watch_.seconds();
-  const RenderStatistics& r = stats_.rendering;
-  detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
-  note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
-                   command_.output, image.width, image.height, stats_.spp, r.render_seconds,
-                   mrays_per_s(r), r.isa, counted(r.threads, "thread")));
-  Status status;
-  {
-    const WriteGuard guard;
-    status = write_stats(stats_, command_.stats);
-  }
-  exit_if_interrupted();
-  return status ? report(*status, failed) : done;
+  report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
+                           command_.output, image.width, image.height, spp, stats_.work_seconds,
+                           mrays_per_s(stats_), stats_.isa, counted(stats_.threads, "thread")));
+  return report_.finish(stats_);
 }
 
 }  // namespace

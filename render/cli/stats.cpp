@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "render/cli/messages.h"
-#include "render/cli/picture_header.h"
 #include "render/image/output_file.h"
 
 namespace boule::cli {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// The most memory the process has had.
 double peak_rss_mib() {
@@ -19,42 +20,54 @@ double peak_rss_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
 }
 
+const char* work_name(const Stats& s) { return s.picture ? "render" : "trace"; }
+
+std::string picture_text(const PictureStats& picture) {
+  return fmt::format(", {} x {} pixels, {} spp", picture.size.width, picture.size.height,
+                     picture.spp);
+}
+
+std::string rays_text(const Stats& s) {
+  if (!s.picture) return std::to_string(s.rays);
+  const RayCounts& rays = s.picture->rays;
+  return fmt::format("{} primary, {} shadow, {} continuation", rays.primary, rays.shadow,
+                     rays.continuation);
+}
+
 std::string as_text(const Stats& s) {
-  const RenderStatistics& r = s.rendering;
   return fmt::format(
-      "boule: stats: {} ({}), solver {}, {}, {} x {} pixels, {} spp\n"
-      "boule: stats: load {:.3f} s, prepare {:.3f} s, render {:.3f} s, write {:.3f} s, "
+      "boule: stats: {} ({}), solver {}, {}{}\n"
+      "boule: stats: load {:.3f} s, prepare {:.3f} s, {} {:.3f} s, write {:.3f} s, "
       "total {:.3f} s\n"
-      "boule: stats: rays: {} primary, {} shadow, {} continuation, {:.1f} Mray/s\n"
+      "boule: stats: rays: {}, {:.1f} Mray/s\n"
       "boule: stats: peak memory {:.1f} MiB",
-      r.isa, counted(static_cast<std::size_t>(r.width), "lane"), solver_name(r.solver),
-      counted(r.threads, "thread"), s.size.width, s.size.height, s.spp, s.load_seconds,
-      r.prepare_seconds, r.render_seconds, s.write_seconds, s.total_seconds, r.rays.primary,
-      r.rays.shadow, r.rays.continuation, mrays_per_s(r), peak_rss_mib());
+      s.isa, counted(static_cast<std::size_t>(s.width), "lane"), solver_name(s.solver),
+      counted(s.threads, "thread"), s.picture ? picture_text(*s.picture) : "", s.load_seconds,
+      s.prepare_seconds, work_name(s), s.work_seconds, s.write_seconds, s.total_seconds,
+      rays_text(s), mrays_per_s(s), peak_rss_mib());
+}
+
+Json rays_json(const Stats& s) {
+  if (!s.picture) return {{"count", s.rays}};
+  const RayCounts& rays = s.picture->rays;
+  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"continuation", rays.continuation}};
 }
 
 std::string as_json(const Stats& s) {
-  const RenderStatistics& r = s.rendering;
-  const nlohmann::ordered_json json = {{"schema", 1},
-                                       {"version", BOULE_VERSION},
-                                       {"isa", r.isa},
-                                       {"width", r.width},
-                                       {"solver", solver_name(r.solver)},
-                                       {"threads", r.threads},
-                                       {"size", {s.size.width, s.size.height}},
-                                       {"spp", s.spp},
-                                       {"seconds",
-                                        {{"load", s.load_seconds},
-                                         {"prepare", r.prepare_seconds},
-                                         {"render", r.render_seconds},
-                                         {"write", s.write_seconds},
-                                         {"total", s.total_seconds}}},
-                                       {"rays",
-                                        {{"primary", r.rays.primary},
-                                         {"shadow", r.rays.shadow},
-                                         {"continuation", r.rays.continuation}}},
-                                       {"mrays_per_s", mrays_per_s(r)},
-                                       {"peak_rss_mib", peak_rss_mib()}};
+  Json json = {{"schema", 1},      {"version", BOULE_VERSION},        {"isa", s.isa},
+               {"width", s.width}, {"solver", solver_name(s.solver)}, {"threads", s.threads}};
+  if (s.picture) {
+    json["size"] = {s.picture->size.width, s.picture->size.height};
+    json["spp"] = s.picture->spp;
+  }
+  json["seconds"] = {{"load", s.load_seconds},
+                     {"prepare", s.prepare_seconds},
+                     {work_name(s), s.work_seconds},
+                     {"write", s.write_seconds},
+                     {"total", s.total_seconds}};
+  json["rays"] = rays_json(s);
+  json["mrays_per_s"] = mrays_per_s(s);
+  json["peak_rss_mib"] = peak_rss_mib();
   return json.dump(2) + "\n";
 }
 
@@ -67,9 +80,21 @@ Status write_file(const std::string& text, const std::string& path) {
 
 }  // namespace
 
-double mrays_per_s(const RenderStatistics& statistics) {
-  const double seconds = statistics.render_seconds;
-  return seconds > 0 ? static_cast<double>(statistics.rays.total()) / seconds * 1e-6 : 0;
+double mrays_per_s(const Stats& stats) {
+  const double seconds = stats.work_seconds;
+  return seconds > 0 ? static_cast<double>(stats.rays) / seconds * 1e-6 : 0;
+}
+
+const char* solver_name(Solver solver) {
+  switch (solver) {
+    case Solver::fast:
+      return "fast";
+    case Solver::reference:
+      return "reference";
+    case Solver::robust:
+      break;
+  }
+  return "robust";
 }
 
 Status write_stats(const Stats& stats, const StatsTarget& target) {

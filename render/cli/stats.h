@@ -1,38 +1,37 @@
 #pragma once
 
-#include <chrono>
-#include <string>
+#include <cstdint>
+#include <optional>
 
 #include "core/base/error.h"
 #include "render/cli/options.h"
-#include "render/renderer/renderer.h"
+#include "render/integrators/integrator.h"
+#include "render/renderer/run_statistics.h"
 
 namespace boule::cli {
 
-/// What a render took, beside what the Renderer counts. Times are wall-clock seconds.
-struct Stats {
-  RenderStatistics rendering;
-  Size size{};  ///< pixels of the picture: of the crop where there is one
+/// What only a picture has.
+struct PictureStats {
+  Size size{};  ///< pixels: of the crop where there is one
   int spp = 1;
+  RayCounts rays;
+};
+
+/// What a render or a trace took. Times are wall-clock seconds.
+struct Stats : RunStatistics {
   double load_seconds = 0;
+  double work_seconds = 0;  ///< of rendering or tracing
   double write_seconds = 0;
   double total_seconds = 0;
+  std::uint64_t rays = 0;               ///< of all kinds
+  std::optional<PictureStats> picture;  ///< none: it was a trace
 };
 
-/// Seconds since its construction.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+/// Millions of rays per second of work, 0 where it took no time.
+double mrays_per_s(const Stats& stats);
 
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
-/// Millions of rays per second of rendering, 0 where it took no time.
-double mrays_per_s(const RenderStatistics& statistics);
+/// "fast", "robust", "reference".
+const char* solver_name(Solver solver);
 
 /// Text on standard error, or JSON (schema 1) on standard output or in a file that appears whole.
 Status write_stats(const Stats& stats, const StatsTarget& target);

@@ -181,9 +181,14 @@ Status OutputFile::write(const void* bytes, std::size_t count) {
   return {};
 }
 
+Status OutputFile::sync() {
+  if (stream_ >= 0 || fsync(descriptor_) == 0) return {};
+  return cannot_write(name_, system_reason(errno));
+}
+
 Status OutputFile::commit(const std::function<bool()>& stop) {
   if (stream_ >= 0) return commit_stream(stop);
-  if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
+  if (auto bad = sync()) return bad;
   if (stop && stop()) return cannot_write(name_, "interrupted");
   if (close(std::exchange(descriptor_, -1)) != 0) {
     return cannot_write(name_, system_reason(errno));

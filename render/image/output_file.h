@@ -36,6 +36,9 @@ class OutputFile {
   /// Appends bytes at the descriptor's position.
   Status write(const void* bytes, std::size_t count);
 
+  /// Makes the data written so far durable, so that commit() takes no time for it.
+  Status sync();
+
   /// Makes the data durable and gives the file its name; call it once, after the last write.
   /// `stop` is asked before that, and ten times a second while a pipe's reader is slow: true gives
   /// up, with "interrupted" as the reason.

@@ -10,16 +10,11 @@
 #include "core/scene/scene.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
+#include "render/frame/progress.h"
 #include "render/renderer/view_channels.h"
 #include "simd/abi/isa.h"
 
 namespace boule {
-
-/// How far a pass has come.
-struct Progress {
-  double share = 0;        ///< of its blocks, 0 .. 1
-  std::uint64_t rays = 0;  ///< of all kinds, traced in this pass
-};
 
 /// How a scene is rendered. Only the first six, the crop and solver fast show in the picture.
 struct RenderOptions {

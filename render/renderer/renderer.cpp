@@ -1,28 +1,17 @@
 #include "render/renderer/renderer.h"
 
 #include <atomic>
-#include <chrono>
 #include <new>
 #include <utility>
 
 #include "render/frame/float_environment.h"
+#include "render/frame/stopwatch.h"
 #include "render/integrators/whitted.h"
 #include "render/renderer/view_worker.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
 namespace {
-
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
 
@@ -153,13 +142,11 @@ RayCounts Renderer::count_rays() const {
 }
 
 RenderStatistics Renderer::statistics() const {
-  return {count_rays(),
-          prepare_seconds_,
-          render_seconds_,
-          isa_name(setup_->kernels.isa),
-          setup_->kernels.width,
-          options_.solver,
-          scheduler_.threads_used()};
+  const KernelTable& kernels = setup_->kernels;
+  return {{prepare_seconds_, isa_name(kernels.isa), kernels.width, options_.solver,
+           scheduler_.threads_used()},
+          count_rays(),
+          render_seconds_};
 }
 
 }  // namespace boule

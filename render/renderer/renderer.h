@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
@@ -13,18 +12,14 @@
 #include "render/integrators/integrator.h"
 #include "render/renderer/block_worker.h"
 #include "render/renderer/render_options.h"
+#include "render/renderer/run_statistics.h"
 
 namespace boule {
 
 /// What rendering has cost so far, over all passes.
-struct RenderStatistics {
+struct RenderStatistics : RunStatistics {
   RayCounts rays;
-  double prepare_seconds = 0;
   double render_seconds = 0;
-  std::string_view isa;  ///< that really ran: "scalar" for solver reference
-  int width = 1;         ///< float lanes of it
-  Solver solver = Solver::robust;
-  unsigned threads = 0;  ///< that the last pass really had
 };
 
 /// A scene and how to render it: the library's public face. The bits of a picture depend on

@@ -24,10 +24,13 @@ void meet_sphere(Surface& surface, const Sphere& sphere, const Ray& ray) {
   const double ff = dot(f, f);
   surface.sphere = true;
   surface.reach = std::sqrt(ff) + r;
+  const Vec3d outward = surface.point - center;
   // From where the ray started, not from the angle: the solver took the second root for the same
-  // sign of the same expression, so a grazing ray cannot change sides.
-  surface.inner = surface.id == ray.source || ff - r * r <= 0;
-  set_normal(surface, normalize(surface.point - center));
+  // sign of the same expression, so a grazing ray cannot change sides. A ray that begins elsewhere
+  // than at its origin may meet the other root: there the angle tells.
+  const bool starts_inside = surface.id == ray.source || ff - r * r <= 0;
+  surface.inner = ray.tmin == 0 ? starts_inside : dot(outward, vec_cast<double>(ray.dir)) > 0;
+  set_normal(surface, normalize(outward));
 }
 
 void meet_plane(Surface& surface, const Plane& plane, const Ray& ray) {
@@ -56,17 +59,18 @@ Ray from_surface(Ray ray, const Surface& surface, Side side) {
 
 }  // namespace
 
-Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
+                     const Hit& hit) {
   const Vec3d dir = vec_cast<double>(ray.dir);
   Surface surface{};
   surface.id = hit.id;
   surface.point = ray.org + dir * hit.t;
   surface.view = normalize(dir);
   const auto i = static_cast<std::size_t>(hit.id);
-  if (i < scene.spheres.size()) {
-    meet_sphere(surface, scene.spheres[i], ray);
+  if (i < spheres.size()) {
+    meet_sphere(surface, spheres[i], ray);
   } else {
-    meet_plane(surface, scene.planes[i - scene.spheres.size()], ray);
+    meet_plane(surface, planes[i - spheres.size()], ray);
   }
   surface.cosine = std::clamp(-dot(surface.normal, surface.view), 0.0, 1.0);
   surface.mirrored = surface.view + surface.normal * (2 * surface.cosine);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/math/ray.h"
 #include "render/prepare/prepared_scene.h"
@@ -24,8 +25,15 @@ struct Surface {
 /// Which way a ray leaves a surface: back to the viewer's side, or through it.
 enum class Side { viewer, beyond };
 
-/// The surface a ray met. `hit` is a hit, not a miss.
-Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit);
+/// The surface a ray met among these primitives, by id: the spheres, then the planes. `hit` is a
+/// hit, not a miss.
+Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
+                     const Hit& hit);
+
+/// The same among a prepared scene's.
+inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+  return find_surface(scene.spheres, scene.planes, ray, hit);
+}
 
 /// A ray that leaves the surface along `direction`, rounded to float once.
 Ray leave(const Surface& surface, Side side, const Vec3d& direction);

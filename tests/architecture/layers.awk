@@ -19,6 +19,7 @@ BEGIN {
   layer("^render/scene_file/", "^(core|render/scene_file)/", any)
   layer("^render/image/", "^(core|render/image)/", any)
   layer("^render/frame/", "^(core|render/(image|frame))/", any)
+  layer("^render/trace_file/", "^(core|render/(scene_file|image|frame|trace_file))/", any)
   layer("^render/prepare/", narrow "|^render/prepare/", any)
   layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
@@ -26,7 +27,7 @@ BEGIN {
         narrow "|^render/(image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
   layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
-  layer("^(tests|bench)/", narrow "|^render/(scene_file|image|frame|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")

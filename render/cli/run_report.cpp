@@ -1,0 +1,69 @@
+#include "render/cli/run_report.h"
+
+#include <fmt/format.h>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::cli {
+
+Diagnostic wrong_option(const std::string& message, const char* option) {
+  return {message, option, {}, 0, 0};
+}
+
+Status check_run(const RunOptions& options, const std::string& output) {
+  if (options.stats.file == options.output) {
+    return wrong_option("statistics would replace the " + output + ", expected another file",
+                        "--stats");
+  }
+  const auto kernels = select_kernels(options.isa);
+  if (!kernels) return kernels.error();
+  return std::nullopt;
+}
+
+void RunReport::note(const std::string& text) const {
+  if (options_.verbosity != Verbosity::quiet) print_note(text);
+}
+
+void RunReport::detail(const std::string& text) const {
+  if (options_.verbosity == Verbosity::verbose) print_note("boule: note: " + text);
+}
+
+void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
+  for (const std::string& warning : loaded.warnings) note(warning);
+  const Scene& scene = loaded.scene;
+  detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", options_.scene,
+                     counted(scene.spheres.size(), "sphere"), counted(scene.planes.size(), "plane"),
+                     counted(scene.lights.size(), "light"),
+                     counted(scene.materials.size(), "material"), seconds));
+}
+
+void RunReport::prepared(const RunStatistics& run) const {
+  detail(fmt::format("prepared in {:.3f} s for {} ({}), solver {}", run.prepare_seconds, run.isa,
+                     counted(static_cast<std::size_t>(run.width), "lane"),
+                     solver_name(run.solver)));
+}
+
+void RunReport::start_progress() {
+  const bool quiet = options_.verbosity == Verbosity::quiet;
+  bar_.emplace(quiet ? ProgressStyle::none : options_.progress);
+}
+
+void RunReport::progress(const Progress& progress) {
+  if (bar_) bar_->update(progress);
+}
+
+void RunReport::end_progress() { bar_.reset(); }
+
+ExitCode RunReport::finish(const Stats& stats) const {
+  Status status;
+  {
+    const WriteGuard guard;
+    status = write_stats(stats, options_.stats);
+  }
+  exit_if_interrupted();
+  return status ? report(*status, failed) : done;
+}
+
+}  // namespace boule::cli

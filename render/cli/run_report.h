@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "render/cli/exit_code.h"
+#include "render/cli/options.h"
+#include "render/cli/progress_bar.h"
+#include "render/cli/stats.h"
+#include "render/frame/progress.h"
+#include "render/scene_file/scene_file.h"
+
+namespace boule::cli {
+
+/// An error about the command line itself, with the option as its key.
+Diagnostic wrong_option(const std::string& message, const char* option);
+
+/// What is wrong with the options that render and trace share, without reading the scene;
+/// `output` names what is written.
+Status check_run(const RunOptions& options, const std::string& output);
+
+/// What one run of render or trace tells on standard error, as loud as its options say, and its
+/// statistics.
+class RunReport {
+ public:
+  /// `options` must outlive it.
+  explicit RunReport(const RunOptions& options) : options_(options) {}
+
+  /// A line unless quiet; a "boule: note: " if verbose.
+  void note(const std::string& text) const;
+  void detail(const std::string& text) const;
+
+  /// The scene's warnings, and its figures.
+  void loaded(const LoadedScene& loaded, double seconds) const;
+  void prepared(const RunStatistics& run) const;
+
+  /// The progress bar, from start to end.
+  void start_progress();
+  void progress(const Progress& progress);
+  void end_progress();
+
+  /// Writes the statistics.
+  [[nodiscard]] ExitCode finish(const Stats& stats) const;
+
+ private:
+  const RunOptions& options_;
+  std::optional<ProgressBar> bar_;
+};
+
+}  // namespace boule::cli

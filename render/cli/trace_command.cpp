@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/cli/commands.h"
+#include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
+#include "render/cli/run_report.h"
+#include "render/frame/stopwatch.h"
+#include "render/renderer/tracer.h"
+#include "render/trace_file/hit_file.h"
+#include "render/trace_file/ray_file.h"
+
+namespace boule::cli {
+namespace {
+
+/// Rays in memory at a time, so that a file of any length will do.
+constexpr std::uint64_t chunk_size = std::uint64_t{1} << 18;
+
+/// What can be told wrong without reading anything.
+Status check(const TraceCommand& command) {
+  if (!is_npy_name(command.output)) {
+    return wrong_option(
+        "hits are written as .npy, which is not the extension of " + quote(command.output),
+        "--output");
+  }
+  return check_run(command, "hits");
+}
+
+/// An error and the exit code it leads to.
+struct Failure {
+  Diagnostic error;
+  ExitCode code;
+};
+
+/// One run of `boule trace`, step by step; each step that fails leaves its exit code.
+class Tracing {
+ public:
+  explicit Tracing(const TraceCommand& command) : command_(command), report_(command) {}
+
+  ExitCode run();
+
+ private:
+  ExitCode write(RayFile& rays, Tracer& tracer);
+  std::optional<Failure> trace_to_file(RayFile& rays, Tracer& tracer);
+  std::optional<Failure> trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file);
+  Status trace_chunk(Tracer& tracer);
+  Status append_chunk(HitFile& file);
+  void show_progress(const Progress& progress, std::uint64_t all);
+  ExitCode finish(const Tracer& tracer);
+
+  const TraceCommand& command_;
+  RunReport report_;
+  Stopwatch watch_;
+  Stats stats_;
+  std::vector<Ray> rays_;        ///< of the chunk
+  std::vector<TracedHit> hits_;  ///< likewise
+  std::vector<std::uint8_t> met_;
+  std::uint64_t traced_ = 0;  ///< rays of the chunks before
+  std::uint64_t hit_count_ = 0;
+};
+
+ExitCode Tracing::run() {
+  if (auto bad = check(command_)) return report(*bad, wrong_usage);
+  const auto loaded = load_scene(command_.scene);
+  if (!loaded) return report(loaded.error(), invalid_input);
+  auto rays = RayFile::open(command_.rays);
+  if (!rays) return report(rays.error(), invalid_input);
+  stats_.load_seconds = watch_.seconds();
+  report_.loaded(loaded.value(), stats_.load_seconds);
+
+  TraceOptions options;
+  options.solver = command_.solver;
+  options.threads = command_.threads;
+  options.isa = command_.isa;
+  options.progress = [this, all = rays.value().size()](const Progress& progress) {
+    show_progress(progress, all);
+  };
+  auto tracer = Tracer::create(loaded.value().scene, options);
+  if (!tracer) return report(tracer.error(), failed);
+  report_.prepared(tracer.value().statistics());
+  return write(rays.value(), tracer.value());
+}
+
+ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
+  std::optional<Failure> failure;
+  {
+    const WriteGuard guard;
+    failure = trace_to_file(rays, tracer);
+    if (!failure) set_written("the hits had been written");
+  }
+  exit_if_interrupted();
+  report_.end_progress();
+  return failure ? report(failure->error, failure->code) : finish(tracer);
+}
+
+std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
+  auto file = HitFile::create(command_.output, command_.any_hit ? HitKind::any : HitKind::closest,
+                              rays.size());
+  if (!file) return Failure{file.error(), failed};
+  {
+    const RemovalGuard removal(file.value().temporary());
+    report_.start_progress();
+    if (auto bad = trace_chunks(rays, tracer, file.value())) return bad;
+    report_.end_progress();
+    const Stopwatch watch;
+    if (auto bad = file.value().sync()) return Failure{*bad, failed};
+    stats_.write_seconds += watch.seconds();
+  }
+  const Stopwatch watch;
+  if (auto bad = file.value().commit([] { return WriteGuard::interrupted(); })) {
+    return Failure{*bad, failed};
+  }
+  stats_.write_seconds += watch.seconds();
+  return std::nullopt;
+}
+
+/// At least one chunk: no rays are traced like any others.
+std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file) {
+  do {
+    const std::uint64_t left = rays.size() - traced_;
+    rays_.resize(static_cast<std::size_t>(std::min(left, chunk_size)));
+    const Stopwatch reading;
+    if (auto bad = rays.read(rays_)) return Failure{*bad, invalid_input};
+    stats_.load_seconds += reading.seconds();
+    if (auto bad = trace_chunk(tracer)) return Failure{*bad, failed};
+    const Stopwatch writing;
+    if (auto bad = append_chunk(file)) return Failure{*bad, failed};
+    stats_.write_seconds += writing.seconds();
+    traced_ += rays_.size();
+  } while (traced_ < rays.size());
+  return std::nullopt;
+}
+
+Status Tracing::trace_chunk(Tracer& tracer) {
+  if (command_.any_hit) {
+    met_.resize(rays_.size());
+    return tracer.any(rays_, met_);
+  }
+  hits_.resize(rays_.size());
+  return tracer.closest(rays_, hits_);
+}
+
+Status Tracing::append_chunk(HitFile& file) {
+  hit_count_ += static_cast<std::uint64_t>(
+      std::count(met_.begin(), met_.end(), std::uint8_t{1}) +
+      std::count_if(hits_.begin(), hits_.end(),
+                    [](const TracedHit& hit) { return hit.id != no_primitive; }));
+  return command_.any_hit ? file.append(met_) : file.append(hits_);
+}
+
+/// The progress of one chunk as that of `all` rays.
+void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
+  const std::uint64_t done = traced_ + progress.rays;
+  const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
+  report_.progress({share, done});
+}
+
+/// After the hits: the line that says so, and the statistics.
+ExitCode Tracing::finish(const Tracer& tracer) {
+  const TraceStatistics tracing = tracer.statistics();
+  static_cast<RunStatistics&>(stats_) = tracing;
+  stats_.work_seconds = tracing.trace_seconds;
+  stats_.rays = tracing.rays;
+  stats_.total_seconds = watch_.seconds();
+  report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
+  report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,
+                           counted(stats_.rays, "ray"), counted(hit_count_, "hit"),
+                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
+                           counted(stats_.threads, "thread")));
+  return report_.finish(stats_);
+}
+
+}  // namespace
+
+ExitCode run(const TraceCommand& command) { return Tracing(command).run(); }
+
+}  // namespace boule::cli

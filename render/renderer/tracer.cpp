@@ -1,0 +1,138 @@
+#include "render/renderer/tracer.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "render/frame/float_environment.h"
+#include "render/frame/stopwatch.h"
+#include "render/shading/surface.h"
+#include "simd/build/stream_buffer.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule {
+namespace {
+
+/// Rays per stream: enough to keep packets full, few enough to stay in the cache.
+constexpr std::size_t block_size = 1024;
+
+Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
+
+}  // namespace
+
+/// One thread's streams, kept from block to block.
+struct Tracer::Worker {
+  RayBuffer rays;
+  HitBuffer hits;
+  AlignedArray<std::uint8_t> met;
+
+  void load(std::span<const Ray> block) {
+    rays.resize(block.size());
+    for (std::size_t k = 0; k < block.size(); ++k) rays.set(k, block[k]);
+  }
+};
+
+Tracer::Tracer(const Scene& scene, const TraceOptions& options, const KernelTable& kernels)
+    : options_(options),
+      kernels_(&kernels),
+      spheres_(scene.spheres),
+      planes_(scene.planes),
+      geometry_(spheres_, planes_),
+      scheduler_(options.threads),
+      workers_(scheduler_.workers()) {}
+
+Tracer::Tracer(Tracer&& other) noexcept = default;
+Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
+Tracer::~Tracer() = default;
+
+Result<Tracer> Tracer::create(const Scene& scene, const TraceOptions& options) {
+  const FloatEnvironment environment;
+  const Stopwatch watch;
+  if (auto bad = validate(scene)) return *bad;
+  const Result<const KernelTable*> selected = select_kernels(options.isa);
+  if (!selected) return selected.error();
+  const bool reference = options.solver == Solver::reference;
+  try {
+    Tracer tracer(scene, options, reference ? reference_kernels() : *selected.value());
+    tracer.prepare_seconds_ = watch.seconds();
+    return tracer;
+  } catch (const std::bad_alloc&) {
+    return failure("out of memory while preparing the scene");
+  }
+}
+
+Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
+  const GeometryView geometry = geometry_.view();
+  return run(rays, hits.size(), [&](Worker& worker, std::size_t first) {
+    const std::size_t count = worker.rays.size();
+    worker.hits.resize(count);
+    kernels_->closest_hit(geometry, worker.rays.view(), {options_.solver}, worker.hits.view());
+    for (std::size_t k = 0; k < count; ++k) {
+      const Hit hit = worker.hits.get(k);
+      TracedHit& result = hits[first + k];
+      result = {hit.t, hit.id, {}};
+      if (hit.id == no_primitive) continue;
+      const Surface surface = find_surface(spheres_, planes_, rays[first + k], hit);
+      result.normal = vec_cast<float>(surface.normal);
+    }
+  });
+}
+
+Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
+  const GeometryView geometry = geometry_.view();
+  return run(rays, met.size(), [&](Worker& worker, std::size_t first) {
+    const std::size_t count = worker.rays.size();
+    worker.met.resize(count);
+    kernels_->any_hit(geometry, worker.rays.view(), {options_.solver}, worker.met.data());
+    std::copy_n(worker.met.data(), count, met.data() + first);
+  });
+}
+
+Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& body) {
+  if (results != rays.size()) {
+    return failure("there are " + std::to_string(rays.size()) + " rays, but room for " +
+                   std::to_string(results) + " results");
+  }
+  const Stopwatch watch;
+  const Status status = run_blocks(rays, body);
+  trace_seconds_ += watch.seconds();
+  return status;
+}
+
+/// Calls `body` for each block of the rays, loaded into the worker's stream.
+Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
+  std::atomic<std::size_t> done{0};
+  const auto report = [&](double share) {
+    if (options_.progress) options_.progress({share, done});
+  };
+  const auto work = [&](unsigned index, std::size_t block) {
+    const std::size_t first = block * block_size;
+    const auto part = rays.subspan(first, std::min(block_size, rays.size() - first));
+    Worker& mine = worker(index);
+    mine.load(part);
+    body(mine, first);
+    done += part.size();
+    if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays.size()));
+  };
+  const std::size_t blocks = rays.size() / block_size + (rays.size() % block_size != 0 ? 1 : 0);
+  const Status status = scheduler_.run(blocks, work, options_.cancel);
+  rays_ += done;
+  if (status) return status;
+  if (done != rays.size()) return failure("tracing was cancelled");
+  report(1);
+  return std::nullopt;
+}
+
+Tracer::Worker& Tracer::worker(unsigned index) {
+  if (!workers_[index]) workers_[index] = std::make_unique<Worker>();
+  return *workers_[index];
+}
+
+TraceStatistics Tracer::statistics() const {
+  return {{prepare_seconds_, isa_name(kernels_->isa), kernels_->width, options_.solver,
+           scheduler_.threads_used()},
+          rays_,
+          trace_seconds_};
+}
+
+}  // namespace boule

@@ -1,0 +1,92 @@
+#include "render/trace_file/hit_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+namespace boule {
+namespace {
+
+constexpr std::size_t row_bytes = 24;
+constexpr std::size_t rows_per_write = 4096;
+
+/// What stands before the data, as numpy.save writes it: the count has room to grow to 21 digits,
+/// and the data begin on a multiple of 64 bytes.
+std::string npy_start(const std::string& descr, std::uint64_t count) {
+  constexpr std::size_t alignment = 64, before = 10, most_digits = 21;
+  const std::string digits = std::to_string(count);
+  std::string dict =
+      "{'descr': " + descr + ", 'fortran_order': False, 'shape': (" + digits + ",), }";
+  dict.append(most_digits - digits.size(), ' ');
+  while ((before + dict.size() + 1) % alignment != 0) dict += ' ';
+  dict += '\n';
+  std::string start("\x93NUMPY\x01\x00", 8);
+  start += static_cast<char>(dict.size() & 255);
+  start += static_cast<char>(dict.size() >> 8);
+  return start + dict;
+}
+
+/// Writes `width` bytes, the lowest first, whatever the machine's own order.
+unsigned char* put(unsigned char* to, std::uint64_t bits, std::size_t width) {
+  for (std::size_t i = 0; i < width; ++i) *to++ = static_cast<unsigned char>(bits >> (8 * i));
+  return to;
+}
+unsigned char* put(unsigned char* to, float x) {
+  return put(to, std::bit_cast<std::uint32_t>(x), 4);
+}
+
+unsigned char* put(unsigned char* to, const TracedHit& hit) {
+  to = put(to, std::bit_cast<std::uint64_t>(hit.t), 8);
+  to = put(to, static_cast<std::uint32_t>(hit.id), 4);
+  to = put(to, hit.normal.x);
+  to = put(to, hit.normal.y);
+  return put(to, hit.normal.z);
+}
+
+}  // namespace
+
+HitFile::HitFile(OutputFile file) : file_(std::move(file)) {}
+
+Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count) {
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file.error();
+  const std::string start = npy_start(
+      kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",
+      count);
+  if (auto bad = file.value().write(start.data(), start.size())) return *bad;
+  return HitFile(std::move(file).value());
+}
+
+Status HitFile::append(std::span<const TracedHit> hits) {
+  rows_.resize(rows_per_write * row_bytes);
+  for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
+    unsigned char* end = rows_.data();
+    for (const TracedHit& hit :
+         hits.subspan(first, std::min(rows_per_write, hits.size() - first))) {
+      end = put(end, hit);
+    }
+    const auto bytes = static_cast<std::size_t>(end - rows_.data());
+    if (auto bad = file_.write(rows_.data(), bytes)) return bad;
+  }
+  return std::nullopt;
+}
+
+Status HitFile::append(std::span<const std::uint8_t> met) {
+  return file_.write(met.data(), met.size());
+}
+
+Status HitFile::sync() { return file_.sync(); }
+
+Status HitFile::commit(const std::function<bool()>& stop) { return file_.commit(stop); }
+
+bool is_npy_name(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension == ".npy";
+}
+
+}  // namespace boule

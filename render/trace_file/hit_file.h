@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "render/frame/traced_hit.h"
+#include "render/image/output_file.h"
+
+namespace boule {
+
+/// What is stored of each ray: TracedHit, packed in 24 bytes,
+/// [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]; or met, '|u1', 1 for a hit and 0 else.
+enum class HitKind { closest, any };
+
+/// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. It appears
+/// under its name when it is complete (OutputFile). Errors: "cannot write 'NAME': REASON".
+class HitFile {
+ public:
+  /// Begins the file of `count` hits.
+  static Result<HitFile> create(const std::string& path, HitKind kind, std::uint64_t count);
+
+  /// The temporary file.
+  [[nodiscard]] const std::string& temporary() const { return file_.path(); }
+
+  /// Writes the next hits, of the file's kind. Throws std::bad_alloc.
+  Status append(std::span<const TracedHit> hits);
+  Status append(std::span<const std::uint8_t> met);
+
+  /// Makes what is written so far durable, which takes its time: commit() is quick after it.
+  Status sync();
+
+  /// Gives the file its name, once `count` hits are in it. `stop` as for OutputFile.
+  Status commit(const std::function<bool()>& stop = {});
+
+ private:
+  explicit HitFile(OutputFile file);
+
+  OutputFile file_;
+  std::vector<unsigned char> rows_;  ///< as in the file
+};
+
+/// True if `path` ends with ".npy" and has a name before it.
+bool is_npy_name(const std::string& path);
+
+}  // namespace boule

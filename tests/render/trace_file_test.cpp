@@ -1,0 +1,121 @@
+// Files of rays and hits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "render/trace_file/hit_file.h"
+#include "render/trace_file/ray_file.h"
+#include "tests/render/npy_files.h"
+#include "tests/render/ray_clouds.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+class TraceFiles : public testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_.path() / name).string();
+  }
+  [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] std::size_t file_count() const {
+    const std::filesystem::directory_iterator entries(folder_.path());
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+  }
+
+ private:
+  TempDir folder_;
+};
+
+TEST_F(TraceFiles, RaysComeBackAsTheyWereWhateverThePieces) {
+  std::vector<Ray> rays = ray_cloud(10'000);
+  rays[17].tmax = std::numeric_limits<float>::infinity();
+  rays[18].dir.y = std::numeric_limits<float>::quiet_NaN();
+  const std::string name = write("r.npy", ray_file(rays));
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{4096}, std::size_t{9'999}}) {
+    auto file = RayFile::open(name);
+    ASSERT_TRUE(file) << format_diagnostic(file.error());
+    ASSERT_EQ(file.value().size(), rays.size());
+    std::vector<Ray> found(rays.size());
+    const std::span<Ray> all(found);
+    for (std::size_t first = 0; first < rays.size(); first += piece) {
+      const auto part = all.subspan(first, std::min(piece, rays.size() - first));
+      ASSERT_FALSE(file.value().read(part));
+    }
+    EXPECT_TRUE(ray_rows(found) == ray_rows(rays)) << piece;
+    EXPECT_EQ(found[5].source, no_primitive);
+    EXPECT_FALSE(found[5].inside);
+  }
+}
+
+TEST_F(TraceFiles, RaysThatVanishWhileTheyAreReadAreAnError) {
+  const std::string name = write("r.npy", ray_file(ray_cloud(100)));
+  auto file = RayFile::open(name);
+  ASSERT_TRUE(file);
+  std::filesystem::resize_file(name, 128 + 99 * 32 + 31);
+  std::vector<Ray> rays(100);
+  const Status status = file.value().read(rays);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(format_diagnostic(*status), name + ": error: became shorter while it was read");
+}
+
+TEST_F(TraceFiles, HitsAreWrittenAsNumpyWrites) {
+  const std::vector<TracedHit> hits = {{}, {0.1, 2, {0.6f, -0.8f, -0.0f}}, {1e300, 0, {1, 0, 0}}};
+  auto file = HitFile::create(path("h.npy"), HitKind::closest, hits.size());
+  ASSERT_TRUE(file);
+  EXPECT_FALSE(std::filesystem::exists(path("h.npy")));
+  EXPECT_TRUE(std::filesystem::exists(file.value().temporary()));
+  const std::span<const TracedHit> all(hits);
+  EXPECT_FALSE(file.value().append(all.first(1)));
+  EXPECT_FALSE(file.value().append(all.subspan(1)));
+  EXPECT_FALSE(file.value().sync());
+  EXPECT_FALSE(file.value().commit());
+  const std::string bytes = read("h.npy");
+  EXPECT_TRUE(bytes == hit_file(hits));
+  EXPECT_EQ(bytes.size(), 192u + 3 * 24);
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(TraceFiles, MetIsWrittenAsBytes) {
+  const std::vector<std::uint8_t> met = {1, 0, 0, 1, 1};
+  auto file = HitFile::create(path("h.npy"), HitKind::any, met.size());
+  ASSERT_TRUE(file);
+  EXPECT_FALSE(file.value().append(met));
+  EXPECT_FALSE(file.value().commit());
+  EXPECT_TRUE(read("h.npy") == met_file(met));
+}
+
+TEST_F(TraceFiles, WithoutCommitNothingIsLeft) {
+  (void)write("h.npy", "old");
+  {
+    auto file = HitFile::create(path("h.npy"), HitKind::closest, 5000);
+    ASSERT_TRUE(file);
+    EXPECT_FALSE(file.value().append(std::vector<TracedHit>(5000)));
+    EXPECT_EQ(file_count(), 2u);
+  }
+  EXPECT_EQ(read("h.npy"), "old");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(TraceFiles, ANumpyNameEndsWithNpy) {
+  for (const char* name : {"a.npy", "b/a.NPY", "a.b.npy"}) EXPECT_TRUE(is_npy_name(name)) << name;
+  for (const char* name : {"", "a", "npy", ".npy", "a.npyz", "a.npy/", "a.npy.png", "-"}) {
+    EXPECT_FALSE(is_npy_name(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test

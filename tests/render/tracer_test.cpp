@@ -1,0 +1,392 @@
+#include "render/renderer/tracer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "core/math/geometry.h"
+#include "core/reference.h"
+#include "render/integrators/views.h"
+#include "render/prepare/prepared_scene.h"
+#include "render/shading/surface.h"
+#include "simd/dispatch/dispatch.h"
+#include "tests/render/ray_clouds.h"
+#include "tests/render/test_scenes.h"
+
+namespace boule::test {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr Solver solvers[] = {Solver::fast, Solver::robust, Solver::reference};
+
+Tracer make_tracer(const Scene& scene, const TraceOptions& options = {}) {
+  return Tracer::create(scene, options).value();
+}
+
+std::vector<TracedHit> closest(Tracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<TracedHit> hits(rays.size());
+  const Status status = tracer.closest(rays, hits);
+  EXPECT_FALSE(status) << status->message;
+  return hits;
+}
+std::vector<TracedHit> closest(const Scene& scene, const std::vector<Ray>& rays,
+                               const TraceOptions& options = {}) {
+  Tracer tracer = make_tracer(scene, options);
+  return closest(tracer, rays);
+}
+TracedHit closest(const Scene& scene, const Ray& ray) { return closest(scene, {{ray}})[0]; }
+
+std::vector<std::uint8_t> any(Tracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<std::uint8_t> met(rays.size(), 255);
+  const Status status = tracer.any(rays, met);
+  EXPECT_FALSE(status) << status->message;
+  return met;
+}
+
+/// What the scalar path says, the normal that of shading.
+std::vector<TracedHit> reference_hits(const Scene& scene, const std::vector<Ray>& rays) {
+  std::vector<TracedHit> hits;
+  for (const Ray& ray : rays) {
+    const Hit hit = reference::closest_hit(ray, scene.spheres, scene.planes);
+    hits.push_back({hit.t, hit.id, {}});
+    if (hit.id == no_primitive) continue;
+    const Surface surface = find_surface(scene.spheres, scene.planes, ray, hit);
+    hits.back().normal = vec_cast<float>(surface.normal);
+  }
+  return hits;
+}
+
+Scene cloud_and_planes() {
+  return objects(sphere_cloud(100), {{{0, -9, 0}, {0, 2, 0}}, {{0, 0, -12}, {0.1f, 0, -1}}});
+}
+
+Ray bounded(const Vec3d& org, const Vec3f& dir, float tmin, float tmax = inf) {
+  Ray ray{org, dir};
+  ray.tmin = tmin;
+  ray.tmax = tmax;
+  return ray;
+}
+
+class TracerIsa : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!select_kernels(GetParam())) GTEST_SKIP() << "this CPU lacks " << GetParam();
+    options_.isa = GetParam();
+  }
+  TraceOptions options_;
+};
+
+std::vector<std::string> isa_names() {
+  std::vector<std::string> names;
+  for (const IsaInfo& one : list_isas()) names.emplace_back(one.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, TracerIsa, testing::ValuesIn(isa_names()),
+                         [](const auto& one) { return one.param; });
+
+TEST_P(TracerIsa, HitsAreThoseOfTheScalarPathBitForBit) {
+  const Scene scene = cloud_and_planes();
+  const std::vector<Ray> rays = ray_cloud(5003);
+  const auto expected = reference_hits(scene, rays);
+  for (const Solver solver : {Solver::robust, Solver::reference}) {
+    options_.solver = solver;
+    for (const unsigned threads : {1u, 2u, 7u}) {
+      options_.threads = threads;
+      EXPECT_EQ(differing_hits(closest(scene, rays, options_), expected), 0) << threads;
+    }
+  }
+}
+
+TEST_P(TracerIsa, AnyTellsWhatClosestTells) {
+  const Scene scene = cloud_and_planes();
+  const std::vector<Ray> rays = ray_cloud(5003);
+  for (const Solver solver : solvers) {
+    options_.solver = solver;
+    Tracer tracer = make_tracer(scene, options_);
+    const auto hits = closest(tracer, rays);
+    const auto met = any(tracer, rays);
+    int wrong = 0, count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const int expected = hits[i].id == no_primitive ? 0 : 1;
+      wrong += met[i] == expected ? 0 : 1;
+      count += expected;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(count, 1000);
+    EXPECT_LT(count, 5000);
+  }
+}
+
+/// Rays that would hit, with one number spoilt.
+std::vector<Ray> spoilt_rays() {
+  std::vector<Ray> rays;
+  const Ray good{{0, 0, 5}, {0.01f, 0.02f, -1}};
+  for (const float bad : {nan, -nan, inf, -inf}) {
+    for (int i = 0; i < 6; ++i) {
+      Ray ray = good;
+      double* const org[] = {&ray.org.x, &ray.org.y, &ray.org.z};
+      float* const dir[] = {&ray.dir.x, &ray.dir.y, &ray.dir.z};
+      if (i < 3) *org[i] = static_cast<double>(bad);
+      if (i >= 3) *dir[i - 3] = bad;
+      rays.push_back(ray);
+    }
+  }
+  for (const float bad : {nan, inf}) rays.push_back(bounded(good.org, good.dir, bad));
+  for (const float bad : {nan, -inf}) rays.push_back(bounded(good.org, good.dir, 0, bad));
+  rays.push_back({good.org, {0, 0, 0}});
+  return rays;
+}
+
+TEST_P(TracerIsa, NanInfAndNoDirectionAreMissesAndHarmNoOther) {
+  const Scene scene = objects({{{0, 0, 0}, 1}}, {{{0, 0, -3}, {0, 0, 1}}});
+  std::vector<Ray> rays;
+  for (const Ray& bad : spoilt_rays()) {
+    rays.push_back(bad);
+    rays.push_back({{0, 0, 5}, {0, 0, -1}});
+  }
+  for (const Solver solver : solvers) {
+    options_.solver = solver;
+    Tracer tracer = make_tracer(scene, options_);
+    const auto hits = closest(tracer, rays);
+    const auto met = any(tracer, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const TracedHit expected = i % 2 == 0 ? TracedHit{} : TracedHit{4, 0, {0, 0, 1}};
+      EXPECT_TRUE(same_bits(hits[i], expected)) << i << ": t " << hits[i].t << " id " << hits[i].id;
+      EXPECT_EQ(met[i], i % 2) << i;
+    }
+  }
+}
+
+TEST(Tracer, NormalsAreTheViewsNormals) {
+  const Scene scene = mixed_scene(64, 48);
+  const PreparedScene prepared = prepare(scene, 64, 48).value();
+  const KernelTable& kernels = *select_kernels("auto").value();
+  SampleBuffer samples;
+  samples.resize(64 * 48);
+  for (int i = 0; i < 64 * 48; ++i) {
+    samples.set(static_cast<std::size_t>(i), i % 64 + 0.5, i / 64 + 0.5);
+  }
+  RayBuffer stream(samples.size());
+  kernels.primary_rays(prepared.camera_view, samples.view(), stream.view());
+  std::vector<View> views(samples.size());
+  Views(prepared, kernels, Solver::robust).trace(stream, prepared.coherence, views.data());
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < stream.size(); ++i) rays.push_back(stream.get(i));
+  const auto hits = closest(scene, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(hits[i].normal, views[i].normal) << i;
+    EXPECT_EQ(static_cast<std::uint32_t>(hits[i].id), views[i].id) << i;
+  }
+}
+
+TEST(Tracer, NormalsAreOfUnitLengthAndTurnedAgainstTheRay) {
+  const Scene scene = cloud_and_planes();
+  const std::vector<Ray> rays = ray_cloud(20000);
+  const auto hits = closest(scene, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Vec3d normal = vec_cast<double>(hits[i].normal);
+    if (hits[i].id == no_primitive) {
+      EXPECT_EQ(hits[i].normal, Vec3f{}) << i;
+      EXPECT_EQ(hits[i].t, double{inf}) << i;
+      continue;
+    }
+    EXPECT_NEAR(length(normal), 1, 1e-7) << i;  // three roundings to float
+    EXPECT_LE(dot(normal, normalize(vec_cast<double>(rays[i].dir))), 1e-7) << i;
+  }
+}
+
+TEST(Tracer, BoundsChooseTheRootAndTheNormalFollows) {
+  const Scene scene = objects({{{0, 0, 0}, 1}});
+  const auto hit = [&](double z, float tmin) {
+    return closest(scene, bounded({0, 0, z}, {0, 0, -1}, tmin));
+  };
+  const auto is = [](const TracedHit& found, double t, float z) {
+    return same_bits(found, {t, 0, {found.normal.x, found.normal.y, z}}) &&
+           std::fabs(found.normal.x) + std::fabs(found.normal.y) == 0;
+  };
+  EXPECT_TRUE(is(hit(5, 0), 4, 1));        // from outside
+  EXPECT_TRUE(is(hit(5, 4), 6, 1));        // the first root is left out: the far side's inside
+  EXPECT_TRUE(is(hit(0, 0), 1, 1));        // from inside
+  EXPECT_TRUE(is(hit(0, -5), -1, 1));      // behind the origin, met from outside
+  EXPECT_TRUE(is(hit(-5, -9), -6, 1));     // both behind
+  EXPECT_TRUE(is(hit(-5, -5.5f), -4, 1));  // the second of them
+  EXPECT_EQ(hit(-5, 0).id, no_primitive);
+  EXPECT_EQ(hit(5, 6).id, no_primitive);  // tmin itself is outside
+}
+
+TEST(Tracer, SpheresComeBeforePlanesAndEqualsGoToTheLowerId) {
+  const Scene scene = objects({{{0, 0, 0}, 1}, {{0, 0, 0}, 1}, {{9, 0, 0}, 1}},
+                              {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, -2}, {0, 0, 3}}});
+  EXPECT_EQ(closest(scene, Ray{{0, 0, 5}, {0, 0, -1}}).id, 0);  // two spheres and a plane at t = 4
+  EXPECT_EQ(closest(scene, Ray{{9, 0, 5}, {0, 0, -1}}).id, 2);
+  EXPECT_EQ(closest(scene, Ray{{5, 0, 5}, {0, 0, -1}}).id, 3);
+  EXPECT_EQ(closest(scene, Ray{{5, 0, 0}, {0, 0, -1}}).id, 4);
+  const TracedHit back = closest(scene, Ray{{5, 0, -9}, {0, 0, 2}});
+  EXPECT_EQ(back.id, 4);
+  EXPECT_EQ(back.t, 3.5);
+  EXPECT_EQ(back.normal.z, -1);
+}
+
+TEST(Tracer, CutsDoNotShow) {
+  const Scene scene = cloud_and_planes();
+  const std::vector<Ray> rays = ray_cloud(5003);
+  Tracer tracer = make_tracer(scene);
+  const auto whole = closest(tracer, rays);
+  std::vector<TracedHit> parts(rays.size());
+  const std::span<const Ray> all(rays);
+  for (std::size_t first = 0, step = 1; first < rays.size(); first += step, step = step * 3 + 1) {
+    const std::size_t count = std::min(step, rays.size() - first);
+    EXPECT_FALSE(tracer.closest(all.subspan(first, count), std::span(parts).subspan(first, count)));
+  }
+  EXPECT_EQ(differing_hits(parts, whole), 0);
+}
+
+TEST(Tracer, NeedsNeitherCameraNorLightNorObjects) {
+  const Scene unframed = objects({{{3e38f, 0, 0}, 3e38f}, {{-3e38f, 3e38f, 0}, 1e38f}});
+  EXPECT_FALSE(prepare(unframed, 8, 8).ok());
+  EXPECT_EQ(closest(unframed, Ray{{3e38f, 0, 0}, {1, 0, 0}}).id, 0);
+  EXPECT_EQ(closest(objects({}), Ray{{0, 0, 0}, {1, 0, 0}}).id, no_primitive);
+}
+
+TEST(Tracer, NoRaysAreNoHits) {
+  Tracer tracer = make_tracer(cloud_and_planes());
+  EXPECT_FALSE(tracer.closest({}, {}));
+  EXPECT_FALSE(tracer.any({}, {}));
+  EXPECT_EQ(tracer.statistics().rays, 0u);
+}
+
+TEST(Tracer, RefusesWhatIsInvalid) {
+  Scene scene = cloud_and_planes();
+  TraceOptions options;
+  options.isa = "mmx";
+  EXPECT_FALSE(Tracer::create(scene, options));
+  scene.spheres[2].radius = -1;
+  const auto tracer = Tracer::create(scene);
+  ASSERT_FALSE(tracer);
+  EXPECT_EQ(tracer.error().key, "sphere[2].radius");
+}
+
+TEST(Tracer, RefusesAnotherNumberOfResults) {
+  Tracer tracer = make_tracer(cloud_and_planes());
+  const std::vector<Ray> rays(3);
+  std::vector<TracedHit> hits(2);
+  std::vector<std::uint8_t> met(4);
+  EXPECT_EQ(tracer.closest(rays, hits)->message, "there are 3 rays, but room for 2 results");
+  EXPECT_EQ(tracer.any(rays, met)->message, "there are 3 rays, but room for 4 results");
+}
+
+/// While it lives, this thread rounds upward and flushes denormals.
+class OddFloatEnvironment {
+ public:
+  OddFloatEnvironment() {
+    std::fegetenv(&saved_);
+    std::fesetround(FE_UPWARD);
+#if defined(__SSE__)
+    _mm_setcsr(_mm_getcsr() | 0x8040);
+#endif
+  }
+  ~OddFloatEnvironment() { std::fesetenv(&saved_); }
+  [[nodiscard]] static bool holds() {
+#if defined(__SSE__)
+    if ((_mm_getcsr() & 0x8040) != 0x8040) return false;
+#endif
+    return std::fegetround() == FE_UPWARD;
+  }
+
+ private:
+  std::fenv_t saved_;
+};
+
+/// Everything so small that it is denormal.
+Scene tiny(Scene scene) {
+  for (Sphere& s : scene.spheres) s = {s.center * 0x1p-133f, s.radius * 0x1p-133f, 0};
+  for (Plane& p : scene.planes) p.point = p.point * 0x1p-133f;
+  return scene;
+}
+
+TEST(Tracer, TheCallersFloatEnvironmentDoesNotMatterAndStays) {
+  std::vector<Ray> rays = ray_cloud(3000);
+  for (std::size_t i = 0; i < rays.size(); i += 2) rays[i].dir = rays[i].dir * 0x1p-133f;
+  for (Ray& ray : rays) ray.org = ray.org * 0x1p-133;
+  const Scene scene = tiny(cloud_and_planes());
+  for (const Solver solver : solvers) {
+    for (const unsigned threads : {1u, 3u}) {
+      TraceOptions options;
+      options.solver = solver;
+      options.threads = threads;
+      Tracer tracer = make_tracer(scene, options);
+      const auto expected = closest(tracer, rays);
+      const auto expected_met = any(tracer, rays);
+      std::vector<TracedHit> hits;
+      std::vector<std::uint8_t> met;
+      bool stayed = false;
+      {
+        const OddFloatEnvironment odd;
+        Tracer another = make_tracer(scene, options);
+        hits = closest(another, rays);
+        met = any(another, rays);
+        stayed = OddFloatEnvironment::holds();
+      }
+      EXPECT_TRUE(stayed);
+      EXPECT_EQ(differing_hits(hits, expected), 0);
+      EXPECT_EQ(met, expected_met);
+      EXPECT_GT(std::count(met.begin(), met.end(), 1), 300);
+    }
+  }
+}
+
+TEST(Tracer, CancelledItIsAnError) {
+  std::atomic<bool> cancel{true};
+  TraceOptions options;
+  options.cancel = &cancel;
+  Tracer tracer = make_tracer(cloud_and_planes(), options);
+  const std::vector<Ray> rays = ray_cloud(5000);
+  std::vector<TracedHit> hits(rays.size());
+  std::vector<std::uint8_t> met(rays.size());
+  ASSERT_TRUE(tracer.closest(rays, hits));
+  EXPECT_EQ(tracer.any(rays, met)->message, "tracing was cancelled");
+  cancel = false;
+  EXPECT_FALSE(tracer.closest(rays, hits));
+}
+
+TEST(Tracer, TellsItsProgressAndStatistics) {
+  std::vector<Progress> told;
+  TraceOptions options;
+  options.threads = 1;
+  options.isa = "scalar";
+  options.progress = [&told](const Progress& progress) { told.push_back(progress); };
+  Tracer tracer = make_tracer(cloud_and_planes(), options);
+  EXPECT_GT(tracer.statistics().prepare_seconds, 0);
+  closest(tracer, ray_cloud(5000));
+  ASSERT_GE(told.size(), 5u);
+  for (std::size_t i = 1; i < told.size(); ++i) EXPECT_GE(told[i].share, told[i - 1].share);
+  EXPECT_LT(told.front().share, 0.5);
+  EXPECT_EQ(told.back().share, 1);
+  EXPECT_EQ(told.back().rays, 5000u);
+  any(tracer, ray_cloud(100));
+  const TraceStatistics statistics = tracer.statistics();
+  EXPECT_EQ(statistics.rays, 5100u);
+  EXPECT_GT(statistics.trace_seconds, 0);
+  EXPECT_EQ(statistics.isa, "scalar");
+  EXPECT_EQ(statistics.width, 1);
+  EXPECT_EQ(statistics.threads, 1u);
+}
+
+TEST(Tracer, CanBeMoved) {
+  Tracer first = make_tracer(cloud_and_planes());
+  const std::vector<Ray> rays = ray_cloud(2000);
+  const auto expected = closest(first, rays);
+  Tracer second = std::move(first);
+  EXPECT_EQ(differing_hits(closest(second, rays), expected), 0);
+}
+
+}  // namespace
+}  // namespace boule::test
