@@ -26,12 +26,16 @@ double scale_of(const Ray& ray, const Plane& plane) {
   return std::hypot(f.x, f.y, f.z);
 }
 
-/// Whether the origin is so close to the sphere that cc = F^2 - r^2 has lost what a float t needs.
-bool touches(const Ray& ray, const Sphere& sphere) {
-  const double off = oracle_residual(ray, sphere, 0).to_double();
-  return std::fabs(off) <= 0x1p-22 * scale_of(ray, sphere);
+/// Whether t is well-posed: see max_clear_ulp.
+bool is_clear(const Ray& ray, const Sphere& sphere, const OracleHit& truth) {
+  const double speed = length(vec_cast<double>(ray.dir)), scale = scale_of(ray, sphere);
+  const double t = std::fabs(truth.t.to_double()) * speed;
+  const double other = std::fabs(truth.other->to_double()) * speed;
+  const double half_chord = 0.5 * std::fabs((*truth.other - truth.t).to_double()) * speed;
+  return half_chord * t > 0x1p-21 * std::fabs(double{sphere.radius}) * scale &&
+         t * other > 0x1p-22 * scale * scale;
 }
-bool touches(const Ray&, const Plane&) { return false; }
+bool is_clear(const Ray&, const Plane&, const OracleHit&) { return true; }
 
 }  // namespace
 
@@ -56,7 +60,7 @@ void HardFigures::add(const Ray& ray, const Primitive& primitive, double t,
   const double speed = length(d), scale = scale_of(ray, primitive);
   if (std::fabs(exact_t) * speed > 0x1p-20 * scale) {
     max_far_ulp = std::fmax(max_far_ulp, ulps);
-    if (!touches(ray, primitive)) max_clear_ulp = std::fmax(max_clear_ulp, ulps);
+    if (is_clear(ray, primitive, *truth)) max_clear_ulp = std::fmax(max_clear_ulp, ulps);
   }
   const double residual = std::fabs(oracle_residual(ray, primitive, float_t).to_double());
   const double residual64 = std::fabs(oracle_residual(ray, primitive, t).to_double());

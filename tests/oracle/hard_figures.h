@@ -21,8 +21,9 @@ class HardFigures {
   std::size_t wrong_decisions = 0;  ///< a hit for a miss or a miss for a hit
   std::size_t wrong_roots = 0;      ///< nearer to the sphere's other root
   double max_far_ulp = 0;           ///< error of float t in ulp where |t||d| > 2^-20 scale
-  /// The same where the origin is not within 2^-22 scale of the sphere: nearer, a grazing ray's t
-  /// is ill-posed however large it is.
+  /// The same without rays that graze a sphere so closely that a double's error of the
+  /// discriminant, about 2^-52 r scale, or of cc, 2^-52 scale^2, moves t by that much: with h half
+  /// the chord, where h |t||d| > 2^-21 r scale and |t t'||d|^2 > 2^-22 scale^2.
   double max_clear_ulp = 0;
   double max_residual = 0;    ///< of float t, in u scale
   double max_residual64 = 0;  ///< of the double t, in 2^-48 scale

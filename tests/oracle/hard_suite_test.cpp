@@ -106,6 +106,11 @@ TEST_P(HardSuite, RobustIsRight) {
   EXPECT_EQ(robust.wrong_decisions, 0U);
   EXPECT_EQ(robust.wrong_roots, 0U);
   EXPECT_LE(robust.max_clear_ulp, 0.52);
+  // From next to the surface a ray that grazes it is ill-posed for double itself.
+  const bool starts_beside = std::string(spec.row) == "S2" || std::string(spec.row) == "S5";
+  if (!starts_beside) {
+    EXPECT_LE(robust.max_far_ulp, 0.52);
+  }
   EXPECT_LE(robust.max_residual64, 1);
   EXPECT_LE(robust.max_excess, 1);
 }
