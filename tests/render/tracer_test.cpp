@@ -15,6 +15,7 @@
 #include "render/integrators/views.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/shading/surface.h"
+#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/ray_clouds.h"
 #include "tests/render/test_scenes.h"
@@ -123,6 +124,45 @@ TEST_P(TracerIsa, AnyTellsWhatClosestTells) {
     EXPECT_GT(count, 1000);
     EXPECT_LT(count, 5000);
   }
+}
+
+/// Rays past a distant sphere's rim, too close for float to tell.
+std::vector<Ray> rays_at_the_rim() {
+  CaseRandom random(13);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d away = random.direction();
+    const Vec3d across = random.perpendicular(away);
+    const Vec3f org = vec_cast<float>(away * 1000.0);
+    const Vec3d rim = across * (1 + random.uniform(-1e-4, 1e-4));
+    rays.push_back({vec_cast<double>(org), vec_cast<float>(rim - vec_cast<double>(org))});
+  }
+  return rays;
+}
+
+TEST_P(TracerIsa, TheSolverReachesTheKernels) {
+  const Scene scene = objects({{{0, 0, 0}, 1}});
+  const std::vector<Ray> rays = rays_at_the_rim();
+  std::vector<std::uint8_t> met[2];
+  for (const Solver solver : {Solver::fast, Solver::robust}) {
+    options_.solver = solver;
+    Tracer tracer = make_tracer(scene, options_);
+    const auto hits = closest(tracer, rays);
+    met[solver == Solver::fast ? 0 : 1] = any(tracer, rays);
+    AlignedArray<std::uint8_t> expected(rays.size());
+    HitBuffer expected_hits(rays.size());
+    RayBuffer stream(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) stream.set(i, rays[i]);
+    const Geometry geometry(scene.spheres, scene.planes);
+    const KernelTable& kernels = *select_kernels(GetParam()).value();
+    kernels.any_hit(geometry.view(), stream.view(), {solver}, expected.data());
+    kernels.closest_hit(geometry.view(), stream.view(), {solver}, expected_hits.view());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_EQ(met[solver == Solver::fast ? 0 : 1][i], expected[i]) << i;
+      EXPECT_EQ(hits[i].t, expected_hits.get(i).t) << i;
+    }
+  }
+  EXPECT_NE(met[0], met[1]);
 }
 
 /// Rays that would hit, with one number spoilt.
