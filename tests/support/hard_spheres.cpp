@@ -97,8 +97,9 @@ Ray of_speed(CaseRandom& random, const Sphere& sphere, int k) {
 }
 
 Ray from_centre(CaseRandom& random, const Sphere& sphere, int) {
-  const Vec3d dir = random.direction() * random.decade(-3, 3);
-  return {vec_cast<double>(sphere.center), vec_cast<float>(dir)};
+  const Vec3d dir = random.direction();
+  const double speed = random.decade(-3, 3);
+  return {vec_cast<double>(sphere.center), vec_cast<float>(dir * speed)};
 }
 
 Ray scaled(CaseRandom& random, const Sphere& sphere, int k) {
