@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
@@ -30,7 +32,7 @@ Status check(const RenderCommand& command) {
   }
   const auto date = source_date();
   if (!date) return date.error();
-  return check_run(command, "picture");
+  return check_run(command, "picture", {command.scene});
 }
 
 RenderOptions combine(const Scene& scene, const RenderCommand& command) {
@@ -69,7 +71,7 @@ class Rendering {
 
  private:
   ExitCode render(Renderer& renderer);
-  ExitCode write(const Image& image, const ImageFileOptions& options);
+  ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
@@ -126,17 +128,22 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.date_time = source_date().value();  // check() has seen it
   file.metadata = picture_header(renderer, scene_hash_);
   file.threads = static_cast<int>(renderer.statistics().threads);
-  file.stop = [] { return WriteGuard::interrupted(); };
   return file;
 }
 
-ExitCode Rendering::write(const Image& image, const ImageFileOptions& options) {
+ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   const Stopwatch watch;
   Status status;
   {
     const WriteGuard guard;
+    std::optional<RemovalGuard> removal;
+    options.stop = [] { return WriteGuard::interrupted(); };
+    options.temporary = [&removal](const std::string& path) {
+      path.empty() ? removal.reset() : static_cast<void>(removal.emplace(path));
+    };
     status = write_image(image, command_.output, options);
-    if (!status) set_written("the picture had been written");
+    removal.reset();
+    tell_outcome(!status, command_.output, "the picture had been written");
   }
   exit_if_interrupted();
   stats_.write_seconds = watch.seconds();

@@ -2,24 +2,58 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::cli {
 
+namespace {
+
+/// Whether two names lead to one file, existing or not.
+bool is_one_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored))
+    return std::filesystem::is_regular_file(a, ignored);
+  const auto real_a = std::filesystem::weakly_canonical(a, ignored);
+  return a == b || (!real_a.empty() && real_a == std::filesystem::weakly_canonical(b, ignored));
+}
+
+}  // namespace
+
 Diagnostic wrong_option(const std::string& message, const char* option) {
   return {message, option, {}, 0, 0};
 }
 
-Status check_run(const RunOptions& options, const std::string& output) {
-  if (options.stats.file == options.output) {
+Status check_run(const RunOptions& options, const std::string& output,
+                 const std::vector<std::string>& inputs) {
+  const std::string& stats = options.stats.file;
+  if (is_one_file(stats, options.output)) {
     return wrong_option("statistics would replace the " + output + ", expected another file",
+                        "--stats");
+  }
+  for (const std::string& input : inputs) {
+    if (!is_one_file(stats, input)) continue;
+    return wrong_option("statistics would replace " + quote(input) + ", expected another file",
                         "--stats");
   }
   const auto kernels = select_kernels(options.isa);
   if (!kernels) return kernels.error();
   return std::nullopt;
+}
+
+void tell_outcome(bool written, const std::string& output, const char* end) {
+  std::error_code ignored;
+  if (written) {
+    set_written(end);
+  } else if (std::filesystem::exists(output, ignored) &&
+             !std::filesystem::is_regular_file(output, ignored)) {
+    set_written("the output is incomplete");
+  }
 }
 
 void RunReport::note(const std::string& text) const {

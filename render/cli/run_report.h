@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "render/cli/exit_code.h"
@@ -16,9 +17,14 @@ namespace boule::cli {
 /// An error about the command line itself, with the option as its key.
 Diagnostic wrong_option(const std::string& message, const char* option);
 
-/// What is wrong with the options that render and trace share, without reading the scene;
-/// `output` names what is written.
-Status check_run(const RunOptions& options, const std::string& output);
+/// What is wrong with the options that render and trace share, without reading the scene: above
+/// all, statistics that would replace `output` ("picture"), the scene or one of `inputs`.
+Status check_run(const RunOptions& options, const std::string& output,
+                 const std::vector<std::string>& inputs = {});
+
+/// What a signal's message says from now on: `end` where the output is in place; that it is
+/// incomplete where a pipe or device has got a part of it.
+void tell_outcome(bool written, const std::string& output, const char* end);
 
 /// What one run of render or trace tells on standard error, as loud as its options say, and its
 /// statistics.

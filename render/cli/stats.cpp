@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/image/output_file.h"
 
@@ -75,7 +76,7 @@ Status write_file(const std::string& text, const std::string& path) {
   auto file = OutputFile::create(path);
   if (!file) return file.error();
   if (auto bad = file.value().write(text.data(), text.size())) return bad;
-  return file.value().commit();
+  return file.value().commit([] { return WriteGuard::interrupted(); });
 }
 
 }  // namespace

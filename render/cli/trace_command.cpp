@@ -24,7 +24,7 @@ Status check(const TraceCommand& command) {
         "hits are written as .npy, which is not the extension of " + quote(command.output),
         "--output");
   }
-  return check_run(command, "hits");
+  return check_run(command, "hits", {command.scene, command.rays});
 }
 
 /// An error and the exit code it leads to.
@@ -87,7 +87,7 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
   {
     const WriteGuard guard;
     failure = trace_to_file(rays, tracer);
-    if (!failure) set_written("the hits had been written");
+    tell_outcome(!failure, command_.output, "the hits had been written");
   }
   exit_if_interrupted();
   report_.end_progress();

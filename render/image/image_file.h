@@ -49,6 +49,9 @@ struct ImageFileOptions {
   Metadata metadata;                              ///< an entry replaces a standard one of its name
   int threads = 1;                                ///< for compressing; the bytes are the same
   std::function<bool()> stop;                     ///< asked now and then: true gives up
+  /// Told the temporary file's name when it is there, and an empty one when all is in it and the
+  /// renaming is next: so a signal's handler can remove it instead of waiting.
+  std::function<void(const std::string&)> temporary;
 };
 
 /// Writes a picture by its extension: HDR formats as linear RGB float, LDR formats clamped with the

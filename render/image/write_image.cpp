@@ -192,6 +192,7 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   Result<OutputFile> created = OutputFile::create(path);
   if (!created.ok()) return created.error();
   OutputFile& file = created.value();
+  if (options.temporary) options.temporary(file.path());
   const Result<const module::Table*> loaded = load_image_module();
   if (!loaded.ok()) return cannot_write(path, loaded.error().message);
   const module::Table& table = *loaded.value();
@@ -202,6 +203,8 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   if (Status failure = status_of(report, path)) return failure;
   table.check(&plan->picture, file.path().c_str(), &report);
   if (Status failure = status_of(report, path)) return failure;
+  if (Status failure = file.sync()) return failure;
+  if (options.temporary) options.temporary({});
   return file.commit(options.stop);
 }
 

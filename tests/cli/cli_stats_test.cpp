@@ -107,5 +107,23 @@ TEST_F(Statistics, AFileThatCannotBeWrittenIsAnErrorAfterThePicture) {
   EXPECT_THAT(render({"--stats", "json:" + path("full")}).err, HasSubstr("No space left"));
 }
 
+TEST_F(Statistics, NeverReplaceThePictureOrTheScene) {
+  const std::string scene = small_scene();
+  const std::string text = read("scene.toml");
+  for (const char* other : {"./x.ppm", "../x.ppm", "scene.toml", "./scene.toml"}) {
+    std::string file = path(other);
+    if (std::string(other).starts_with("..")) {  // by way of the folder's own name
+      file =
+          path("../" + std::filesystem::path(scene).parent_path().filename().string() + "/x.ppm");
+    }
+    const ProgramRun run =
+        boule_run({"render", scene, "-o", path("x.ppm"), "--stats", "json:" + file});
+    EXPECT_EQ(run.exit_code, 2) << file;
+    EXPECT_THAT(run.err, HasSubstr("statistics would replace")) << file;
+    EXPECT_EQ(read("scene.toml"), text);
+    EXPECT_THAT(files(), testing::ElementsAre("scene.toml"));
+  }
+}
+
 }  // namespace
 }  // namespace boule::test
