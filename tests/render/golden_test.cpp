@@ -29,12 +29,12 @@ struct Golden {
 
 std::vector<Golden> goldens() {
   Scene parallel = mixed_scene(40, 24);
-  parallel.camera = OrthographicCamera{{{3, 4, 6}, {0, 0.8f, 0x4460bf5ca1b22b97}, {0, 1, 0}}, 5};
+  parallel.camera = OrthographicCamera{{{3, 4, 6}, {0, 0.8f, 0}, {0, 1, 0}}, 5};
   return {
-      {"every feature, wider than high", mixed_scene(48, 27), 1, 0x39e31482064817},
-      {"every feature, higher than wide", mixed_scene(19, 37), 4, 0xd169a17a2310321f},
-      {"orthographic", parallel, 1, 0x63fccafa95b33110},
-      {"a crowd of glass and mirrors", glass_cloud(32, 32), 1, 0},
+      {"every feature, wider than high", mixed_scene(48, 27), 1, 0x4460bf5ca1b22b97},
+      {"every feature, higher than wide", mixed_scene(19, 37), 4, 0x39e31482064817},
+      {"orthographic", parallel, 1, 0xd169a17a2310321f},
+      {"a crowd of glass and mirrors", glass_cloud(32, 32), 1, 0x63fccafa95b33110},
   };
 }
 
