@@ -64,7 +64,9 @@ inline Scene glass_cloud(int width, int height) {
   CaseRandom random(7);
   for (int i = 0; i < 40; ++i) {
     Sphere sphere;
-    sphere.center = vec_cast<float>(random.direction() * (1.5 * random.uniform()));
+    const Vec3d direction = random.direction();
+    const double distance = random.uniform(0, 1.5);
+    sphere.center = vec_cast<float>(direction * distance);
     sphere.radius = static_cast<float>(random.uniform(0.2, 0.5));
     sphere.material = i % 4 == 0 ? metal : glass;
     scene.spheres.push_back(sphere);
