@@ -24,9 +24,10 @@ namespace boule::filter {
 /// 24 is shipped. Of 666,000 hits in the hard cases a slack of 7 and more drops none; 6, 4, 2 and 0
 /// drop 1, 80, 6647 and 91,698 (with FMA; reject_sweep_test.cpp). With 2 that test must fail.
 ///
-/// The origin, where it is no float, is wrong by at most E = |x - fl(x)| + |y - fl(y)| + |z - fl(z)|:
-/// the sphere grows to r (1 + slack u) + floor + E. Of 200,000 such hits a growth by 0.8 E drops 361,
-/// by E none. At and beyond `limit` r2p is inf and no bound follows from an infinite number.
+/// The origin, where it is no float, is wrong by at most E = |x - fl(x)| + |y - fl(y)| + |z -
+/// fl(z)|: the sphere grows to r (1 + slack u) + floor + E. Of 200,000 such hits a growth by 0.8 E
+/// drops 361, by E none. At and beyond `limit` r2p is inf and no bound follows from an infinite
+/// number.
 inline constexpr double u = 0x1p-24;
 inline constexpr double slack = 24;
 

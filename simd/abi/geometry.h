@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/abi/bvh.h"
+
 namespace boule {
 
-/// Spheres as a structure of arrays, padded to max_width with spheres that nothing hits. The id of
-/// a sphere is its place.
+/// Spheres as a structure of arrays of slots, in the order that suits the kernels. Slots that hold
+/// no sphere are hit by nothing and have a negative id; so is the padding to max_width.
 struct SphereView {
   const float* center_x;
   const float* center_y;
@@ -16,7 +18,9 @@ struct SphereView {
   const float* reject_squared;
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
-  std::size_t size;
+  const std::int32_t* id;  ///< what hits are called by
+  std::size_t size;        ///< slots
+  std::size_t scanned;     ///< slots in front that are in no leaf: tested against every ray
 };
 
 /// Infinite planes as a structure of arrays, padded likewise; plane k has the id first_id + k.
@@ -35,6 +39,7 @@ struct PlaneView {
 struct GeometryView {
   SphereView spheres;
   PlaneView planes;
+  BvhView bvh;
 };
 
 }  // namespace boule

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simd/abi/filter_bounds.h"
 
@@ -23,19 +24,34 @@ bool filter_applies(const Sphere& s) {
   return true;
 }
 
+bool wants_tree(std::size_t spheres, Structure structure) {
+  constexpr std::size_t few = 64;
+  return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
+}
+
 }  // namespace
 
-Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes)
-    : sphere_count_(spheres.size()),
+Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
+                   Structure structure)
+    : Geometry(
+          spheres, planes,
+          wants_tree(spheres.size(), structure) ? build_bvh(spheres) : no_bvh(spheres.size())) {}
+
+Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
+    : nodes_(std::move(bvh.nodes)),
+      sphere_count_(spheres.size()),
+      slot_count_(bvh.slots.size()),
+      scanned_(bvh.scanned),
       plane_count_(planes.size()),
       // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
       // filter reject it first.
-      center_x_(sphere_count_),
-      center_y_(sphere_count_),
-      center_z_(sphere_count_),
-      radius_(sphere_count_, nan),
-      reject_squared_(sphere_count_, -inf),
-      reject_radius_(sphere_count_),
+      id_(slot_count_, -2),
+      center_x_(slot_count_),
+      center_y_(slot_count_),
+      center_z_(slot_count_),
+      radius_(slot_count_, nan),
+      reject_squared_(slot_count_, -inf),
+      reject_radius_(slot_count_),
       // Padding: a normal of 0 gives n.d = 0, a miss.
       point_x_(plane_count_),
       point_y_(plane_count_),
@@ -43,7 +59,12 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       normal_x_(plane_count_),
       normal_y_(plane_count_),
       normal_z_(plane_count_) {
-  for (std::size_t i = 0; i < sphere_count_; ++i) set_sphere(i, spheres[i]);
+  for (std::size_t slot = 0; slot < slot_count_; ++slot) {
+    const std::int32_t id = bvh.slots[slot];
+    if (id < 0) continue;
+    id_[slot] = id;
+    set_sphere(slot, spheres[static_cast<std::size_t>(id)]);
+  }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
 }
 
@@ -74,12 +95,20 @@ void Geometry::set_plane(std::size_t i, const Plane& plane) {
 
 GeometryView Geometry::view() const {
   GeometryView view{};
-  view.spheres = {center_x_.data(),       center_y_.data(),      center_z_.data(), radius_.data(),
-                  reject_squared_.data(), reject_radius_.data(), sphere_count_};
+  view.spheres = {center_x_.data(),
+                  center_y_.data(),
+                  center_z_.data(),
+                  radius_.data(),
+                  reject_squared_.data(),
+                  reject_radius_.data(),
+                  id_.data(),
+                  slot_count_,
+                  scanned_};
   view.planes = {point_x_.data(),  point_y_.data(),
                  point_z_.data(),  normal_x_.data(),
                  normal_y_.data(), normal_z_.data(),
                  plane_count_,     static_cast<std::int32_t>(sphere_count_)};
+  view.bvh = {nodes_.data(), nodes_.size()};
   return view;
 }
 

@@ -6,23 +6,32 @@
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
 #include "simd/build/aligned_array.h"
+#include "simd/build/bvh_builder.h"
 
 namespace boule {
+
+/// How spheres are found: every one (scan), or by a tree. The answers are the same; automatic scans
+/// a few dozen.
+enum class Structure { automatic, scan, bvh };
 
 /// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
 /// Immutable once built. Takes any floats, degenerate ones too. Throws std::bad_alloc.
 class Geometry {
  public:
-  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes);
+  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
+           Structure structure = Structure::automatic);
 
   /// What the kernels see; valid as long as this object.
   [[nodiscard]] GeometryView view() const;
 
  private:
-  void set_sphere(std::size_t i, const Sphere& sphere);
+  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh);
+  void set_sphere(std::size_t slot, const Sphere& sphere);
   void set_plane(std::size_t i, const Plane& plane);
 
-  std::size_t sphere_count_, plane_count_;
+  std::vector<BvhNode> nodes_;
+  std::size_t sphere_count_, slot_count_, scanned_, plane_count_;
+  AlignedArray<std::int32_t> id_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
   AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
 };

@@ -6,15 +6,18 @@
 namespace boule {
 namespace {
 
-/// The geometry back as plain primitives: what the reference path reads.
+/// The geometry back as plain primitives in the order of their ids: what the reference path reads.
 struct Primitives {
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
 
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
+    spheres.resize(static_cast<std::size_t>(view.planes.first_id));
     for (std::size_t i = 0; i < s.size; ++i) {
-      spheres.push_back({{s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i], 0});
+      if (s.id[i] < 0) continue;
+      spheres[static_cast<std::size_t>(s.id[i])] = {
+          {s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i], 0};
     }
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) {

@@ -1,7 +1,7 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/primary_rays.h"
-#include "simd/kernel/scan.h"
+#include "simd/kernel/traverse.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -94,12 +94,12 @@ void closest_hit_with(const GeometryView& geometry, const RayStream& rays, Form 
       rays, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         ClosestHit best(packet);
-        scan<solver, OneForAll>(packet, geometry, best);
+        search<solver, OneForAll>(packet, geometry, best);
         store_packet(best, hits, first, live);
       },
       [&](const RayLanes& ray, std::size_t index) {
         ClosestHit best(ray);
-        scan<solver, OnePerLane>(ray, geometry, best);
+        search<solver, OnePerLane>(ray, geometry, best);
         store_single(best, hits, index);
       });
 }
@@ -111,14 +111,14 @@ void any_hit_with(const GeometryView& geometry, const RayStream& rays, Form form
       rays, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         AnyHit<false> best(packet);
-        scan<solver, OneForAll>(packet, geometry, best);
+        search<solver, OneForAll>(packet, geometry, best);
         for (std::size_t lane = 0; lane < live; ++lane) {
           occluded[first + lane] = static_cast<std::uint8_t>((best.hit >> lane) & 1U);
         }
       },
       [&](const RayLanes& ray, std::size_t index) {
         AnyHit<true> best(ray);
-        scan<solver, OnePerLane>(ray, geometry, best);
+        search<solver, OnePerLane>(ray, geometry, best);
         occluded[index] = best.hit != 0 ? 1 : 0;
       });
 }

@@ -7,15 +7,15 @@
 #include "simd/kernel/interval.h"
 #include "simd/kernel/primitive_access.h"
 
-/// Brute force: every primitive against the rays. A hot float loop lists the steps that some lane
-/// survives; the double solves run over that list, outside it.
+/// A run of primitives against the rays. A hot float loop lists the steps that some lane survives;
+/// the double solves run over that list, outside it.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The nearest hit so far, per lane. Most lanes need one double solve at all: while float can tell
 /// for certain which sphere is the nearest, that sphere is only `pending`; settle() solves it.
 struct ClosestHit {
   Wide t, id;    ///< the nearest hit that is solved
-  Wide pending;  ///< sphere that is hit for certain and nearer than that for certain, or -1
+  Wide pending;  ///< slot of a sphere that is hit for certain, nearer for certain, or -1
   Real
       nearest;  ///< lower bound of t |dir| of the pending hit, else of the solved one, else of tmax
   Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
@@ -36,19 +36,22 @@ struct ClosestHit {
   /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if
   /// that is all it takes: only where float cannot tell which hit is nearer is it left to solve.
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
-                             const Wide& sphere, const FilterRays& rays) {
+                             const Wide& slot, const FilterRays& rays) {
     const Real high = highest(roots, rays);
     const RealMask first = high < nearest;
     out |= bits(first | (reach < low));
     reach = select(high < reach, high, reach);
     nearest = select(first, low, nearest);
-    pending = select(widen(first), sphere, pending);
+    pending = select(widen(first), slot, pending);
     return out != all_lanes;
   }
   /// Whether a sphere whose roots begin at `low` could still be the nearest in a lane not `out`.
   BOULE_INLINE bool wants(const Real& low, unsigned out) const {
     return (bits(reach < low) | out) != all_lanes;
   }
+
+  /// Nothing beyond this t |dir| is of interest.
+  [[nodiscard]] BOULE_INLINE Real limit() const { return reach; }
 
   BOULE_INLINE void offer(const Roots& roots, const Wide& primitive, const RayLanes& rays) {
     const WideMask nearer = (roots.t < t) | ((roots.t == t) & (primitive < id));
@@ -59,8 +62,9 @@ struct ClosestHit {
   BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
     const WideMask is_pending = Wide(-1.0) < pending;
     if (!any(is_pending)) return;
-    const Roots roots = solve_robust(rays.exact, gather_spheres(spheres, pending));
-    take(roots.t, pending, roots.hit & is_pending, rays);
+    const SphereLanes each = gather_spheres(spheres, pending);
+    const Roots roots = solve_robust(rays.exact, each);
+    take(roots.t, each.id, roots.hit & is_pending, rays);
     pending = Wide(-1.0);
   }
   static constexpr bool done() { return false; }
@@ -82,17 +86,23 @@ struct ClosestHit {
 template <bool one_ray>
 struct AnyHit {
   unsigned hit = 0;
+  Real far;  ///< upper bound of live t |dir| that is still of interest
 
-  BOULE_INLINE explicit AnyHit(const RayLanes&) {}
+  BOULE_INLINE explicit AnyHit(const RayLanes& rays)
+      : far(ClosestHit::outward(rays.exact.tmax, rays, 1)) {}
 
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Wide&,
                              const FilterRays& rays) {
-    hit |= bits(live(roots, rays));
+    const RealMask found = live(roots, rays);
+    hit |= bits(found);
+    far = select(found, Real(-static_cast<float>(no_hit)), far);
     return wants(low, out);
   }
   BOULE_INLINE bool wants(const Real&, unsigned out) const {
     return !done() && (out | hit) != all_lanes;
   }
+  [[nodiscard]] BOULE_INLINE Real limit() const { return far; }
+
   BOULE_INLINE void offer(const Roots& roots, const Wide&, const RayLanes&) {
     hit |= bits(roots.hit);
   }
@@ -157,7 +167,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& sphere
                                   Candidates<capacity>& candidates, Best& best) {
   for (std::size_t k = 0; k < survivors.count; ++k) {
     const std::size_t step = begin + survivors.offset[k];
-    if (rays.exact.has_source && any(rays.exact.source == Access::id(0, step))) {
+    if (rays.exact.has_source && any(rays.exact.source == Access::get(spheres.id, step))) {
       // Leaving this very sphere: only the solver knows what that means.
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
@@ -166,7 +176,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& sphere
                                          Access::get(spheres.radius, step));
     const Real low = lowest(roots, rays.filter);
     unsigned out = bits(dead(roots, rays.filter));
-    if (best.consider(roots, low, out, Access::id(0, step), rays.filter)) {
+    if (best.consider(roots, low, out, Access::place(step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);
     }
   }
@@ -188,23 +198,30 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& sphere
   }
 }
 
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, Best& best) {
-  const std::size_t steps = Access::steps(spheres.size);
-  for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
-    const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
-    Survivors<Best::chunk> survivors;
-    list_survivors<Access, origins_exact>(rays.filter, spheres, begin, end, survivors);
-    if constexpr (solver == Solver::robust) {
-      solve_survivors<Access>(rays, spheres, begin, survivors, best);
-    } else {
-      for (std::size_t k = 0; k < survivors.count; ++k) {
-        const SphereLanes sphere = get_sphere<Access>(spheres, begin + survivors.offset[k]);
-        best.offer(solve_fast(rays, sphere), sphere.id, rays);
-      }
+/// The spheres of steps begin .. end, at most `capacity`.
+template <Solver solver, class Access, bool origins_exact, std::size_t capacity, class Best>
+BOULE_INLINE void scan_steps(const RayLanes& rays, const SphereView& spheres, std::size_t begin,
+                             std::size_t end, Best& best) {
+  Survivors<capacity> survivors;
+  list_survivors<Access, origins_exact>(rays.filter, spheres, begin, end, survivors);
+  if constexpr (solver == Solver::robust) {
+    solve_survivors<Access>(rays, spheres, begin, survivors, best);
+  } else {
+    for (std::size_t k = 0; k < survivors.count; ++k) {
+      const SphereLanes sphere = get_sphere<Access>(spheres, begin + survivors.offset[k]);
+      best.offer(solve_fast(rays, sphere), sphere.id, rays);
     }
   }
-  best.settle(spheres, rays);
+}
+
+/// The spheres that are in no leaf.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, Best& best) {
+  const std::size_t steps = Access::steps(spheres.scanned);
+  for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
+    const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
+    scan_steps<solver, Access, origins_exact, Best::chunk>(rays, spheres, begin, end, best);
+  }
 }
 
 template <Solver solver, class Access, class Best>
@@ -218,17 +235,6 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, const PlaneView& planes, Bes
       best.offer(solve_robust(rays.exact, plane), plane.id, rays);
     }
   }
-}
-
-/// Every primitive against these rays.
-template <Solver solver, class Access, class Best>
-BOULE_NOINLINE void scan(const RayLanes& rays, const GeometryView& geometry, Best& best) {
-  if (rays.filter.origins_exact) {
-    scan_spheres<solver, Access, true>(rays, geometry.spheres, best);
-  } else {
-    scan_spheres<solver, Access, false>(rays, geometry.spheres, best);
-  }
-  scan_planes<solver, Access>(rays, geometry.planes, best);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -51,7 +51,7 @@ TEST(AnyBits, EveryTableEqualsTheScalarPath) {
   const bool passed = rc::check([] {
     std::vector<Sphere> spheres;
     std::vector<Plane> planes;
-    for (int i = *rc::gen::inRange(0, 5); i > 0; --i) {
+    for (int i = *rc::gen::inRange(0, 30); i > 0; --i) {
       const Vec3f center = any_vector();
       spheres.push_back({center, *any_float(), 0});
     }
@@ -63,7 +63,8 @@ TEST(AnyBits, EveryTableEqualsTheScalarPath) {
     for (int i = *rc::gen::inRange(1, 20); i > 0; --i) {
       rays.push_back(any_ray(static_cast<int>(spheres.size() + planes.size()) + 1));
     }
-    const Geometry geometry(spheres, planes);
+    const Structure structure = *rc::gen::element(Structure::scan, Structure::bvh);
+    const Geometry geometry(spheres, planes, structure);
     for (const IsaInfo& isa : list_isas()) {
       if (!isa.supported) continue;
       for (const Form form : {Form::packet, Form::single}) {

@@ -34,18 +34,22 @@ class Equivalence : public testing::TestWithParam<Param> {
 };
 
 TEST_P(Equivalence, RobustEqualsTheScalarPathBitForBit) {
-  const Geometry geometry(hard_case.spheres, hard_case.planes);
-  for (const Form form : {Form::automatic, Form::packet, Form::single}) {
-    const Query query{Solver::robust, form, Coherence::none};
-    const auto hits = run_closest(*kernels, geometry.view(), hard_case.rays, query);
-    const auto occluded = run_any(*kernels, geometry.view(), hard_case.rays, query);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const Ray& ray = hard_case.rays[i];
-      const Hit expected = reference::closest_hit(ray, hard_case.spheres, hard_case.planes);
-      ASSERT_TRUE(same_bits(hits[i], expected))
-          << "ray " << i << " form " << static_cast<int>(form) << ": id " << hits[i].id << " t "
-          << hits[i].t << ", expected " << expected.id << " " << expected.t;
-      ASSERT_EQ(occluded[i], expected.id == no_primitive ? 0 : 1) << "ray " << i;
+  std::vector<Hit> expected;
+  for (const Ray& ray : hard_case.rays)
+    expected.push_back(reference::closest_hit(ray, hard_case.spheres, hard_case.planes));
+  for (const Structure structure : {Structure::scan, Structure::bvh}) {
+    const Geometry geometry(hard_case.spheres, hard_case.planes, structure);
+    for (const Form form : {Form::automatic, Form::packet, Form::single}) {
+      const Query query{Solver::robust, form, Coherence::none};
+      const auto hits = run_closest(*kernels, geometry.view(), hard_case.rays, query);
+      const auto occluded = run_any(*kernels, geometry.view(), hard_case.rays, query);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        ASSERT_TRUE(same_bits(hits[i], expected[i]))
+            << "ray " << i << " structure " << static_cast<int>(structure) << " form "
+            << static_cast<int>(form) << ": id " << hits[i].id << " t " << hits[i].t
+            << ", expected " << expected[i].id << " " << expected[i].t;
+        ASSERT_EQ(occluded[i], expected[i].id == no_primitive ? 0 : 1) << "ray " << i;
+      }
     }
   }
 }
@@ -72,7 +76,7 @@ TEST(HardCases, EveryRowHasHitsAndMisses) {
 
 TEST(ReferenceTable, AnswersAsTheReferencePath) {
   const HardCase hard_case = make_hard_case({"L", 3}, 61, 517);
-  const Geometry geometry(hard_case.spheres, hard_case.planes);
+  const Geometry geometry(hard_case.spheres, hard_case.planes, Structure::bvh);
   const Query query{Solver::reference, Form::automatic, Coherence::none};
   const auto hits = run_closest(reference_kernels(), geometry.view(), hard_case.rays, query);
   const auto occluded = run_any(reference_kernels(), geometry.view(), hard_case.rays, query);

@@ -61,15 +61,18 @@ class Kernels : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Kernels, HashOfAllHits) {
-  for (const Form form : {Form::automatic, Form::packet, Form::single}) {
-    BitHash hash;
-    for (const HardCaseSpec& spec : hard_case_specs()) {
-      const HardCase hard_case = hashed_case(spec);
-      const Geometry geometry(hard_case.spheres, hard_case.planes);
-      const Query query{Solver::robust, form, Coherence::none};
-      hash.add(run_closest(*kernels, geometry.view(), hard_case.rays, query));
+  for (const Structure structure : {Structure::scan, Structure::bvh}) {
+    for (const Form form : {Form::automatic, Form::packet, Form::single}) {
+      BitHash hash;
+      for (const HardCaseSpec& spec : hard_case_specs()) {
+        const HardCase hard_case = hashed_case(spec);
+        const Geometry geometry(hard_case.spheres, hard_case.planes, structure);
+        const Query query{Solver::robust, form, Coherence::none};
+        hash.add(run_closest(*kernels, geometry.view(), hard_case.rays, query));
+      }
+      EXPECT_EQ(hash.value(), all_hits)
+          << "form " << static_cast<int>(form) << " structure " << static_cast<int>(structure);
     }
-    EXPECT_EQ(hash.value(), all_hits) << "form " << static_cast<int>(form);
   }
 }
 

@@ -50,7 +50,7 @@ TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
     const double exponent = random.uniform(-149, 59);
     spheres.push_back({{0, 0, 0}, static_cast<float>(std::exp2(exponent)), 0});
   }
-  const Geometry geometry(spheres, {});
+  const Geometry geometry(spheres, {}, Structure::scan);
   const SphereView view = geometry.view().spheres;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const double r = spheres[i].radius;
@@ -66,7 +66,7 @@ TEST(GeometryBuilder, TheFilterDecidesNothingBeyondItsRange) {
   const std::vector<Sphere> spheres = {
       {{1e18F, 0, 0}, 1, 0}, {{0, -2e18F, 0}, 1, 0}, {{0, 0, 0}, 1e18F, 0}, {{nan, 0, 0}, 1, 0},
       {{0, inf, 0}, 1, 0},   {{0, 0, 0}, nan, 0},    {{0, 0, -inf}, 1, 0},  {{0, 0, 0}, inf, 0}};
-  const Geometry geometry(spheres, {});
+  const Geometry geometry(spheres, {}, Structure::scan);
   const SphereView view = geometry.view().spheres;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     EXPECT_EQ(view.reject_squared[i], inf) << i;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boule {
+
+/// Children of a node.
+inline constexpr int bvh_width = 8;
+
+/// Nodes on any way from the root to a leaf, guaranteed by the builder: the kernels' stack is a
+/// plain array.
+inline constexpr int bvh_max_depth = 48;
+
+/// Spheres in a leaf.
+inline constexpr std::size_t bvh_leaf_size = 8;
+
+/// The boxes of up to 8 children, rounded outward, and where the children are: a child is a leaf of
+/// leaf_size[k] spheres from slot child[k], or, where that is 0, the node child[k].
+struct alignas(64) BvhNode {
+  float min_x[bvh_width], min_y[bvh_width], min_z[bvh_width];
+  float max_x[bvh_width], max_y[bvh_width], max_z[bvh_width];
+  std::uint32_t child[bvh_width];
+  std::uint8_t leaf_size[bvh_width];
+  std::uint8_t size;  ///< children that there are, the first ones; the others' boxes are empty
+};
+
+/// A tree over spheres; its root is nodes[0]. No nodes: no tree, everything is scanned.
+struct BvhView {
+  const BvhNode* nodes;
+  std::size_t size;
+};
+
+}  // namespace boule

@@ -1,0 +1,199 @@
+#pragma once
+
+#include "simd/abi/bvh.h"
+#include "simd/kernel/scan.h"
+
+/// Spheres in a tree. Boxes are filters like the reject: what they turn away is missed for certain,
+/// whatever order they are visited in, so the answer is the scan's.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Rays as box tests see them.
+struct BoxRays {
+  Vec3<Real> org, inverse;  ///< 1 / unit direction
+  Real error;               ///< of org, plus filter::floor
+  Real from;                ///< nothing is live below this t |dir|
+
+  BOULE_INLINE explicit BoxRays(const FilterRays& rays)
+      : org(rays.org),
+        inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
+        error(rays.origin_error * Real(1 + static_cast<float>(8 * filter::u))),
+        from(rays.dead_below) {}
+};
+
+/// Boxes in lanes: one for a packet, or several for a ray.
+struct Boxes {
+  Vec3<Real> min, max;
+};
+
+/// Where rays enter boxes, and the lanes in which they certainly do not before `limit`.
+///
+/// A coordinate min - o, less the origin's error, is rounded twice, 1 / unit is 2 u off and the
+/// product is rounded: 5 u of t together, 8 are shipped on either side. NaN (a ray that the filter
+/// cannot judge) passes every comparison.
+struct Entry {
+  Real near;
+  RealMask out;
+};
+
+/// One axis: [near, far] cut to the slab's.
+BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org,
+                              const Real& inverse, const Real& error, Real& near, Real& far) {
+  const Real a = (low - org - error) * inverse, b = (high - org + error) * inverse;
+  const RealMask rising = a < b;
+  const Real enter = select(rising, a, b), leave = select(rising, b, a);
+  near = select(near < enter, enter, near);
+  far = select(leave < far, leave, far);
+}
+
+BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
+  const Real slack(static_cast<float>(8 * filter::u));
+  Real near = rays.from, far = limit;
+  cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, rays.error, near, far);
+  cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, rays.error, near, far);
+  cut_to_slab(boxes.min.z, boxes.max.z, rays.org.z, rays.inverse.z, rays.error, near, far);
+  return {near, far + abs(far) * slack < near - abs(near) * slack};
+}
+
+/// A child to visit: where the first ray enters it.
+struct Visit {
+  float near;
+  std::uint32_t child;
+  std::uint32_t leaf_size;
+};
+
+/// Children that are to be visited, nearest on top.
+class VisitStack {
+ public:
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  Visit pop() { return visits_[--count_]; }
+  /// Keeps what one node adds sorted; `base` is the count before its first child.
+  void push(const Visit& visit, int base) {
+    int place = count_++;
+    for (; place > base && visits_[place - 1].near < visit.near; --place)
+      visits_[place] = visits_[place - 1];
+    visits_[place] = visit;
+  }
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  Visit visits_[bvh_max_depth * (bvh_width - 1) + 1];
+  int count_ = 0;
+};
+
+/// The least value of the lanes that are not `out`; -inf if that is NaN.
+BOULE_INLINE float least(const Real& values, unsigned out) {
+  alignas(64) float lanes[width];
+  store(lanes, values);
+  float result = static_cast<float>(no_hit);
+  for (int lane = 0; lane < width; ++lane) {
+    if (((out >> lane) & 1U) == 0 && !(lanes[lane] >= result)) result = lanes[lane];
+  }
+  return result == result ? result : -static_cast<float>(no_hit);
+}
+
+/// The children of a node that some ray of a packet enters.
+BOULE_INLINE void visit_children(OneForAll, const BoxRays& rays, const BvhNode& node,
+                                 const Real& limit, VisitStack& stack) {
+  const int base = stack.count();
+  for (int k = 0; k < node.size; ++k) {
+    const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
+                    {node.max_x[k], node.max_y[k], node.max_z[k]}};
+    const Entry entry = enter_boxes(rays, box, limit);
+    const unsigned out = bits(entry.out);
+    if (out != all_lanes)
+      stack.push({least(entry.near, out), node.child[k], node.leaf_size[k]}, base);
+  }
+}
+
+/// Values first .. of eight, as many as there are lanes.
+BOULE_INLINE Real load_children(const float (&values)[bvh_width], int first) {
+  alignas(64) float lanes[width];
+  for (int lane = 0; lane < width; ++lane) {
+    lanes[lane] = values[first + lane < bvh_width ? first + lane : bvh_width - 1];
+  }
+  return load(lanes);
+}
+
+/// The children of a node that one ray, the same in every lane, enters.
+BOULE_INLINE void visit_children(OnePerLane, const BoxRays& rays, const BvhNode& node,
+                                 const Real& limit, VisitStack& stack) {
+  const int base = stack.count();
+  for (int first = 0; first < node.size; first += width) {
+    const Boxes boxes{{load_children(node.min_x, first), load_children(node.min_y, first),
+                       load_children(node.min_z, first)},
+                      {load_children(node.max_x, first), load_children(node.max_y, first),
+                       load_children(node.max_z, first)}};
+    const Entry entry = enter_boxes(rays, boxes, limit);
+    const unsigned out = bits(entry.out);
+    alignas(64) float near[width];
+    store(near, entry.near);
+    for (int lane = 0; lane < width && first + lane < node.size; ++lane) {
+      if (((out >> lane) & 1U) != 0) continue;
+      const int k = first + lane;
+      const float at = near[lane] == near[lane] ? near[lane] : -static_cast<float>(no_hit);
+      stack.push({at, node.child[k], node.leaf_size[k]}, base);
+    }
+  }
+}
+
+/// Nothing beyond this is of interest: of W rays the farthest limit, of one ray, which all lanes
+/// search for, the nearest. inf where that is not known.
+template <class Access>
+BOULE_INLINE float limit_of_all(const Real& limit) {
+  const float unknown = static_cast<float>(no_hit);
+  alignas(64) float lanes[width];
+  store(lanes, limit);
+  float result = lanes[0];
+  for (int lane = 0; lane < width; ++lane) {
+    if (lanes[lane] != lanes[lane]) return unknown;
+    if (Access::one_ray ? lanes[lane] < result : result < lanes[lane]) result = lanes[lane];
+  }
+  return result;
+}
+
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  if (geometry.bvh.size == 0) return;
+  const BoxRays box_rays(rays.filter);
+  VisitStack stack;
+  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  float limit = limit_of_all<Access>(best.limit());
+  while (!stack.empty() && !best.done()) {
+    const Visit visit = stack.pop();
+    const float slack = static_cast<float>(8 * filter::u);
+    const float size = visit.near < 0 ? -visit.near : visit.near;
+    if (limit < visit.near - size * slack) continue;
+    if (visit.leaf_size == 0) {
+      // One ray: what one lane has found ends the search of all.
+      const Real reach = Access::one_ray ? Real(limit) : best.limit();
+      visit_children(Access{}, box_rays, geometry.bvh.nodes[visit.child], reach, stack);
+      continue;
+    }
+    constexpr std::size_t capacity = bvh_leaf_size;
+    scan_steps<solver, Access, origins_exact, capacity>(
+        rays, geometry.spheres, Access::first_step(visit.child),
+        Access::steps(visit.child + visit.leaf_size), best);
+    limit = limit_of_all<Access>(best.limit());
+  }
+}
+
+/// All spheres, wherever they are.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE void search_spheres(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
+  traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+  best.settle(geometry.spheres, rays);
+}
+
+/// All primitives against these rays.
+template <Solver solver, class Access, class Best>
+BOULE_NOINLINE void search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  if (rays.filter.origins_exact) {
+    search_spheres<solver, Access, true>(rays, geometry, best);
+  } else {
+    search_spheres<solver, Access, false>(rays, geometry, best);
+  }
+  scan_planes<solver, Access>(rays, geometry.planes, best);
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,198 @@
+// Scenes large enough for a tree, and hard for its boxes: the answers are the scalar path's.
+#include <cmath>
+
+#include "core/math/elementary.h"
+#include "core/math/geometry.h"
+#include "tests/support/case_random.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+struct TreeScene {
+  std::string name;
+  std::vector<Sphere> spheres;
+  std::vector<Ray> rays;
+};
+
+Vec3f float_point(CaseRandom& random, const Vec3d& center, double spread) {
+  const double x = random.uniform(-spread, spread);
+  const double y = random.uniform(-spread, spread);
+  const double z = random.uniform(-spread, spread);
+  return vec_cast<float>(center + Vec3d{x, y, z});
+}
+
+/// Towards a sphere's rim, mostly: where a box that is too small would show.
+Ray at_rim(CaseRandom& random, const Sphere& sphere, const Vec3d& org) {
+  const Vec3d center = vec_cast<double>(sphere.center);
+  const Vec3d view = normalize(center - org);
+  const double beta = 1 - random.decade(-7, 0);
+  const Vec3d target = center + random.perpendicular(view) * (beta * double{sphere.radius});
+  return {org, vec_cast<float>(target - org)};
+}
+
+TreeScene cloud(const std::string& name, const Vec3d& center, double spread, double radius,
+                double distance) {
+  CaseRandom random(51);
+  TreeScene scene{name, {}, {}};
+  for (int i = 0; i < 700; ++i) {
+    const Vec3f at = float_point(random, center, spread);
+    scene.spheres.push_back({at, static_cast<float>(radius * random.uniform(0.2, 1)), 0});
+  }
+  for (int i = 0; i < 900; ++i) {
+    const Vec3d eye = vec_cast<double>(float_point(random, center + Vec3d{0, 0, distance}, spread));
+    const auto k = static_cast<std::size_t>(random.below(700));
+    Ray ray = at_rim(random, scene.spheres[k], eye);
+    if (i % 5 == 0) ray.dir = vec_cast<float>(random.direction());
+    if (i % 7 == 0) ray.org = ray.org + random.direction() * (0.3 * radius);  // no float any more
+    if (i % 11 == 0) ray.tmin = -1;
+    if (i % 13 == 0) ray.tmax = static_cast<float>(random.uniform(0, 2));
+    scene.rays.push_back(ray);
+  }
+  return scene;
+}
+
+/// Spheres of radius 0.5 on whole numbers, and rays along the axes that touch them exactly, run in
+/// the faces of their boxes and meet many at the same t.
+TreeScene lattice() {
+  TreeScene scene{"lattice", {}, {}};
+  for (int i = 0; i < 512; ++i)
+    scene.spheres.push_back(
+        {{static_cast<float>(i % 8), static_cast<float>(i / 8 % 8), static_cast<float>(i / 64)},
+         0.5F,
+         0});
+  CaseRandom random(52);
+  for (int i = 0; i < 900; ++i) {
+    const int axis = i % 3;
+    float at[3];
+    for (float& x : at) x = static_cast<float>(random.below(17) - 1) * 0.5F;
+    Vec3f dir{0, 0, 0};
+    const auto along = static_cast<float>(random.sign());
+    (axis == 0 ? dir.x : axis == 1 ? dir.y : dir.z) = along;
+    if (i % 2 == 0) at[axis] = -20 * along;
+    if (i % 4 == 1) (axis == 0 ? dir.y : axis == 1 ? dir.z : dir.x) = along;  // diagonal
+    scene.rays.push_back({vec_cast<double>(Vec3f{at[0], at[1], at[2]}), dir});
+  }
+  return scene;
+}
+
+TreeScene on_the_ground() {
+  TreeScene scene = cloud("ground of 1e6", {0, 1, 0}, 3, 0.2, 4);
+  scene.spheres[5] = {{0, -1e6F, 0}, 1e6F, 0};
+  return scene;
+}
+
+TreeScene copies() {
+  TreeScene scene = cloud("copies", {0, 0, 0}, 1, 0.3, 3);
+  for (std::size_t i = 0; i < scene.spheres.size(); ++i) scene.spheres[i] = scene.spheres[i % 20];
+  return scene;
+}
+
+/// Twenty places with 35 copies each: a leaf's box is that of one sphere, and what touches the
+/// sphere where it touches its box shows every mistake of a box test.
+TreeScene tight_boxes(const std::string& name, const Vec3d& center, double spread, double radius) {
+  TreeScene scene{name, {}, {}};
+  CaseRandom random(53);
+  for (int i = 0; i < 20; ++i)
+    scene.spheres.push_back({float_point(random, center, spread), static_cast<float>(radius), 0});
+  for (std::size_t i = 20; i < 700; ++i) scene.spheres.push_back(scene.spheres[i % 20]);
+  return scene;
+}
+
+/// Origins that float rounds by half a radius: a box must grow by that.
+TreeScene between_floats() {
+  TreeScene scene = tight_boxes("origins between floats", {1e7, -1e7, 1e7}, 100, 1);
+  CaseRandom random(54);
+  for (std::size_t i = 0; i < 600; ++i) {
+    const double beta = 1 - random.decade(-3, 0);
+    const double along = random.sign() * 20, beside = random.sign() * beta;
+    Vec3d from{along, beside, 0};
+    if (i % 3 == 1) from = {beside, 0, along};
+    if (i % 3 == 2) from = {0, along, beside};
+    const Vec3d to = i % 3 == 0   ? Vec3d{-along, 0, 0}
+                     : i % 3 == 1 ? Vec3d{0, 0, -along}
+                                  : Vec3d{0, -along, 0};
+    scene.rays.push_back(
+        {vec_cast<double>(scene.spheres[i % 20].center) + from, vec_cast<float>(to)});
+  }
+  return scene;
+}
+
+/// Spheres of F / r = 1e8 that a slightly oblique ray leaves through the face of the box it has
+/// just entered: the two t differ by rounding only.
+TreeScene slivers() {
+  TreeScene scene = tight_boxes("slivers, F / r = 1e8", {0, 0, 0}, 1e-5, 4e-8);
+  CaseRandom random(55);
+  for (std::size_t i = 0; i < 900; ++i) {
+    const double side = random.sign(), beta = 1 - random.decade(-6, -3);
+    const double slope = side * elementary::pow(2, random.uniform(-22, -18));
+    const Vec3d at = vec_cast<double>(scene.spheres[i % 20].center);
+    Vec3d org = at + Vec3d{side * beta * 4e-8 - 4 * slope, 0, -4};
+    Vec3d dir{slope, 0, 1};
+    if (i % 2 == 0) {
+      org = at + Vec3d{-4, side * beta * 4e-8 - 4 * slope, 0};
+      dir = {1, slope, 0};
+    }
+    scene.rays.push_back({vec_cast<double>(vec_cast<float>(org)), vec_cast<float>(dir)});
+  }
+  return scene;
+}
+
+TreeScene beyond_the_filter() {
+  TreeScene scene = cloud("rays and spheres that float cannot judge", {0, 0, 0}, 1, 0.1, 3);
+  for (std::size_t i = 0; i < 20; ++i) scene.spheres[i].center.x *= 1e19F;
+  for (std::size_t i = 0; i < 60; ++i) scene.rays[i].org.z = 1e19;
+  for (std::size_t i = 60; i < 90; ++i) scene.rays[i].dir = {0, 0, 0};
+  for (std::size_t i = 90; i < 120; ++i) scene.rays[i].dir.y = std::nanf("");
+  for (std::size_t i = 120; i < 300; ++i) scene.rays[i].dir.x *= 1e-42F;
+  return scene;
+}
+
+std::vector<TreeScene> scenes() {
+  return {cloud("inside", {0, 0, 0}, 1, 0.1, 0),
+          cloud("outside", {0, 0, 0}, 1, 0.05, 5),
+          cloud("1e5 from the origin", {1e5, -1e5, 1e5}, 1, 0.1, 3),
+          cloud("1e7 from the origin", {1e7, 0, -1e7}, 40, 5, 100),
+          cloud("tiny and far, F / r = 4e6", {0, 0, 0}, 1e-5, 1e-6, 4),
+          cloud("a speck, F / r = 1e8", {0, 0, 0}, 3e-7, 8e-8, 4),
+          cloud("in units of 1e-12", {0, 0, 0}, 1e-12, 1e-13, 3e-12),
+          cloud("in units of 1e12", {0, 0, 0}, 1e12, 1e11, 3e12),
+          lattice(),
+          on_the_ground(),
+          copies(),
+          between_floats(),
+          slivers(),
+          beyond_the_filter()};
+}
+
+class Tree : public testing::TestWithParam<std::string> {};
+
+TEST_P(Tree, GivesTheScalarPathsAnswers) {
+  const KernelTable* const kernels = kernels_or_null(GetParam());
+  if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  for (const TreeScene& scene : scenes()) {
+    const Geometry geometry(scene.spheres, {});
+    ASSERT_GT(geometry.view().bvh.size, 0U) << "no tree";
+    std::size_t met = 0;
+    for (const Form form : {Form::packet, Form::single}) {
+      const Query query{Solver::robust, form, Coherence::none};
+      const auto hits = run_closest(*kernels, geometry.view(), scene.rays, query);
+      const auto occluded = run_any(*kernels, geometry.view(), scene.rays, query);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit expected = reference::closest_hit(scene.rays[i], scene.spheres, {});
+        ASSERT_TRUE(same_bits(hits[i], expected))
+            << scene.name << " ray " << i << " form " << static_cast<int>(form) << ": "
+            << hits[i].id << " " << hits[i].t << ", expected " << expected.id << " " << expected.t;
+        ASSERT_EQ(occluded[i], expected.id < 0 ? 0 : 1) << scene.name << " ray " << i;
+        met += expected.id < 0 ? 0U : 1U;
+      }
+    }
+    EXPECT_GT(met, scene.rays.size() / 4) << scene.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Tree, testing::ValuesIn(all_isa_names()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace boule::test
