@@ -104,8 +104,20 @@ std::unique_ptr<BenchData> make(const std::string& kind, std::size_t n) {
   } else {
     spheres = random_spheres(kind, n);
   }
-  auto data = std::make_unique<BenchData>(BenchData{
-      spheres, planes, Geometry(spheres, planes), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+  auto data = std::make_unique<BenchData>(BenchData{spheres,
+                                                    planes,
+                                                    Geometry(spheres, planes, Structure::scan),
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {},
+                                                    {}});
   make_rays(data->rays);
   data->hits.resize(data->rays.size());
   make_half_b(*data);
