@@ -118,22 +118,21 @@ TreeScene between_floats() {
   return scene;
 }
 
-/// Spheres of F / r = 1e8 that a slightly oblique ray leaves through the face of the box it has
-/// just entered: the two t differ by rounding only.
-TreeScene slivers() {
-  TreeScene scene = tight_boxes("slivers, F / r = 1e8", {0, 0, 0}, 1e-5, 4e-8);
+/// A row of specks, F / r = 1e8, and rays nearly along it: the first speck a ray meets it enters
+/// through the side of the box, just before it leaves by the far end. Only rounding decides there.
+TreeScene row_of_specks() {
+  constexpr double r = 4e-8;
+  TreeScene scene{"a row of specks, F / r = 1e8", {}, {}};
+  for (int i = 0; i < 700; ++i)
+    scene.spheres.push_back({{0, 0, static_cast<float>(i % 20) * 1e-3F}, static_cast<float>(r), 0});
   CaseRandom random(55);
-  for (std::size_t i = 0; i < 900; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const double side = random.sign(), beta = 1 - random.decade(-6, -3);
     const double slope = side * elementary::pow(2, random.uniform(-22, -18));
-    const Vec3d at = vec_cast<double>(scene.spheres[i % 20].center);
-    Vec3d org = at + Vec3d{side * beta * 4e-8 - 4 * slope, 0, -4};
-    Vec3d dir{slope, 0, 1};
-    if (i % 2 == 0) {
-      org = at + Vec3d{-4, side * beta * 4e-8 - 4 * slope, 0};
-      dir = {1, slope, 0};
-    }
-    scene.rays.push_back({vec_cast<double>(vec_cast<float>(org)), vec_cast<float>(dir)});
+    const double z = random.below(20) * 1e-3;
+    const Vec3d org{-side * beta * r - (4 + z) * slope, 0, -4};
+    scene.rays.push_back(
+        {vec_cast<double>(vec_cast<float>(org)), vec_cast<float>(Vec3d{slope, 0, 1})});
   }
   return scene;
 }
@@ -161,7 +160,7 @@ std::vector<TreeScene> scenes() {
           on_the_ground(),
           copies(),
           between_floats(),
-          slivers(),
+          row_of_specks(),
           beyond_the_filter()};
 }
 
