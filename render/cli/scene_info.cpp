@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <limits>
 
 #include "render/prepare/default_view.h"
 #include "render/renderer/scene_hash.h"
@@ -119,16 +117,9 @@ struct DescribeMaterial {
 };
 
 /// The box around all spheres, rounded to float; null where there is none; planes have no end.
-Json bounds_of(const std::vector<Sphere>& spheres) {
+Json describe_bounds(const std::vector<Sphere>& spheres) {
   if (spheres.empty()) return nullptr;
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
-  for (const Sphere& s : spheres) {
-    const Vec3d c = vec_cast<double>(s.center);
-    const auto r = static_cast<double>(s.radius);
-    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
-    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
-  }
+  const auto [low, high] = bounds_of(spheres);
   return {{"min", shown(vec_cast<float>(low))}, {"max", shown(vec_cast<float>(high))}};
 }
 
@@ -167,7 +158,7 @@ nlohmann::ordered_json scene_info(const LoadedScene& loaded, const std::string& 
                {"max_depth", scene.render.max_depth},
                {"spheres", scene.spheres.size()},
                {"planes", scene.planes.size()},
-               {"bounds", bounds_of(scene.spheres)}};
+               {"bounds", describe_bounds(scene.spheres)}};
   add_view(json, scene);
   Json materials = Json::array();
   for (const NamedMaterial& named : scene.materials) {

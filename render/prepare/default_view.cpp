@@ -22,14 +22,7 @@ struct Enclosure {
 };
 
 Enclosure enclose(const std::vector<Sphere>& spheres) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
-  for (const Sphere& s : spheres) {
-    const Vec3d c = vec_cast<double>(s.center);
-    const auto r = static_cast<double>(s.radius);
-    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
-    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
-  }
+  const auto [low, high] = bounds_of(spheres);
   Enclosure enclosure{(low + high) * 0.5};
   for (const Sphere& s : spheres) {
     const double away = length(vec_cast<double>(s.center) - enclosure.center);
@@ -70,6 +63,18 @@ CameraPose default_pose(const Scene& scene) {
 }
 
 }  // namespace
+
+SphereBounds bounds_of(const std::vector<Sphere>& spheres) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
+  for (const Sphere& s : spheres) {
+    const Vec3d c = vec_cast<double>(s.center);
+    const auto r = static_cast<double>(s.radius);
+    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
+    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
+  }
+  return {low, high};
+}
 
 Camera default_camera(const Scene& scene, int width, int height) {
   // The shorter side spans the field of view, so that the objects fit into both.

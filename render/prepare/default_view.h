@@ -1,8 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "core/scene/scene.h"
 
 namespace boule {
+
+/// The box around all spheres in double; low is inf and high -inf where there is none.
+struct SphereBounds {
+  Vec3d low, high;
+};
+SphereBounds bounds_of(const std::vector<Sphere>& spheres);
 
 /// The camera of a scene that has none: a pinhole whose picture of `width` x `height` pixels holds
 /// every sphere. With planes only it looks at the first one, with nothing along -z. Coordinates

@@ -14,16 +14,9 @@ class Errors : public ProgramTest {
   /// Runs `boule render` and checks what holds for every refusal.
   ProgramRun refused(const std::vector<std::string>& arguments, int code,
                      const std::vector<std::string>& environment = {}) {
-    const auto before = files();
     std::vector<std::string> all = {"render"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    ProgramRun run = boule_run(all, environment);
-    EXPECT_EQ(run.exit_code, code) << run.err;
-    EXPECT_THAT(run.out, IsEmpty());
-    EXPECT_THAT(run.err, HasSubstr("error: "));
-    EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
-    EXPECT_EQ(files(), before);
-    return run;
+    return refused_run(all, code, environment);
   }
 };
 

@@ -21,16 +21,9 @@ using testing::StartsWith;
 class TraceErrors : public Trace {
  protected:
   ProgramRun refused(const Arguments& arguments, int code) const {
-    const auto before = files();
     Arguments all = {"trace"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    ProgramRun run = boule_run(all);
-    EXPECT_EQ(run.exit_code, code) << run.err;
-    EXPECT_THAT(run.out, IsEmpty());
-    EXPECT_THAT(run.err, HasSubstr("error: "));
-    EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
-    EXPECT_EQ(files(), before);
-    return run;
+    return refused_run(all, code);
   }
   /// The same for the rays at `rays`.
   ProgramRun refused_rays(const std::string& rays) const {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -75,6 +76,20 @@ material = "shiny"
 point = [0.0, 0.0, 0.0]
 normal = [0.0, 1.0, 0.0]
 )");
+  }
+
+  /// Runs the program and checks what holds for every refusal: the exit code, one error in three
+  /// lines at most, nothing new in the folder.
+  ProgramRun refused_run(const std::vector<std::string>& arguments, int code,
+                         const std::vector<std::string>& environment = {}) const {
+    const auto before = files();
+    ProgramRun run = boule_run(arguments, environment);
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_THAT(run.out, testing::IsEmpty());
+    EXPECT_THAT(run.err, testing::HasSubstr("error: "));
+    EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
+    EXPECT_EQ(files(), before);
+    return run;
   }
 
  private:

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "core/math/geometry.h"
 #include "tests/support/case_random.h"
 #include "tests/support/hard_cases.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_size.h"
 
 namespace boule::test {
 namespace {
@@ -23,10 +23,7 @@ struct Pair {
   Ray ray;
 };
 
-std::size_t rays_per_case() {
-  const char* const text = std::getenv("BOULE_HARD_RAYS");
-  return text == nullptr ? 400 : std::strtoul(text, nullptr, 10);
-}
+std::size_t rays_per_case() { return test_size("BOULE_HARD_RAYS", 400); }
 
 /// The hits among the rows that are a sphere and a ray from afar.
 std::vector<Pair> hits_of_rows(const std::vector<std::string>& rows) {

@@ -2,21 +2,18 @@
 // rays per row and parameter (`ctest -L hard`: 50,000; by default few enough for every day).
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "tests/oracle/hard_figures.h"
 #include "tests/support/hard_cases.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_size.h"
 
 namespace boule::test {
 namespace {
 
-std::size_t rays_per_case() {
-  const char* const text = std::getenv("BOULE_HARD_RAYS");
-  return text == nullptr ? 640 : std::strtoul(text, nullptr, 10);
-}
+std::size_t rays_per_case() { return test_size("BOULE_HARD_RAYS", 640); }
 
 /// The rays aimed at one primitive.
 struct Group {

@@ -65,14 +65,8 @@ struct Glassy {
   Sphere sphere;
 
   Glassy(const Sphere& s, float ior)
-      : kernels(*select_kernels("auto").value()), scene(prepared(s)), sphere(s) {
+      : kernels(*select_kernels("auto").value()), scene(prepared({s}, {})), sphere(s) {
     material = flatten(Glass{{1, 1, 1}, ior}, Color{});
-  }
-  static PreparedScene prepared(const Sphere& s) {
-    Scene scene = empty_scene(4, 4);
-    add_material(scene, Glass{});
-    scene.spheres = {s};
-    return prepare(scene, 4, 4).value();
   }
   [[nodiscard]] std::vector<Surface> surfaces(const std::vector<Ray>& rays) const {
     const auto hits = run_closest(kernels, scene.geometry.view(), rays, {});

@@ -2,30 +2,19 @@
 // sphere, none escapes from a closed room. BOULE_SECONDARY_HITS sets the size (`ctest -L hard`: one
 // million surface points, ten million bounces; by default few enough for every day).
 #include <cstdio>
-#include <cstdlib>
 
 #include "render/shading/dielectric.h"
 #include "render/shading/surface.h"
 #include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_size.h"
 
 namespace boule::test {
 namespace {
 
 constexpr std::size_t directions = 1000;
 
-std::size_t surface_points() {
-  const char* const text = std::getenv("BOULE_SECONDARY_HITS");
-  return text == nullptr ? 20'000 : std::strtoul(text, nullptr, 10);
-}
-
-PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> planes) {
-  Scene scene = empty_scene(4, 4);
-  add_material(scene, Matte{});
-  scene.spheres = std::move(spheres);
-  scene.planes = std::move(planes);
-  return prepare(scene, 4, 4).value();
-}
+std::size_t surface_points() { return test_size("BOULE_SECONDARY_HITS", 20'000); }
 
 /// A sphere, and how far from it the eye is: its centre lies `far` from the world's origin.
 struct Place {

@@ -12,14 +12,6 @@
 namespace boule::test {
 namespace {
 
-PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> planes) {
-  Scene scene = empty_scene(4, 4);
-  add_material(scene, Matte{});
-  scene.spheres = std::move(spheres);
-  scene.planes = std::move(planes);
-  return prepare(scene, 4, 4).value();
-}
-
 Surface hit_by(const PreparedScene& scene, const Ray& ray) {
   const Hit hit = reference::closest_hit(ray, scene.spheres, scene.planes);
   EXPECT_NE(hit.id, no_primitive);

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "render/prepare/prepared_scene.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {
@@ -26,6 +28,15 @@ inline Scene empty_scene(int width, int height) {
   scene.image = {width, height, 1};
   scene.camera = pinhole({0, 0, 5}, {0, 0, 0}, 45);
   return scene;
+}
+
+/// These primitives, matte, ready to be hit.
+inline PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> planes) {
+  Scene scene = empty_scene(4, 4);
+  add_material(scene, Matte{});
+  scene.spheres = std::move(spheres);
+  scene.planes = std::move(planes);
+  return prepare(scene, 4, 4).value();
 }
 
 /// Every material, light and background feature at once: spheres that touch, overlap and contain
