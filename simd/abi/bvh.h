@@ -15,8 +15,14 @@ inline constexpr int bvh_max_depth = 48;
 /// Spheres in a leaf.
 inline constexpr std::size_t bvh_leaf_size = 8;
 
-/// The boxes of up to 8 children, rounded outward, and where the children are: a child is a leaf of
-/// leaf_size[k] spheres from slot child[k], or, where that is 0, the node child[k].
+/// A leaf: up to 8 spheres, the first ones; the others have the radius NaN.
+struct alignas(64) SphereBlock {
+  float center_x[bvh_leaf_size], center_y[bvh_leaf_size], center_z[bvh_leaf_size];
+  float radius[bvh_leaf_size];
+};
+
+/// The boxes of up to 8 children, rounded outward, and where the children are: a child is the leaf
+/// child[k] of leaf_size[k] spheres, or, where that is 0, the node child[k].
 struct alignas(64) BvhNode {
   float min_x[bvh_width], min_y[bvh_width], min_z[bvh_width];
   float max_x[bvh_width], max_y[bvh_width], max_z[bvh_width];

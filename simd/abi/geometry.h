@@ -7,8 +7,9 @@
 
 namespace boule {
 
-/// Spheres as a structure of arrays of slots, in the order that suits the kernels. Slots that hold
-/// no sphere are hit by nothing and have a negative id; so is the padding to max_width.
+/// Spheres in slots, in the order that suits the kernels. The first ones are tested against every
+/// ray: a structure of arrays, padded to max_width. Those of leaf k are the 8 slots from scanned +
+/// 8 k on. Slots that hold no sphere are hit by nothing and have a negative id.
 struct SphereView {
   const float* center_x;
   const float* center_y;
@@ -18,9 +19,10 @@ struct SphereView {
   const float* reject_squared;
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
-  const std::int32_t* id;  ///< what hits are called by
-  std::size_t size;        ///< slots
-  std::size_t scanned;     ///< slots in front that are in no leaf: tested against every ray
+  std::size_t scanned;        ///< slots in front that are in no leaf
+  const SphereBlock* leaves;  ///< the other slots, 8 each
+  std::size_t leaf_count;
+  const std::int32_t* id;  ///< what hits are called by, for every slot
 };
 
 /// Infinite planes as a structure of arrays, padded likewise; plane k has the id first_id + k.

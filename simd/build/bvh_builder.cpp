@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "core/math/vec.h"
-#include "simd/abi/filter_bounds.h"
 #include "simd/abi/isa.h"
+#include "simd/build/filter_range.h"
 
 namespace boule {
 namespace {
@@ -42,13 +42,6 @@ Box box_of(const Sphere& sphere) {
           {above(c.x + r), above(c.y + r), above(c.z + r)}};
 }
 
-bool fits_a_tree(const Sphere& s) {
-  for (const float x : {s.center.x, s.center.y, s.center.z, s.radius}) {
-    if (!(std::fabs(x) < filter::limit)) return false;  // NaN as well
-  }
-  return true;
-}
-
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// A run of spheres in `order` that becomes a child.
@@ -78,7 +71,6 @@ class Builder {
     if (order_.empty()) return bvh;
     bvh.nodes.emplace_back();
     fill(bvh, 0, run_of(0, order_.size()), 1);
-    pad(bvh.slots, max_width);
     return bvh;
   }
 
@@ -97,12 +89,12 @@ class Builder {
     constexpr std::size_t most = 16;
     Box all;
     for (const Sphere& s : spheres_) {
-      if (fits_a_tree(s)) all.add(box_of(s));
+      if (in_filter_range(s)) all.add(box_of(s));
     }
     std::size_t giants = 0;
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
       const auto index = static_cast<std::int32_t>(i);
-      const bool fits = fits_a_tree(spheres_[i]);
+      const bool fits = in_filter_range(spheres_[i]);
       const bool giant = fits && giants < most && box_of(spheres_[i]).area() > 0.25 * all.area();
       giants += giant ? 1 : 0;
       (fits && !giant ? order_ : apart).push_back(index);
@@ -128,8 +120,10 @@ class Builder {
       const Run& child = children[k];
       if (child.size() <= bvh_leaf_size) {
         node.leaf_size[k] = static_cast<std::uint8_t>(child.size());
-        node.child[k] = static_cast<std::uint32_t>(bvh.slots.size());
+        node.child[k] =
+            static_cast<std::uint32_t>((bvh.slots.size() - bvh.scanned) / bvh_leaf_size);
         for (std::size_t i = child.begin; i < child.end; ++i) bvh.slots.push_back(order_[i]);
+        bvh.slots.resize(bvh.scanned + (node.child[k] + std::size_t{1}) * bvh_leaf_size, -1);
       } else {
         node.child[k] = static_cast<std::uint32_t>(bvh.nodes.size());
         bvh.nodes.emplace_back();

@@ -12,8 +12,8 @@ namespace boule {
 /// A tree over spheres, and the order in which its leaves want them.
 struct Bvh {
   std::vector<BvhNode> nodes;       ///< the root first; none: the spheres are to be scanned
-  std::vector<std::int32_t> slots;  ///< sphere of each slot, or -1
-  std::size_t scanned = 0;          ///< slots in front that are in no leaf, a multiple of max_width
+  std::vector<std::int32_t> slots;  ///< sphere of each slot, or -1; those of leaf k: SphereView
+  std::size_t scanned = 0;          ///< slots in front that are in no leaf
 };
 
 /// Builds a tree of 8-wide nodes by the surface area heuristic over binned centres (Wald, "On fast

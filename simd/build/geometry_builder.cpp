@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simd/abi/filter_bounds.h"
+#include "simd/build/filter_range.h"
 
 namespace boule {
 namespace {
@@ -17,16 +18,15 @@ float round_up(double x) {
   return double{nearest} < x ? std::nextafter(nearest, inf) : nearest;
 }
 
-bool filter_applies(const Sphere& s) {
-  for (const float x : {s.center.x, s.center.y, s.center.z, s.radius}) {
-    if (!(std::fabs(x) < filter::limit)) return false;  // NaN as well
-  }
-  return true;
-}
-
 bool wants_tree(std::size_t spheres, Structure structure) {
   constexpr std::size_t few = 64;
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
+}
+
+SphereBlock empty_leaf() {
+  SphereBlock block{};
+  for (float& r : block.radius) r = nan;
+  return block;
 }
 
 }  // namespace
@@ -40,18 +40,19 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
     : nodes_(std::move(bvh.nodes)),
       sphere_count_(spheres.size()),
-      slot_count_(bvh.slots.size()),
       scanned_(bvh.scanned),
+      leaf_count_((bvh.slots.size() - scanned_) / bvh_leaf_size),
       plane_count_(planes.size()),
       // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
       // filter reject it first.
-      id_(slot_count_, -2),
-      center_x_(slot_count_),
-      center_y_(slot_count_),
-      center_z_(slot_count_),
-      radius_(slot_count_, nan),
-      reject_squared_(slot_count_, -inf),
-      reject_radius_(slot_count_),
+      id_(bvh.slots.size(), -2),
+      leaves_(leaf_count_, empty_leaf()),
+      center_x_(scanned_),
+      center_y_(scanned_),
+      center_z_(scanned_),
+      radius_(scanned_, nan),
+      reject_squared_(scanned_, -inf),
+      reject_radius_(scanned_),
       // Padding: a normal of 0 gives n.d = 0, a miss.
       point_x_(plane_count_),
       point_y_(plane_count_),
@@ -59,21 +60,31 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       normal_x_(plane_count_),
       normal_y_(plane_count_),
       normal_z_(plane_count_) {
-  for (std::size_t slot = 0; slot < slot_count_; ++slot) {
+  for (std::size_t slot = 0; slot < bvh.slots.size(); ++slot) {
     const std::int32_t id = bvh.slots[slot];
     if (id < 0) continue;
     id_[slot] = id;
-    set_sphere(slot, spheres[static_cast<std::size_t>(id)]);
+    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
+    slot < scanned_ ? set_scanned(slot, sphere) : set_leaf(slot - scanned_, sphere);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
 }
 
-void Geometry::set_sphere(std::size_t i, const Sphere& sphere) {
+void Geometry::set_leaf(std::size_t i, const Sphere& sphere) {
+  SphereBlock& leaf = leaves_[i / bvh_leaf_size];
+  const std::size_t k = i % bvh_leaf_size;
+  leaf.center_x[k] = sphere.center.x;
+  leaf.center_y[k] = sphere.center.y;
+  leaf.center_z[k] = sphere.center.z;
+  leaf.radius[k] = sphere.radius;
+}
+
+void Geometry::set_scanned(std::size_t i, const Sphere& sphere) {
   center_x_[i] = sphere.center.x;
   center_y_[i] = sphere.center.y;
   center_z_[i] = sphere.center.z;
   radius_[i] = sphere.radius;
-  if (!filter_applies(sphere)) {
+  if (!in_filter_range(sphere)) {
     reject_squared_[i] = inf;
     reject_radius_[i] = inf;
     return;
@@ -95,15 +106,10 @@ void Geometry::set_plane(std::size_t i, const Plane& plane) {
 
 GeometryView Geometry::view() const {
   GeometryView view{};
-  view.spheres = {center_x_.data(),
-                  center_y_.data(),
-                  center_z_.data(),
-                  radius_.data(),
-                  reject_squared_.data(),
-                  reject_radius_.data(),
-                  id_.data(),
-                  slot_count_,
-                  scanned_};
+  view.spheres = {center_x_.data(), center_y_.data(),       center_z_.data(),
+                  radius_.data(),   reject_squared_.data(), reject_radius_.data(),
+                  scanned_,         leaves_.data(),         leaf_count_,
+                  id_.data()};
   view.planes = {point_x_.data(),  point_y_.data(),
                  point_z_.data(),  normal_x_.data(),
                  normal_y_.data(), normal_z_.data(),

@@ -14,10 +14,13 @@ struct Primitives {
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
     spheres.resize(static_cast<std::size_t>(view.planes.first_id));
-    for (std::size_t i = 0; i < s.size; ++i) {
-      if (s.id[i] < 0) continue;
-      spheres[static_cast<std::size_t>(s.id[i])] = {
-          {s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i], 0};
+    for (std::size_t i = 0; i < s.scanned; ++i)
+      set(s.id[i], {s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i]);
+    for (std::size_t i = 0; i < s.leaf_count * bvh_leaf_size; ++i) {
+      const SphereBlock& leaf = s.leaves[i / bvh_leaf_size];
+      const std::size_t k = i % bvh_leaf_size;
+      set(s.id[s.scanned + i], {leaf.center_x[k], leaf.center_y[k], leaf.center_z[k]},
+          leaf.radius[k]);
     }
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) {
@@ -25,6 +28,11 @@ struct Primitives {
                         {p.normal_x[i], p.normal_y[i], p.normal_z[i]},
                         0});
     }
+  }
+
+ private:
+  void set(std::int32_t id, const Vec3f& center, float radius) {
+    if (id >= 0) spheres[static_cast<std::size_t>(id)] = {center, radius, 0};
   }
 };
 

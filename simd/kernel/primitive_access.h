@@ -15,11 +15,17 @@ namespace boule::BOULE_KERNEL_ISA {
 struct OneForAll {
   static constexpr bool one_ray = false;
   static std::size_t steps(std::size_t size) { return size; }
-  static std::size_t first_step(std::size_t first) { return first; }
   BOULE_INLINE static Real get(const float* values, std::size_t step) { return values[step]; }
+  BOULE_INLINE static Real get_of_eight(const float* values, std::size_t step) {
+    return values[step];
+  }
   /// The primitives' places in their arrays.
   BOULE_INLINE static Wide place(std::size_t step) { return static_cast<double>(step); }
+  BOULE_INLINE static Wide place_of_eight(std::size_t step) { return static_cast<double>(step); }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
+    return static_cast<double>(ids[step]);
+  }
+  BOULE_INLINE static Wide get_of_eight(const std::int32_t* ids, std::size_t step) {
     return static_cast<double>(ids[step]);
   }
 };
@@ -28,28 +34,29 @@ struct OneForAll {
 struct OnePerLane {
   static constexpr bool one_ray = true;
   static std::size_t steps(std::size_t size) { return (size + width - 1) / width; }
-  static std::size_t first_step(std::size_t first) { return first / width; }
   BOULE_INLINE static Real get(const float* values, std::size_t step) {
     return load(values + step * width);
+  }
+  /// Of arrays of eight: where there are more lanes, the eight come twice.
+  BOULE_INLINE static Real get_of_eight(const float* values, std::size_t step) {
+    return load_of_eight(values, step);
   }
   BOULE_INLINE static Wide place(std::size_t step) {
     return lane_numbers() + Wide(static_cast<double>(step * width));
   }
+  BOULE_INLINE static Wide place_of_eight(std::size_t step) {
+    const Wide lane = place(step), eight(8.0);
+    return select(lane < eight, lane, lane - eight);
+  }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return load_as_wide(ids + step * width);
   }
+  BOULE_INLINE static Wide get_of_eight(const std::int32_t* ids, std::size_t step) {
+    alignas(64) double lanes[width];
+    for (std::size_t lane = 0; lane < width; ++lane) lanes[lane] = ids[(step * width + lane) % 8];
+    return load(lanes);
+  }
 };
-
-template <class Access>
-BOULE_INLINE Vec3<Real> sphere_center(const SphereView& s, std::size_t step) {
-  return {Access::get(s.center_x, step), Access::get(s.center_y, step),
-          Access::get(s.center_z, step)};
-}
-
-template <class Access>
-BOULE_INLINE SphereLanes get_sphere(const SphereView& s, std::size_t step) {
-  return {sphere_center<Access>(s, step), Access::get(s.radius, step), Access::get(s.id, step)};
-}
 
 /// The sphere in slot `place` of each lane; any sphere where that is negative.
 BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Wide& place) {
@@ -58,13 +65,98 @@ BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Wide& place) 
   store(lanes, place);
   for (int lane = 0; lane < width; ++lane) {
     const std::size_t i = lanes[lane] < 0 ? 0 : static_cast<std::size_t>(lanes[lane]);
-    x[lane] = s.center_x[i];
-    y[lane] = s.center_y[i];
-    z[lane] = s.center_z[i];
-    r[lane] = s.radius[i];
     id[lane] = s.id[i];
+    if (i < s.scanned) {
+      x[lane] = s.center_x[i];
+      y[lane] = s.center_y[i];
+      z[lane] = s.center_z[i];
+      r[lane] = s.radius[i];
+    } else {
+      const SphereBlock& leaf = s.leaves[(i - s.scanned) / bvh_leaf_size];
+      const std::size_t k = (i - s.scanned) % bvh_leaf_size;
+      x[lane] = leaf.center_x[k];
+      y[lane] = leaf.center_y[k];
+      z[lane] = leaf.center_z[k];
+      r[lane] = leaf.radius[k];
+    }
   }
   return {{load(x), load(y), load(z)}, load(r), load(id)};
+}
+
+/// The spheres that are in no leaf, step by step.
+template <class Access>
+struct ScannedSpheres {
+  const SphereView& spheres;
+
+  [[nodiscard]] BOULE_INLINE Vec3<Real> center(std::size_t step) const {
+    return {Access::get(spheres.center_x, step), Access::get(spheres.center_y, step),
+            Access::get(spheres.center_z, step)};
+  }
+  [[nodiscard]] BOULE_INLINE Real radius(std::size_t step) const {
+    return Access::get(spheres.radius, step);
+  }
+  [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const {
+    return Access::get(spheres.id, step);
+  }
+  [[nodiscard]] BOULE_INLINE Wide slot(std::size_t step) const { return Access::place(step); }
+
+  /// Lanes that certainly miss.
+  template <bool origins_exact>
+  [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
+    return rejected<origins_exact>(rays, center(step), Access::get(spheres.reject_squared, step),
+                                   Access::get(spheres.reject_radius, step));
+  }
+};
+
+/// The spheres of one leaf, step by step; all are within the filter's range.
+template <class Access>
+struct LeafSpheres {
+  const SphereBlock& leaf;
+  const std::int32_t* ids;
+  double first_slot;
+  float size;
+
+  BOULE_INLINE LeafSpheres(const SphereView& spheres, std::uint32_t index, std::uint32_t leaf_size)
+      : leaf(spheres.leaves[index]),
+        ids(spheres.id + spheres.scanned + std::size_t{index} * bvh_leaf_size),
+        first_slot(static_cast<double>(spheres.scanned + std::size_t{index} * bvh_leaf_size)),
+        size(static_cast<float>(leaf_size)) {}
+
+  [[nodiscard]] BOULE_INLINE Vec3<Real> center(std::size_t step) const {
+    return {Access::get_of_eight(leaf.center_x, step), Access::get_of_eight(leaf.center_y, step),
+            Access::get_of_eight(leaf.center_z, step)};
+  }
+  [[nodiscard]] BOULE_INLINE Real radius(std::size_t step) const {
+    return Access::get_of_eight(leaf.radius, step);
+  }
+  [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const {
+    return Access::get_of_eight(ids, step);
+  }
+  [[nodiscard]] BOULE_INLINE Wide slot(std::size_t step) const {
+    return Access::place_of_eight(step) + Wide(first_slot);
+  }
+
+  /// Lanes that certainly miss, or hold no sphere. 4 u above the reject's own slack pay for what is
+  /// rounded here.
+  template <bool origins_exact>
+  [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
+    const Real outward(static_cast<float>(1 + (filter::slack + 4) * filter::u)), r = radius(step);
+    const Real squared =
+        filter_fma(r * r, outward, Real(static_cast<float>(2 * filter::squared_floor)));
+    const Real grown = abs(r) * outward + Real(static_cast<float>(2 * filter::floor));
+    const RealMask misses = rejected<origins_exact>(rays, center(step), squared, grown);
+    if constexpr (Access::one_ray) {
+      return misses | (Real(size) <= narrow(Access::place_of_eight(step)));
+    } else {
+      return misses;
+    }
+  }
+};
+
+/// The sphere of one step.
+template <class Spheres>
+BOULE_INLINE SphereLanes get_sphere(const Spheres& spheres, std::size_t step) {
+  return {spheres.center(step), spheres.radius(step), spheres.id(step)};
 }
 
 template <class Access>

@@ -119,14 +119,11 @@ struct Survivors {
 };
 
 /// The hot loop: 4 steps a branch, so that the common case is one test of four masks.
-template <class Access, bool origins_exact, std::size_t capacity>
-BOULE_INLINE void list_survivors(const FilterRays& rays, const SphereView& spheres,
-                                 std::size_t begin, std::size_t end,
-                                 Survivors<capacity>& survivors) {
+template <bool origins_exact, class Spheres, std::size_t capacity>
+BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres, std::size_t begin,
+                                 std::size_t end, Survivors<capacity>& survivors) {
   const auto test = [&](std::size_t step) {
-    return rejected<origins_exact>(rays, sphere_center<Access>(spheres, step),
-                                   Access::get(spheres.reject_squared, step),
-                                   Access::get(spheres.reject_radius, step));
+    return spheres.template out<origins_exact>(rays, step);
   };
   const auto append = [&](std::size_t step, RealMask out) {
     survivors.offset[survivors.count] = static_cast<std::uint32_t>(step - begin);
@@ -161,22 +158,21 @@ struct Candidates {
 };
 
 /// Everything that float can decide about the survivors; what it cannot is left to the solver.
-template <class Access, class Best, std::size_t capacity>
-BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& spheres,
-                                  std::size_t begin, const Survivors<capacity>& survivors,
+template <class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, std::size_t begin,
+                                  const Survivors<capacity>& survivors,
                                   Candidates<capacity>& candidates, Best& best) {
   for (std::size_t k = 0; k < survivors.count; ++k) {
     const std::size_t step = begin + survivors.offset[k];
-    if (rays.exact.has_source && any(rays.exact.source == Access::get(spheres.id, step))) {
+    if (rays.exact.has_source && any(rays.exact.source == spheres.id(step))) {
       // Leaving this very sphere: only the solver knows what that means.
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
     }
-    const RootBounds roots = bound_roots(rays.filter, sphere_center<Access>(spheres, step),
-                                         Access::get(spheres.radius, step));
+    const RootBounds roots = bound_roots(rays.filter, spheres.center(step), spheres.radius(step));
     const Real low = lowest(roots, rays.filter);
     unsigned out = bits(dead(roots, rays.filter));
-    if (best.consider(roots, low, out, Access::place(step), rays.filter)) {
+    if (best.consider(roots, low, out, spheres.slot(step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);
     }
   }
@@ -184,31 +180,31 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const SphereView& sphere
 
 /// Solver robust on survivors: first everything that float can decide, then the double solves that
 /// are left.
-template <class Access, class Best, std::size_t capacity>
-BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& spheres,
-                                  std::size_t begin, const Survivors<capacity>& survivors,
-                                  Best& best) {
+template <class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
+                                  const Spheres& spheres, std::size_t begin,
+                                  const Survivors<capacity>& survivors, Best& best) {
   Candidates<capacity> candidates;
-  list_candidates<Access>(rays, spheres, begin, survivors, candidates, best);
+  list_candidates(rays, spheres, begin, survivors, candidates, best);
   for (std::size_t k = 0; k < candidates.count; ++k) {
     if (!best.wants(load(candidates.low[k]), candidates.out[k])) continue;
-    best.settle(spheres, rays);
-    const SphereLanes sphere = get_sphere<Access>(spheres, begin + candidates.offset[k]);
+    best.settle(all, rays);
+    const SphereLanes sphere = get_sphere(spheres, begin + candidates.offset[k]);
     best.offer(solve_robust(rays.exact, sphere), sphere.id, rays);
   }
 }
 
-/// The spheres of steps begin .. end, at most `capacity`.
-template <Solver solver, class Access, bool origins_exact, std::size_t capacity, class Best>
-BOULE_INLINE void scan_steps(const RayLanes& rays, const SphereView& spheres, std::size_t begin,
-                             std::size_t end, Best& best) {
+/// The spheres of steps begin .. end, at most `capacity`; `all` of which they are a part.
+template <Solver solver, bool origins_exact, std::size_t capacity, class Spheres, class Best>
+BOULE_INLINE void scan_steps(const RayLanes& rays, const SphereView& all, const Spheres& spheres,
+                             std::size_t begin, std::size_t end, Best& best) {
   Survivors<capacity> survivors;
-  list_survivors<Access, origins_exact>(rays.filter, spheres, begin, end, survivors);
+  list_survivors<origins_exact>(rays.filter, spheres, begin, end, survivors);
   if constexpr (solver == Solver::robust) {
-    solve_survivors<Access>(rays, spheres, begin, survivors, best);
+    solve_survivors(rays, all, spheres, begin, survivors, best);
   } else {
     for (std::size_t k = 0; k < survivors.count; ++k) {
-      const SphereLanes sphere = get_sphere<Access>(spheres, begin + survivors.offset[k]);
+      const SphereLanes sphere = get_sphere(spheres, begin + survivors.offset[k]);
       best.offer(solve_fast(rays, sphere), sphere.id, rays);
     }
   }
@@ -220,7 +216,8 @@ BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, 
   const std::size_t steps = Access::steps(spheres.scanned);
   for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
     const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
-    scan_steps<solver, Access, origins_exact, Best::chunk>(rays, spheres, begin, end, best);
+    scan_steps<solver, origins_exact, Best::chunk>(rays, spheres, ScannedSpheres<Access>{spheres},
+                                                   begin, end, best);
   }
 }
 

@@ -105,24 +105,15 @@ BOULE_INLINE void visit_children(OneForAll, const BoxRays& rays, const BvhNode& 
   }
 }
 
-/// Values first .. of eight, as many as there are lanes.
-BOULE_INLINE Real load_children(const float (&values)[bvh_width], int first) {
-  alignas(64) float lanes[width];
-  for (int lane = 0; lane < width; ++lane) {
-    lanes[lane] = values[first + lane < bvh_width ? first + lane : bvh_width - 1];
-  }
-  return load(lanes);
-}
-
 /// The children of a node that one ray, the same in every lane, enters.
 BOULE_INLINE void visit_children(OnePerLane, const BoxRays& rays, const BvhNode& node,
                                  const Real& limit, VisitStack& stack) {
   const int base = stack.count();
   for (int first = 0; first < node.size; first += width) {
-    const Boxes boxes{{load_children(node.min_x, first), load_children(node.min_y, first),
-                       load_children(node.min_z, first)},
-                      {load_children(node.max_x, first), load_children(node.max_y, first),
-                       load_children(node.max_z, first)}};
+    const auto step = static_cast<std::size_t>(first / width);
+    const auto get = [&](const float* row) { return OnePerLane::get_of_eight(row, step); };
+    const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
+                      {get(node.max_x), get(node.max_y), get(node.max_z)}};
     const Entry entry = enter_boxes(rays, boxes, limit);
     const unsigned out = bits(entry.out);
     alignas(64) float near[width];
@@ -169,10 +160,9 @@ BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geo
       visit_children(Access{}, box_rays, geometry.bvh.nodes[visit.child], reach, stack);
       continue;
     }
-    constexpr std::size_t capacity = bvh_leaf_size;
-    scan_steps<solver, Access, origins_exact, capacity>(
-        rays, geometry.spheres, Access::first_step(visit.child),
-        Access::steps(visit.child + visit.leaf_size), best);
+    const LeafSpheres<Access> leaf(geometry.spheres, visit.child, visit.leaf_size);
+    scan_steps<solver, origins_exact, bvh_leaf_size>(rays, geometry.spheres, leaf, 0,
+                                                     Access::steps(visit.leaf_size), best);
     limit = limit_of_all<Access>(best.limit());
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "core/base/platform.h"
 
@@ -30,6 +31,8 @@ struct Wide {
 
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
+/// Lanes from an array of eight, the part `part` of it.
+BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) { return p[part]; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 BOULE_INLINE Wide lane_numbers() { return 0.0; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <xsimd/xsimd.hpp>
 
 #include "core/base/platform.h"
@@ -116,6 +117,16 @@ BOULE_INLINE Floats negated_multiply_add(Floats a, Floats b, Floats c) {
 BOULE_INLINE Floats divide(Floats a, Floats b) { return vdivq_f32(a, b); }
 BOULE_INLINE Floats square_root(Floats a) { return vsqrtq_f32(a); }
 
+#endif
+
+#if defined(__AVX512F__)
+BOULE_INLINE Floats load_of_eight(const float* p, std::size_t) {
+  return _mm512_broadcast_f32x8(_mm256_load_ps(p));
+}
+#else
+BOULE_INLINE Floats load_of_eight(const float* p, std::size_t part) {
+  return Floats::load_aligned(p + part * Floats::size);
+}
 #endif
 
 }  // namespace gaps

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/base/platform.h"
 #include "simd/lanes/xsimd_gaps.h"
 
@@ -32,6 +34,10 @@ struct Wide {
 BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
+}
+/// W lanes from an array of eight, the part `part` of it; sixteen lanes get it twice.
+BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) {
+  return gaps::load_of_eight(p, part);
 }
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {

@@ -41,11 +41,10 @@ struct Walk {
       std::vector<std::int32_t> some;
       if (node.leaf_size[k] > 0) {
         EXPECT_LE(node.leaf_size[k], bvh_leaf_size);
-        EXPECT_GE(node.child[k], bvh.scanned);
         ++leaves;
         in_leaves += node.leaf_size[k];
         for (std::size_t i = 0; i < node.leaf_size[k]; ++i)
-          some.push_back(bvh.slots.at(node.child[k] + i));
+          some.push_back(bvh.slots.at(bvh.scanned + node.child[k] * bvh_leaf_size + i));
       } else {
         EXPECT_GT(node.child[k], index);  // children come later: no loops
         some = below(node.child[k], level + 1);
@@ -63,7 +62,7 @@ struct Walk {
 Walk check(const Bvh& bvh, const std::vector<Sphere>& spheres) {
   Walk walk{bvh, spheres};
   EXPECT_EQ(bvh.scanned % max_width, 0U);
-  EXPECT_EQ(bvh.slots.size() % max_width, 0U);
+  EXPECT_EQ((bvh.slots.size() - bvh.scanned) % bvh_leaf_size, 0U);
   std::vector<std::int32_t> found(bvh.slots.begin(),
                                   bvh.slots.begin() + static_cast<std::ptrdiff_t>(bvh.scanned));
   if (!bvh.nodes.empty()) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,8 @@ TEST(GeometryBuilder, KeepsOrderValuesAndIds) {
   const std::vector<Plane> planes = {{{1, 1, 1}, {0, 2, 0}, 0}};
   const Geometry geometry(spheres, planes);
   const GeometryView view = geometry.view();
-  ASSERT_EQ(view.spheres.size, 2U);
+  ASSERT_EQ(view.spheres.scanned, 2U);
+  EXPECT_EQ(view.spheres.leaf_count, 0U);
   ASSERT_EQ(view.planes.size, 1U);
   EXPECT_EQ(view.planes.first_id, 2);
   EXPECT_EQ(view.spheres.center_x[1], -5);
@@ -41,6 +43,37 @@ TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
     EXPECT_EQ(view.planes.normal_y[i], 0);
     EXPECT_EQ(view.planes.normal_z[i], 0);
   }
+}
+
+TEST(GeometryBuilder, LeavesHoldTheSpheresOfTheirIdsAndNoOthers) {
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < 77; ++i) {
+    const auto x = static_cast<float>(i);
+    spheres.push_back({{x, 2 * x, -x}, 0.5F + x, 0});
+  }
+  const Geometry geometry(spheres, {}, Structure::bvh);
+  const SphereView view = geometry.view().spheres;
+  ASSERT_GT(view.leaf_count, 5U);
+  std::vector<int> found;
+  for (std::size_t i = 0; i < view.leaf_count * bvh_leaf_size; ++i) {
+    const SphereBlock& leaf = view.leaves[i / bvh_leaf_size];
+    const std::size_t k = i % bvh_leaf_size;
+    const std::int32_t id = view.id[view.scanned + i];
+    if (id < 0) {
+      EXPECT_TRUE(std::isnan(leaf.radius[k]));
+      continue;
+    }
+    found.push_back(id);
+    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
+    EXPECT_EQ((Vec3f{leaf.center_x[k], leaf.center_y[k], leaf.center_z[k]}), sphere.center);
+    EXPECT_EQ(leaf.radius[k], sphere.radius);
+  }
+  for (std::size_t i = 0; i < view.scanned; ++i) {
+    if (view.id[i] >= 0) found.push_back(view.id[i]);
+  }
+  std::sort(found.begin(), found.end());
+  ASSERT_EQ(found.size(), spheres.size());
+  for (int i = 0; i < 77; ++i) EXPECT_EQ(found[static_cast<std::size_t>(i)], i);
 }
 
 TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
