@@ -53,4 +53,50 @@ inline constexpr float limit = 1e18f;
 ///   doubt = spread (2 r + 3 spread) + 12 u r^2.
 inline constexpr double spread = 12;
 
+/// Bundles (simd/kernel/bundle*.h): rays that share an origin O, or a direction, in the orthonormal
+/// frame (U, V, W) of a ray d0 amid them, W along d0; all three in double, 2^-50 off.
+///
+/// A ray is the line through O along h = (a, b, 1), a = d.U / d.W, b = d.V / d.W; or, with one
+/// direction, the line along W through (a, b). A sphere is (X, Y, Z) = (c - O).(U, V, W), computed
+/// in double and rounded to float once. With e1 = X - aZ, e2 = Y - bZ (or X - a, Y - b) and f the
+/// vector from O to the centre
+///   |f x h|^2 = e1^2 + e2^2 + (b e1 - a e2)^2,
+/// so that with rho^2 the greatest a^2 + b^2 (or 0) a line that meets the sphere has
+///   e1^2 + e2^2 <= r^2 (1 + rho^2), and one that has e1^2 + e2^2 <= r^2 meets it.
+///
+/// Errors, with D the greatest |d - d0|_1 / d.W, at most 1 (or the greatest |o - O|_1):
+///   d - d0  rounded: u, U rounded to float: u, the dot product: 3 u            5 u D d.W
+///   d.W     = |d0| + (d - d0).W <= 2 d.W and rounded likewise                   9 u d.W
+///   a, b    both, the quotient (a product with 1 / d.W): 2 u                   16 u D
+///   e1, e2  X: u |X|, a: 16 u D Z, Z: u |a| Z, the product u |a| Z, the sum
+///           u (|X| + |a| Z), |a| <= D         2 u |X| + 19 u D Z  (or 2 u |X| + 6 u D)
+///           and 2^-44 (|X| + |Y| + Z) for what double has lost.
+///   delta   = bundle_center u (|X| + |Y|) + bundle_axis u D Z + 2^-44 F1 is shipped, F1 = |X| +
+///   |Y|
+///             + |Z|, and `floor`.
+///   R2      = r^2 + G, G = r^2 (rho^2 (1 + 8 u) + bundle_square u) + 4 delta (r + delta), is then
+///             more than e1^2 + e2^2 of any line that meets the sphere: sqrt(1 + rho^2) <= 1.07,
+///             and 4 > 2 sqrt(2) 1.07. bundle_square pays for 4 u in Q and 5 u in R2.
+///   Q       = R2 - e1^2 - e2^2 < 0: the line misses.
+///   D2      = 2 G + 4 delta (r + delta): Q >= D2, and the line meets it; the discriminant lies
+///             between Q - D2 and Q.
+///   v       = t |d|^2 / d.W (or t |d|): in this unit the first root is X a + Y b + Z - sqrt(disc),
+///             (or Z - c - sqrt(disc)). Its float value is wrong by Z: u, the sums 4 u, a and b:
+///             17 u (|X| + |Y|), the root u r: 20 u F1 together; E1 = bundle_depth u F1.
+///   scale   |d|^2 / d.W is good to 14 u; bounds in v that come from t are shifted by bundle_scale.
+inline constexpr double bundle_center = 4;
+inline constexpr double bundle_axis = 24;
+inline constexpr double bundle_square = 16;
+inline constexpr double bundle_depth = 24;
+inline constexpr double bundle_scale = 24;
+inline constexpr double bundle_double = 0x1p-44;
+
+/// Bundles wider than this (|a| or |b|, and D at most 1) are split.
+inline constexpr float bundle_width = 0.25F;
+
+/// A sphere is simple for a bundle if it lies in front of it, Z >= 2 r (or 2 r beyond every
+/// origin), F1 < bundle_far and r > bundle_small; the others go to the double solver.
+inline constexpr float bundle_far = 1e15F;
+inline constexpr float bundle_small = 1e-12F;
+
 }  // namespace boule::filter

@@ -7,9 +7,10 @@
 
 namespace boule {
 
-/// Spheres in slots, in the order that suits the kernels. The first ones are tested against every
-/// ray: a structure of arrays, padded to max_width. Those of leaf k are the 8 slots from scanned +
-/// 8 k on. Slots that hold no sphere are hit by nothing and have a negative id.
+/// Spheres in slots, in the order that suits the kernels, all of them in blocks of eight. The first
+/// ones are tested against every ray and come as a structure of arrays as well, padded to
+/// max_width; leaf k is block scanned / 8 + k. Slots that hold no sphere are hit by nothing and
+/// have a negative id.
 struct SphereView {
   const float* center_x;
   const float* center_y;
@@ -19,9 +20,9 @@ struct SphereView {
   const float* reject_squared;
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
-  std::size_t scanned;        ///< slots in front that are in no leaf
-  const SphereBlock* leaves;  ///< the other slots, 8 each
-  std::size_t leaf_count;
+  std::size_t scanned;        ///< slots in front that are in no leaf; with a tree whole blocks
+  const SphereBlock* blocks;  ///< block k: the slots from 8 k on
+  std::size_t block_count;
   const std::int32_t* id;  ///< what hits are called by, for every slot
 };
 

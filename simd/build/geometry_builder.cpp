@@ -23,7 +23,7 @@ bool wants_tree(std::size_t spheres, Structure structure) {
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
 }
 
-SphereBlock empty_leaf() {
+SphereBlock empty_block() {
   SphereBlock block{};
   for (float& r : block.radius) r = nan;
   return block;
@@ -41,12 +41,12 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
     : nodes_(std::move(bvh.nodes)),
       sphere_count_(spheres.size()),
       scanned_(bvh.scanned),
-      leaf_count_((bvh.slots.size() - scanned_) / bvh_leaf_size),
+      block_count_((bvh.slots.size() + bvh_leaf_size - 1) / bvh_leaf_size),
       plane_count_(planes.size()),
       // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
       // filter reject it first.
       id_(bvh.slots.size(), -2),
-      leaves_(leaf_count_, empty_leaf()),
+      blocks_(block_count_, empty_block()),
       center_x_(scanned_),
       center_y_(scanned_),
       center_z_(scanned_),
@@ -65,18 +65,19 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
     if (id < 0) continue;
     id_[slot] = id;
     const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
-    slot < scanned_ ? set_scanned(slot, sphere) : set_leaf(slot - scanned_, sphere);
+    set_in_block(slot, sphere);
+    if (slot < scanned_) set_scanned(slot, sphere);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
 }
 
-void Geometry::set_leaf(std::size_t i, const Sphere& sphere) {
-  SphereBlock& leaf = leaves_[i / bvh_leaf_size];
+void Geometry::set_in_block(std::size_t i, const Sphere& sphere) {
+  SphereBlock& block = blocks_[i / bvh_leaf_size];
   const std::size_t k = i % bvh_leaf_size;
-  leaf.center_x[k] = sphere.center.x;
-  leaf.center_y[k] = sphere.center.y;
-  leaf.center_z[k] = sphere.center.z;
-  leaf.radius[k] = sphere.radius;
+  block.center_x[k] = sphere.center.x;
+  block.center_y[k] = sphere.center.y;
+  block.center_z[k] = sphere.center.z;
+  block.radius[k] = sphere.radius;
 }
 
 void Geometry::set_scanned(std::size_t i, const Sphere& sphere) {
@@ -108,7 +109,7 @@ GeometryView Geometry::view() const {
   GeometryView view{};
   view.spheres = {center_x_.data(), center_y_.data(),       center_z_.data(),
                   radius_.data(),   reject_squared_.data(), reject_radius_.data(),
-                  scanned_,         leaves_.data(),         leaf_count_,
+                  scanned_,         blocks_.data(),         block_count_,
                   id_.data()};
   view.planes = {point_x_.data(),  point_y_.data(),
                  point_z_.data(),  normal_x_.data(),

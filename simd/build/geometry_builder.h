@@ -27,13 +27,13 @@ class Geometry {
  private:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh);
   void set_scanned(std::size_t slot, const Sphere& sphere);
-  void set_leaf(std::size_t slot, const Sphere& sphere);
+  void set_in_block(std::size_t slot, const Sphere& sphere);
   void set_plane(std::size_t i, const Plane& plane);
 
   std::vector<BvhNode> nodes_;
-  std::size_t sphere_count_, scanned_, leaf_count_, plane_count_;
+  std::size_t sphere_count_, scanned_, block_count_, plane_count_;
   AlignedArray<std::int32_t> id_;
-  AlignedArray<SphereBlock> leaves_;
+  AlignedArray<SphereBlock> blocks_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
   AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
 };

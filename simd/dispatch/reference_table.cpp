@@ -14,13 +14,12 @@ struct Primitives {
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
     spheres.resize(static_cast<std::size_t>(view.planes.first_id));
-    for (std::size_t i = 0; i < s.scanned; ++i)
-      set(s.id[i], {s.center_x[i], s.center_y[i], s.center_z[i]}, s.radius[i]);
-    for (std::size_t i = 0; i < s.leaf_count * bvh_leaf_size; ++i) {
-      const SphereBlock& leaf = s.leaves[i / bvh_leaf_size];
-      const std::size_t k = i % bvh_leaf_size;
-      set(s.id[s.scanned + i], {leaf.center_x[k], leaf.center_y[k], leaf.center_z[k]},
-          leaf.radius[k]);
+    for (std::size_t slot = 0; slot < s.block_count * bvh_leaf_size; ++slot) {
+      if (s.id[slot] < 0) continue;
+      const SphereBlock& block = s.blocks[slot / bvh_leaf_size];
+      const std::size_t k = slot % bvh_leaf_size;
+      spheres[static_cast<std::size_t>(s.id[slot])] = {
+          {block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], 0};
     }
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) {
@@ -28,11 +27,6 @@ struct Primitives {
                         {p.normal_x[i], p.normal_y[i], p.normal_z[i]},
                         0});
     }
-  }
-
- private:
-  void set(std::int32_t id, const Vec3f& center, float radius) {
-    if (id >= 0) spheres[static_cast<std::size_t>(id)] = {center, radius, 0};
   }
 };
 

@@ -1,5 +1,7 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
+#include "simd/kernel/bundle.h"
+#include "simd/kernel/padded_stream.h"
 #include "simd/kernel/primary_rays.h"
 #include "simd/kernel/traverse.h"
 
@@ -14,50 +16,20 @@ bool goes_single(Form form, std::size_t remaining) {
   return form == Form::single;
 }
 
-/// The last packet of a stream, its dead lanes filled with copies of the last live ray: they can
-/// neither change nor slow down the others.
-struct TailPacket {
-  alignas(64) double org_x[lanes], org_y[lanes], org_z[lanes];
-  alignas(64) float dir_x[lanes], dir_y[lanes], dir_z[lanes], tmin[lanes], tmax[lanes];
-  alignas(64) std::int32_t source[lanes];
-  alignas(64) std::uint8_t inside[lanes];
-
-  TailPacket(const RayStream& rays, std::size_t first) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t i = first + lane < rays.size ? first + lane : rays.size - 1;
-      org_x[lane] = rays.org_x[i];
-      org_y[lane] = rays.org_y[i];
-      org_z[lane] = rays.org_z[i];
-      dir_x[lane] = rays.dir_x[i];
-      dir_y[lane] = rays.dir_y[i];
-      dir_z[lane] = rays.dir_z[i];
-      tmin[lane] = rays.tmin[i];
-      tmax[lane] = rays.tmax[i];
-      source[lane] = rays.source[i];
-      inside[lane] = rays.inside[i];
-    }
-  }
-  RayStream view() {
-    return {org_x, org_y, org_z, dir_x, dir_y, dir_z, tmin, tmax, source, inside, lanes};
-  }
-};
-
-/// Calls packet(rays, first, live lanes) and single(rays, index) so as to cover the stream.
+/// Calls packet(rays, first, live lanes) and single(rays, index) so as to cover rays begin .. end,
+/// `begin` a multiple of W.
 template <class Packet, class Single>
-void for_each_group(const RayStream& rays, Form form, const Packet& packet, const Single& single) {
-  std::size_t first = 0;
-  while (first < rays.size) {
-    const std::size_t remaining = rays.size - first;
-    if (goes_single(form, remaining)) {
-      single(load_single(rays, first), first);
+void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end, Form form,
+                    const Packet& packet, const Single& single) {
+  std::size_t first = begin;
+  while (first < end) {
+    if (goes_single(form, end - first)) {
+      single(load_single(stream.rays(), first), first);
       ++first;
-    } else if (remaining >= lanes) {
-      packet(load_packet(rays, first), first, lanes);
-      first += lanes;
     } else {
-      TailPacket tail(rays, first);
-      packet(load_packet(tail.view(), 0), first, remaining);
-      first += remaining;
+      const PacketPlace place = stream.packet(first);
+      packet(load_packet(*place.rays, place.first), first, stream.live(first));
+      first += lanes;
     }
   }
 }
@@ -88,10 +60,10 @@ void store_single(const ClosestHit& best, const HitStream& hits, std::size_t ind
 }
 
 template <Solver solver>
-void closest_hit_with(const GeometryView& geometry, const RayStream& rays, Form form,
-                      const HitStream& hits) {
+void closest_hit_with(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                      std::size_t end, Form form, const HitStream& hits) {
   for_each_group(
-      rays, form,
+      stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         ClosestHit best(packet);
         search<solver, OneForAll>(packet, geometry, best);
@@ -105,10 +77,10 @@ void closest_hit_with(const GeometryView& geometry, const RayStream& rays, Form 
 }
 
 template <Solver solver>
-void any_hit_with(const GeometryView& geometry, const RayStream& rays, Form form,
-                  std::uint8_t* occluded) {
+void any_hit_with(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                  std::size_t end, Form form, std::uint8_t* occluded) {
   for_each_group(
-      rays, form,
+      stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         AnyHit<false> best(packet);
         search<solver, OneForAll>(packet, geometry, best);
@@ -123,21 +95,54 @@ void any_hit_with(const GeometryView& geometry, const RayStream& rays, Form form
       });
 }
 
+/// Rays begin .. end, at most a bundle, as bundles: halved until they fit, else as packets.
+template <Common common>
+void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
+                         std::size_t begin, std::size_t end, const HitStream& hits) {
+  constexpr std::size_t fewest = 32;
+  const std::size_t count = end - begin;
+  if (count < fewest) {
+    closest_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
+  } else if (!trace_bundle<common>(geometry, stream, begin, count, hits)) {
+    const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
+    closest_hit_bundled<common>(geometry, stream, begin, middle, hits);
+    closest_hit_bundled<common>(geometry, stream, middle, end, hits);
+  }
+}
+
+/// All rays, bundle by bundle.
+template <Common common>
+void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
+                         const HitStream& hits) {
+  const std::size_t size = stream.rays().size;
+  for (std::size_t begin = 0; begin < size; begin += bundle_size) {
+    const std::size_t end = size - begin < bundle_size ? size : begin + bundle_size;
+    closest_hit_bundled<common>(geometry, stream, begin, end, hits);
+  }
+}
+
 void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
                  const HitStream& hits) {
-  if (query.solver == Solver::fast) {
-    closest_hit_with<Solver::fast>(geometry, rays, query.form, hits);
+  const PaddedStream stream(rays);
+  const bool bundled = query.form == Form::automatic;
+  if (bundled && query.coherence == Coherence::common_origin) {
+    closest_hit_bundled<Common::origin>(geometry, stream, hits);
+  } else if (bundled && query.coherence == Coherence::common_direction) {
+    closest_hit_bundled<Common::direction>(geometry, stream, hits);
+  } else if (query.solver == Solver::fast) {
+    closest_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
   } else {
-    closest_hit_with<Solver::robust>(geometry, rays, query.form, hits);
+    closest_hit_with<Solver::robust>(geometry, stream, 0, rays.size, query.form, hits);
   }
 }
 
 void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
              std::uint8_t* occluded) {
+  const PaddedStream stream(rays);
   if (query.solver == Solver::fast) {
-    any_hit_with<Solver::fast>(geometry, rays, query.form, occluded);
+    any_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
   } else {
-    any_hit_with<Solver::robust>(geometry, rays, query.form, occluded);
+    any_hit_with<Solver::robust>(geometry, stream, 0, rays.size, query.form, occluded);
   }
 }
 

@@ -90,17 +90,17 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
 }
 
 /// Finishes lanes whose org, dir, tmin, tmax, source and inside are set.
-BOULE_INLINE RayLanes finish(ExactRays rays) {
+BOULE_INLINE ExactRays finish(ExactRays rays) {
   rays.a = dot(rays.dir, rays.dir);
   rays.inverse_a = Wide(1.0) / rays.a;
   const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
   rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
   rays.has_source = any(Wide(-1.0) < rays.source);
-  return {rays, make_filter(rays)};
+  return rays;
 }
 
 /// Rays first .. first + W - 1.
-BOULE_INLINE RayLanes load_packet(const RayStream& s, std::size_t first) {
+BOULE_INLINE ExactRays load_exact(const RayStream& s, std::size_t first) {
   ExactRays r;
   r.org = {load(s.org_x + first), load(s.org_y + first), load(s.org_z + first)};
   r.dir = widen(Vec3<Real>{load(s.dir_x + first), load(s.dir_y + first), load(s.dir_z + first)});
@@ -109,6 +109,10 @@ BOULE_INLINE RayLanes load_packet(const RayStream& s, std::size_t first) {
   r.source = load_as_wide(s.source + first);
   r.inside = Wide(0.0) < load_as_wide(s.inside + first);
   return finish(r);
+}
+BOULE_INLINE RayLanes load_packet(const RayStream& s, std::size_t first) {
+  const ExactRays rays = load_exact(s, first);
+  return {rays, make_filter(rays)};
 }
 
 /// Ray `index` in every lane.
@@ -120,7 +124,8 @@ BOULE_INLINE RayLanes load_single(const RayStream& s, std::size_t index) {
   r.tmax = widen(Real(s.tmax[index]));
   r.source = Wide(static_cast<double>(s.source[index]));
   r.inside = Wide(0.0) < Wide(static_cast<double>(s.inside[index]));
-  return finish(r);
+  r = finish(r);
+  return {r, make_filter(r)};
 }
 
 /// Roots found, and the lanes in which they count.

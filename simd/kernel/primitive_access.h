@@ -58,27 +58,30 @@ struct OnePerLane {
   }
 };
 
+/// Where a slot's sphere is, and the other seven from a multiple of 8 on.
+struct SlotPlace {
+  const float *center_x, *center_y, *center_z, *radius;
+};
+
+BOULE_INLINE SlotPlace find_slot(const SphereView& s, std::size_t slot) {
+  const SphereBlock& block = s.blocks[slot / bvh_leaf_size];
+  const std::size_t k = slot % bvh_leaf_size;
+  return {block.center_x + k, block.center_y + k, block.center_z + k, block.radius + k};
+}
+
 /// The sphere in slot `place` of each lane; any sphere where that is negative.
 BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Wide& place) {
   alignas(64) double lanes[width], id[width];
   alignas(64) float x[width], y[width], z[width], r[width];
   store(lanes, place);
   for (int lane = 0; lane < width; ++lane) {
-    const std::size_t i = lanes[lane] < 0 ? 0 : static_cast<std::size_t>(lanes[lane]);
-    id[lane] = s.id[i];
-    if (i < s.scanned) {
-      x[lane] = s.center_x[i];
-      y[lane] = s.center_y[i];
-      z[lane] = s.center_z[i];
-      r[lane] = s.radius[i];
-    } else {
-      const SphereBlock& leaf = s.leaves[(i - s.scanned) / bvh_leaf_size];
-      const std::size_t k = (i - s.scanned) % bvh_leaf_size;
-      x[lane] = leaf.center_x[k];
-      y[lane] = leaf.center_y[k];
-      z[lane] = leaf.center_z[k];
-      r[lane] = leaf.radius[k];
-    }
+    const std::size_t slot = lanes[lane] < 0 ? 0 : static_cast<std::size_t>(lanes[lane]);
+    const SlotPlace sphere = find_slot(s, slot);
+    x[lane] = *sphere.center_x;
+    y[lane] = *sphere.center_y;
+    z[lane] = *sphere.center_z;
+    r[lane] = *sphere.radius;
+    id[lane] = s.id[slot];
   }
   return {{load(x), load(y), load(z)}, load(r), load(id)};
 }
@@ -117,7 +120,7 @@ struct LeafSpheres {
   float size;
 
   BOULE_INLINE LeafSpheres(const SphereView& spheres, std::uint32_t index, std::uint32_t leaf_size)
-      : leaf(spheres.leaves[index]),
+      : leaf(spheres.blocks[spheres.scanned / bvh_leaf_size + index]),
         ids(spheres.id + spheres.scanned + std::size_t{index} * bvh_leaf_size),
         first_slot(static_cast<double>(spheres.scanned + std::size_t{index} * bvh_leaf_size)),
         size(static_cast<float>(leaf_size)) {}

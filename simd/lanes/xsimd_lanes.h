@@ -101,6 +101,10 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
   return gaps::negated_multiply_add(a.v, b.v, c.v);
 }
 
+/// The smaller and the greater of two numbers that are not NaN.
+BOULE_INLINE Real filter_min(Real a, Real b) { return xsimd::min(a.v, b.v); }
+BOULE_INLINE Real filter_max(Real a, Real b) { return xsimd::max(a.v, b.v); }
+
 BOULE_INLINE Wide widen(Real a) { return {gaps::widen_low(a.v), gaps::widen_high(a.v)}; }
 BOULE_INLINE WideMask widen(RealMask a) { return {gaps::widen_low(a.m), gaps::widen_high(a.m)}; }
 

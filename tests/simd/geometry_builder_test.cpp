@@ -22,7 +22,7 @@ TEST(GeometryBuilder, KeepsOrderValuesAndIds) {
   const Geometry geometry(spheres, planes);
   const GeometryView view = geometry.view();
   ASSERT_EQ(view.spheres.scanned, 2U);
-  EXPECT_EQ(view.spheres.leaf_count, 0U);
+  EXPECT_EQ(view.spheres.block_count, 1U);
   ASSERT_EQ(view.planes.size, 1U);
   EXPECT_EQ(view.planes.first_id, 2);
   EXPECT_EQ(view.spheres.center_x[1], -5);
@@ -45,7 +45,7 @@ TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
   }
 }
 
-TEST(GeometryBuilder, LeavesHoldTheSpheresOfTheirIdsAndNoOthers) {
+TEST(GeometryBuilder, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
   std::vector<Sphere> spheres;
   for (int i = 0; i < 77; ++i) {
     const auto x = static_cast<float>(i);
@@ -53,23 +53,20 @@ TEST(GeometryBuilder, LeavesHoldTheSpheresOfTheirIdsAndNoOthers) {
   }
   const Geometry geometry(spheres, {}, Structure::bvh);
   const SphereView view = geometry.view().spheres;
-  ASSERT_GT(view.leaf_count, 5U);
+  ASSERT_GT(view.block_count, 5U);
   std::vector<int> found;
-  for (std::size_t i = 0; i < view.leaf_count * bvh_leaf_size; ++i) {
-    const SphereBlock& leaf = view.leaves[i / bvh_leaf_size];
+  for (std::size_t i = 0; i < view.block_count * bvh_leaf_size; ++i) {
+    const SphereBlock& block = view.blocks[i / bvh_leaf_size];
     const std::size_t k = i % bvh_leaf_size;
-    const std::int32_t id = view.id[view.scanned + i];
+    const std::int32_t id = view.id[i];
     if (id < 0) {
-      EXPECT_TRUE(std::isnan(leaf.radius[k]));
+      EXPECT_TRUE(std::isnan(block.radius[k]));
       continue;
     }
     found.push_back(id);
     const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
-    EXPECT_EQ((Vec3f{leaf.center_x[k], leaf.center_y[k], leaf.center_z[k]}), sphere.center);
-    EXPECT_EQ(leaf.radius[k], sphere.radius);
-  }
-  for (std::size_t i = 0; i < view.scanned; ++i) {
-    if (view.id[i] >= 0) found.push_back(view.id[i]);
+    EXPECT_EQ((Vec3f{block.center_x[k], block.center_y[k], block.center_z[k]}), sphere.center);
+    EXPECT_EQ(block.radius[k], sphere.radius);
   }
   std::sort(found.begin(), found.end());
   ASSERT_EQ(found.size(), spheres.size());

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/geometry.h"
+#include "simd/kernel/bundle_discs.h"
+#include "simd/kernel/bundle_hits.h"
+#include "simd/kernel/bundle_rays.h"
+#include "simd/kernel/traverse.h"
+
+/// Bundles against all spheres: up to 256 rays walk the tree together, front to back, by the four
+/// sides of their extent.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// A bundle as boxes see it.
+template <Common common>
+class BundleSides {
+ public:
+  explicit BundleSides(const BundleRays& rays)
+      : org_(narrow_all(rays.frame.org)), c_low_(rays.c_low), c_high_(rays.c_high) {
+    const BundleFrame& frame = rays.frame;
+    // a and b are this far off.
+    const double off = double{filter::bundle_axis} * filter::u * double{rays.across};
+    const Extent& e = rays.extent;
+    set_side(sides_[0], frame.u, frame.w, double{e.a_low} - off, 1);
+    set_side(sides_[1], frame.u, frame.w, double{e.a_high} + off, -1);
+    set_side(sides_[2], frame.v, frame.w, double{e.b_low} - off, 1);
+    set_side(sides_[3], frame.v, frame.w, double{e.b_high} + off, -1);
+    set_side(depth_, frame.w, frame.w, 0, 1);
+    const Vec3d& o = frame.org;
+    const Vec3d lost = o - Vec3d{double{static_cast<float>(o.x)}, double{static_cast<float>(o.y)},
+                                 double{static_cast<float>(o.z)}};
+    origin_error_ = static_cast<float>(
+        (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) * 1.1 +
+        filter::floor);
+  }
+
+  /// Of eight boxes: where the bundle may enter them, in v, and bits of those it misses.
+  BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
+    unsigned out = 0;
+    for (std::size_t part = 0; part * width < bvh_width; ++part)
+      out |= enter_part(node, part, limit, near) << (part * width);
+    return out;
+  }
+
+ private:
+  /// Inside: n.(p - O) >= offset. `far` and `near`: the rows of a node's boxes that reach farthest
+  /// inside, and least.
+  struct Side {
+    float x, y, z, offset;
+    int far[3], near[3];
+  };
+
+  static void set_side(Side& side, const Vec3d& axis, const Vec3d& w, double at, double sign) {
+    const bool one_origin = common == Common::origin;
+    const Vec3d n = (one_origin ? axis - w * at : axis) * sign;
+    side.x = static_cast<float>(n.x);
+    side.y = static_cast<float>(n.y);
+    side.z = static_cast<float>(n.z);
+    side.offset = one_origin ? 0.0F : static_cast<float>(at * sign);
+    const double along[3] = {n.x, n.y, n.z};
+    for (int k = 0; k < 3; ++k) {
+      side.far[k] = along[k] > 0 ? k + 3 : k;
+      side.near[k] = along[k] > 0 ? k : k + 3;
+    }
+  }
+
+  /// 8 u of the corner's distance pay for its rounding: p - O, n and three sums, 1.25 (1 + 1 + 3)
+  /// u.
+  BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
+                                   float* near) const {
+    const Real rows[6] = {
+        load_of_eight(node.min_x, part) - org_.x, load_of_eight(node.min_y, part) - org_.y,
+        load_of_eight(node.min_z, part) - org_.z, load_of_eight(node.max_x, part) - org_.x,
+        load_of_eight(node.max_y, part) - org_.y, load_of_eight(node.max_z, part) - org_.z};
+    const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
+                      filter_max(abs(rows[1]), abs(rows[4])) +
+                      filter_max(abs(rows[2]), abs(rows[5]));
+    const Real slack = filter_fma(size, Real(static_cast<float>(8 * filter::u)), origin_error_);
+    RealMask out = Real(0.0F) < Real(0.0F);
+    for (const Side& side : sides_) {
+      const Real most = reach(side, side.far, rows) + slack;
+      out = out | (most < Real(side.offset) -
+                              abs(Real(side.offset)) * Real(static_cast<float>(8 * filter::u)));
+    }
+    const Real far = reach(depth_, depth_.far, rows) + slack;
+    const Real begin = reach(depth_, depth_.near, rows) - slack - c_high_;
+    out = out | (far < c_low_) | (Real(limit) < begin);
+    store(near + part * width, begin);
+    return bits(out);
+  }
+
+  BOULE_INLINE static Real reach(const Side& side, const int (&corner)[3], const Real (&rows)[6]) {
+    return filter_fma(Real(side.z), rows[corner[2]],
+                      filter_fma(Real(side.y), rows[corner[1]], Real(side.x) * rows[corner[0]]));
+  }
+
+  Vec3<Real> org_;
+  Real c_low_, c_high_;
+  Real origin_error_{0.0F};
+  Side sides_[4], depth_;
+};
+
+/// Eight spheres from slot `first` on, of which there are `count`, against the bundle.
+template <Common common, class Hits>
+BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
+                               const SlotPlace& spheres, std::uint32_t first, unsigned count,
+                               Hits& hits) {
+  Discs discs;
+  make_discs<common>(rays, factors, spheres, count, discs);
+  for (unsigned left = discs.awkward; left != 0; left &= left - 1) {
+    const auto slot = first + static_cast<std::uint32_t>(std::countr_zero(left));
+    for (int group = 0; group * group_packets < rays.packets; ++group)
+      hits.meet_awkward(group, slot);
+  }
+  if (discs.simple == 0) return;
+  for (int group = 0; group * group_packets < rays.packets; ++group) {
+    unsigned left = discs_near(discs, rays.group_extent[group], hits.limit(group), count);
+    for (; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      hits.meet(group, discs, k, first + static_cast<std::uint32_t>(k));
+    }
+  }
+}
+
+/// The spheres that are in no leaf.
+template <Common common, class Hits>
+BOULE_INLINE void meet_scanned(const BundleRays& rays, const DiscFactors& factors,
+                               const SphereView& spheres, Hits& hits) {
+  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += bvh_leaf_size) {
+    const std::size_t rest = spheres.scanned - first;
+    meet_spheres<common>(rays, factors, find_slot(spheres, first),
+                         static_cast<std::uint32_t>(first),
+                         static_cast<unsigned>(rest < 8 ? rest : 8), hits);
+  }
+}
+
+template <Common common, class Hits>
+BOULE_INLINE void meet_tree(const BundleRays& rays, const DiscFactors& factors,
+                            const GeometryView& geometry, Hits& hits) {
+  if (geometry.bvh.size == 0) return;
+  const BundleSides<common> sides(rays);
+  const SphereView& spheres = geometry.spheres;
+  VisitStack stack;
+  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  while (!stack.empty() && !hits.done()) {
+    const Visit visit = stack.pop();
+    if (hits.limit() < visit.near) continue;
+    if (visit.leaf_size != 0) {
+      const std::size_t slot = spheres.scanned + std::size_t{visit.child} * bvh_leaf_size;
+      meet_spheres<common>(rays, factors, find_slot(spheres, slot),
+                           static_cast<std::uint32_t>(slot), visit.leaf_size, hits);
+      continue;
+    }
+    const BvhNode& node = geometry.bvh.nodes[visit.child];
+    alignas(64) float near[Discs::size];
+    unsigned in = ~sides.enter(node, hits.limit(), near) & ((1U << node.size) - 1);
+    const int base = stack.count();
+    for (; in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      stack.push({near[k], node.child[k], node.leaf_size[k]}, base);
+    }
+  }
+}
+
+/// The nearest hits of `count` rays from `first` on; false if they are no bundle.
+template <Common common>
+BOULE_NOINLINE bool trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
+                                 std::size_t first, std::size_t count, const HitStream& hits) {
+  BundleRays rays;
+  if (!load_bundle<common>(stream, first, count, rays)) return false;
+  const DiscFactors factors(rays, common);
+  BundleHits<common> nearest(stream, geometry.spheres, rays);
+  meet_scanned<common>(rays, factors, geometry.spheres, nearest);
+  meet_tree<common>(rays, factors, geometry, nearest);
+  nearest.finish(geometry.planes, hits);
+  return true;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,331 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "simd/kernel/bundle_discs.h"
+#include "simd/kernel/bundle_rays.h"
+
+/// What a bundle's rays have hit. Most rays need one double solve at all, in the end: while float
+/// can tell which sphere is the nearest, only its slot is kept, with bounds of v (filter_bounds.h).
+namespace boule::BOULE_KERNEL_ISA {
+
+/// No sphere's slot.
+inline constexpr std::uint32_t no_slot = 0xffffffffU;
+
+/// Slots travel through lanes as floats that are never calculated with.
+BOULE_INLINE float slot_bits(std::uint32_t slot) { return std::bit_cast<float>(slot); }
+BOULE_INLINE std::uint32_t slot_of(float bits) { return std::bit_cast<std::uint32_t>(bits); }
+
+/// One disc in every lane.
+struct DiscLanes {
+  Real x, y, z, squared, sure, depth, spread;
+
+  BOULE_INLINE DiscLanes(const Discs& discs, int k)
+      : x(discs.x[k]),
+        y(discs.y[k]),
+        z(discs.z[k]),
+        squared(discs.squared[k]),
+        sure(discs.sure[k]),
+        depth(discs.depth[k]),
+        spread(discs.spread[k]) {}
+};
+
+/// Q of W rays: negative where they miss for certain.
+template <Common common>
+BOULE_INLINE Real disc_square(const BundleRays& rays, int ray, const DiscLanes& disc) {
+  const Real a = load(rays.a + ray), b = load(rays.b + ray);
+  Real e1, e2;
+  if constexpr (common == Common::origin) {
+    e1 = filter_fnma(a, disc.z, disc.x);
+    e2 = filter_fnma(b, disc.z, disc.y);
+  } else {
+    e1 = disc.x - a;
+    e2 = disc.y - b;
+  }
+  return filter_fnma(e2, e2, filter_fnma(e1, e1, disc.squared));
+}
+
+/// Lower bound of the first root, in v; NaN for Q < 0.
+template <Common common>
+BOULE_INLINE Real first_root(const BundleRays& rays, int ray, const DiscLanes& disc,
+                             const Real& q) {
+  const Real root = sqrt(q);
+  if constexpr (common == Common::origin) {
+    const Real a = load(rays.a + ray), b = load(rays.b + ray);
+    return filter_fma(disc.x, a, filter_fma(disc.y, b, disc.depth)) - root;
+  } else {
+    return disc.depth - load(rays.c + ray) - root;
+  }
+}
+
+/// W rays of a bundle as the double solver sees them.
+template <Common common>
+BOULE_INLINE void load_exact(const PaddedStream& stream, const BundleRays& bundle, int ray,
+                             ExactRays& out) {
+  const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(ray));
+  const RayStream& rays = *place.rays;
+  const std::size_t first = place.first;
+  out.org = common == Common::origin
+                ? wide_all(bundle.frame.org)
+                : Vec3<Wide>{load(rays.org_x + first), load(rays.org_y + first),
+                             load(rays.org_z + first)};
+  out.dir = {widen(load(rays.dir_x + first)), widen(load(rays.dir_y + first)),
+             widen(load(rays.dir_z + first))};
+  out.a = dot(out.dir, out.dir);
+  out.inverse_a = Wide(1.0) / out.a;
+  const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
+  const Wide tmax = widen(load(rays.tmax + first));
+  out.tmin = Wide(0.0);
+  out.tmax = select(largest < tmax, largest, tmax);
+  out.source = Wide(-1.0);
+  out.inside = Wide(0.0) < Wide(0.0);
+  out.has_source = false;
+}
+
+/// The spheres in W slots; any sphere where there is none.
+BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const float* slots) {
+  alignas(64) float x[width], y[width], z[width], r[width];
+  for (int lane = 0; lane < width; ++lane) {
+    const std::uint32_t slot = slot_of(slots[lane]);
+    const SlotPlace place = find_slot(s, slot == no_slot ? 0 : slot);
+    x[lane] = *place.center_x;
+    y[lane] = *place.center_y;
+    z[lane] = *place.center_z;
+    r[lane] = *place.radius;
+  }
+  return {{load(x), load(y), load(z)}, load(r), Wide(-1.0)};
+}
+
+/// The sphere in one slot, for every lane.
+BOULE_INLINE SphereLanes broadcast_slot(const SphereView& s, std::uint32_t slot) {
+  const SlotPlace place = find_slot(s, slot);
+  return {{*place.center_x, *place.center_y, *place.center_z},
+          *place.radius,
+          static_cast<double>(s.id[slot])};
+}
+
+/// The first root of spheres that are simple and hit for certain: what solve_robust() gives, less
+/// what it need not ask.
+BOULE_INLINE Wide solve_first(const ExactRays& rays, const SphereLanes& sphere) {
+  const Vec3<Wide> f = widen(sphere.center) - rays.org;
+  const Wide r = widen(sphere.radius);
+  const Wide b = dot(f, rays.dir);
+  const Vec3<Wide> l = f - rays.dir * (b * rays.inverse_a);
+  const Wide discriminant = r * r - dot(l, l);
+  return (dot(f, f) - r * r) / (b + sqrt(rays.a * discriminant));
+}
+
+/// The nearest hits of a bundle.
+template <Common common>
+class BundleHits {
+ public:
+  BundleHits(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
+      : stream_(stream), spheres_(spheres), rays_(rays) {
+    for (int p = 0; p < rays.packets; ++p) start(p * width);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+  }
+
+  /// No hit of a group beyond this v is of interest.
+  [[nodiscard]] float limit(int group) const { return limit_[group]; }
+  [[nodiscard]] float limit() const {
+    float most = limit_[0];
+    for (int group = 1; group < bundle_groups; ++group)
+      most = limit_[group] > most ? limit_[group] : most;
+    return most;
+  }
+  [[nodiscard]] bool done() const { return false; }
+
+  /// A simple sphere against a group.
+  BOULE_INLINE void meet(int group, const Discs& discs, int k, std::uint32_t slot) {
+    const DiscLanes disc(discs, k);
+    const int begin = group * group_packets;
+    const int end = rays_.packets < begin + group_packets ? rays_.packets : begin + group_packets;
+    bool changed = false;
+    int p = begin;
+    for (; p + 2 <= end; p += 2) {
+      const int ray = p * width;
+      const Real q0 = disc_square<common>(rays_, ray, disc);
+      const Real q1 = disc_square<common>(rays_, ray + width, disc);
+      if (!any((Real(0.0F) <= q0) | (Real(0.0F) <= q1))) continue;
+      changed |= consider(ray, disc, q0, slot);
+      changed |= consider(ray + width, disc, q1, slot);
+    }
+    if (p < end) {
+      const Real q = disc_square<common>(rays_, p * width, disc);
+      changed |= consider(p * width, disc, q, slot);
+    }
+    if (changed) update(group);
+  }
+
+  /// Any other sphere against a group.
+  BOULE_NOINLINE void meet_awkward(int group, std::uint32_t slot) {
+    const int begin = group * group_packets;
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
+      resolve(p * width, slot, all_lanes);
+    update(group);
+  }
+
+  /// Solves what is hit, adds the planes, writes it all.
+  BOULE_INLINE void finish(const PlaneView& planes, const HitStream& hits) {
+    for (int p = 0; p < rays_.packets; ++p) finish(p * width, planes, hits);
+  }
+
+ private:
+  BOULE_INLINE void start(int ray) {
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
+    const Real largest(std::numeric_limits<float>::max());
+    const Real tmax = load(place.rays->tmax + place.first);
+    // NaN stays: nothing is nearer than that. Infinity stays as well: all floats are.
+    const Real end = select(largest < tmax, largest, tmax) * load(rays_.scale + ray);
+    constexpr auto slack = static_cast<float>(filter::bundle_scale * filter::u);
+    const RealMask ahead = Real(0.0F) < end;
+    store(low_ + ray, end * select(ahead, Real(1 - slack), Real(1 + slack)));
+    store(high_ + ray, end * select(ahead, Real(1 + slack), Real(1 - slack)));
+    store(slot_ + ray, Real(slot_bits(no_slot)));
+    store(solved_ + ray, Real(slot_bits(no_slot)));
+    solved_any_[ray / width] = uniform_[ray / width] = false;
+  }
+
+  void update(int group) {
+    const int begin = group * group_packets;
+    Real most(-static_cast<float>(no_hit));
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
+      most = filter_max(load(high_ + p * width), most);  // NaN is left out
+    limit_[group] = highest_lane(most);
+  }
+
+  /// What float knows of a sphere in W rays; true if that changes anything.
+  BOULE_INLINE bool consider(int ray, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
+    const Real low = load(low_ + ray), high = load(high_ + ray);
+    const Real from = first_root<common>(rays_, ray, disc, q), to = from + disc.spread;
+    const RealMask candidate = from <= high;  // false for Q < 0
+    if (!any(candidate)) return false;
+    const RealMask nearer = candidate & (disc.sure <= q) & (to < low);
+    store(low_ + ray, select(nearer, from, low));
+    store(high_ + ray, select(nearer, to, high));
+    store(slot_ + ray, select(nearer, Real(slot_bits(slot)), load(slot_ + ray)));
+    const unsigned unclear = bits(candidate & ~nearer);
+    const bool changed = any(nearer);
+    uniform_[ray / width] = changed ? all(nearer) : uniform_[ray / width];
+    if (unclear != 0) resolve(ray, slot, unclear);
+    return true;
+  }
+
+  /// Solves a sphere for W rays; those of `lanes` may take it.
+  BOULE_NOINLINE void resolve(int ray, std::uint32_t slot, unsigned lanes) {
+    ExactRays rays;
+    load_exact<common>(stream_, rays_, ray, rays);
+    const Roots roots = solve_robust(rays, broadcast_slot(spheres_, slot));
+    alignas(64) double t[width];
+    store(t, roots.t);
+    lanes &= bits(roots.hit);
+    bool settled = false;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes), i = ray + lane;
+      const Interval v = interval_of(t[lane], i);
+      if (high_[i] < v.low) continue;
+      if (!(v.high < low_[i]) && slot_of(slot_[i]) != no_slot) {
+        if (!settled) settle(ray, rays);
+        settled = true;
+        const bool tie = t[lane] == t_[i] && spheres_.id[slot] < spheres_.id[slot_of(slot_[i])];
+        if (!(t[lane] < t_[i] || tie)) continue;
+      }
+      t_[i] = t[lane];
+      slot_[i] = solved_[i] = slot_bits(slot);
+      solved_any_[ray / width] = true;
+      low_[i] = v.low;
+      high_[i] = v.high < high_[i] ? v.high : high_[i];
+    }
+  }
+
+  struct Interval {
+    float low, high;
+  };
+  /// Bounds of v of a t that is a double.
+  [[nodiscard]] Interval interval_of(double t, int ray) const {
+    const float v = static_cast<float>(t) * rays_.scale[ray];
+    const float slack = __builtin_fabsf(v) * static_cast<float>(filter::bundle_scale * filter::u);
+    return {v - slack, v + slack};
+  }
+
+  /// Solves the hits of W rays that only float knows yet.
+  void settle(int ray, const ExactRays& rays) {
+    bool pending = false;
+    for (int i = ray; i < ray + width; ++i) pending |= slot_of(slot_[i]) != slot_of(solved_[i]);
+    if (!pending) return;
+    alignas(64) double t[width];
+    store(t, solve_first(rays, gather_slots(spheres_, slot_ + ray)));
+    for (int lane = 0; lane < width; ++lane) {
+      const int i = ray + lane;
+      if (slot_of(slot_[i]) == slot_of(solved_[i])) continue;
+      t_[i] = t[lane];
+      solved_[i] = slot_[i];
+    }
+    solved_any_[ray / width] = true;
+  }
+
+  BOULE_INLINE void finish(int ray, const PlaneView& planes, const HitStream& hits) {
+    const int p = ray / width;
+    ExactRays rays;
+    load_exact<common>(stream_, rays_, ray, rays);
+    alignas(64) double t[width];
+    alignas(64) std::int32_t id[width];
+    const Real slots = load(slot_ + ray);
+    const WideMask hit = widen(slots <= slots);  // no_slot is NaN
+    Wide nearest(no_hit);
+    if (solved_any_[p]) {
+      settle(ray, rays);
+      nearest = load(t_ + ray);
+    } else if (any(hit)) {
+      nearest = solve_first(rays, uniform_[p] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
+                                              : gather_slots(spheres_, slot_ + ray));
+    }
+    nearest = select(hit, nearest, Wide(no_hit));
+    store(t, nearest);
+    for (int lane = 0; lane < width; ++lane) {
+      const std::uint32_t slot = slot_of(slot_[ray + lane]);
+      id[lane] = slot == no_slot ? -1 : spheres_.id[slot];
+    }
+    if (planes.size != 0) meet_planes(rays, planes, t, id);
+    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
+    const std::size_t live = stream_.live(first);
+    for (std::size_t lane = 0; lane < live; ++lane) {
+      hits.t[first + lane] = t[lane];
+      hits.id[first + lane] = id[lane];
+    }
+  }
+
+  /// W nearest hits, the planes included.
+  static void meet_planes(const ExactRays& rays, const PlaneView& planes, double* t,
+                          std::int32_t* id) {
+    Wide nearest = load(t), primitive = load_as_wide(id);
+    for (std::size_t k = 0; k < planes.size; ++k) {
+      const PlaneLanes plane = get_plane<OneForAll>(planes, k);
+      const Roots roots = solve_robust(rays, plane);
+      const WideMask better = roots.hit & (roots.t < nearest);  // spheres have the lower ids
+      nearest = select(better, roots.t, nearest);
+      primitive = select(better, plane.id, primitive);
+    }
+    alignas(64) double ids[width];
+    store(t, nearest);
+    store(ids, primitive);
+    for (int lane = 0; lane < width; ++lane) id[lane] = static_cast<std::int32_t>(ids[lane]);
+  }
+
+  const PaddedStream& stream_;
+  const SphereView& spheres_;
+  const BundleRays& rays_;
+  float limit_[bundle_groups];
+  alignas(64) float low_[bundle_size];   ///< bounds of v of the hit, or of the end of the ray: what
+  alignas(64) float high_[bundle_size];  ///< lies before low is nearer for certain
+  alignas(64) float slot_[bundle_size];  ///< bits; no_slot: no hit
+  alignas(64) double t_[bundle_size];    ///< where solved_ equals slot_
+  alignas(64) float solved_[bundle_size];
+  bool solved_any_[bundle_packets];  ///< some lane's slot may be solved
+  bool uniform_[bundle_packets];     ///< all lanes have the same slot
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,258 @@
+// Tiles of rays that share an origin or a direction: the bundle's answers are the scalar path's.
+#include <cmath>
+
+#include "core/math/geometry.h"
+#include "tests/support/case_random.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+struct BundleScene {
+  std::string name;
+  std::vector<Sphere> spheres;
+  Vec3d eye;
+  double widest = 0.2;  ///< of the tiles, as a slope
+};
+
+Vec3d center_of(const Sphere& sphere) { return vec_cast<double>(sphere.center); }
+
+BundleScene cloud(const std::string& name, const Vec3d& center, double spread, double radius,
+                  double distance) {
+  CaseRandom random(61);
+  BundleScene scene{name, {}, {}};
+  for (int i = 0; i < 300; ++i) {
+    const double x = random.uniform(-spread, spread);
+    const double y = random.uniform(-spread, spread);
+    const double z = random.uniform(-spread, spread);
+    const double r = radius * random.uniform(0.2, 1);
+    scene.spheres.push_back({vec_cast<float>(center + Vec3d{x, y, z}), static_cast<float>(r), 0});
+  }
+  scene.eye = vec_cast<double>(vec_cast<float>(center + Vec3d{0, 0, distance}));
+  return scene;
+}
+
+/// Every sphere three times in the same place, and two more next to it.
+BundleScene copies() {
+  BundleScene scene = cloud("copies and near copies", {0, 0, 0}, 1, 0.2, 4);
+  for (std::size_t i = 60; i < 300; ++i) scene.spheres[i] = scene.spheres[i % 60];
+  for (std::size_t i = 180; i < 300; ++i) {
+    float& z = scene.spheres[i].center.z;
+    z = std::nextafter(z, i < 240 ? 9.0F : -9.0F);
+  }
+  return scene;
+}
+
+BundleScene on_the_ground() {
+  BundleScene scene = cloud("on a ground sphere, inside another", {0, 0.3, 0}, 0.5, 0.1, 3);
+  scene.spheres.push_back({{0, -1e6F, 0}, 1e6F, 0});
+  scene.spheres.push_back({{0, 0, 0}, 1e3F, 0});
+  scene.spheres.push_back({{0, 0, 3.01F}, 0.5F, 0});
+  return scene;
+}
+
+/// Some that no float filter can judge.
+BundleScene with_degenerates() {
+  BundleScene scene = cloud("degenerate spheres among others", {0, 0, 0}, 1, 0.2, 4);
+  for (std::size_t i = 0; i < 8; ++i) scene.spheres[i].center.x = 1e19F;
+  scene.spheres[8].radius = std::nanf("");
+  scene.spheres[9].center.y = std::nanf("");
+  scene.spheres[10] = {{0, 0, 2e19F}, 1.9e19F, 0};
+  scene.spheres[11].radius = -scene.spheres[11].radius;
+  scene.spheres[12].radius = 0;
+  scene.spheres[13].radius = 1e-25F;
+  scene.spheres[14] = {{0, 0, 1e16F}, 1e15F, 0};
+  scene.spheres[15] = {{0, 0, -3e38F}, 3e37F, 0};
+  return scene;
+}
+
+std::vector<BundleScene> scenes() {
+  std::vector<BundleScene> all = {cloud("outside", {0, 0, 0}, 1, 0.1, 5),
+                                  cloud("within", {0, 0, 0}, 1, 0.1, 0),
+                                  cloud("1e5 from the origin", {1e5, -1e5, 1e5}, 1, 0.1, 3),
+                                  cloud("far, F / r = 1e4", {0, 0, 0}, 1, 1e-3, 8),
+                                  cloud("far and tiny, F / r = 4e6", {0, 0, 0}, 1e-5, 1e-6, 4),
+                                  cloud("specks, F / r = 1e8", {0, 0, 0}, 3e-7, 8e-8, 4),
+                                  cloud("in units of 1e-12", {0, 0, 0}, 1e-12, 1e-13, 3e-12),
+                                  cloud("in units of 1e12", {0, 0, 0}, 1e12, 1e11, 3e12),
+                                  copies(),
+                                  on_the_ground(),
+                                  with_degenerates()};
+  all.push_back(cloud("from between two floats", {1e7, -1e7, 1e7}, 100, 5, 400));
+  all.back().eye = all.back().eye + Vec3d{0.3, 0.21, 0.13};
+  return all;
+}
+
+/// The even bits of a Morton index.
+int even_bits(int i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4) | (i >> 3 & 8); }
+
+/// A tile of 16 x 16 rays, in Morton order, around the rim of a sphere, as wide as some share of
+/// what is seen of the sphere: where a bound that is too small would show.
+struct Tile {
+  Vec3d middle, right, up;  ///< a target, and the tile's half sides from there
+  double length;            ///< of the directions, as a multiple
+};
+
+Tile aim(CaseRandom& random, const BundleScene& scene) {
+  const Sphere& sphere =
+      scene.spheres[static_cast<std::size_t>(random.below(static_cast<int>(scene.spheres.size())))];
+  const Vec3d view = center_of(sphere) - scene.eye;
+  const double distance = length(view), beta = 1 + random.sign() * random.decade(-9, -0.5);
+  const Vec3d towards = normalize(view), side = random.perpendicular(towards);
+  const double widest = scene.widest * distance;
+  const double width = std::fmin(widest, std::fabs(double{sphere.radius}) * random.decade(-7, 1.5));
+  Tile tile{center_of(sphere) + side * (beta * double{sphere.radius}), {}, {}, 1};
+  tile.right = random.perpendicular(towards) * width;
+  tile.up = cross(towards, tile.right);
+  if (random.chance(0.3)) tile.length = random.decade(-3, 3);
+  return tile;
+}
+
+/// Rays whose tmax ends some of them amid the spheres.
+void shorten(CaseRandom& random, double until, std::vector<Ray>& rays) {
+  if (!random.chance(0.25)) return;
+  for (Ray& ray : rays) ray.tmax = static_cast<float>(until * random.uniform(0.9, 1.1));
+}
+
+std::vector<Ray> from_one_origin(const Tile& tile, const Vec3d& eye) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < 256; ++i) {
+    const double x = (even_bits(i) - 7.5) / 8, y = (even_bits(i >> 1) - 7.5) / 8;
+    const Vec3d to = tile.middle + tile.right * x + tile.up * y - eye;
+    rays.push_back({eye, vec_cast<float>(to * (tile.length / length(to)))});
+  }
+  return rays;
+}
+
+std::vector<Ray> in_one_direction(const Tile& tile, const Vec3d& eye) {
+  const Vec3f dir = vec_cast<float>(normalize(tile.middle - eye) * tile.length);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 256; ++i) {
+    const double x = (even_bits(i) - 7.5) / 8, y = (even_bits(i >> 1) - 7.5) / 8;
+    rays.push_back({eye + tile.right * x + tile.up * y, dir});
+  }
+  return rays;
+}
+
+bool judgeable(const Tile& tile) {
+  return length(tile.middle) < 1e15 && length(tile.right) > 0;  // NaN is neither
+}
+
+class Bundle : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    kernels = kernels_or_null(GetParam());
+    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  }
+
+  /// The kernels' answers to one stream, with a promise, against the scalar path's.
+  void check(const BundleScene& scene, const std::vector<Plane>& planes, const Geometry& geometry,
+             const std::vector<Ray>& rays, Coherence coherence) {
+    const Query query{Solver::robust, Form::automatic, coherence};
+    const auto hits = run_closest(*kernels, geometry.view(), rays, query);
+    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], scene.spheres, planes);
+      ASSERT_TRUE(same_bits(hits[i], expected))
+          << scene.name << " ray " << i << ": " << hits[i].id << " " << hits[i].t << ", expected "
+          << expected.id << " " << expected.t;
+      ASSERT_EQ(occluded[i], expected.id < 0 ? 0 : 1) << scene.name << " ray " << i;
+      met += expected.id < 0 ? 0U : 1U;
+    }
+  }
+  const KernelTable* kernels = nullptr;
+  std::size_t met = 0;
+};
+
+TEST_P(Bundle, GivesTheScalarPathsAnswers) {
+  for (const BundleScene& scene : scenes()) {
+    for (const Structure structure : {Structure::scan, Structure::bvh}) {
+      const Geometry geometry(scene.spheres, {}, structure);
+      CaseRandom random(62);
+      met = 0;
+      constexpr int tiles = 24;
+      for (int k = 0; k < tiles; ++k) {
+        const Tile tile = aim(random, scene);
+        if (!judgeable(tile)) continue;
+        std::vector<Ray> rays = from_one_origin(tile, scene.eye);
+        const double until = length(tile.middle - scene.eye) / tile.length;
+        shorten(random, until, rays);
+        check(scene, {}, geometry, rays, Coherence::common_origin);
+        rays = in_one_direction(tile, scene.eye);
+        shorten(random, until, rays);
+        check(scene, {}, geometry, rays, Coherence::common_direction);
+        if (HasFatalFailure()) return;
+      }
+      EXPECT_GT(met, std::size_t{tiles * 64}) << scene.name;
+    }
+  }
+}
+
+TEST_P(Bundle, MeetsPlanesAsWell) {
+  const BundleScene scene = cloud("over a floor", {0, 0, 0}, 1, 0.1, 5);
+  const std::vector<Plane> planes = {{{0, -0.5F, 0}, {0, 1, 0}, 0}, {{0, 0, -3}, {0, 0.1F, 1}, 0}};
+  const Geometry geometry(scene.spheres, planes), floor_only({}, planes);
+  CaseRandom random(63);
+  for (int k = 0; k < 20; ++k) {
+    const Tile tile = aim(random, scene);
+    check(scene, planes, geometry, from_one_origin(tile, scene.eye), Coherence::common_origin);
+    check({}, planes, floor_only, in_one_direction(tile, scene.eye), Coherence::common_direction);
+  }
+}
+
+/// Streams of any size, tiles too wide for a bundle, rays in no order, and promises not kept.
+TEST_P(Bundle, TakesAnyStream) {
+  const BundleScene scene = cloud("outside", {0, 0, 0}, 1, 0.1, 3);
+  const Geometry geometry(scene.spheres, {});
+  CaseRandom random(64);
+  for (const int count : {1, 15, 31, 32, 33, 100, 255, 256, 257, 300, 513, 1000}) {
+    std::vector<Ray> wide, none;
+    for (int i = 0; i < count; ++i) {
+      const double x = random.uniform(-1, 1);
+      const double y = random.uniform(-1, 1);
+      wide.push_back({scene.eye, vec_cast<float>(Vec3d{2 * x, 2 * y, -3 * y * y - 1})});
+      none.push_back({scene.eye + Vec3d{x, y, 0}, vec_cast<float>(Vec3d{-x, x * y, -3})});
+    }
+    for (const Coherence coherence : {Coherence::common_origin, Coherence::common_direction}) {
+      check(scene, {}, geometry, wide, coherence);
+      check(scene, {}, geometry, none, coherence);
+    }
+    wide[static_cast<std::size_t>(count / 2)].org.x += 1e-3;
+    check(scene, {}, geometry, wide, Coherence::common_origin);
+    wide = from_one_origin(aim(random, scene), scene.eye);
+    wide[77].tmin = 2;
+    wide[78].tmin = -9;
+    wide[79].source = 5;
+    wide[80].dir.z = std::nanf("");
+    wide[200].tmax = std::nanf("");
+    wide[201].tmax = -1;
+    check(scene, {}, geometry, wide, Coherence::common_origin);
+  }
+}
+
+/// The whole sphere around the eye, a hemisphere, backwards: no ray of a bundle may be lost at
+/// where its bundle is split.
+TEST_P(Bundle, LooksEverywhere) {
+  const BundleScene scene = cloud("all around", {0, 0, 0}, 3, 0.3, 0);
+  const Geometry geometry(scene.spheres, {});
+  CaseRandom random(65);
+  for (int k = 0; k < 12; ++k) {
+    const Vec3d w = random.direction(), u = random.perpendicular(w), v = cross(w, u);
+    const double angle = random.uniform(0.01, 3);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 256; ++i) {
+      const double x = (even_bits(i) - 7.5) / 8, y = (even_bits(i >> 1) - 7.5) / 8;
+      const double a = angle * x, b = angle * y;
+      const Vec3d to =
+          w * (std::cos(a) * std::cos(b)) + u * std::sin(a) + v * (std::sin(b) * std::cos(a));
+      rays.push_back({scene.eye, vec_cast<float>(to)});
+    }
+    check(scene, {}, geometry, rays, Coherence::common_origin);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Bundle, testing::ValuesIn(all_isa_names()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace boule::test
