@@ -33,10 +33,10 @@ Directions child_directions() {
   return directions;
 }
 
-/// v turned as +z is turned to become `up`.
+/// v turned as +z is turned to become `up`; straight down about y.
 Vec3d turn_with_z(const Vec3d& v, const Vec3d& up) {
   if (up.z >= 1) return v;
-  if (up.z <= -1) return {-v.x, v.y, -v.z};
+  if (up.z <= -1 + 1e-12) return {-v.x, v.y, -v.z};
   const Vec3d axis = cross(Vec3d{0, 0, 1}, up);
   const double sine = length(axis);
   return turn(v, axis * (1 / sine), up.z, sine);
