@@ -110,11 +110,13 @@ double ray_t(const Ray& ray, double embree_t) {
 }
 
 EmbreeContender::EmbreeContender(Info info, const Workload& workload, RTCScene scene,
-                                 EmbreeCall call, AlignedArray<float>& memory)
+                                 EmbreeCall call, RTCIntersectContextFlags coherence,
+                                 AlignedArray<float>& memory)
     : Contender(std::move(info)),
       workload_(workload),
       scene_(scene),
       call_(call),
+      coherence_(coherence),
       group_(group_of(call)),
       fields_(workload.kind == RayKind::shadow ? ray_fields : ray_hit_fields),
       memory_(memory) {}
@@ -151,8 +153,7 @@ void EmbreeContender::trace(std::size_t first, std::size_t last) {
   const FlushDenormals flush;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = workload_.kind == RayKind::diffuse ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
-                                                     : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = coherence_;
   const std::size_t step = call_ == EmbreeCall::stream ? embree_stream_size : group_;
   const bool any = workload_.kind == RayKind::shadow;
   for (; first < last; first += step) {

@@ -17,7 +17,7 @@ class EmbreeContender final : public Contender {
  public:
   /// `memory`: shared with others; whoever has prepared owns it.
   EmbreeContender(Info info, const Workload& workload, RTCScene scene, EmbreeCall call,
-                  AlignedArray<float>& memory);
+                  RTCIntersectContextFlags coherence, AlignedArray<float>& memory);
 
   void prepare() override;
   void trace(std::size_t first, std::size_t last) override;
@@ -33,6 +33,7 @@ class EmbreeContender final : public Contender {
   Workload workload_;
   RTCScene scene_;
   EmbreeCall call_;
+  RTCIntersectContextFlags coherence_;
   std::size_t group_;   ///< rays in one structure
   std::size_t fields_;  ///< 12 of a ray, and for the nearest hit 8 of a hit
   AlignedArray<float>& memory_;

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include "core/base/platform.h"
 
+#if defined(__AVX2__)
+
+#include <immintrin.h>
+
 /// The few wide operations that Embree's callbacks need, by intrinsics; masks in mask registers
-/// where there are any. Compiled once per ISA, like the kernels.
+/// where there are any. Compiled once per ISA, like the kernels; nothing below AVX2.
 namespace boule::bench::BOULE_KERNEL_ISA {
 
 #if defined(__AVX512VL__)
@@ -146,3 +148,5 @@ using Widest = Lanes8;
 #endif
 
 }  // namespace boule::bench::BOULE_KERNEL_ISA
+
+#endif

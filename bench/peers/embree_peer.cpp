@@ -27,6 +27,27 @@ constexpr Mode modes[] = {{"1", EmbreeCall::rays1, 1},
                           {"16", EmbreeCall::rays16, 16},
                           {"1M", EmbreeCall::stream, embree_stream_size}};
 
+/// What Embree is told of the rays.
+struct Flag {
+  const char* suffix;
+  RTCIntersectContextFlags coherence;
+};
+
+/// Which of the two is better for shadow rays depends on the scene.
+std::vector<Flag> flags_for(RayKind kind) {
+  const Flag coherent = {"", RTC_INTERSECT_CONTEXT_FLAG_COHERENT};
+  const Flag incoherent = {"", RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT};
+  switch (kind) {
+    case RayKind::primary:
+      return {coherent};
+    case RayKind::shadow:
+      return {coherent, {"-incoherent", incoherent.coherence}};
+    case RayKind::diffuse:
+      return {incoherent};
+  }
+  return {};
+}
+
 }  // namespace
 
 EmbreePeer::EmbreePeer(const BenchScene& scene)
@@ -86,17 +107,15 @@ RTCGeometry EmbreePeer::user_geometry() {
 
 std::vector<std::unique_ptr<Contender>> EmbreePeer::contenders(const Workload& workload) {
   std::vector<std::unique_ptr<Contender>> all;
-  for (const auto& [geometry, scene] : {std::pair{"builtin", builtin_}, std::pair{"user", user_}}) {
-    for (const Mode& mode : modes) {
-      Contender::Info info = {std::string("embree-") + geometry + "-" + mode.name,
-                              isa_,
-                              mode.width,
-                              "float",
-                              true,
-                              false};
-      all.push_back(
-          std::make_unique<EmbreeContender>(std::move(info), workload, scene, mode.call, rays_));
-    }
+  const auto add = [&](const char* geometry, RTCScene scene, const Mode& mode, const Flag& flag) {
+    const std::string name = std::string("embree-") + geometry + "-" + mode.name + flag.suffix;
+    Contender::Info info = {name, isa_, mode.width, "float", true, false};
+    all.push_back(std::make_unique<EmbreeContender>(std::move(info), workload, scene, mode.call,
+                                                    flag.coherence, rays_));
+  };
+  for (const Flag& flag : flags_for(workload.kind)) {
+    for (const Mode& mode : modes) add("builtin", builtin_, mode, flag);
+    for (const Mode& mode : modes) add("user", user_, mode, flag);
   }
   return all;
 }

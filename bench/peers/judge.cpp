@@ -17,7 +17,20 @@ bool same_bits(const Hit& a, const Hit& b) {
   return a.id == b.id && std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
 }
 
+bool same_distance(const Ray& ray, double t, double truth) {
+  const double scale = length(vec_cast<double>(ray.dir));
+  return std::fabs(t - truth) * scale <= std::max(1e-4 * truth * scale, 1e-5);
+}
+
 }  // namespace
+
+bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, const Hit& truth) {
+  if (hit.id == no_primitive || truth.id == no_primitive) return hit.id == truth.id;
+  if (!same_distance(ray, hit.t, truth.t)) return false;
+  if (hit.id == truth.id) return true;
+  const Sphere& other = scene.spheres[static_cast<std::size_t>(hit.id)];
+  return same_distance(ray, reference::intersect(ray, other, hit.id == ray.source), truth.t);
+}
 
 Judge::Judge(const Workload& workload, const DoubleTree& tree, const ParallelFor& parallel_for)
     : workload_(workload) {
@@ -53,28 +66,15 @@ std::size_t Judge::differ_from_reference(std::size_t samples,
   return differ;
 }
 
-bool Judge::same_distance(const Ray& ray, double t, double truth) {
-  const double scale = length(vec_cast<double>(ray.dir));
-  return std::fabs(t - truth) * scale <= std::max(1e-4 * truth * scale, 1e-5);
-}
-
-bool Judge::same_in_float(const Ray& ray, const Hit& hit, const Hit& truth) const {
-  if (hit.id == no_primitive || truth.id == no_primitive) return hit.id == truth.id;
-  if (!same_distance(ray, hit.t, truth.t)) return false;
-  if (hit.id == truth.id) return true;
-  const Sphere& other = workload_.scene->spheres[static_cast<std::size_t>(hit.id)];
-  return same_distance(ray, reference::intersect(ray, other, hit.id == ray.source), truth.t);
-}
-
 std::vector<std::size_t> Judge::mismatches(const Answers& answers, bool exact) const {
   std::vector<std::size_t> wrong;
   for (std::size_t i = 0; i < truth_.occluded.size(); ++i) {
     if (answers.occluded[i] != truth_.occluded[i]) wrong.push_back(i);
   }
   for (std::size_t i = 0; i < truth_.hits.size(); ++i) {
-    const bool same = exact
-                          ? same_bits(answers.hits[i], truth_.hits[i])
-                          : same_in_float(workload_.rays->get(i), answers.hits[i], truth_.hits[i]);
+    const bool same = exact ? same_bits(answers.hits[i], truth_.hits[i])
+                            : same_in_float(*workload_.scene, workload_.rays->get(i),
+                                            answers.hits[i], truth_.hits[i]);
     if (!same) wrong.push_back(i);
   }
   return wrong;

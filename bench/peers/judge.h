@@ -10,6 +10,10 @@
 
 namespace boule::bench {
 
+/// Whether a hit found in float is the truth: both misses, or t off by no more than 1e-4 of itself
+/// or 1e-5 |dir| (the scenes are of size 1); another sphere is right if it is met within that too.
+bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, const Hit& truth);
+
 /// What is right, and who differs from it.
 class Judge {
  public:
@@ -24,18 +28,11 @@ class Judge {
   [[nodiscard]] std::size_t differ_from_reference(std::size_t samples,
                                                   const ParallelFor& parallel_for) const;
 
-  /// The rays that are answered wrongly. exact: another bit of t, or another id. Otherwise a hit
-  /// for a miss, a miss for a hit, or t that is off by more than `tolerance`; another id only where
-  /// that sphere is not met within tolerance of the truth.
+  /// The rays that are answered wrongly. exact: another bit of t, or another id. Otherwise what
+  /// same_in_float says.
   [[nodiscard]] std::vector<std::size_t> mismatches(const Answers& answers, bool exact) const;
 
-  /// Whether two distances along a ray are one to float: the error times |dir| within 1e-4 of the
-  /// distance, or within 1e-5, in scenes of size 1.
-  [[nodiscard]] static bool same_distance(const Ray& ray, double t, double truth);
-
  private:
-  [[nodiscard]] bool same_in_float(const Ray& ray, const Hit& hit, const Hit& truth) const;
-
   Workload workload_;
   Answers truth_;
 };

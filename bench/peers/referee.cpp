@@ -20,6 +20,7 @@ struct Entrant {
   std::unique_ptr<Contender> contender;
   std::vector<double> rates;
   std::size_t mismatches = 0;
+  std::optional<OracleVerdict> oracle = {};
 
   [[nodiscard]] double best() const { return *std::max_element(rates.begin(), rates.end()); }
   [[nodiscard]] double median() const {
@@ -70,8 +71,8 @@ bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
   return entrant.best() < best_of(all, entrant.contender->info().embree) / 3;
 }
 
-void run_all(std::vector<Entrant>& entrants, const Judge& judge, std::size_t size,
-             const RefereeSettings& settings) {
+void run_all(std::vector<Entrant>& entrants, const Judge& judge, OracleJudge& oracle,
+             std::size_t size, const RefereeSettings& settings) {
   Answers answers;
   for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
     for (Entrant& entrant : entrants) {
@@ -81,7 +82,9 @@ void run_all(std::vector<Entrant>& entrants, const Judge& judge, std::size_t siz
       if (repetition > 0) continue;
       entrant.contender->answer(answers);
       const bool exact = entrant.contender->info().exact;
-      entrant.mismatches = judge.mismatches(answers, exact).size();
+      const std::vector<std::size_t> wrong = judge.mismatches(answers, exact);
+      entrant.mismatches = wrong.size();
+      entrant.oracle = oracle.judge(answers, wrong);
     }
   }
 }
@@ -94,14 +97,20 @@ std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload&
   std::vector<Row> rows;
   for (const Entrant& e : entrants) {
     const Contender::Info& info = e.contender->info();
-    Row row{workload.scene->name, name_of(workload.kind), info.name, info.isa, info.width,
-            info.solver};
+    Row row;
+    row.scene = workload.scene->name;
+    row.rays = name_of(workload.kind);
+    row.contender = info.name;
+    row.isa = info.isa;
+    row.width = info.width;
+    row.solver = info.solver;
     row.median = e.median();
     row.min = *std::min_element(e.rates.begin(), e.rates.end());
     row.max = e.best();
     row.repetitions = static_cast<int>(e.rates.size());
     row.ratio_to_best_embree = row.median / best_embree;
     row.mismatches = e.mismatches;
+    row.oracle = e.oracle;
     row.exact = info.exact;
     rows.push_back(row);
   }
@@ -135,7 +144,8 @@ struct Arena {
       entrants.push_back({std::move(contender), {}});
     for (auto& contender : boule.contenders(workload))
       entrants.push_back({std::move(contender), {}});
-    run_all(entrants, judge, workload.rays->size(), settings);
+    OracleJudge oracle(workload, tree);
+    run_all(entrants, judge, oracle, workload.rays->size(), settings);
     return make_rows(entrants, workload);
   }
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/peers/oracle_judge.h"
 #include "bench/peers/rays.h"
 #include "core/base/error.h"
 
@@ -30,7 +31,8 @@ struct Row {
   int repetitions = 0;
   double ratio_to_best_embree = 0;  ///< of medians
   std::size_t mismatches = 0;
-  bool exact = false;  ///< a mismatch is a fault
+  std::optional<OracleVerdict> oracle;  ///< on the mismatches; none without MPFR
+  bool exact = false;                   ///< a mismatch is a fault
 };
 
 /// One workload and how the truth about it stood the test against brute force.

@@ -36,6 +36,11 @@ Json to_json(const Check& check) {
           {"truth_mismatches", check.truth_mismatches}};
 }
 
+Json to_json(const std::optional<OracleVerdict>& verdict) {
+  if (!verdict) return nullptr;
+  return {{"judged", verdict->judged}, {"wrong", verdict->wrong}};
+}
+
 Json to_json(const Row& row) {
   return {{"scene", row.scene},
           {"rays", row.rays},
@@ -48,7 +53,8 @@ Json to_json(const Row& row) {
           {"max", row.max},
           {"repetitions", row.repetitions},
           {"ratio_to_best_embree", row.ratio_to_best_embree},
-          {"mismatches", row.mismatches}};
+          {"mismatches", row.mismatches},
+          {"oracle", to_json(row.oracle)}};
 }
 
 template <class T>
@@ -56,6 +62,12 @@ Json list(const std::vector<T>& values) {
   Json all = Json::array();
   for (const T& value : values) all.push_back(to_json(value));
   return all;
+}
+
+/// "8/8": the oracle found 8 of 8 mismatches wrong.
+std::string to_text(const std::optional<OracleVerdict>& verdict) {
+  if (!verdict) return "-";
+  return std::to_string(verdict->wrong) + "/" + std::to_string(verdict->judged);
 }
 
 }  // namespace
@@ -73,12 +85,13 @@ void print_workload(const Check& check, const std::vector<Row>& rows) {
   std::printf("\n%s %s: %zu rays; truth against brute force: %zu of %zu differ\n",
               check.scene.c_str(), check.rays.c_str(), check.count, check.truth_mismatches,
               check.sampled);
-  std::printf("%-22s %-7s %6s %-7s %8s %17s %4s %6s %10s\n", "contender", "isa", "width", "solver",
-              "Mray/s", "min..max", "reps", "ratio", "mismatches");
+  std::printf("%-30s %-7s %6s %-7s %8s %17s %4s %6s %10s %s\n", "contender", "isa", "width",
+              "solver", "Mray/s", "min..max", "reps", "ratio", "mismatches", "oracle: wrong");
   for (const Row& row : rows) {
-    std::printf("%-22s %-7s %6zu %-7s %8.3f %8.3f..%7.3f %4d %6.2f %10zu\n", row.contender.c_str(),
-                row.isa.c_str(), row.width, row.solver.c_str(), row.median, row.min, row.max,
-                row.repetitions, row.ratio_to_best_embree, row.mismatches);
+    std::printf("%-30s %-7s %6zu %-7s %8.3f %8.3f..%7.3f %4d %6.2f %10zu %s\n",
+                row.contender.c_str(), row.isa.c_str(), row.width, row.solver.c_str(), row.median,
+                row.min, row.max, row.repetitions, row.ratio_to_best_embree, row.mismatches,
+                to_text(row.oracle).c_str());
   }
   std::fflush(stdout);
 }
