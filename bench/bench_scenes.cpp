@@ -53,14 +53,6 @@ std::optional<int> number_after(std::string_view prefix, std::string_view name, 
   return number;
 }
 
-unsigned even_bits(unsigned long long k) {
-  unsigned bits = 0;
-  for (unsigned bit = 0; bit < 32; ++bit) {
-    bits |= static_cast<unsigned>((k >> (2 * bit)) & 1U) << bit;
-  }
-  return bits;
-}
-
 }  // namespace
 
 std::vector<std::string> scene_names() {
@@ -79,7 +71,5 @@ Result<BenchScene> make_scene(const std::string& name) {
       0,
       0};
 }
-
-Pixel morton_pixel(unsigned long long k) { return {even_bits(k), even_bits(k >> 1)}; }
 
 }  // namespace boule::bench

@@ -25,11 +25,4 @@ std::vector<std::string> scene_names();
 /// flakeD: the sphereflake of depth D, 0 to 6, without its floor.
 Result<BenchScene> make_scene(const std::string& name);
 
-/// Place k of the Morton curve in a square: the bits of x and y in turn, x lowest. Groups of 4, 8,
-/// 16, 256 consecutive places are blocks of 2x2, 4x2, 4x4, 16x16.
-struct Pixel {
-  unsigned x, y;
-};
-Pixel morton_pixel(unsigned long long k);
-
 }  // namespace boule::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/camera_rays.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
@@ -34,8 +35,9 @@ class BouleContender final : public Contender {
   }
 
   void trace(std::size_t first, std::size_t last) override {
+    const RayStream rays = workload_.rays->view();
     for (; first < last; first += stream_size) {
-      const RayStream stream = stream_at(first, std::min(stream_size, last - first));
+      const RayStream stream = part_of(rays, first, std::min(stream_size, last - first));
       if (workload_.kind == RayKind::shadow) {
         kernels_.any_hit(geometry_, stream, query_, memory_.occluded->data() + first);
       } else {
@@ -57,21 +59,6 @@ class BouleContender final : public Contender {
   }
 
  private:
-  [[nodiscard]] RayStream stream_at(std::size_t first, std::size_t size) const {
-    const RayStream s = workload_.rays->view();
-    return {s.org_x + first,
-            s.org_y + first,
-            s.org_z + first,
-            s.dir_x + first,
-            s.dir_y + first,
-            s.dir_z + first,
-            s.tmin + first,
-            s.tmax + first,
-            s.source + first,
-            s.inside + first,
-            size};
-  }
-
   Workload workload_;
   GeometryView geometry_;
   const KernelTable& kernels_;

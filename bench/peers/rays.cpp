@@ -1,6 +1,5 @@
 #include "bench/peers/rays.h"
 
-#include <bit>
 #include <cmath>
 
 #include "core/math/geometry.h"
@@ -8,24 +7,9 @@
 #include "render/shading/bsdf.h"
 #include "render/shading/lights.h"
 #include "render/shading/surface.h"
-#include "simd/build/camera_builder.h"
-#include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
 namespace {
-
-SampleBuffer pixel_centers(int side) {
-  const auto pixels = static_cast<unsigned>(side);
-  const unsigned long long places = 1ULL * std::bit_ceil(pixels) * std::bit_ceil(pixels);
-  SampleBuffer samples;
-  samples.resize(std::size_t{pixels} * pixels);
-  std::size_t next = 0;
-  for (unsigned long long k = 0; k < places; ++k) {
-    const auto [x, y] = morton_pixel(k);
-    if (x < pixels && y < pixels) samples.set(next++, x + 0.5, y + 0.5);
-  }
-  return samples;
-}
 
 RayBuffer to_buffer(const std::vector<Ray>& rays) {
   RayBuffer buffer(rays.size());
@@ -56,14 +40,6 @@ std::string name_of(RayKind kind) {
       return "diffuse";
   }
   return {};
-}
-
-RayBuffer primary_rays(const BenchScene& scene, int side) {
-  SampleBuffer samples = pixel_centers(side);
-  RayBuffer rays(samples.size());
-  const KernelTable& kernels = *select_kernels("auto").value();
-  kernels.primary_rays(build_camera(scene.camera, side, side), samples.view(), rays.view());
-  return rays;
 }
 
 RayBuffer shadow_rays(const BenchScene& scene, const RayBuffer& primary,

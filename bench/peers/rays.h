@@ -16,10 +16,6 @@ enum class RayKind { primary, shadow, diffuse };
 
 std::string name_of(RayKind kind);
 
-/// The camera's rays through the pixel centres of a picture of side x side, along the Morton curve:
-/// 16x16 tiles one after the other, and within each any 4, 8, 16 consecutive rays in a block.
-RayBuffer primary_rays(const BenchScene& scene, int side);
-
 /// The secondary rays of primary hits, in their order, made as the renderer makes them.
 RayBuffer shadow_rays(const BenchScene& scene, const RayBuffer& primary,
                       const std::vector<Hit>& hits);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/camera_rays.h"
 #include "bench/peers/boule_peer.h"
 #include "bench/peers/contender.h"
 #include "bench/peers/double_tree.h"
@@ -66,9 +67,9 @@ double best_of(const std::vector<Entrant>& entrants, bool embree) {
 }
 
 bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
-  constexpr std::size_t fair_chances = 2;
-  if (entrant.rates.size() < fair_chances) return false;
-  return entrant.best() < best_of(all, entrant.contender->info().embree) / 3;
+  if (entrant.rates.empty()) return false;
+  const double handicap = entrant.rates.size() == 1 ? 10 : 3;
+  return entrant.best() * handicap < best_of(all, entrant.contender->info().embree);
 }
 
 void run_all(std::vector<Entrant>& entrants, const Judge& judge, OracleJudge& oracle,

@@ -52,8 +52,9 @@ struct Results {
 inline constexpr std::size_t reference_samples = 4096;
 
 /// Runs all contenders on all workloads, repetitions interleaved, and judges their answers. A
-/// contender that in two repetitions has not reached a third of the best rate of its side gets no
-/// more. `report` hears of each workload when it is done: its check and its rows.
+/// contender that is below a tenth of the best rate of its side after one repetition, or below a
+/// third after two, gets no more. `report` hears of each workload when it is done: its check and
+/// its rows.
 Result<Results> compare(const RefereeSettings& settings,
                         const std::function<void(const Check&, const std::vector<Row>&)>& report);
 
