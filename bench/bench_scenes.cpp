@@ -1,0 +1,75 @@
+#include "bench/bench_scenes.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "bench/balls.h"
+#include "core/math/elementary.h"
+#include "core/math/random.h"
+
+namespace boule::bench {
+namespace {
+
+constexpr int most_random = 10'000'000;
+constexpr int deepest_flake = 6;
+
+BenchScene random_scene(const std::string& name, int n) {
+  BenchScene scene;
+  scene.name = name;
+  const auto radius = static_cast<float>(std::sqrt(4 / (elementary::pi * n)));
+  for (int i = 0; i < n; ++i) {
+    const auto at = random4(static_cast<std::uint32_t>(i), 0, 0, 0, 7);
+    scene.spheres.push_back(
+        {{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
+         radius,
+         0});
+  }
+  scene.camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
+  scene.camera.fov = 25.61F;
+  scene.light.position = {0.3F, 2, -1.5F};
+  return scene;
+}
+
+BenchScene flake_scene(const std::string& name, int depth) {
+  BenchScene scene;
+  scene.name = name;
+  scene.spheres = balls(depth);
+  scene.camera.pose = {{2.1F, 1.3F, 1.7F}, {0, 0, 0}, {0, 0, 1}};
+  scene.camera.fov = 45;
+  scene.light.position = {4, 3, 2};
+  return scene;
+}
+
+/// The number behind a scene's letters, if it is one from `low` to `high`.
+std::optional<int> number_after(std::string_view prefix, std::string_view name, int low, int high) {
+  if (!name.starts_with(prefix)) return std::nullopt;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
+  const bool whole = error == std::errc{} && stop == end;
+  if (!whole || number < low || number > high) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::vector<std::string> scene_names() {
+  return {"u1000", "u10000", "u100000", "u1000000", "flake4", "flake6"};
+}
+
+Result<BenchScene> make_scene(const std::string& name) {
+  if (const auto n = number_after("u", name, 1, most_random)) return random_scene(name, *n);
+  if (const auto depth = number_after("flake", name, 0, deepest_flake)) {
+    return flake_scene(name, *depth);
+  }
+  return Diagnostic{
+      "no scene " + quote(name) + ", expected uN, N from 1 to 10000000, or flakeD, D from 0 to 6",
+      {},
+      {},
+      0,
+      0};
+}
+
+}  // namespace boule::bench

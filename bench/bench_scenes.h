@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/camera.h"
+#include "core/scene/light.h"
+#include "core/scene/primitive.h"
+
+namespace boule::bench {
+
+/// What the benchmarks look at: spheres, no planes.
+struct BenchScene {
+  std::string name;
+  std::vector<Sphere> spheres;
+  PinholeCamera camera;
+  PointLight light;
+};
+
+/// The six scenes that figures are given for.
+std::vector<std::string> scene_names();
+
+/// uN: N random spheres in the unit cube that cover it four times over, r = sqrt(4 / (pi N)).
+/// flakeD: the sphereflake of depth D, 0 to 6, without its floor.
+Result<BenchScene> make_scene(const std::string& name);
+
+}  // namespace boule::bench

@@ -1,0 +1,144 @@
+// Throughput of the parts of a trace: rays per second of the camera and of nearest hits by each way
+// of finding them, spheres per second of the build. Names: what/isa/solver/scene/n.
+//
+//   bench_trace [--benchmark_filter='bundle/avx2/robust/u/100000']
+//
+// scan: no tree · single, packet: one form on the tree, no promise · bundle: primary rays declared
+// to have one origin. 256 x 256 primary rays in streams of 1024. A figure by itself says little:
+// compare two builds by their instructions (valgrind --tool=callgrind), peers by bench_peers.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bench/bench_scenes.h"
+#include "bench/camera_rays.h"
+#include "simd/build/camera_builder.h"
+#include "simd/build/geometry_builder.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::bench {
+namespace {
+
+constexpr int side = 256;                  // pixels
+constexpr std::size_t stream_size = 1024;  // rays, as the renderer has them
+
+/// One scene as one structure, and rays to ask it with.
+struct Trace {
+  BenchScene scene;
+  Geometry geometry;
+  RayBuffer rays;
+  HitBuffer hits;
+
+  Trace(BenchScene what, Structure structure)
+      : scene(std::move(what)),
+        geometry(scene.spheres, {}, structure),
+        rays(primary_rays(scene, side)),
+        hits(rays.size()) {}
+};
+
+/// Made when first asked for, and kept.
+Trace& trace_of(const std::string& scene, Structure structure) {
+  static std::map<std::pair<std::string, Structure>, std::unique_ptr<Trace>> made;
+  auto& trace = made[{scene, structure}];
+  if (!trace) trace = std::make_unique<Trace>(make_scene(scene).value(), structure);
+  return *trace;
+}
+
+struct Experiment {
+  const char* name;
+  Structure structure;
+  Form form;
+  Coherence coherence;
+};
+
+void run_trace(benchmark::State& state, Trace& trace, const KernelTable& kernels,
+               const Query& query) {
+  const RayStream rays = trace.rays.view();
+  const HitStream hits = trace.hits.view();
+  for (auto _ : state) {
+    for (std::size_t first = 0; first < rays.size; first += stream_size) {
+      const RayStream part = part_of(rays, first, std::min(stream_size, rays.size - first));
+      kernels.closest_hit(trace.geometry.view(), part, query,
+                          {hits.t + first, hits.id + first, part.size});
+    }
+    benchmark::DoNotOptimize(hits.t);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size));
+}
+
+void run_camera(benchmark::State& state, const KernelTable& kernels) {
+  const BenchScene scene = make_scene("u1").value();
+  const CameraView camera = build_camera(scene.camera, side, side);
+  SampleBuffer samples = pixel_centers(side);
+  samples.resize(stream_size);
+  RayBuffer rays(stream_size);
+  for (auto _ : state) {
+    kernels.primary_rays(camera, samples.view(), rays.view());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(stream_size));
+}
+
+void run_build(benchmark::State& state, const std::string& name) {
+  const BenchScene scene = make_scene(name).value();
+  for (auto _ : state) {
+    const Geometry geometry(scene.spheres, {});
+    benchmark::DoNotOptimize(geometry.view());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.spheres.size()));
+}
+
+void add(const std::string& name, auto run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+}
+
+/// One experiment of one ISA on scene `kind` of size n, by both solvers.
+void add_trace(const Experiment& experiment, const IsaInfo& info, const std::string& kind,
+               const std::string& n) {
+  for (const Solver solver : {Solver::robust, Solver::fast}) {
+    const KernelTable* const kernels = select_kernels(info.name).value();
+    const Query query = {solver, experiment.form, experiment.coherence};
+    const std::string name = std::string(experiment.name) + "/" + std::string(info.name) +
+                             (solver == Solver::fast ? "/fast/" : "/robust/") + kind + "/" + n;
+    add(name, [=, structure = experiment.structure](auto& state) {
+      run_trace(state, trace_of(kind + n, structure), *kernels, query);
+    });
+  }
+}
+
+void add_all(const IsaInfo& info) {
+  const Experiment scan = {"scan", Structure::scan, Form::packet, Coherence::none};
+  const Experiment on_tree[] = {
+      {"bundle", Structure::bvh, Form::automatic, Coherence::common_origin},
+      {"single", Structure::bvh, Form::single, Coherence::none},
+      {"packet", Structure::bvh, Form::packet, Coherence::none}};
+  for (const char* n : {"64", "1000"}) add_trace(scan, info, "u", n);
+  for (const Experiment& experiment : on_tree) {
+    for (const char* n : {"1000", "100000"}) add_trace(experiment, info, "u", n);
+    add_trace(experiment, info, "flake", "4");
+  }
+  const KernelTable* const kernels = select_kernels(info.name).value();
+  add("camera/" + std::string(info.name), [=](auto& state) { run_camera(state, *kernels); });
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  using namespace boule::bench;
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  for (const boule::IsaInfo& info : boule::list_isas()) {
+    if (info.supported) add_all(info);
+  }
+  for (const std::string n : {"1000", "100000", "1000000"}) {
+    add("build/u/" + n, [n](auto& state) { run_build(state, "u" + n); });
+  }
+  add("build/flake/6", [](auto& state) { run_build(state, "flake6"); });
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/math/ray.h"
+#include "core/scene/primitive.h"
+
+namespace boule::bench {
+
+/// The truth that every contender is held against: the reference's sphere solve, one ray at a time,
+/// over a plain binary tree of boxes in double. It shares no code with the kernels. Boxes are grown
+/// by 1e-9 of the scene's size, far above the rounding of anything in double: they turn away no
+/// hit, so the answers are those of brute force.
+class DoubleTree {
+ public:
+  /// `spheres` must outlive the tree; finite numbers.
+  explicit DoubleTree(std::span<const Sphere> spheres);
+
+  /// As reference::closest_hit and any_hit.
+  [[nodiscard]] Hit closest_hit(const Ray& ray) const;
+  [[nodiscard]] bool any_hit(const Ray& ray) const;
+
+  /// Calls visit(id) for every sphere whose box the ray enters, a few others too; all that it hits
+  /// are among them.
+  void for_each_candidate(const Ray& ray, const std::function<void(std::int32_t)>& visit) const;
+
+ private:
+  struct Node {
+    double min[3], max[3];
+    std::uint32_t first;  ///< of a leaf: its first place in order_; else the first of two children
+    std::uint32_t count;  ///< spheres of a leaf; 0: an inner node
+  };
+
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  void set_box(Node& node, std::uint32_t first, std::uint32_t count) const;
+  template <class Visit>
+  void traverse(const Ray& ray, const double& limit, const Visit& visit) const;
+
+  std::span<const Sphere> spheres_;
+  std::vector<std::int32_t> order_;
+  std::vector<Node> nodes_;
+  double margin_ = 0;
+};
+
+}  // namespace boule::bench

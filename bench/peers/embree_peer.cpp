@@ -1,0 +1,125 @@
+#include "bench/peers/embree_peer.h"
+
+#include <cmath>
+#include <utility>
+
+#include "bench/peers/embree_contender.h"
+#include "simd/dispatch/cpu.h"
+
+namespace boule::bench {
+namespace {
+
+/// The box of a PackedSphere, a little larger: its radius comes from a rounded square.
+void bounds(const RTCBoundsFunctionArguments* args) {
+  const PackedSphere& s = static_cast<const PackedSphere*>(args->geometryUserPtr)[args->primID];
+  const float r = std::sqrt(s.radius_squared) * (1 + 0x1p-21F);
+  *args->bounds_o = {s.x - r, s.y - r, s.z - r, 0, s.x + r, s.y + r, s.z + r, 0};
+}
+
+struct Mode {
+  const char* name;
+  EmbreeCall call;
+  std::size_t width;
+};
+constexpr Mode modes[] = {{"1", EmbreeCall::rays1, 1},
+                          {"4", EmbreeCall::rays4, 4},
+                          {"8", EmbreeCall::rays8, 8},
+                          {"16", EmbreeCall::rays16, 16},
+                          {"1M", EmbreeCall::stream, embree_stream_size}};
+
+/// What Embree is told of the rays.
+struct Flag {
+  const char* suffix;
+  RTCIntersectContextFlags coherence;
+};
+
+/// Which of the two is better for shadow rays depends on the scene.
+std::vector<Flag> flags_for(RayKind kind) {
+  const Flag coherent = {"", RTC_INTERSECT_CONTEXT_FLAG_COHERENT};
+  const Flag incoherent = {"", RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT};
+  switch (kind) {
+    case RayKind::primary:
+      return {coherent};
+    case RayKind::shadow:
+      return {coherent, {"-incoherent", incoherent.coherence}};
+    case RayKind::diffuse:
+      return {incoherent};
+  }
+  return {};
+}
+
+}  // namespace
+
+EmbreePeer::EmbreePeer(const BenchScene& scene)
+    : scene_(scene),
+      device_(rtcNewDevice("frequency_level=simd512")),
+      isa_(cpu_supports(Isa::avx512) ? "avx512" : "avx2"),
+      callbacks_(cpu_supports(Isa::avx512) ? avx512::embree_callbacks : avx2::embree_callbacks),
+      packed_(scene.spheres.size()) {
+  builtin_ = build(builtin_geometry());
+  user_ = build(user_geometry());
+}
+
+EmbreePeer::~EmbreePeer() {
+  rtcReleaseScene(user_);
+  rtcReleaseScene(builtin_);
+  rtcReleaseDevice(device_);
+}
+
+RTCScene EmbreePeer::build(RTCGeometry geometry) const {
+  const RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+RTCGeometry EmbreePeer::builtin_geometry() const {
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* const data = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                              4 * sizeof(float), scene_.spheres.size()));
+  for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
+    const Sphere& s = scene_.spheres[i];
+    data[4 * i] = s.center.x;
+    data[4 * i + 1] = s.center.y;
+    data[4 * i + 2] = s.center.z;
+    data[4 * i + 3] = s.radius;
+  }
+  return geometry;
+}
+
+RTCGeometry EmbreePeer::user_geometry() {
+  for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
+    const Sphere& s = scene_.spheres[i];
+    packed_[i] = {s.center.x, s.center.y, s.center.z, s.radius * s.radius};
+  }
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(scene_.spheres.size()));
+  rtcSetGeometryUserData(geometry, packed_.data());
+  rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, callbacks_.intersect);
+  rtcSetGeometryOccludedFunction(geometry, callbacks_.occluded);
+  return geometry;
+}
+
+std::vector<std::unique_ptr<Contender>> EmbreePeer::contenders(const Workload& workload) {
+  std::vector<std::unique_ptr<Contender>> all;
+  const auto add = [&](const char* geometry, RTCScene scene, const Mode& mode, const Flag& flag) {
+    const std::string name = std::string("embree-") + geometry + "-" + mode.name + flag.suffix;
+    Contender::Info info = {name, isa_, mode.width, "float", true, false};
+    all.push_back(std::make_unique<EmbreeContender>(std::move(info), workload, scene, mode.call,
+                                                    flag.coherence, rays_));
+  };
+  for (const Flag& flag : flags_for(workload.kind)) {
+    for (const Mode& mode : modes) add("builtin", builtin_, mode, flag);
+    for (const Mode& mode : modes) add("user", user_, mode, flag);
+  }
+  return all;
+}
+
+std::string embree_version() { return RTC_VERSION_STRING; }
+
+}  // namespace boule::bench

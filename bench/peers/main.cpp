@@ -1,0 +1,101 @@
+// The referee: Boule against Embree, one process, the same rays, answers compared.
+//
+//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,diffuse] [--isa avx2,avx512]
+//               [--reps N] [--threads N] [--size N] [--json FILE]
+//
+// Exit code 1: the truth failed its test against the reference, or a robust contender of Boule's
+// differs from it; 2: bad arguments.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "bench/peers/report.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::bench {
+namespace {
+
+struct Arguments {
+  RefereeSettings settings;
+  std::string json;
+};
+
+std::vector<std::string> default_isas() {
+  std::vector<std::string> names;
+  for (const IsaInfo& info : list_isas()) {
+    const bool wanted = info.isa == Isa::avx2 || info.isa == Isa::avx512;
+    if (wanted && info.supported) names.emplace_back(info.name);
+  }
+  return names;
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  RefereeSettings& settings = arguments.settings;
+  settings.scenes = scene_names();
+  settings.kinds = {RayKind::primary, RayKind::shadow, RayKind::diffuse};
+  settings.isas = default_isas();
+  std::map<std::string, RayKind> kinds;
+  for (const RayKind kind : settings.kinds) kinds[name_of(kind)] = kind;
+  app.add_option("--scenes", settings.scenes, "uN: N random spheres; flakeD: sphereflake, depth D")
+      ->delimiter(',');
+  app.add_option("--rays", settings.kinds, "primary, shadow, diffuse")
+      ->delimiter(',')
+      ->transform(CLI::CheckedTransformer(kinds));
+  app.add_option("--isa", settings.isas, "Instruction sets of Boule's kernels")->delimiter(',');
+  app.add_option("--reps", settings.repetitions, "Repetitions (5)")->check(CLI::Range(1, 1000));
+  app.add_option("--threads", settings.threads, "1: CPU time (default); more: wall clock")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--size", settings.side, "Pixels along the picture's side (1024)")
+      ->check(CLI::Range(1, 16384));
+  app.add_option("--json", arguments.json, "File to write the figures to");
+}
+
+/// The first name that cannot be had.
+Status find_unknown(const RefereeSettings& settings) {
+  for (const std::string& isa : settings.isas) {
+    const auto kernels = select_kernels(isa);
+    if (!kernels) return kernels.error();
+  }
+  return std::nullopt;
+}
+
+int fail(const Diagnostic& diagnostic, int code) {
+  std::fprintf(stderr, "%s\n", format_diagnostic(diagnostic).c_str());
+  return code;
+}
+
+bool all_right(const Results& results) {
+  const auto true_truth = [](const Check& check) { return check.truth_mismatches == 0; };
+  const auto right = [](const Row& row) { return !row.exact || row.mismatches == 0; };
+  return std::all_of(results.checks.begin(), results.checks.end(), true_truth) &&
+         std::all_of(results.rows.begin(), results.rows.end(), right);
+}
+
+int run(const Arguments& arguments) {
+  if (const Status unknown = find_unknown(arguments.settings)) return fail(*unknown, 2);
+  const Machine machine = this_machine();
+  print_machine(machine, arguments.settings);
+  const Result<Results> results = compare(arguments.settings, print_workload);
+  if (!results) return fail(results.error(), 2);
+  if (!arguments.json.empty()) {
+    const Status failed = write_json(arguments.json, machine, arguments.settings, results.value());
+    if (failed) return fail(*failed, 1);
+  }
+  return all_right(results.value()) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Compares Boule with Embree: the same rays, one process, answers checked.");
+  boule::bench::Arguments arguments;
+  boule::bench::add_options(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return boule::bench::run(arguments);
+}

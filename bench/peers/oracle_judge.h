@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "bench/peers/contender.h"
+#include "bench/peers/double_tree.h"
+
+namespace boule::bench {
+
+/// Of `judged` answers that differ from the truth, how many exact arithmetic finds wrong.
+struct OracleVerdict {
+  std::size_t judged = 0, wrong = 0;
+};
+
+/// Decides between a contender and the truth by the tests' oracle of 1400 bits. It judges the ray
+/// that was asked for, its origin in double: who rounds it to float answers for that as well.
+class OracleJudge {
+ public:
+  /// `tree` holds the scene's spheres; all must outlive the judge.
+  OracleJudge(const Workload& workload, const DoubleTree& tree)
+      : workload_(workload), tree_(tree) {}
+
+  /// Judges the answers to these rays, at most 1000 of them, spread evenly. Nothing where the build
+  /// has no MPFR.
+  std::optional<OracleVerdict> judge(const Answers& answers, const std::vector<std::size_t>& rays);
+
+ private:
+  const Hit& nearest(std::size_t ray);
+
+  Workload workload_;
+  const DoubleTree& tree_;
+  std::map<std::size_t, Hit> nearest_;  ///< contenders err on the same rays
+};
+
+}  // namespace boule::bench

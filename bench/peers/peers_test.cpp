@@ -1,0 +1,69 @@
+// The referee on a small picture: everyone answers, and Boule's exact contenders are right.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+using nlohmann::json;
+
+json run_referee(const std::string& rays) {
+  const TempDir folder;
+  const std::string file = (folder.path() / "peers.json").string();
+  const ProgramRun run = run_program(
+      BOULE_BENCH_PEERS,
+      {{"--scenes", "u1000", "--rays", rays, "--reps", "1", "--size", "96", "--json", file}, {}});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  std::ifstream stream(file);
+  return json::parse(stream);
+}
+
+void expect_sound(const json& row) {
+  EXPECT_GT(row["mrays_per_s"].get<double>(), 0) << row;
+  EXPECT_GT(row["ratio_to_best_embree"].get<double>(), 0) << row;
+  EXPECT_LE(row["min"].get<double>(), row["max"].get<double>()) << row;
+  if (row["solver"] == "robust") {
+    EXPECT_EQ(row["mismatches"], 0) << row;
+  } else {
+    EXPECT_LE(row["mismatches"].get<int>(), 20) << row;  // of 9,216 rays, in float
+  }
+}
+
+TEST(Peers, AnswerEveryKindOfRays) {
+  const json report = run_referee("primary,shadow,diffuse");
+  ASSERT_EQ(report["checks"].size(), 3U);
+  for (const json& check : report["checks"]) {
+    EXPECT_EQ(check["truth_mismatches"], 0) << check;
+    EXPECT_EQ(check["sampled"], 4096) << check;
+  }
+  std::set<std::string> contenders;
+  for (const json& row : report["rows"]) {
+    expect_sound(row);
+    contenders.insert(row["rays"].get<std::string>() + " " + row["contender"].get<std::string>());
+  }
+  for (const char* rays : {"primary", "shadow", "diffuse"}) {
+    for (const char* name : {"embree-builtin-1M", "embree-user-1", "embree-user-16"}) {
+      EXPECT_THAT(contenders, testing::Contains(std::string(rays) + " " + name));
+    }
+  }
+  EXPECT_FALSE(report["machine"]["cpu"].get<std::string>().empty());
+}
+
+TEST(Peers, RefuseWhatTheyDoNotKnow) {
+  for (const char* option : {"--scenes=cornell", "--rays=tertiary", "--isa=avx1024", "--reps=0"}) {
+    const ProgramRun run = run_program(BOULE_BENCH_PEERS, {{option, "--size", "8"}, {}});
+    EXPECT_EQ(run.exit_code, 2) << option;
+    EXPECT_FALSE(run.err.empty()) << option;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test

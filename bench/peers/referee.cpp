@@ -1,0 +1,181 @@
+#include "bench/peers/referee.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/camera_rays.h"
+#include "bench/peers/boule_peer.h"
+#include "bench/peers/contender.h"
+#include "bench/peers/double_tree.h"
+#include "bench/peers/embree_peer.h"
+#include "bench/peers/judge.h"
+#include "render/frame/scheduler.h"
+
+namespace boule::bench {
+namespace {
+
+/// A contender and its rates so far, in Mray/s.
+struct Entrant {
+  std::unique_ptr<Contender> contender;
+  std::vector<double> rates;
+  std::size_t mismatches = 0;
+  std::optional<OracleVerdict> oracle = {};
+
+  [[nodiscard]] double best() const { return *std::max_element(rates.begin(), rates.end()); }
+  [[nodiscard]] double median() const {
+    std::vector<double> sorted = rates;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t middle = sorted.size() / 2;
+    if (sorted.size() % 2 == 1) return sorted[middle];
+    return (sorted[middle - 1] + sorted[middle]) / 2;
+  }
+};
+
+double seconds_of(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Seconds that one pass over all rays takes: CPU time of the one thread, or wall clock.
+double time_pass(Contender& contender, std::size_t size, unsigned threads) {
+  contender.prepare();
+  const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+  const double begin = seconds_of(clock);
+  if (threads == 1) {
+    contender.trace(0, size);
+  } else {
+    Scheduler scheduler(threads);
+    const auto failure =
+        scheduler.run((size + block_size - 1) / block_size, [&](unsigned, std::size_t block) {
+          contender.trace(block * block_size, std::min(size, (block + 1) * block_size));
+        });
+    if (failure) return 0;
+  }
+  return seconds_of(clock) - begin;
+}
+
+/// The best rate that Embree, or Boule, has shown so far.
+double best_of(const std::vector<Entrant>& entrants, bool embree) {
+  double best = 0;
+  for (const Entrant& e : entrants) {
+    if (e.contender->info().embree == embree && !e.rates.empty()) best = std::max(best, e.best());
+  }
+  return best;
+}
+
+bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
+  if (entrant.rates.empty()) return false;
+  const double handicap = entrant.rates.size() == 1 ? 10 : 3;
+  return entrant.best() * handicap < best_of(all, entrant.contender->info().embree);
+}
+
+void run_all(std::vector<Entrant>& entrants, const Judge& judge, OracleJudge& oracle,
+             std::size_t size, const RefereeSettings& settings) {
+  Answers answers;
+  for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
+    for (Entrant& entrant : entrants) {
+      if (is_out(entrant, entrants)) continue;
+      const double seconds = time_pass(*entrant.contender, size, settings.threads);
+      entrant.rates.push_back(1e-6 * static_cast<double>(size) / seconds);
+      if (repetition > 0) continue;
+      entrant.contender->answer(answers);
+      const bool exact = entrant.contender->info().exact;
+      const std::vector<std::size_t> wrong = judge.mismatches(answers, exact);
+      entrant.mismatches = wrong.size();
+      entrant.oracle = oracle.judge(answers, wrong);
+    }
+  }
+}
+
+std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload& workload) {
+  double best_embree = 0;
+  for (const Entrant& e : entrants) {
+    if (e.contender->info().embree) best_embree = std::max(best_embree, e.median());
+  }
+  std::vector<Row> rows;
+  for (const Entrant& e : entrants) {
+    const Contender::Info& info = e.contender->info();
+    Row row;
+    row.scene = workload.scene->name;
+    row.rays = name_of(workload.kind);
+    row.contender = info.name;
+    row.isa = info.isa;
+    row.width = info.width;
+    row.solver = info.solver;
+    row.median = e.median();
+    row.min = *std::min_element(e.rates.begin(), e.rates.end());
+    row.max = e.best();
+    row.repetitions = static_cast<int>(e.rates.size());
+    row.ratio_to_best_embree = row.median / best_embree;
+    row.mismatches = e.mismatches;
+    row.oracle = e.oracle;
+    row.exact = info.exact;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// One scene and all that works on it.
+struct Arena {
+  const RefereeSettings& settings;
+  BenchScene scene;
+  DoubleTree tree;
+  EmbreePeer embree;
+  BoulePeer boule;
+  Scheduler scheduler{0};
+  ParallelFor parallel_for = scheduler.parallel_for();
+
+  Arena(const RefereeSettings& what, BenchScene where)
+      : settings(what),
+        scene(std::move(where)),
+        tree(scene.spheres),
+        embree(scene),
+        boule(scene, what.isas) {}
+
+  std::vector<Row> compare(const Workload& workload, Check& check) {
+    const Judge judge(workload, tree, parallel_for);
+    check = {scene.name, name_of(workload.kind), workload.rays->size(),
+             std::min(reference_samples, workload.rays->size()),
+             judge.differ_from_reference(reference_samples, parallel_for)};
+    std::vector<Entrant> entrants;
+    for (auto& contender : embree.contenders(workload))
+      entrants.push_back({std::move(contender), {}});
+    for (auto& contender : boule.contenders(workload))
+      entrants.push_back({std::move(contender), {}});
+    OracleJudge oracle(workload, tree);
+    run_all(entrants, judge, oracle, workload.rays->size(), settings);
+    return make_rows(entrants, workload);
+  }
+};
+
+}  // namespace
+
+Result<Results> compare(const RefereeSettings& settings,
+                        const std::function<void(const Check&, const std::vector<Row>&)>& report) {
+  Results results;
+  for (const std::string& name : settings.scenes) {
+    Result<BenchScene> scene = make_scene(name);
+    if (!scene) return scene.error();
+    Arena arena(settings, std::move(scene).value());
+    RayBuffer primary = primary_rays(arena.scene, settings.side);
+    const Judge first({&arena.scene, RayKind::primary, &primary}, arena.tree, arena.parallel_for);
+    for (const RayKind kind : settings.kinds) {
+      RayBuffer rays;
+      if (kind == RayKind::shadow) rays = shadow_rays(arena.scene, primary, first.truth().hits);
+      if (kind == RayKind::diffuse) rays = diffuse_rays(arena.scene, primary, first.truth().hits);
+      const Workload workload = {&arena.scene, kind, kind == RayKind::primary ? &primary : &rays};
+      if (workload.rays->size() == 0) continue;
+      Check check;
+      const std::vector<Row> rows = arena.compare(workload, check);
+      report(check, rows);
+      results.checks.push_back(check);
+      results.rows.insert(results.rows.end(), rows.begin(), rows.end());
+    }
+  }
+  return results;
+}
+
+}  // namespace boule::bench

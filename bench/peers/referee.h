@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/peers/oracle_judge.h"
+#include "bench/peers/rays.h"
+#include "core/base/error.h"
+
+namespace boule::bench {
+
+/// What to compare.
+struct RefereeSettings {
+  std::vector<std::string> scenes;
+  std::vector<RayKind> kinds;
+  std::vector<std::string> isas;  ///< of Boule's kernels
+  int repetitions = 5;
+  unsigned threads = 1;  ///< 1: rates by the thread's CPU time; more: by the clock on the wall
+  int side = 1024;       ///< pixels
+};
+
+/// One contender's figures on one workload.
+struct Row {
+  std::string scene, rays, contender, isa;
+  std::size_t width = 0;  ///< rays per call
+  std::string solver;
+  double median = 0, min = 0, max = 0;  ///< Mray/s over the repetitions
+  int repetitions = 0;
+  double ratio_to_best_embree = 0;  ///< of medians
+  std::size_t mismatches = 0;
+  std::optional<OracleVerdict> oracle;  ///< on the mismatches; none without MPFR
+  bool exact = false;                   ///< a mismatch is a fault
+};
+
+/// One workload and how the truth about it stood the test against brute force.
+struct Check {
+  std::string scene, rays;
+  std::size_t count = 0;             ///< rays
+  std::size_t sampled = 0;           ///< rays that the reference answered as well
+  std::size_t truth_mismatches = 0;  ///< of these
+};
+
+struct Results {
+  std::vector<Check> checks;
+  std::vector<Row> rows;
+};
+
+/// Rays that the reference answers of every workload.
+inline constexpr std::size_t reference_samples = 4096;
+
+/// Runs all contenders on all workloads, repetitions interleaved, and judges their answers. A
+/// contender that is below a tenth of the best rate of its side after one repetition, or below a
+/// third after two, gets no more. `report` hears of each workload when it is done: its check and
+/// its rows.
+Result<Results> compare(const RefereeSettings& settings,
+                        const std::function<void(const Check&, const std::vector<Row>&)>& report);
+
+}  // namespace boule::bench
