@@ -236,6 +236,7 @@ class BundleHits {
       t_[i] = t[lane];
       slot_[i] = solved_[i] = slot_bits(slot);
       solved_any_[ray / width] = true;
+      uniform_[ray / width] = false;
       low_[i] = v.low;
       high_[i] = v.high < high_[i] ? v.high : high_[i];
     }
@@ -271,8 +272,6 @@ class BundleHits {
     const int p = ray / width;
     ExactRays rays;
     load_exact<common>(stream_, rays_, ray, rays);
-    alignas(64) double t[width];
-    alignas(64) std::int32_t id[width];
     const Real slots = load(slot_ + ray);
     const WideMask hit = widen(slots <= slots);  // no_slot is NaN
     Wide nearest(no_hit);
@@ -284,17 +283,33 @@ class BundleHits {
                                               : gather_slots(spheres_, slot_ + ray));
     }
     nearest = select(hit, nearest, Wide(no_hit));
-    store(t, nearest);
-    for (int lane = 0; lane < width; ++lane) {
-      const std::uint32_t slot = slot_of(slot_[ray + lane]);
-      id[lane] = slot == no_slot ? -1 : spheres_.id[slot];
-    }
-    if (planes.size != 0) meet_planes(rays, planes, t, id);
     const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
     const std::size_t live = stream_.live(first);
+    if (live == static_cast<std::size_t>(width) && planes.size == 0) {
+      store(hits.t + first, nearest);
+      find_ids(ray, hits.id + first);
+      return;
+    }
+    alignas(64) double t[width];
+    alignas(64) std::int32_t id[width];
+    store(t, nearest);
+    find_ids(ray, id);
+    meet_planes(rays, planes, t, id);
     for (std::size_t lane = 0; lane < live; ++lane) {
       hits.t[first + lane] = t[lane];
       hits.id[first + lane] = id[lane];
+    }
+  }
+
+  BOULE_INLINE void find_ids(int ray, std::int32_t* id) const {
+    if (uniform_[ray / width]) {
+      const std::int32_t same = spheres_.id[slot_of(slot_[ray])];
+      for (int lane = 0; lane < width; ++lane) id[lane] = same;
+      return;
+    }
+    for (int lane = 0; lane < width; ++lane) {
+      const std::uint32_t slot = slot_of(slot_[ray + lane]);
+      id[lane] = slot == no_slot ? -1 : spheres_.id[slot];
     }
   }
 

@@ -196,6 +196,23 @@ struct BundleSums {
   }
 };
 
+/// Asks for the packet at `first`, unless the stream ends before it: a bundle's rays come once, and
+/// from memory.
+BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
+  if (first >= rays.size) return;
+  for (int line = 0; line * 8 < width; ++line) {
+    __builtin_prefetch(rays.org_x + first + line * 8);
+    __builtin_prefetch(rays.org_y + first + line * 8);
+    __builtin_prefetch(rays.org_z + first + line * 8);
+  }
+  __builtin_prefetch(rays.dir_x + first);
+  __builtin_prefetch(rays.dir_y + first);
+  __builtin_prefetch(rays.dir_z + first);
+  __builtin_prefetch(rays.tmin + first);
+  __builtin_prefetch(rays.tmax + first);
+  __builtin_prefetch(rays.source + first);
+}
+
 /// The packets begin .. end of a bundle: puts their rays into its frame and returns their extent.
 template <Common common>
 BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<common>& projection,
@@ -203,6 +220,8 @@ BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<comm
   ExtentLanes extent;
   for (int p = begin; p < end; ++p) {
     const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(p * width));
+    prefetch_packet(stream.rays(),
+                    bundle.first + static_cast<std::size_t>(p * width + bundle_size));
     const Projected ray = projection.project(*place.rays, place.first);
     sums.belongs = sums.belongs & projection.belongs(*place.rays, place.first);
     sums.template add<common>(ray);
