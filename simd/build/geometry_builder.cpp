@@ -23,19 +23,13 @@ bool wants_tree(std::size_t spheres, Structure structure) {
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
 }
 
-SphereBlock empty_leaf() {
-  SphereBlock block{};
-  for (float& r : block.radius) r = nan;
-  return block;
-}
-
 }  // namespace
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
-                   Structure structure)
-    : Geometry(
-          spheres, planes,
-          wants_tree(spheres.size(), structure) ? build_bvh(spheres) : no_bvh(spheres.size())) {}
+                   Structure structure, const ParallelFor& parallel_for)
+    : Geometry(spheres, planes,
+               wants_tree(spheres.size(), structure) ? build_bvh(spheres, parallel_for)
+                                                     : no_bvh(spheres.size())) {}
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
     : nodes_(std::move(bvh.nodes)),
@@ -46,7 +40,7 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
       // filter reject it first.
       id_(bvh.slots.size(), -2),
-      leaves_(leaf_count_, empty_leaf()),
+      leaves_(std::move(bvh.leaves)),
       center_x_(scanned_),
       center_y_(scanned_),
       center_z_(scanned_),
@@ -64,19 +58,9 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
     const std::int32_t id = bvh.slots[slot];
     if (id < 0) continue;
     id_[slot] = id;
-    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
-    slot < scanned_ ? set_scanned(slot, sphere) : set_leaf(slot - scanned_, sphere);
+    if (slot < scanned_) set_scanned(slot, spheres[static_cast<std::size_t>(id)]);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
-}
-
-void Geometry::set_leaf(std::size_t i, const Sphere& sphere) {
-  SphereBlock& leaf = leaves_[i / bvh_leaf_size];
-  const std::size_t k = i % bvh_leaf_size;
-  leaf.center_x[k] = sphere.center.x;
-  leaf.center_y[k] = sphere.center.y;
-  leaf.center_z[k] = sphere.center.z;
-  leaf.radius[k] = sphere.radius;
 }
 
 void Geometry::set_scanned(std::size_t i, const Sphere& sphere) {

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
 #include <limits>
+#include <thread>
 
 #include "simd/abi/isa.h"
 #include "tests/support/case_random.h"
@@ -143,11 +148,51 @@ TEST(BvhBuilder, GiantsAndWhatFitsNoBoxAreScanned) {
   check(bvh, spheres);
 }
 
-TEST(BvhBuilder, IsTheSameTreeEveryTime) {
-  const auto spheres = cloud(3000);
-  const Bvh a = build_bvh(spheres), b = build_bvh(spheres);
+/// Bodies on several threads, each taking the next when it is free.
+ParallelFor on_threads(unsigned count) {
+  return [count](std::size_t size, const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < size; i = next++) body(i);
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+  };
+}
+
+void last_first(std::size_t size, const std::function<void(std::size_t)>& body) {
+  for (std::size_t i = size; i-- > 0;) body(i);
+}
+
+/// Bit for bit, of what is used.
+void expect_same(const Bvh& a, const Bvh& b) {
+  EXPECT_EQ(a.scanned, b.scanned);
   EXPECT_EQ(a.slots, b.slots);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+    const BvhNode &x = a.nodes[i], &y = b.nodes[i];
+    constexpr std::size_t rows = offsetof(BvhNode, size) + sizeof(x.size);
+    ASSERT_EQ(std::memcmp(&x, &y, rows), 0) << "node " << i;
+  }
+  const std::size_t leaves = (a.slots.size() - a.scanned) / bvh_leaf_size;
+  if (leaves > 0) {
+    EXPECT_EQ(std::memcmp(a.leaves.data(), b.leaves.data(), leaves * sizeof(SphereBlock)), 0);
+  }
+}
+
+TEST(BvhBuilder, IsTheSameTreeForAnyThreads) {
+  for (const std::size_t count : {5U, 3000U, 70'000U}) {
+    std::vector<Sphere> spheres = cloud(count);
+    spheres[count / 2] = {{0, -1e6F, 0}, 1e6F, 0};
+    spheres[count / 3].center.x = inf;
+    const Bvh serial = build_bvh(spheres);
+    check(serial, spheres);
+    expect_same(serial, build_bvh(spheres));
+    expect_same(serial, build_bvh(spheres, last_first));
+    for (const unsigned threads : {2U, 3U, 7U})
+      expect_same(serial, build_bvh(spheres, on_threads(threads)));
+  }
 }
 
 }  // namespace
