@@ -43,7 +43,7 @@ class Builder {
   }
 
   void set_leaf(BinaryNode& node, std::span<const BuildSphere> spheres) {
-    for (const BuildSphere& sphere : spheres) node.box.add(outward_box(sphere.at));
+    for (const BuildSphere& sphere : spheres) node.box.add(outward_box(sphere));
     node.right = tree_.leaves++;
     node.size = static_cast<std::uint32_t>(spheres.size());
   }

@@ -5,26 +5,25 @@
 #include <cstdint>
 #include <limits>
 
+#include "simd/build/float4.h"
+
 namespace boule {
 
-/// A sphere while the tree is built: centre and radius, in four lanes, and which one it is.
+/// A sphere while the tree is built: centre and radius, and which one it is.
 struct BuildSphere {
   float at[4];
   std::int32_t id;
 };
 
-/// The range of four coordinates, the fourth for a radius or for nothing: loops over four are what
-/// compilers make vectors of. The default one is empty.
+/// The range of four coordinates, the fourth for a radius or for nothing. The default one is empty.
 struct BuildBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
-  float low[4] = {inf, inf, inf, inf}, high[4] = {-inf, -inf, -inf, -inf};
+  Float4 low = {inf, inf, inf, inf}, high = {-inf, -inf, -inf, -inf};
 
-  void add(const float (&from)[4], const float (&to)[4]) {
-    for (int k = 0; k < 4; ++k) low[k] = from[k] < low[k] ? from[k] : low[k];
-    for (int k = 0; k < 4; ++k) high[k] = high[k] < to[k] ? to[k] : high[k];
+  void add(const BuildBox& box) {
+    low = min4(low, box.low);
+    high = max4(high, box.high);
   }
-  void add(const BuildBox& box) { add(box.low, box.high); }
-
   /// Half of the surface, in double: boxes of 1e18 square well. Of an empty one anything, not NaN.
   [[nodiscard]] double area() const {
     const double x = double{high[0]} - double{low[0]}, y = double{high[1]} - double{low[1]};
@@ -33,12 +32,10 @@ struct BuildBox {
   }
 };
 
-/// A box around a sphere, rounded to nearest: what splits are weighed by. `at[3]` must be >= 0.
-inline BuildBox rough_box(const float (&at)[4]) {
-  BuildBox box;
-  for (int k = 0; k < 4; ++k) box.low[k] = at[k] - at[3];
-  for (int k = 0; k < 4; ++k) box.high[k] = at[k] + at[3];
-  return box;
+/// A box around a sphere, rounded to nearest: what splits are weighed by.
+inline BuildBox rough_box(const BuildSphere& sphere) {
+  const Float4 at = load4(sphere.at), r = {at[3], at[3], at[3], at[3]};
+  return {at - r, at + r};
 }
 
 /// The box that is tested: it holds the sphere grown to r (1 + 2^-22), whatever was rounded, and is
@@ -48,9 +45,10 @@ inline BuildBox rough_box(const float (&at)[4]) {
 /// of x has steps of at most 2^-23 |x|: 2^-22 |x| outward are two steps or more, and rounding to
 /// float takes away half a step, or, where that crosses into longer steps, one of at least four.
 /// Below 2^-126 steps are 2^-149: 2^-147 are four of them.
-inline BuildBox outward_box(const float (&at)[4]) {
+inline BuildBox outward_box(const BuildSphere& sphere) {
+  const auto& at = sphere.at;
   BuildBox box;
-  const double r = std::fabs(double{at[3]}) * (1 + 0x1p-22);
+  const double r = double{at[3]} * (1 + 0x1p-22);
   for (int k = 0; k < 3; ++k) {
     const double low = double{at[k]} - r, high = double{at[k]} + r;
     box.low[k] = static_cast<float>(low - (std::fabs(low) * 0x1p-22 + 0x1p-147));

@@ -31,7 +31,7 @@ BuildBox box_of_all(const std::vector<Sphere>& spheres, const ParallelFor& paral
   std::vector<BuildBox> boxes(spheres.size() / chunk_size + 1);
   for_chunks(parallel_for, spheres.size(), [&](auto chunk, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
-      if (in_filter_range(spheres[i])) boxes[chunk].add(rough_box(build_sphere(spheres[i], 0).at));
+      if (in_filter_range(spheres[i])) boxes[chunk].add(rough_box(build_sphere(spheres[i], 0)));
     }
   });
   BuildBox all;
@@ -45,7 +45,7 @@ std::vector<std::int32_t> find_apart(const std::vector<Sphere>& spheres,
   constexpr std::size_t most = 16;
   const double giant_area = 0.25 * box_of_all(spheres, parallel_for).area();
   const auto is_giant = [&](const Sphere& s) {
-    return rough_box(build_sphere(s, 0).at).area() > giant_area;
+    return rough_box(build_sphere(s, 0)).area() > giant_area;
   };
   std::vector<std::vector<std::int32_t>> found(spheres.size() / chunk_size + 1);
   for_chunks(parallel_for, spheres.size(), [&](auto chunk, std::size_t first, std::size_t end) {

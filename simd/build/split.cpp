@@ -34,12 +34,11 @@ BinGrid::BinGrid(const BuildBox& extent) {
 }
 
 void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres) {
-  const auto axes = static_cast<std::size_t>(grid.axes());
+  const int axes = grid.axes();
   for (const BuildSphere& sphere : spheres) {
-    const BuildBox box = rough_box(sphere.at);
-    std::int32_t bin[4];
-    grid.bins_of(sphere.at, bin);
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+    const BuildBox box = rough_box(sphere);
+    const Int4 bin = grid.bins_of(sphere);
+    for (int axis = 0; axis < axes; ++axis) {
       boxes[axis][bin[axis]].add(box);
       ++counts[axis][bin[axis]];
     }
@@ -80,14 +79,14 @@ Cut best_cut(const Bins& bins, int axes) {
 
 BuildBox extent_of(std::span<const BuildSphere> spheres) {
   BuildBox extent;
-  for (const BuildSphere& sphere : spheres) extent.add(sphere.at, sphere.at);
+  for (const BuildSphere& sphere : spheres) extent.add({load4(sphere.at), load4(sphere.at)});
   return extent;
 }
 
 std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent) {
   const std::size_t middle = (leaves_of(spheres.size()) + 1) / 2 * bvh_leaf_size;
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 4; ++k) {
+  int axis = 0;
+  for (int k = 1; k < 4; ++k) {
     const bool longer = extent.high[k] - extent.low[k] > extent.high[axis] - extent.low[axis];
     if (longer && (k < 3 || extent.high[axis] == extent.low[axis])) axis = k;
   }
@@ -106,7 +105,7 @@ std::size_t count_left(const Bins& bins, const Cut& cut) {
 void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                Targets targets) {
   for (const BuildSphere& sphere : spheres) {
-    const bool is_left = grid.bin(sphere.at, cut.axis) < cut.bin;
+    const bool is_left = grid.bin_of(sphere, cut.axis) < cut.bin;
     BuildSphere*& target = is_left ? targets.left : targets.right;
     *target++ = sphere;
   }
@@ -121,7 +120,7 @@ std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch
   if (cut.axis < 0) return halve(spheres, extent);
   std::size_t left = 0, right = 0;
   for (const BuildSphere sphere : spheres) {  // both stores, no branch: it could not be foretold
-    const bool is_left = grid.bin(sphere.at, cut.axis) < cut.bin;
+    const bool is_left = grid.bin_of(sphere, cut.axis) < cut.bin;
     spheres[left] = sphere;
     scratch[right] = sphere;
     left += is_left ? 1 : 0;

@@ -24,18 +24,19 @@ class BinGrid {
   /// `extent`: of the spheres' centres and radii.
   explicit BinGrid(const BuildBox& extent);
 
-  /// 0 .. bins - 1; always 0 along an axis that is too short to be divided.
-  [[nodiscard]] int bin(const float (&at)[4], int axis) const {
-    return static_cast<int>((at[axis] - low_[axis]) * scale_[axis]);
+  /// The bins along the four axes, 0 .. bins - 1; always 0 where an axis cannot be divided.
+  [[nodiscard]] Int4 bins_of(const BuildSphere& sphere) const {
+    return truncate4((load4(sphere.at) - low_) * scale_);
   }
-  void bins_of(const float (&at)[4], std::int32_t (&out)[4]) const {
-    for (int k = 0; k < 4; ++k) out[k] = static_cast<std::int32_t>((at[k] - low_[k]) * scale_[k]);
+  /// The same for one axis.
+  [[nodiscard]] int bin_of(const BuildSphere& sphere, int axis) const {
+    return static_cast<int>((sphere.at[axis] - low_[axis]) * scale_[axis]);
   }
   /// 3, or 4 if radii are considered.
   [[nodiscard]] int axes() const { return scale_[3] > 0 ? 4 : 3; }
 
  private:
-  float low_[4] = {}, scale_[4] = {};
+  Float4 low_ = {}, scale_ = {};
 };
 
 /// What lies in each bin. Counts and bounds: the order of adding makes no difference.
