@@ -18,6 +18,11 @@ struct Sweep {
   }
 };
 
+/// 1 if a sphere goes left, else 0, by the sign of a difference: a comparison becomes a branch.
+std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphere) {
+  return static_cast<std::uint32_t>(grid.bin_of(sphere, cut.axis) - cut.bin) >> 31U;
+}
+
 }  // namespace
 
 BinGrid::BinGrid(const BuildBox& extent) {
@@ -38,10 +43,14 @@ void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres) {
   for (const BuildSphere& sphere : spheres) {
     const BuildBox box = rough_box(sphere);
     const Int4 bin = grid.bins_of(sphere);
-    for (int axis = 0; axis < axes; ++axis) {
-      boxes[axis][bin[axis]].add(box);
-      ++counts[axis][bin[axis]];
-    }
+    const auto add_along = [&](int axis, int place) {
+      boxes[axis][place].add(box);
+      ++counts[axis][place];
+    };
+    add_along(0, bin[0]);
+    add_along(1, bin[1]);
+    add_along(2, bin[2]);
+    if (axes > 3) add_along(3, bin[3]);
   }
 }
 
@@ -104,11 +113,8 @@ std::size_t count_left(const Bins& bins, const Cut& cut) {
 
 void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                Targets targets) {
-  for (const BuildSphere& sphere : spheres) {
-    const bool is_left = grid.bin_of(sphere, cut.axis) < cut.bin;
-    BuildSphere*& target = is_left ? targets.left : targets.right;
-    *target++ = sphere;
-  }
+  BuildSphere* next[2] = {targets.right, targets.left};
+  for (const BuildSphere& sphere : spheres) *next[is_left(grid, cut, sphere)]++ = sphere;
 }
 
 std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch) {
@@ -119,12 +125,12 @@ std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch
   const Cut cut = best_cut(bins, grid.axes());
   if (cut.axis < 0) return halve(spheres, extent);
   std::size_t left = 0, right = 0;
-  for (const BuildSphere sphere : spheres) {  // both stores, no branch: it could not be foretold
-    const bool is_left = grid.bin_of(sphere, cut.axis) < cut.bin;
+  for (const BuildSphere sphere : spheres) {  // no branch: it could not be foretold
     spheres[left] = sphere;
     scratch[right] = sphere;
-    left += is_left ? 1 : 0;
-    right += is_left ? 0 : 1;
+    const std::size_t lefts = is_left(grid, cut, sphere);
+    left += lefts;
+    right += 1 - lefts;
   }
   std::copy_n(scratch.begin(), right, spheres.begin() + static_cast<std::ptrdiff_t>(left));
   return left;
