@@ -71,12 +71,6 @@ CollapseCosts choose_places(BinaryNode& node, const CollapseCosts& left,
   costs[0] = 0;
   costs[1] = node.box.area() + costs.back();
   node.take[0] = node.take[1] = 0;
-  for (std::size_t j = 2; j + 1 < costs.size(); ++j) {
-    if (costs[1] < costs[j]) {
-      costs[j] = costs[1];
-      node.take[j] = 0;
-    }
-  }
   return costs;
 }
 

@@ -14,12 +14,13 @@ struct BinaryNode {
   BuildBox box;          ///< rounded outward
   std::uint32_t right;   ///< the second child; the first follows this node. Of a leaf: its number
   std::uint32_t size;    ///< spheres of a leaf; 0: no leaf
-  std::uint8_t take[9];  ///< of at most j places in the wide node, the first child's; 0: none is
-                         ///< divided, the node itself takes one
+  std::uint8_t take[9];  ///< of j places in the wide node, the first child's; 0: it takes one
+                         ///< itself
 };
 
-/// What the nodes under a binary node cost if it takes at most j places in a wide node, j = 1 .. 8:
-/// the sum of the areas of the wide nodes. Leaves cost the same in every tree of wide nodes.
+/// What a binary node and those under it cost if it takes j places in a wide node, j = 1 .. 8: the
+/// sum of the areas of the wide nodes. Leaves cost the same in every tree of wide nodes, and use up
+/// places that nobody needs. More places never cost more: all are given away.
 using CollapseCosts = std::array<double, 9>;
 
 /// The least costs of a node, from its children's, and the choice that gives them: dynamic

@@ -102,7 +102,9 @@ TEST(BvhBuilder, ACloudHasFullLeavesAndFewLevels) {
     if (count < 1000) continue;
     EXPECT_EQ(bvh.scanned, 0U);
     EXPECT_LE(walk.depth, 10);
-    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 4);
+    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 7);
+    const auto children = static_cast<double>(bvh.nodes.size() - 1 + walk.leaves);
+    EXPECT_GT(children / static_cast<double>(bvh.nodes.size()), 5);
   }
 }
 
@@ -130,6 +132,89 @@ TEST(BvhBuilder, HostileSetsNeitherRecurseWithoutEndNorBecomeAScan) {
     const Bvh bvh = build_bvh(spheres);
     check(bvh, spheres);
     EXPECT_LE(bvh.scanned, 16U);
+  }
+}
+
+struct Hostile {
+  const char* name;
+  std::vector<Sphere> spheres;
+};
+
+std::vector<Hostile> hostile_sets() {
+  constexpr std::size_t count = 20'000;
+  const auto changed = [&](const char* name, const auto& change) {
+    Hostile hostile{name, cloud(count)};
+    for (std::size_t i = 0; i < count; ++i) change(hostile.spheres[i], i);
+    return hostile;
+  };
+  const auto at = [](double x, double y, double z) {
+    return Vec3f{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+  };
+  return {changed("a giant among many",
+                  [&](Sphere& s, std::size_t i) {
+                    s.radius = i == 777 ? 10.0F : 1e-4F;
+                    s.center = s.center * 100.0F;
+                  }),
+          changed("two clusters far apart",
+                  [&](Sphere& s, std::size_t i) {
+                    s.radius = 1e-3F;
+                    s.center.x += i % 3 == 0 ? 1e6F : 0.0F;
+                  }),
+          changed("radii over nine decades",
+                  [&](Sphere& s, std::size_t i) {
+                    const double exponent = static_cast<double>(i) / 1000 * 9 / 20 - 9;
+                    s.radius = static_cast<float>(0.1 * std::pow(10.0, exponent));
+                  }),
+          changed("on a diagonal",
+                  [&](Sphere& s, std::size_t i) {
+                    const auto x = static_cast<double>(i) * 1e-4;
+                    s = {at(x, x, x), 1e-5F, 0};
+                  }),
+          changed("denormal extents",
+                  [&](Sphere& s, std::size_t) {
+                    s.center = s.center * 1e-40F;
+                    s.radius = 1e-42F;
+                  }),
+          changed("coordinates of 1e17",
+                  [&](Sphere& s, std::size_t) {
+                    s.center = (s.center - Vec3f{0.5F, 0.5F, 0.5F}) * 1.9e18F;
+                    s.radius = 1e15F;
+                  }),
+          changed("points", [&](Sphere& s, std::size_t) { s.radius = 0; }),
+          changed("a few places", [&](Sphere& s, std::size_t i) {
+            s = {at(static_cast<double>(i % 5), 0, 0), 0.1F, 0};
+          })};
+}
+
+TEST(BvhBuilder, HostileSetsFillTheirLeaves) {
+  for (const Hostile& hostile : hostile_sets()) {
+    SCOPED_TRACE(hostile.name);
+    const Bvh bvh = build_bvh(hostile.spheres);
+    const Walk walk = check(bvh, hostile.spheres);
+    EXPECT_EQ(bvh.scanned, 0U);
+    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 6.5);
+    EXPECT_LE(walk.depth, 16);
+    EXPECT_LT(bvh.nodes.size(), walk.leaves / 2);
+  }
+}
+
+TEST(BvhBuilder, ALeafHoldsTheSpheresOfItsSlots) {
+  std::vector<Sphere> spheres = cloud(5000);
+  spheres[7].radius = -0.01F;
+  const Bvh bvh = build_bvh(spheres);
+  for (std::size_t i = 0; i + bvh.scanned < bvh.slots.size(); ++i) {
+    const SphereBlock& leaf = bvh.leaves[i / bvh_leaf_size];
+    const std::size_t k = i % bvh_leaf_size;
+    const std::int32_t id = bvh.slots[bvh.scanned + i];
+    if (id < 0) {
+      EXPECT_TRUE(std::isnan(leaf.radius[k]));
+      continue;
+    }
+    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
+    EXPECT_EQ(leaf.center_x[k], sphere.center.x);
+    EXPECT_EQ(leaf.center_y[k], sphere.center.y);
+    EXPECT_EQ(leaf.center_z[k], sphere.center.z);
+    EXPECT_EQ(leaf.radius[k], sphere.radius);
   }
 }
 
