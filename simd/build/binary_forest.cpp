@@ -10,6 +10,9 @@ namespace {
 /// Spheres that one thread bins or moves at a time.
 constexpr std::size_t chunk_size = 16'384;
 
+/// With fewer spheres a level is not worth the threads' start.
+constexpr std::size_t parallel_size = 65'536;
+
 /// Part of a run.
 struct Chunk {
   std::size_t run, begin, end;
@@ -56,11 +59,12 @@ struct BinaryForest::Level {
 };
 
 BinaryForest::BinaryForest(SphereBuffers& buffers, const ParallelFor& parallel_for)
-    : buffers_(buffers), subtree_size_(std::max<std::size_t>(2048, buffers.size / 512)) {
+    : buffers_(buffers), subtree_size_(std::max<std::size_t>(4096, buffers.size / 512)) {
   std::vector<Run> runs;
   const Run whole{0, buffers.size, 1, ForestNode::upper, false};
   whole.end <= subtree_size_ ? add_subtree(whole, 0) : runs.push_back(whole);
-  for (int side = 0; !runs.empty(); side = 1 - side) runs = divide(runs, side, parallel_for);
+  const ParallelFor level_for = buffers.size < parallel_size ? serial_for : parallel_for;
+  for (int side = 0; !runs.empty(); side = 1 - side) runs = divide(runs, side, level_for);
   parallel_for(subtrees_.size(), [&](std::size_t i) {
     Subtree& s = subtrees_[i];
     s.tree = build_binary_tree(buffers_.run(s.side, s.begin, s.end),
