@@ -22,7 +22,8 @@ Coherence primary_coherence(const Camera& camera) {
 
 }  // namespace
 
-Result<PreparedScene> prepare(const Scene& scene, int width, int height) {
+Result<PreparedScene> prepare(const Scene& scene, int width, int height,
+                              const ParallelFor& parallel_for) {
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
   if (!scene.camera) {
@@ -41,16 +42,17 @@ Result<PreparedScene> prepare(const Scene& scene, int width, int height) {
     lights.emplace_back(light_at_eye(camera));
     notes.emplace_back("no light in the scene: one white point light at the eye");
   }
-  return PreparedScene{.geometry = Geometry(scene.spheres, scene.planes),
-                       .spheres = scene.spheres,
-                       .planes = scene.planes,
-                       .materials = flatten_all(scene),
-                       .lights = std::move(lights),
-                       .background = scene.background,
-                       .camera = camera,
-                       .camera_view = build_camera(camera, width, height),
-                       .coherence = primary_coherence(camera),
-                       .notes = std::move(notes)};
+  return PreparedScene{
+      .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
+      .spheres = scene.spheres,
+      .planes = scene.planes,
+      .materials = flatten_all(scene),
+      .lights = std::move(lights),
+      .background = scene.background,
+      .camera = camera,
+      .camera_view = build_camera(camera, width, height),
+      .coherence = primary_coherence(camera),
+      .notes = std::move(notes)};
 }
 
 }  // namespace boule

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/scene.h"
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
@@ -35,7 +36,8 @@ struct PreparedScene {
 };
 
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
-/// and none can be made for it. Throws std::bad_alloc.
-Result<PreparedScene> prepare(const Scene& scene, int width, int height);
+/// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.
+Result<PreparedScene> prepare(const Scene& scene, int width, int height,
+                              const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

@@ -35,7 +35,9 @@ Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& optio
   if (!selected) return selected.error();
   const bool reference = options.solver == Solver::reference;
   try {
-    Result<PreparedScene> prepared = prepare(scene, options.width, options.height);
+    Scheduler scheduler(options.threads);
+    Result<PreparedScene> prepared =
+        prepare(scene, options.width, options.height, scheduler.parallel_for());
     if (!prepared) return prepared.error();
     Renderer renderer(options, std::move(prepared).value(),
                       reference ? reference_kernels() : *selected.value());

@@ -37,7 +37,7 @@ Tracer::Tracer(const Scene& scene, const TraceOptions& options, const KernelTabl
       kernels_(&kernels),
       spheres_(scene.spheres),
       planes_(scene.planes),
-      geometry_(spheres_, planes_),
+      geometry_(spheres_, planes_, Structure::automatic, Scheduler(options.threads).parallel_for()),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/bvh.h"
 #include "simd/build/aligned_array.h"
@@ -11,17 +12,21 @@ namespace boule {
 
 /// A tree over spheres, and the order in which its leaves want them.
 struct Bvh {
-  std::vector<BvhNode> nodes;       ///< the root first; none: the spheres are to be scanned
-  std::vector<std::int32_t> slots;  ///< sphere of each slot, or -1; those of leaf k: SphereView
-  std::size_t scanned = 0;          ///< slots in front that are in no leaf
+  std::vector<BvhNode> nodes;        ///< the root first; none: the spheres are to be scanned
+  std::vector<std::int32_t> slots;   ///< sphere of each slot, or -1; those of leaf k: SphereView
+  std::size_t scanned = 0;           ///< slots in front that are in no leaf
+  AlignedArray<SphereBlock> blocks;  ///< eight slots each; only leaves are filled
 };
 
-/// Builds a tree of 8-wide nodes by the surface area heuristic over binned centres (Wald, "On fast
-/// Construction of SAH-based Bounding Volume Hierarchies", 2007), splitting the child of the
-/// largest area first. Kept apart, to be scanned: spheres beyond filter::limit or not finite, and
-/// up to 16 whose box is a good part of all (a ground sphere would be in everybody's way).
-/// Takes any spheres; the depth is bounded by bvh_max_depth. Throws std::bad_alloc.
-Bvh build_bvh(const std::vector<Sphere>& spheres);
+/// Builds a tree of 8-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
+/// to the least sum of areas (binary_tree.h). Nodes and leaves lie in depth-first order. The bits
+/// do not depend on `parallel_for`. Kept apart, to be scanned: spheres beyond filter::limit or not
+/// finite, and up to 16 whose box is a good part of all (a ground sphere would be in everybody's
+/// way). Takes any spheres; the depth is bounded by bvh_max_depth. Throws std::bad_alloc.
+Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
+
+/// A block of slots that hold no sphere.
+SphereBlock empty_block();
 
 /// No tree: every sphere in its own place, all scanned.
 Bvh no_bvh(std::size_t spheres);

@@ -23,19 +23,13 @@ bool wants_tree(std::size_t spheres, Structure structure) {
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
 }
 
-SphereBlock empty_block() {
-  SphereBlock block{};
-  for (float& r : block.radius) r = nan;
-  return block;
-}
-
 }  // namespace
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
-                   Structure structure)
-    : Geometry(
-          spheres, planes,
-          wants_tree(spheres.size(), structure) ? build_bvh(spheres) : no_bvh(spheres.size())) {}
+                   Structure structure, const ParallelFor& parallel_for)
+    : Geometry(spheres, planes,
+               wants_tree(spheres.size(), structure) ? build_bvh(spheres, parallel_for)
+                                                     : no_bvh(spheres.size())) {}
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
     : nodes_(std::move(bvh.nodes)),
@@ -46,7 +40,7 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
       // filter reject it first.
       id_(bvh.slots.size(), -2),
-      blocks_(block_count_, empty_block()),
+      blocks_(std::move(bvh.blocks)),
       center_x_(scanned_),
       center_y_(scanned_),
       center_z_(scanned_),
@@ -60,13 +54,14 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       normal_x_(plane_count_),
       normal_y_(plane_count_),
       normal_z_(plane_count_) {
+  blocks_.resize(block_count_, empty_block());
   for (std::size_t slot = 0; slot < bvh.slots.size(); ++slot) {
     const std::int32_t id = bvh.slots[slot];
     if (id < 0) continue;
     id_[slot] = id;
-    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
-    set_in_block(slot, sphere);
-    if (slot < scanned_) set_scanned(slot, sphere);
+    if (slot >= scanned_) continue;
+    set_in_block(slot, spheres[static_cast<std::size_t>(id)]);
+    set_scanned(slot, spheres[static_cast<std::size_t>(id)]);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
 #include "simd/build/aligned_array.h"
@@ -19,7 +20,8 @@ enum class Structure { automatic, scan, bvh };
 class Geometry {
  public:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
-           Structure structure = Structure::automatic);
+           Structure structure = Structure::automatic,
+           const ParallelFor& parallel_for = serial_for);
 
   /// What the kernels see; valid as long as this object.
   [[nodiscard]] GeometryView view() const;

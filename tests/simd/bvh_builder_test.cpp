@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
 #include <limits>
+#include <thread>
 
 #include "simd/abi/isa.h"
 #include "tests/support/case_random.h"
@@ -97,7 +102,9 @@ TEST(BvhBuilder, ACloudHasFullLeavesAndFewLevels) {
     if (count < 1000) continue;
     EXPECT_EQ(bvh.scanned, 0U);
     EXPECT_LE(walk.depth, 10);
-    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 4);
+    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 7);
+    const auto children = static_cast<double>(bvh.nodes.size() - 1 + walk.leaves);
+    EXPECT_GT(children / static_cast<double>(bvh.nodes.size()), 5);
   }
 }
 
@@ -128,6 +135,89 @@ TEST(BvhBuilder, HostileSetsNeitherRecurseWithoutEndNorBecomeAScan) {
   }
 }
 
+struct Hostile {
+  const char* name;
+  std::vector<Sphere> spheres;
+};
+
+std::vector<Hostile> hostile_sets() {
+  constexpr std::size_t count = 20'000;
+  const auto changed = [&](const char* name, const auto& change) {
+    Hostile hostile{name, cloud(count)};
+    for (std::size_t i = 0; i < count; ++i) change(hostile.spheres[i], i);
+    return hostile;
+  };
+  const auto at = [](double x, double y, double z) {
+    return Vec3f{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+  };
+  return {changed("a giant among many",
+                  [&](Sphere& s, std::size_t i) {
+                    s.radius = i == 777 ? 10.0F : 1e-4F;
+                    s.center = s.center * 100.0F;
+                  }),
+          changed("two clusters far apart",
+                  [&](Sphere& s, std::size_t i) {
+                    s.radius = 1e-3F;
+                    s.center.x += i % 3 == 0 ? 1e6F : 0.0F;
+                  }),
+          changed("radii over nine decades",
+                  [&](Sphere& s, std::size_t i) {
+                    const double exponent = static_cast<double>(i) / 1000 * 9 / 20 - 9;
+                    s.radius = static_cast<float>(0.1 * std::pow(10.0, exponent));
+                  }),
+          changed("on a diagonal",
+                  [&](Sphere& s, std::size_t i) {
+                    const auto x = static_cast<double>(i) * 1e-4;
+                    s = {at(x, x, x), 1e-5F, 0};
+                  }),
+          changed("denormal extents",
+                  [&](Sphere& s, std::size_t) {
+                    s.center = s.center * 1e-40F;
+                    s.radius = 1e-42F;
+                  }),
+          changed("coordinates of 1e17",
+                  [&](Sphere& s, std::size_t) {
+                    s.center = (s.center - Vec3f{0.5F, 0.5F, 0.5F}) * 1.9e18F;
+                    s.radius = 1e15F;
+                  }),
+          changed("points", [&](Sphere& s, std::size_t) { s.radius = 0; }),
+          changed("a few places", [&](Sphere& s, std::size_t i) {
+            s = {at(static_cast<double>(i % 5), 0, 0), 0.1F, 0};
+          })};
+}
+
+TEST(BvhBuilder, HostileSetsFillTheirLeaves) {
+  for (const Hostile& hostile : hostile_sets()) {
+    SCOPED_TRACE(hostile.name);
+    const Bvh bvh = build_bvh(hostile.spheres);
+    const Walk walk = check(bvh, hostile.spheres);
+    EXPECT_EQ(bvh.scanned, 0U);
+    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 6.5);
+    EXPECT_LE(walk.depth, 16);
+    EXPECT_LT(bvh.nodes.size(), walk.leaves / 2);
+  }
+}
+
+TEST(BvhBuilder, ALeafHoldsTheSpheresOfItsSlots) {
+  std::vector<Sphere> spheres = cloud(5000);
+  spheres[7].radius = -0.01F;
+  const Bvh bvh = build_bvh(spheres);
+  for (std::size_t i = 0; i + bvh.scanned < bvh.slots.size(); ++i) {
+    const SphereBlock& leaf = bvh.blocks[(bvh.scanned + i) / bvh_leaf_size];
+    const std::size_t k = i % bvh_leaf_size;
+    const std::int32_t id = bvh.slots[bvh.scanned + i];
+    if (id < 0) {
+      EXPECT_TRUE(std::isnan(leaf.radius[k]));
+      continue;
+    }
+    const Sphere& sphere = spheres[static_cast<std::size_t>(id)];
+    EXPECT_EQ(leaf.center_x[k], sphere.center.x);
+    EXPECT_EQ(leaf.center_y[k], sphere.center.y);
+    EXPECT_EQ(leaf.center_z[k], sphere.center.z);
+    EXPECT_EQ(leaf.radius[k], sphere.radius);
+  }
+}
+
 TEST(BvhBuilder, GiantsAndWhatFitsNoBoxAreScanned) {
   std::vector<Sphere> spheres = cloud(5000);
   spheres[77] = {{0, -1e6F, 0}, 1e6F, 0};
@@ -143,11 +233,51 @@ TEST(BvhBuilder, GiantsAndWhatFitsNoBoxAreScanned) {
   check(bvh, spheres);
 }
 
-TEST(BvhBuilder, IsTheSameTreeEveryTime) {
-  const auto spheres = cloud(3000);
-  const Bvh a = build_bvh(spheres), b = build_bvh(spheres);
+/// Bodies on several threads, each taking the next when it is free.
+ParallelFor on_threads(unsigned count) {
+  return [count](std::size_t size, const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < size; i = next++) body(i);
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+  };
+}
+
+void last_first(std::size_t size, const std::function<void(std::size_t)>& body) {
+  for (std::size_t i = size; i-- > 0;) body(i);
+}
+
+/// Bit for bit, of what is used.
+void expect_same(const Bvh& a, const Bvh& b) {
+  EXPECT_EQ(a.scanned, b.scanned);
   EXPECT_EQ(a.slots, b.slots);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+    const BvhNode &x = a.nodes[i], &y = b.nodes[i];
+    constexpr std::size_t rows = offsetof(BvhNode, size) + sizeof(x.size);
+    ASSERT_EQ(std::memcmp(&x, &y, rows), 0) << "node " << i;
+  }
+  if (!a.nodes.empty()) {
+    const std::size_t bytes = a.slots.size() / bvh_leaf_size * sizeof(SphereBlock);
+    EXPECT_EQ(std::memcmp(a.blocks.data(), b.blocks.data(), bytes), 0);
+  }
+}
+
+TEST(BvhBuilder, IsTheSameTreeForAnyThreads) {
+  for (const std::size_t count : {5U, 3000U, 70'000U}) {
+    std::vector<Sphere> spheres = cloud(count);
+    spheres[count / 2] = {{0, -1e6F, 0}, 1e6F, 0};
+    spheres[count / 3].center.x = inf;
+    const Bvh serial = build_bvh(spheres);
+    check(serial, spheres);
+    expect_same(serial, build_bvh(spheres));
+    expect_same(serial, build_bvh(spheres, last_first));
+    for (const unsigned threads : {2U, 3U, 7U})
+      expect_same(serial, build_bvh(spheres, on_threads(threads)));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+// Build rates: Boule's Geometry (tree and leaves) against Embree's built-in spheres at its default
+// build quality, with 1 and 2 threads, interleaved in one run; medians.
+//
+//   bench_build [spheres...]
+//
+// Boule's threads are made anew for each loop, as render's scheduler makes them; Embree's wait in a
+// pool. Embree's clock runs over rtcCommitScene, for a geometry that shares the caller's buffer.
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/uniform_spheres.h"
+#include "core/base/parallel.h"
+#include "simd/build/geometry_builder.h"
+
+namespace boule::bench {
+namespace {
+
+double seconds(const auto& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ParallelFor threads_for(unsigned threads) {
+  return [threads](std::size_t count, const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < count; i = next++) body(i);
+    };
+    std::vector<std::thread> others;
+    while (others.size() + 1 < std::min<std::size_t>(threads, count)) others.emplace_back(work);
+    work();
+    for (std::thread& thread : others) thread.join();
+  };
+}
+
+/// Four floats a sphere, as Embree wants them.
+std::vector<float> embree_points(const std::vector<Sphere>& spheres) {
+  std::vector<float> points;
+  for (const Sphere& s : spheres)
+    points.insert(points.end(), {s.center.x, s.center.y, s.center.z, s.radius});
+  return points;
+}
+
+double embree_seconds(RTCDevice device, std::vector<float>& points) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, points.data(),
+                             0, 4 * sizeof(float), points.size() / 4);
+  rtcCommitGeometry(geometry);
+  RTCScene scene = rtcNewScene(device);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  const double time = seconds([&] { rtcCommitScene(scene); });
+  rtcReleaseScene(scene);
+  return time;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void compare(std::size_t n, unsigned threads) {
+  const auto spheres = uniform_spheres(n);
+  auto points = embree_points(spheres);
+  RTCDevice device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  const ParallelFor loop = threads > 1 ? threads_for(threads) : ParallelFor(serial_for);
+  std::vector<double> ours, theirs, ratios;
+  const int repetitions = n < 500'000 ? 31 : 9;
+  for (int i = 0; i < repetitions; ++i) {
+    theirs.push_back(embree_seconds(device, points));
+    ours.push_back(seconds([&] { const Geometry built(spheres, {}, Structure::bvh, loop); }));
+    ratios.push_back(theirs.back() / ours.back());
+  }
+  rtcReleaseDevice(device);
+  const double million = static_cast<double>(n) * 1e-6;
+  std::printf("u%-8zu %u thread(s): Embree %6.2f  Boule %6.2f Mspheres/s  ratio %.2f (best %.2f)\n",
+              n, threads, million / median(theirs), million / median(ours), median(ratios),
+              *std::min_element(theirs.begin(), theirs.end()) /
+                  *std::min_element(ours.begin(), ours.end()));
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  std::vector<std::size_t> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::strtoull(argv[i], nullptr, 10));
+  if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
+  for (const std::size_t n : sizes) {
+    for (const unsigned threads : {1U, 2U}) boule::bench::compare(n, threads);
+  }
+  return 0;
+}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "simd/build/float4.h"
+
+namespace boule {
+
+/// A sphere while the tree is built: centre and radius, and which one it is.
+struct BuildSphere {
+  float at[4];
+  std::int32_t id;
+};
+
+/// The range of four coordinates, the fourth for a radius or for nothing. The default one is empty.
+struct BuildBox {
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+  Float4 low = {inf, inf, inf, inf}, high = {-inf, -inf, -inf, -inf};
+
+  void add(const BuildBox& box) {
+    low = min4(low, box.low);
+    high = max4(high, box.high);
+  }
+  /// Half of the surface, in double: boxes of 1e18 square well. Of an empty one anything, not NaN.
+  [[nodiscard]] double area() const {
+    const double x = double{high[0]} - double{low[0]}, y = double{high[1]} - double{low[1]};
+    const double z = double{high[2]} - double{low[2]};
+    return x * y + y * z + z * x;
+  }
+};
+
+/// A box around a sphere, rounded to nearest: what splits are weighed by.
+inline BuildBox rough_box(const BuildSphere& sphere) {
+  const Float4 at = load4(sphere.at), r = {at[3], at[3], at[3], at[3]};
+  return {at - r, at + r};
+}
+
+/// The box that is tested: it holds the sphere grown to r (1 + 2^-22), whatever was rounded, and is
+/// at least one float step wider on each side.
+///
+/// x = c - r (1 + 2^-22) is rounded in double, by far less than what follows. A float of the size
+/// of x has steps of at most 2^-23 |x|: 2^-22 |x| outward are two steps or more, and rounding to
+/// float takes away half a step, or, where that crosses into longer steps, one of at least four.
+/// Below 2^-126 steps are 2^-149: 2^-147 are four of them.
+inline BuildBox outward_box(const BuildSphere& sphere) {
+  const auto& at = sphere.at;
+  BuildBox box;
+  const double r = double{at[3]} * (1 + 0x1p-22);
+  for (int k = 0; k < 3; ++k) {
+    const double low = double{at[k]} - r, high = double{at[k]} + r;
+    box.low[k] = static_cast<float>(low - (std::fabs(low) * 0x1p-22 + 0x1p-147));
+    box.high[k] = static_cast<float>(high + (std::fabs(high) * 0x1p-22 + 0x1p-147));
+  }
+  box.low[3] = box.high[3] = 0;
+  return box;
+}
+
+}  // namespace boule
