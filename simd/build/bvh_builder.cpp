@@ -195,8 +195,10 @@ Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_fo
   Collapse(forest, bvh.nodes).add(forest.root());
   bvh.slots.resize(bvh.scanned + forest.leaves() * bvh_leaf_size, -1);
   bvh.blocks.resize(bvh.slots.size() / bvh_leaf_size, empty_block());
-  parallel_for(forest.subtrees().size(),
-               [&](std::size_t i) { fill_leaves(bvh, spheres, buffers, forest.subtrees()[i]); });
+  const bool few = buffers.size <= chunk_size;  // not worth the threads' start
+  const ParallelFor leaf_for = few ? serial_for : parallel_for;
+  leaf_for(forest.subtrees().size(),
+           [&](std::size_t i) { fill_leaves(bvh, spheres, buffers, forest.subtrees()[i]); });
   return bvh;
 }
 
