@@ -123,7 +123,8 @@ EmbreeContender::EmbreeContender(Info info, const Workload& workload, RTCScene s
 
 void EmbreeContender::put(std::size_t i, const Ray& ray) {
   const EmbreeRay r = embree_ray(ray);
-  const auto set = [&](std::size_t field, float value) { memory_[place(i, field)] = value; };
+  float* const begin = memory_.data() + place(i);
+  const auto set = [&](std::size_t field, float value) { begin[field * group_] = value; };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     set(axis, r.org[axis]);
     set(dir_field + axis, r.dir[axis]);
@@ -165,7 +166,9 @@ void EmbreeContender::trace(std::size_t first, std::size_t last) {
 
 void EmbreeContender::answer(Answers& answers) const {
   const std::size_t size = workload_.rays->size();
-  const auto get = [&](std::size_t i, std::size_t field) { return memory_[place(i, field)]; };
+  const auto get = [&](std::size_t i, std::size_t field) {
+    return memory_[place(i) + field * group_];
+  };
   if (workload_.kind == RayKind::shadow) {
     answers.occluded.resize(size);
     for (std::size_t i = 0; i < size; ++i) answers.occluded[i] = get(i, tfar_field) < 0 ? 1 : 0;

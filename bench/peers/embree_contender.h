@@ -24,9 +24,9 @@ class EmbreeContender final : public Contender {
   void answer(Answers& answers) const override;
 
  private:
-  /// Field `field` of ray i in Embree's structures of `group_` rays.
-  [[nodiscard]] std::size_t place(std::size_t i, std::size_t field) const {
-    return i / group_ * group_ * fields_ + field * group_ + i % group_;
+  /// Field 0 of ray i in Embree's structures; field k lies k group_ further on.
+  [[nodiscard]] std::size_t place(std::size_t i) const {
+    return i / group_ * group_ * fields_ + i % group_;
   }
   void put(std::size_t i, const Ray& ray);
 

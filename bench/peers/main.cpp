@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "bench/peers/report.h"
@@ -43,7 +44,12 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(kinds));
   app.add_option("--isa", settings.isas, "Instruction sets of Boule's kernels")->delimiter(',');
-  app.add_option("--reps", settings.repetitions, "Repetitions (5)")->check(CLI::Range(1, 1000));
+  const auto set_repetitions = [&settings](int repetitions) {
+    settings.repetitions = repetitions;
+    settings.patience = std::numeric_limits<double>::infinity();
+  };
+  app.add_option_function<int>("--reps", set_repetitions, "Repetitions (3 to 7, by the time taken)")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--threads", settings.threads, "1: CPU time (default); more: wall clock")
       ->check(CLI::Range(1, 1024));
   app.add_option("--size", settings.side, "Pixels along the picture's side (1024)")
@@ -51,8 +57,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--json", arguments.json, "File to write the figures to");
 }
 
-/// The first name that cannot be had.
-Status find_unknown(const RefereeSettings& settings) {
+/// What this machine lacks, or the first name that cannot be had.
+Status find_problem(const RefereeSettings& settings) {
+  if (!select_kernels("avx2")) return Diagnostic{"Embree's callbacks need AVX2", {}, {}, 0, 0};
   for (const std::string& isa : settings.isas) {
     const auto kernels = select_kernels(isa);
     if (!kernels) return kernels.error();
@@ -73,7 +80,7 @@ bool all_right(const Results& results) {
 }
 
 int run(const Arguments& arguments) {
-  if (const Status unknown = find_unknown(arguments.settings)) return fail(*unknown, 2);
+  if (const Status problem = find_problem(arguments.settings)) return fail(*problem, 2);
   const Machine machine = this_machine();
   print_machine(machine, arguments.settings);
   const Result<Results> results = compare(arguments.settings, print_workload);

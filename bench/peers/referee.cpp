@@ -48,11 +48,9 @@ double time_pass(Contender& contender, std::size_t size, unsigned threads) {
     contender.trace(0, size);
   } else {
     Scheduler scheduler(threads);
-    const auto failure =
-        scheduler.run((size + block_size - 1) / block_size, [&](unsigned, std::size_t block) {
-          contender.trace(block * block_size, std::min(size, (block + 1) * block_size));
-        });
-    if (failure) return 0;
+    scheduler.parallel_for()((size + block_size - 1) / block_size, [&](std::size_t block) {
+      contender.trace(block * block_size, std::min(size, (block + 1) * block_size));
+    });
   }
   return seconds_of(clock) - begin;
 }
@@ -68,24 +66,35 @@ double best_of(const std::vector<Entrant>& entrants, bool embree) {
 
 bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
   if (entrant.rates.empty()) return false;
-  const double handicap = entrant.rates.size() == 1 ? 10 : 3;
+  const double handicap = entrant.rates.size() == 1 ? 4 : 2;
   return entrant.best() * handicap < best_of(all, entrant.contender->info().embree);
 }
 
-void run_all(std::vector<Entrant>& entrants, const Judge& judge, OracleJudge& oracle,
-             std::size_t size, const RefereeSettings& settings) {
+void run_one(Entrant& entrant, const Workload& workload, unsigned threads) {
+  const std::size_t size = workload.rays->size();
+  const double seconds = time_pass(*entrant.contender, size, threads);
+  entrant.rates.push_back(1e-6 * static_cast<double>(size) / seconds);
+}
+
+void judge_one(Entrant& entrant, const Judge& judge, OracleJudge& oracle, Answers& answers) {
+  entrant.contender->answer(answers);
+  const auto wrong = judge.mismatches(answers, entrant.contender->info().exact);
+  entrant.mismatches = wrong.size();
+  entrant.oracle = oracle.judge(answers, wrong);
+}
+
+void run_all(std::vector<Entrant>& entrants, const Workload& workload, const Judge& judge,
+             OracleJudge& oracle, const RefereeSettings& settings) {
+  constexpr int fewest = 3;
   Answers answers;
+  const double begin = seconds_of(CLOCK_MONOTONIC);
   for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
+    const bool late = seconds_of(CLOCK_MONOTONIC) - begin > settings.patience;
+    if (late && repetition >= fewest) return;
     for (Entrant& entrant : entrants) {
       if (is_out(entrant, entrants)) continue;
-      const double seconds = time_pass(*entrant.contender, size, settings.threads);
-      entrant.rates.push_back(1e-6 * static_cast<double>(size) / seconds);
-      if (repetition > 0) continue;
-      entrant.contender->answer(answers);
-      const bool exact = entrant.contender->info().exact;
-      const std::vector<std::size_t> wrong = judge.mismatches(answers, exact);
-      entrant.mismatches = wrong.size();
-      entrant.oracle = oracle.judge(answers, wrong);
+      run_one(entrant, workload, settings.threads);
+      if (repetition == 0) judge_one(entrant, judge, oracle, answers);
     }
   }
 }
@@ -146,7 +155,7 @@ struct Arena {
     for (auto& contender : boule.contenders(workload))
       entrants.push_back({std::move(contender), {}});
     OracleJudge oracle(workload, tree);
-    run_all(entrants, judge, oracle, workload.rays->size(), settings);
+    run_all(entrants, workload, judge, oracle, settings);
     return make_rows(entrants, workload);
   }
 };

@@ -17,7 +17,8 @@ struct RefereeSettings {
   std::vector<std::string> scenes;
   std::vector<RayKind> kinds;
   std::vector<std::string> isas;  ///< of Boule's kernels
-  int repetitions = 5;
+  int repetitions = 7;
+  double patience = 20;  ///< seconds on the wall after which a workload gets 3 repetitions only
   unsigned threads = 1;  ///< 1: rates by the thread's CPU time; more: by the clock on the wall
   int side = 1024;       ///< pixels
 };
@@ -52,9 +53,9 @@ struct Results {
 inline constexpr std::size_t reference_samples = 4096;
 
 /// Runs all contenders on all workloads, repetitions interleaved, and judges their answers. A
-/// contender that is below a tenth of the best rate of its side after one repetition, or below a
-/// third after two, gets no more. `report` hears of each workload when it is done: its check and
-/// its rows.
+/// contender that is below a quarter of the best rate of its side after one repetition, or below
+/// half of it after two, gets no more. `report` hears of each workload when it is done: its check
+/// and its rows.
 Result<Results> compare(const RefereeSettings& settings,
                         const std::function<void(const Check&, const std::vector<Row>&)>& report);
 
