@@ -109,19 +109,22 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
                                const SlotPlace& spheres, std::uint32_t first, unsigned count,
                                Hits& hits) {
   Discs discs;
-  make_discs<common>(rays, factors, spheres, count, discs);
+  place_discs<common>(rays, factors, spheres, count, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1) {
     const auto slot = first + static_cast<std::uint32_t>(std::countr_zero(left));
     for (int group = 0; group * group_packets < rays.packets; ++group)
       hits.meet_awkward(group, slot);
   }
   if (discs.simple == 0) return;
+  bound_discs<common>(factors, count, discs);
   for (int group = 0; group * group_packets < rays.packets; ++group) {
     unsigned left = discs_near(discs, rays.group_extent[group], hits.limit(group), count);
+    bool changed = false;
     for (; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      hits.meet(group, discs, k, first + static_cast<std::uint32_t>(k));
+      changed |= hits.meet(group, discs, k, first + static_cast<std::uint32_t>(k));
     }
+    if (changed) hits.update(group);
   }
 }
 

@@ -12,6 +12,7 @@ namespace boule::BOULE_KERNEL_ISA {
 struct Discs {
   static constexpr int size = width < 8 ? 8 : width;
   alignas(64) float x[size], y[size], z[size];
+  alignas(64) float radius[size], delta[size];
   alignas(64) float squared[size];  ///< R2
   alignas(64) float sure[size];     ///< D2
   alignas(64) float depth[size];    ///< Z - E1
@@ -26,8 +27,10 @@ struct Discs {
 /// The bounds' factors for one bundle.
 struct DiscFactors {
   Real center, axis, constant;  ///< delta = center (|X| + |Y|) + axis |Z| + exact F1 + constant
-  Real square;                  ///< G = square r^2 + ...
-  Real plane_length;            ///< |n| of the bundle's sides, outward
+  Real exact;
+  Real depth;         ///< E1 = depth F1
+  Real square;        ///< G = square r^2 + ...
+  Real plane_length;  ///< |n| of the bundle's sides, outward
 
   BOULE_INLINE DiscFactors(const BundleRays& rays, Common common) {
     constexpr auto u = static_cast<float>(filter::u);
@@ -35,6 +38,8 @@ struct DiscFactors {
     const float axis_factor = static_cast<float>(filter::bundle_axis * filter::u) * rays.across;
     const bool one_origin = common == Common::origin;
     center = center_factor;
+    exact = static_cast<float>(filter::bundle_double);
+    depth = static_cast<float>(filter::bundle_depth) * u;
     axis = one_origin ? axis_factor : 0.0F;
     constant = static_cast<float>(filter::floor) + (one_origin ? 0.0F : axis_factor);
     square = rays.squared_across * (1 + 8 * u) + static_cast<float>(filter::bundle_square) * u;
@@ -57,11 +62,11 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
   }
 }
 
-/// The part `part` of eight spheres.
+/// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
 template <Common common>
-BOULE_INLINE void make_discs(const BundleRays& rays, const DiscFactors& factors,
-                             const SlotPlace& spheres, std::size_t part, Discs& discs) {
-  constexpr auto u = static_cast<float>(filter::u);
+BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
+                             const SlotPlace& spheres, std::size_t part, const Real& limit,
+                             Discs& discs) {
   const BundleFrame& frame = rays.frame;
   const Vec3<Wide> f =
       widen(Vec3<Real>{load_of_eight(spheres.center_x, part), load_of_eight(spheres.center_y, part),
@@ -73,62 +78,70 @@ BOULE_INLINE void make_discs(const BundleRays& rays, const DiscFactors& factors,
   const Real aside = abs(center.x) + abs(center.y), f1 = aside + abs(center.z);
   const Real delta = filter_fma(
       aside, factors.center,
-      filter_fma(abs(center.z), factors.axis,
-                 filter_fma(f1, static_cast<float>(filter::bundle_double), factors.constant)));
-  // A line that meets the sphere is this near its centre, and it is this wide.
+      filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant)));
+  const Real depth = filter_fnma(f1, factors.depth, center.z);
+  const Real near =
+      filter_fnma(r, Real(1 + 8 * static_cast<float>(filter::u)), depth) - rays.c_high;
+  // A line that meets the sphere is this near its centre.
   const Real reach = (r + delta + delta) * factors.plane_length;
-  const RealMask far_off =
-      outside<common>(rays.extent, center, reach) & (f1 < Real(filter::bundle_far));
-  const RealMask simple = (r + r + Real(rays.c_high) <= center.z) &
-                          (f1 < Real(filter::bundle_far)) & (Real(filter::bundle_small) < r);
-
-  const Real grown = Real(4.0F) * delta * (r + delta), square = r * r;
-  const Real g = filter_fma(square, factors.square, grown), squared = square + g;
-  const Real e1 = f1 * Real(static_cast<float>(filter::bundle_depth) * u);
-  const Real sure = g + g + grown;
+  const RealMask judged = f1 < Real(filter::bundle_far);
+  const RealMask missed = judged & outside<common>(rays.extent, center, reach);
+  const RealMask simple =
+      judged & (r + r + Real(rays.c_high) <= center.z) & (Real(filter::bundle_small) < r);
   const std::size_t at = part * width;
   store(discs.x + at, center.x);
   store(discs.y + at, center.y);
   store(discs.z + at, center.z);
-  store(discs.squared + at, squared);
-  store(discs.sure + at, sure);
-  store(discs.depth + at, center.z - e1);
-  store(discs.spread + at, filter_fma(sqrt(sure), Real(1 + 8 * u), e1 + e1));
-  store(discs.near + at, center.z - e1 - r * Real(1 + 8 * u) - Real(rays.c_high));
-
-  // Where the group's extents may meet the disc: |a - X / Z| <= (r' + delta) / Z.
-  const Real half = (sqrt(squared) + delta + delta) * Real(1 + 8 * u);
-  if constexpr (common == Common::origin) {
-    const Real inverse = Real(1.0F) / center.z;
-    const Real a = center.x * inverse, b = center.y * inverse, wide = half * inverse;
-    const Real more_a = filter_fma(abs(a), Real(8 * u), wide + wide * Real(8 * u));
-    const Real more_b = filter_fma(abs(b), Real(8 * u), wide + wide * Real(8 * u));
-    store(discs.a_low + at, a - more_a);
-    store(discs.a_high + at, a + more_a);
-    store(discs.b_low + at, b - more_b);
-    store(discs.b_high + at, b + more_b);
-  } else {
-    const Real more_a = filter_fma(abs(center.x), Real(8 * u), half);
-    const Real more_b = filter_fma(abs(center.y), Real(8 * u), half);
-    store(discs.a_low + at, center.x - more_a);
-    store(discs.a_high + at, center.x + more_a);
-    store(discs.b_low + at, center.y - more_b);
-    store(discs.b_high + at, center.y + more_b);
-  }
-  discs.simple |= (bits(simple & ~far_off)) << at;
-  discs.awkward |= (bits(~simple & ~far_off)) << at;
+  store(discs.radius + at, r);
+  store(discs.delta + at, delta);
+  store(discs.depth + at, depth);
+  store(discs.near + at, near);
+  discs.simple |= bits(simple & ~missed & (near <= limit)) << at;
+  discs.awkward |= bits(~simple & ~missed) << at;
 }
 
-/// Eight spheres, of which there are `count`.
+/// Eight spheres, of which there are `count`: finds those that matter.
 template <Common common>
-BOULE_INLINE void make_discs(const BundleRays& rays, const DiscFactors& factors,
-                             const SlotPlace& spheres, unsigned count, Discs& discs) {
+BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
+                              const SlotPlace& spheres, unsigned count, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
   for (std::size_t part = 0; part * width < count; ++part)
-    make_discs<common>(rays, factors, spheres, part, discs);
+    place_part<common>(rays, factors, spheres, part, limit, discs);
   const unsigned there = (1U << count) - 1;
   discs.simple &= there;
   discs.awkward &= there;
+}
+
+/// The bounds of those that matter and are simple: see filter_bounds.h.
+template <Common common>
+BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs& discs) {
+  const Real outward(1 + 8 * static_cast<float>(filter::u));
+  const Real few(8 * static_cast<float>(filter::u));
+  for (std::size_t at = 0; at < count; at += width) {
+    const Real x = load(discs.x + at), y = load(discs.y + at), z = load(discs.z + at);
+    const Real r = load(discs.radius + at), delta = load(discs.delta + at);
+    const Real grown = Real(4.0F) * delta * (r + delta), square = r * r;
+    const Real g = filter_fma(square, factors.square, grown), squared = square + g;
+    const Real sure = g + g + grown, e1 = z - load(discs.depth + at);
+    store(discs.squared + at, squared);
+    store(discs.sure + at, sure);
+    store(discs.spread + at,
+          filter_fma(sqrt(sure), outward, (e1 + e1) * Real(1.25F)));  // E1 comes back u |Z| off
+    // Where a group's extent may meet the disc: |a - X / Z| <= (r' + delta) / Z.
+    const Real half = (sqrt(squared) + delta + delta) * outward;
+    Real a = x, b = y, wide = half;
+    if constexpr (common == Common::origin) {
+      const Real inverse = Real(1.0F) / z;
+      a = x * inverse;
+      b = y * inverse;
+      wide = half * inverse * outward;
+    }
+    const Real wide_a = filter_fma(abs(a), few, wide), wide_b = filter_fma(abs(b), few, wide);
+    store(discs.a_low + at, a - wide_a);
+    store(discs.a_high + at, a + wide_a);
+    store(discs.b_low + at, b - wide_b);
+    store(discs.b_high + at, b + wide_b);
+  }
 }
 
 /// Bits of the discs that some ray within `extent` may meet, no farther than `limit`.

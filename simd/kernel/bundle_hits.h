@@ -85,7 +85,7 @@ BOULE_INLINE void load_exact(const PaddedStream& stream, const BundleRays& bundl
   out.has_source = false;
 }
 
-/// The spheres in W slots; any sphere where there is none.
+/// The spheres in W slots; any sphere where there is none. (The CPU's own gather is slower.)
 BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const float* slots) {
   alignas(64) float x[width], y[width], z[width], r[width];
   for (int lane = 0; lane < width; ++lane) {
@@ -125,21 +125,17 @@ class BundleHits {
   BundleHits(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
       : stream_(stream), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p * width);
-    for (int group = 0; group < bundle_groups; ++group) update(group);
+    for (float& limit : limit_) limit = -static_cast<float>(no_hit);
+    for (int group = 0; group * group_packets < rays.packets; ++group) update(group);
   }
 
   /// No hit of a group beyond this v is of interest.
   [[nodiscard]] float limit(int group) const { return limit_[group]; }
-  [[nodiscard]] float limit() const {
-    float most = limit_[0];
-    for (int group = 1; group < bundle_groups; ++group)
-      most = limit_[group] > most ? limit_[group] : most;
-    return most;
-  }
+  [[nodiscard]] float limit() const { return limit_of_all_; }
   [[nodiscard]] bool done() const { return false; }
 
-  /// A simple sphere against a group.
-  BOULE_INLINE void meet(int group, const Discs& discs, int k, std::uint32_t slot) {
+  /// A simple sphere against a group; true if that changes its hits: then update() it.
+  BOULE_INLINE bool meet(int group, const Discs& discs, int k, std::uint32_t slot) {
     const DiscLanes disc(discs, k);
     const int begin = group * group_packets;
     const int end = rays_.packets < begin + group_packets ? rays_.packets : begin + group_packets;
@@ -149,6 +145,7 @@ class BundleHits {
       const int ray = p * width;
       const Real q0 = disc_square<common>(rays_, ray, disc);
       const Real q1 = disc_square<common>(rays_, ray + width, disc);
+      // A branch for each of them costs more than it saves.
       if (!any((Real(0.0F) <= q0) | (Real(0.0F) <= q1))) continue;
       changed |= consider(ray, disc, q0, slot);
       changed |= consider(ray + width, disc, q1, slot);
@@ -157,7 +154,19 @@ class BundleHits {
       const Real q = disc_square<common>(rays_, p * width, disc);
       changed |= consider(p * width, disc, q, slot);
     }
-    if (changed) update(group);
+    return changed;
+  }
+
+  /// Finds limit() again after a group's hits have changed.
+  BOULE_INLINE void update(int group) {
+    const int begin = group * group_packets;
+    Real most(-static_cast<float>(no_hit));
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
+      most = filter_max(load(high_ + p * width), most);  // NaN is left out
+    limit_[group] = greatest_lane(most);
+    limit_of_all_ = limit_[0];
+    for (int k = 1; k < bundle_groups; ++k)
+      limit_of_all_ = limit_[k] > limit_of_all_ ? limit_[k] : limit_of_all_;
   }
 
   /// Any other sphere against a group.
@@ -187,14 +196,6 @@ class BundleHits {
     store(slot_ + ray, Real(slot_bits(no_slot)));
     store(solved_ + ray, Real(slot_bits(no_slot)));
     solved_any_[ray / width] = uniform_[ray / width] = false;
-  }
-
-  void update(int group) {
-    const int begin = group * group_packets;
-    Real most(-static_cast<float>(no_hit));
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
-      most = filter_max(load(high_ + p * width), most);  // NaN is left out
-    limit_[group] = highest_lane(most);
   }
 
   /// What float knows of a sphere in W rays; true if that changes anything.
@@ -269,32 +270,40 @@ class BundleHits {
   }
 
   BOULE_INLINE void finish(int ray, const PlaneView& planes, const HitStream& hits) {
-    const int p = ray / width;
-    ExactRays rays;
-    load_exact<common>(stream_, rays_, ray, rays);
+    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
+    const bool whole = stream_.live(first) == static_cast<std::size_t>(width);
+    if (solved_any_[ray / width] || planes.size != 0 || !whole) {
+      finish_any(ray, planes, hits);
+      return;
+    }
     const Real slots = load(slot_ + ray);
     const WideMask hit = widen(slots <= slots);  // no_slot is NaN
     Wide nearest(no_hit);
-    if (solved_any_[p]) {
-      settle(ray, rays);
-      nearest = load(t_ + ray);
-    } else if (any(hit)) {
-      nearest = solve_first(rays, uniform_[p] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
-                                              : gather_slots(spheres_, slot_ + ray));
+    if (any(hit)) {
+      ExactRays rays;
+      load_exact<common>(stream_, rays_, ray, rays);
+      const Wide t =
+          solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
+                                                  : gather_slots(spheres_, slot_ + ray));
+      nearest = select(hit, t, nearest);
     }
-    nearest = select(hit, nearest, Wide(no_hit));
-    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
-    const std::size_t live = stream_.live(first);
-    if (live == static_cast<std::size_t>(width) && planes.size == 0) {
-      store(hits.t + first, nearest);
-      find_ids(ray, hits.id + first);
-      return;
-    }
+    store(hits.t + first, nearest);
+    find_ids(ray, hits.id + first);
+  }
+
+  /// The same with whatever may come up.
+  BOULE_NOINLINE void finish_any(int ray, const PlaneView& planes, const HitStream& hits) {
+    ExactRays rays;
+    load_exact<common>(stream_, rays_, ray, rays);
+    settle(ray, rays);
+    const Real slots = load(slot_ + ray);
     alignas(64) double t[width];
     alignas(64) std::int32_t id[width];
-    store(t, nearest);
+    store(t, select(widen(slots <= slots), load(t_ + ray), Wide(no_hit)));
     find_ids(ray, id);
     meet_planes(rays, planes, t, id);
+    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
+    const std::size_t live = stream_.live(first);
     for (std::size_t lane = 0; lane < live; ++lane) {
       hits.t[first + lane] = t[lane];
       hits.id[first + lane] = id[lane];
@@ -334,6 +343,7 @@ class BundleHits {
   const SphereView& spheres_;
   const BundleRays& rays_;
   float limit_[bundle_groups];
+  float limit_of_all_;
   alignas(64) float low_[bundle_size];   ///< bounds of v of the hit, or of the end of the ray: what
   alignas(64) float high_[bundle_size];  ///< lies before low is nearer for certain
   alignas(64) float slot_[bundle_size];  ///< bits; no_slot: no hit

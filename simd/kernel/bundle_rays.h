@@ -45,21 +45,6 @@ struct BundleRays {
   alignas(64) float scale[bundle_size];  ///< v / t
 };
 
-BOULE_INLINE float lowest_lane(const Real& values) {
-  alignas(64) float lanes[width];
-  store(lanes, values);
-  float result = lanes[0];
-  for (int lane = 1; lane < width; ++lane) result = lanes[lane] < result ? lanes[lane] : result;
-  return result;
-}
-BOULE_INLINE float highest_lane(const Real& values) {
-  alignas(64) float lanes[width];
-  store(lanes, values);
-  float result = lanes[0];
-  for (int lane = 1; lane < width; ++lane) result = lanes[lane] > result ? lanes[lane] : result;
-  return result;
-}
-
 BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
   return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
 }
@@ -166,7 +151,7 @@ struct ExtentLanes {
     b_high = filter_max(b_high, p.b);
   }
   [[nodiscard]] BOULE_INLINE Extent total() const {
-    return {lowest_lane(a_low), highest_lane(a_high), lowest_lane(b_low), highest_lane(b_high)};
+    return {least_lane(a_low), greatest_lane(a_high), least_lane(b_low), greatest_lane(b_high)};
   }
 };
 
@@ -266,10 +251,10 @@ BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, s
     bundle.extent = group == 0 ? extent : extent_of_both(bundle.extent, extent);
     if (!all(sums.belongs)) return false;
   }
-  bundle.across = highest_lane(sums.across);
-  bundle.squared_across = highest_lane(sums.squared);
-  bundle.c_low = lowest_lane(sums.c_low);
-  bundle.c_high = highest_lane(sums.c_high);
+  bundle.across = greatest_lane(sums.across);
+  bundle.squared_across = greatest_lane(sums.squared);
+  bundle.c_low = least_lane(sums.c_low);
+  bundle.c_high = greatest_lane(sums.c_high);
   const float most = one_origin ? filter::bundle_width : filter::bundle_far;
   const Extent& e = bundle.extent;
   return -most <= e.a_low && e.a_high <= most && -most <= e.b_low && e.b_high <= most;

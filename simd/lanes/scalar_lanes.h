@@ -77,6 +77,8 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) { return c.v - a.v * b.v; 
 /// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return a.v < b.v ? a : b; }
 BOULE_INLINE Real filter_max(Real a, Real b) { return a.v < b.v ? b : a; }
+BOULE_INLINE float least_lane(Real a) { return a.v; }
+BOULE_INLINE float greatest_lane(Real a) { return a.v; }
 
 BOULE_INLINE Wide widen(Real a) { return static_cast<double>(a.v); }
 BOULE_INLINE Real narrow(Wide a) { return static_cast<float>(a.v); }

@@ -119,6 +119,38 @@ BOULE_INLINE Floats square_root(Floats a) { return vsqrtq_f32(a); }
 
 #endif
 
+// The least and the greatest lane.
+#if defined(__SSE4_2__)
+BOULE_INLINE float least(__m128 a) {
+  const __m128 b = _mm_min_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_min_ss(b, _mm_shuffle_ps(b, b, 1)));
+}
+BOULE_INLINE float greatest(__m128 a) {
+  const __m128 b = _mm_max_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_max_ss(b, _mm_shuffle_ps(b, b, 1)));
+}
+#endif
+#if defined(__AVX2__)
+BOULE_INLINE float least(__m256 a) {
+  return least(_mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
+}
+BOULE_INLINE float greatest(__m256 a) {
+  return greatest(_mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
+}
+#endif
+#if defined(__AVX512F__)
+BOULE_INLINE float least(Floats a) {
+  return least(_mm256_min_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1)));
+}
+BOULE_INLINE float greatest(Floats a) {
+  return greatest(_mm256_max_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1)));
+}
+#endif
+#if defined(__aarch64__)
+BOULE_INLINE float least(Floats a) { return vminvq_f32(a); }
+BOULE_INLINE float greatest(Floats a) { return vmaxvq_f32(a); }
+#endif
+
 #if defined(__AVX512F__)
 BOULE_INLINE Floats load_of_eight(const float* p, std::size_t) {
   return _mm512_broadcast_f32x8(_mm256_load_ps(p));

@@ -104,6 +104,9 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
 /// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return xsimd::min(a.v, b.v); }
 BOULE_INLINE Real filter_max(Real a, Real b) { return xsimd::max(a.v, b.v); }
+/// The least and the greatest lane, none of which is NaN.
+BOULE_INLINE float least_lane(Real a) { return gaps::least(a.v); }
+BOULE_INLINE float greatest_lane(Real a) { return gaps::greatest(a.v); }
 
 BOULE_INLINE Wide widen(Real a) { return {gaps::widen_low(a.v), gaps::widen_high(a.v)}; }
 BOULE_INLINE WideMask widen(RealMask a) { return {gaps::widen_low(a.m), gaps::widen_high(a.m)}; }
