@@ -128,36 +128,53 @@ std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload&
 }
 
 /// One scene and all that works on it.
-struct Arena {
-  const RefereeSettings& settings;
-  BenchScene scene;
-  DoubleTree tree;
-  EmbreePeer embree;
-  BoulePeer boule;
-  Scheduler scheduler{0};
-  ParallelFor parallel_for = scheduler.parallel_for();
+class Arena {
+ public:
+  Arena(const RefereeSettings& settings, BenchScene scene)
+      : settings_(settings),
+        scene_(std::move(scene)),
+        tree_(scene_.spheres),
+        embree_(scene_),
+        boule_(scene_, settings.isas),
+        primary_(primary_rays(scene_, settings.side)),
+        primary_judge_({&scene_, RayKind::primary, &primary_}, tree_, parallel_for_) {}
 
-  Arena(const RefereeSettings& what, BenchScene where)
-      : settings(what),
-        scene(std::move(where)),
-        tree(scene.spheres),
-        embree(scene),
-        boule(scene, what.isas) {}
+  /// Asks everybody for one kind of rays. No rows where the scene has no such rays.
+  std::vector<Row> compare(RayKind kind, Check& check) {
+    if (kind == RayKind::primary) {
+      return compare({&scene_, kind, &primary_}, primary_judge_, check);
+    }
+    const auto make = kind == RayKind::shadow ? shadow_rays : diffuse_rays;
+    RayBuffer rays = make(scene_, primary_, primary_judge_.truth().hits);
+    const Workload workload = {&scene_, kind, &rays};
+    if (rays.size() == 0) return {};
+    return compare(workload, {workload, tree_, parallel_for_}, check);
+  }
 
-  std::vector<Row> compare(const Workload& workload, Check& check) {
-    const Judge judge(workload, tree, parallel_for);
-    check = {scene.name, name_of(workload.kind), workload.rays->size(),
+ private:
+  std::vector<Row> compare(const Workload& workload, const Judge& judge, Check& check) {
+    check = {scene_.name, name_of(workload.kind), workload.rays->size(),
              std::min(reference_samples, workload.rays->size()),
-             judge.differ_from_reference(reference_samples, parallel_for)};
+             judge.differ_from_reference(reference_samples, parallel_for_)};
     std::vector<Entrant> entrants;
-    for (auto& contender : embree.contenders(workload))
+    for (auto& contender : embree_.contenders(workload))
       entrants.push_back({std::move(contender), {}});
-    for (auto& contender : boule.contenders(workload))
+    for (auto& contender : boule_.contenders(workload))
       entrants.push_back({std::move(contender), {}});
-    OracleJudge oracle(workload, tree);
-    run_all(entrants, workload, judge, oracle, settings);
+    OracleJudge oracle(workload, tree_);
+    run_all(entrants, workload, judge, oracle, settings_);
     return make_rows(entrants, workload);
   }
+
+  const RefereeSettings& settings_;
+  BenchScene scene_;
+  Scheduler scheduler_{0};
+  ParallelFor parallel_for_ = scheduler_.parallel_for();
+  DoubleTree tree_;
+  EmbreePeer embree_;
+  BoulePeer boule_;
+  RayBuffer primary_;
+  Judge primary_judge_;
 };
 
 }  // namespace
@@ -169,16 +186,10 @@ Result<Results> compare(const RefereeSettings& settings,
     Result<BenchScene> scene = make_scene(name);
     if (!scene) return scene.error();
     Arena arena(settings, std::move(scene).value());
-    RayBuffer primary = primary_rays(arena.scene, settings.side);
-    const Judge first({&arena.scene, RayKind::primary, &primary}, arena.tree, arena.parallel_for);
     for (const RayKind kind : settings.kinds) {
-      RayBuffer rays;
-      if (kind == RayKind::shadow) rays = shadow_rays(arena.scene, primary, first.truth().hits);
-      if (kind == RayKind::diffuse) rays = diffuse_rays(arena.scene, primary, first.truth().hits);
-      const Workload workload = {&arena.scene, kind, kind == RayKind::primary ? &primary : &rays};
-      if (workload.rays->size() == 0) continue;
       Check check;
-      const std::vector<Row> rows = arena.compare(workload, check);
+      const std::vector<Row> rows = arena.compare(kind, check);
+      if (rows.empty()) continue;
       report(check, rows);
       results.checks.push_back(check);
       results.rows.insert(results.rows.end(), rows.begin(), rows.end());

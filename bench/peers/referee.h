@@ -18,7 +18,7 @@ struct RefereeSettings {
   std::vector<RayKind> kinds;
   std::vector<std::string> isas;  ///< of Boule's kernels
   int repetitions = 7;
-  double patience = 20;  ///< seconds on the wall after which a workload gets 3 repetitions only
+  double patience = 15;  ///< seconds on the wall after which a workload gets 3 repetitions only
   unsigned threads = 1;  ///< 1: rates by the thread's CPU time; more: by the clock on the wall
   int side = 1024;       ///< pixels
 };
