@@ -95,7 +95,7 @@ struct AnyHit {
                              const FilterRays& rays) {
     const RealMask found = live(roots, rays);
     hit |= bits(found);
-    far = select(found, Real(-static_cast<float>(no_hit)), far);
+    far = select(found, Real(-std::numeric_limits<float>::max()), far);
     return wants(low, out);
   }
   BOULE_INLINE bool wants(const Real&, unsigned out) const {
