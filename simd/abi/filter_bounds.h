@@ -84,12 +84,20 @@ inline constexpr double spread = 12;
 ///             (or Z - c - sqrt(disc)). Its float value is wrong by Z: u, the sums 4 u, a and b:
 ///             17 u (|X| + |Y|), the root u r: 20 u F1 together; E1 = bundle_depth u F1.
 ///   scale   |d|^2 / d.W is good to 14 u; bounds in v that come from t are shifted by bundle_scale.
+///
+/// Rays with a common end, O, are seen from there, backwards: with d, not d - d0, so that D is
+/// |d|_1 / d.W, at most 2: a and b are then 7 u D off. Their lines miss O by what rounding d to
+/// float has cost, at most `shift`: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes
+/// are tested with, and scale, the ray's own end in v, grow by.
 inline constexpr double bundle_center = 4;
 inline constexpr double bundle_axis = 24;
 inline constexpr double bundle_square = 16;
 inline constexpr double bundle_depth = 24;
 inline constexpr double bundle_scale = 24;
 inline constexpr double bundle_double = 0x1p-44;
+inline constexpr double bundle_shift_slope = 1.5;
+/// Rays whose ends are farther apart than this share of their length are no bundle.
+inline constexpr float bundle_shift = 0x1p-10F;
 
 /// Bundles wider than this (|a| or |b|, and D at most 1) are split.
 inline constexpr float bundle_width = 0.25F;

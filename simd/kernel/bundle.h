@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "simd/abi/geometry.h"
+#include "simd/kernel/bundle_any.h"
 #include "simd/kernel/bundle_discs.h"
 #include "simd/kernel/bundle_hits.h"
 #include "simd/kernel/bundle_rays.h"
@@ -32,9 +33,11 @@ class BundleSides {
     const Vec3d& o = frame.org;
     const Vec3d lost = o - Vec3d{double{static_cast<float>(o.x)}, double{static_cast<float>(o.y)},
                                  double{static_cast<float>(o.z)}};
-    origin_error_ = static_cast<float>(
-        (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) * 1.1 +
-        filter::floor);
+    origin_error_ =
+        static_cast<float>(
+            (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) * 1.1 +
+            filter::floor) +
+        rays.shift;
   }
 
   /// Of eight boxes: where the bundle may enter them, in v, and bits of those it misses.
@@ -54,7 +57,7 @@ class BundleSides {
   };
 
   static void set_side(Side& side, const Vec3d& axis, const Vec3d& w, double at, double sign) {
-    const bool one_origin = common == Common::origin;
+    const bool one_origin = common != Common::direction;
     const Vec3d n = (one_origin ? axis - w * at : axis) * sign;
     side.x = static_cast<float>(n.x);
     side.y = static_cast<float>(n.y);
@@ -109,7 +112,7 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
                                const SlotPlace& spheres, std::uint32_t first, unsigned count,
                                Hits& hits) {
   Discs discs;
-  place_discs<common>(rays, factors, spheres, count, hits.limit(), discs);
+  place_discs<common, Hits::seek>(rays, factors, spheres, count, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1) {
     const auto slot = first + static_cast<std::uint32_t>(std::countr_zero(left));
     for (int group = 0; group * group_packets < rays.packets; ++group)
@@ -173,12 +176,26 @@ template <Common common>
 BOULE_NOINLINE bool trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
                                  std::size_t first, std::size_t count, const HitStream& hits) {
   BundleRays rays;
-  if (!load_bundle<common>(stream, first, count, rays)) return false;
+  if (!load_bundle<common, Seek::nearest>(stream, first, count, rays)) return false;
   const DiscFactors factors(rays, common);
   BundleHits<common> nearest(stream, geometry.spheres, rays);
   meet_scanned<common>(rays, factors, geometry.spheres, nearest);
   meet_tree<common>(rays, factors, geometry, nearest);
   nearest.finish(geometry.planes, hits);
+  return true;
+}
+
+/// Whether `count` rays from `first` on meet anything; false if they are no bundle.
+template <Common common>
+BOULE_NOINLINE bool trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
+                                 std::size_t first, std::size_t count, std::uint8_t* occluded) {
+  BundleRays rays;
+  if (!load_bundle<common, Seek::any>(stream, first, count, rays)) return false;
+  const DiscFactors factors(rays, common);
+  BundleAny<common> any(stream, geometry.spheres, rays);
+  meet_scanned<common>(rays, factors, geometry.spheres, any);
+  meet_tree<common>(rays, factors, geometry, any);
+  any.finish(geometry.planes, occluded);
   return true;
 }
 

@@ -32,16 +32,19 @@ struct DiscFactors {
   Real square;        ///< G = square r^2 + ...
   Real plane_length;  ///< |n| of the bundle's sides, outward
 
+  Real depth_shift;  ///< what E1 has besides
+
   BOULE_INLINE DiscFactors(const BundleRays& rays, Common common) {
     constexpr auto u = static_cast<float>(filter::u);
     const auto center_factor = static_cast<float>(filter::bundle_center * filter::u);
     const float axis_factor = static_cast<float>(filter::bundle_axis * filter::u) * rays.across;
-    const bool one_origin = common == Common::origin;
+    const bool one_origin = common != Common::direction;
+    depth_shift = rays.shift;
     center = center_factor;
     exact = static_cast<float>(filter::bundle_double);
     depth = static_cast<float>(filter::bundle_depth) * u;
     axis = one_origin ? axis_factor : 0.0F;
-    constant = static_cast<float>(filter::floor) + (one_origin ? 0.0F : axis_factor);
+    constant = static_cast<float>(filter::floor) + (one_origin ? rays.shift : axis_factor);
     square = rays.squared_across * (1 + 8 * u) + static_cast<float>(filter::bundle_square) * u;
     plane_length = one_origin ? 1.05F : 1.001F;
   }
@@ -51,7 +54,7 @@ struct DiscFactors {
 template <Common common>
 BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, const Real& reach) {
   const Real zero(0.0F);
-  if constexpr (common == Common::origin) {
+  if constexpr (common != Common::direction) {
     return (filter_fnma(extent.a_low, center.z, center.x) + reach < zero) |
            (reach < filter_fnma(extent.a_high, center.z, center.x)) |
            (filter_fnma(extent.b_low, center.z, center.y) + reach < zero) |
@@ -63,7 +66,7 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
 }
 
 /// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
-template <Common common>
+template <Common common, Seek seek>
 BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
                              const SlotPlace& spheres, std::size_t part, const Real& limit,
                              Discs& discs) {
@@ -79,15 +82,17 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   const Real delta = filter_fma(
       aside, factors.center,
       filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant)));
-  const Real depth = filter_fnma(f1, factors.depth, center.z);
+  const Real depth = filter_fnma(f1, factors.depth, center.z - factors.depth_shift);
   const Real near =
       filter_fnma(r, Real(1 + 8 * static_cast<float>(filter::u)), depth) - rays.c_high;
   // A line that meets the sphere is this near its centre.
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
   const RealMask missed = judged & outside<common>(rays.extent, center, reach);
-  const RealMask simple =
-      judged & (r + r + Real(rays.c_high) <= center.z) & (Real(filter::bundle_small) < r);
+  RealMask simple = judged & (Real(filter::bundle_small) < r);
+  // Parallel rays may begin anywhere among the spheres: any hit then asks where.
+  if constexpr (common != Common::direction || seek == Seek::nearest)
+    simple = simple & (r + r + Real(rays.c_high) <= center.z);
   const std::size_t at = part * width;
   store(discs.x + at, center.x);
   store(discs.y + at, center.y);
@@ -101,12 +106,12 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
 }
 
 /// Eight spheres, of which there are `count`: finds those that matter.
-template <Common common>
+template <Common common, Seek seek>
 BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
                               const SlotPlace& spheres, unsigned count, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
   for (std::size_t part = 0; part * width < count; ++part)
-    place_part<common>(rays, factors, spheres, part, limit, discs);
+    place_part<common, seek>(rays, factors, spheres, part, limit, discs);
   const unsigned there = (1U << count) - 1;
   discs.simple &= there;
   discs.awkward &= there;
@@ -130,7 +135,7 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs&
     // Where a group's extent may meet the disc: |a - X / Z| <= (r' + delta) / Z.
     const Real half = (sqrt(squared) + delta + delta) * outward;
     Real a = x, b = y, wide = half;
-    if constexpr (common == Common::origin) {
+    if constexpr (common != Common::direction) {
       const Real inverse = Real(1.0F) / z;
       a = x * inverse;
       b = y * inverse;

@@ -38,7 +38,7 @@ template <Common common>
 BOULE_INLINE Real disc_square(const BundleRays& rays, int ray, const DiscLanes& disc) {
   const Real a = load(rays.a + ray), b = load(rays.b + ray);
   Real e1, e2;
-  if constexpr (common == Common::origin) {
+  if constexpr (common != Common::direction) {
     e1 = filter_fnma(a, disc.z, disc.x);
     e2 = filter_fnma(b, disc.z, disc.y);
   } else {
@@ -53,7 +53,7 @@ template <Common common>
 BOULE_INLINE Real first_root(const BundleRays& rays, int ray, const DiscLanes& disc,
                              const Real& q) {
   const Real root = sqrt(q);
-  if constexpr (common == Common::origin) {
+  if constexpr (common != Common::direction) {
     const Real a = load(rays.a + ray), b = load(rays.b + ray);
     return filter_fma(disc.x, a, filter_fma(disc.y, b, disc.depth)) - root;
   } else {
@@ -122,6 +122,8 @@ BOULE_INLINE Wide solve_first(const ExactRays& rays, const SphereLanes& sphere) 
 template <Common common>
 class BundleHits {
  public:
+  static constexpr Seek seek = Seek::nearest;
+
   BundleHits(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
       : stream_(stream), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p * width);

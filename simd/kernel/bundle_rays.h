@@ -7,12 +7,16 @@
 #include "simd/kernel/packet.h"
 #include "simd/kernel/padded_stream.h"
 
-/// Up to 256 rays that share an origin or a direction, in a frame of their own, as
+/// Up to 256 rays that share an origin, a direction or an end, in a frame of their own, as
 /// filter_bounds.h describes it. They walk a tree together.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle's rays have in common.
-enum class Common { origin, direction };
+/// What a bundle's rays have in common. `end`: the point at t = 1; such rays are seen from there,
+/// backwards.
+enum class Common { origin, direction, end };
+
+/// What is asked for.
+enum class Seek { nearest, any };
 
 inline constexpr int bundle_size = 256;
 inline constexpr int bundle_packets = bundle_size / width;
@@ -36,6 +40,7 @@ struct BundleRays {
   std::size_t first;     ///< ray of the stream
   int packets;           ///< of which the last may hold copies
   float across;          ///< D
+  float shift;           ///< lines with a common end miss it by at most this
   float squared_across;  ///< rho^2; 0 with one direction
   float c_low, c_high;   ///< origins along W; 0 with one origin
   Extent extent;         ///< of all rays
@@ -73,7 +78,7 @@ BOULE_INLINE BundleFrame make_frame(const Vec3d& org, const Vec3d& forward, cons
 
 /// A ray in its bundle's frame.
 struct Projected {
-  Real a, b, c, scale, across;
+  Real a, b, c, scale, across, shift;
 };
 
 /// Puts rays into the frame of their bundle.
@@ -94,25 +99,41 @@ class Projection {
     if constexpr (common == Common::origin) {
       const Vec3<Real> dir = load_direction(rays, first), off = dir - dir_;
       const Real inverse = Real(1.0F) / (length_ + filter_dot(off, w_));
-      return {filter_dot(off, u_) * inverse, filter_dot(off, v_) * inverse, Real(0.0F),
-              filter_dot(dir, dir) * inverse, sum_abs_of(off) * inverse};
+      return {filter_dot(off, u_) * inverse,  filter_dot(off, v_) * inverse, Real(0.0F),
+              filter_dot(dir, dir) * inverse, sum_abs_of(off) * inverse,     Real(0.0F)};
+    } else if constexpr (common == Common::end) {
+      const Vec3<Real> dir = load_direction(rays, first);
+      const Vec3<Real> back{Real(0.0F) - dir.x, Real(0.0F) - dir.y, Real(0.0F) - dir.z};
+      const Real inverse = Real(1.0F) / filter_dot(back, w_);
+      const Vec3<Wide> end = load_origin(rays, first) + widen(dir);
+      return {filter_dot(back, u_) * inverse,
+              filter_dot(back, v_) * inverse,
+              Real(0.0F),
+              filter_dot(dir, dir) * inverse,
+              sum_abs_of(back) * inverse,
+              sum_abs_of(narrow(end - org_))};
     } else {
       const Vec3<Real> off = narrow(load_origin(rays, first) - org_);
       return {filter_dot(off, u_), filter_dot(off, v_), filter_dot(off, w_), length_,
-              sum_abs_of(off)};
+              sum_abs_of(off),     Real(0.0F)};
     }
   }
 
   /// Lanes whose rays may be in the bundle: what they must share they do, they live from t = 0 on
-  /// and leave nothing.
+  /// and, to seek the nearest hit, leave nothing.
+  template <Seek seek>
   BOULE_INLINE RealMask belongs(const RayStream& rays, std::size_t first) const {
     const Real zero(0.0F), tmin = load(rays.tmin + first);
     std::int32_t source = -1;
-    for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane)
-      source &= rays.source[first + lane];
+    if constexpr (seek == Seek::nearest) {
+      for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane)
+        source &= rays.source[first + lane];
+    }
     const RealMask fresh =
         (tmin <= zero) & (zero <= tmin) & (Real(source == -1 ? 0.0F : 1.0F) <= zero);
-    if constexpr (common == Common::origin) {
+    if constexpr (common == Common::end) {
+      return fresh;  // `shift` tells
+    } else if constexpr (common == Common::origin) {
       const Vec3<Wide> org = load_origin(rays, first);
       const WideMask same = (org.x == org_.x) & (org.y == org_.y) & (org.z == org_.z);
       return fresh & (bits(same) == all_lanes ? zero <= zero : zero < zero);
@@ -163,16 +184,20 @@ BOULE_INLINE Extent extent_of_both(const Extent& a, const Extent& b) {
 /// What load_bundle() finds out about all its rays, W at a time.
 struct BundleSums {
   RealMask belongs = Real(0.0F) <= Real(0.0F);
-  Real across{0.0F}, squared{0.0F}, c_low{0.0F}, c_high{0.0F};
+  Real across{0.0F}, squared{0.0F}, c_low{0.0F}, c_high{0.0F}, shift{0.0F};
 
   template <Common common>
   BOULE_INLINE void add(const Projected& ray) {
-    constexpr bool one_origin = common == Common::origin;
+    constexpr float widest = common == Common::origin ? 1.0F
+                             : common == Common::end  ? 2.0F
+                                                      : filter::bundle_far;
     // NaN passes none of these.
-    belongs = belongs & (ray.across <= Real(one_origin ? 1.0F : filter::bundle_far)) &
-              (ray.scale < Real(filter::limit)) & (Real(1 / filter::limit) < ray.scale);
+    belongs = belongs & (ray.across <= Real(widest)) & (ray.scale < Real(filter::limit)) &
+              (Real(1 / filter::limit) < ray.scale) &
+              (ray.shift <= ray.scale * Real(filter::bundle_shift));
     across = filter_max(across, ray.across);
-    if constexpr (one_origin) {
+    shift = filter_max(shift, ray.shift);
+    if constexpr (common != Common::direction) {
       squared = filter_max(squared, filter_fma(ray.a, ray.a, ray.b * ray.b));
     } else {
       c_low = filter_min(c_low, ray.c);
@@ -199,7 +224,7 @@ BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
 }
 
 /// The packets begin .. end of a bundle: puts their rays into its frame and returns their extent.
-template <Common common>
+template <Common common, Seek seek>
 BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<common>& projection,
                                int begin, int end, BundleRays& bundle, BundleSums& sums) {
   ExtentLanes extent;
@@ -208,7 +233,7 @@ BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<comm
     prefetch_packet(stream.rays(),
                     bundle.first + static_cast<std::size_t>(p * width + bundle_size));
     const Projected ray = projection.project(*place.rays, place.first);
-    sums.belongs = sums.belongs & projection.belongs(*place.rays, place.first);
+    sums.belongs = sums.belongs & projection.template belongs<seek>(*place.rays, place.first);
     sums.template add<common>(ray);
     extent.add(ray);
     store(bundle.a + p * width, ray.a);
@@ -226,17 +251,19 @@ BOULE_INLINE bool in_bundle_range(const Vec3d& v) {
 
 /// Rays first .. first + count - 1 of the stream, count at most bundle_size, as a bundle. False if
 /// they are none: they do not share what they must, are too wide, or not finite.
-template <Common common>
+template <Common common, Seek seek>
 BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, std::size_t count,
                                 BundleRays& bundle) {
   const RayStream& rays = stream.rays();
   // In Morton order ray 3/4 is the middle of a tile, ray 1/3 its corner along x.
   const std::size_t middle = first + count * 3 / 4, corner = first + (count - 1) / 3;
-  constexpr bool one_origin = common == Common::origin;
-  const Vec3d side = one_origin ? direction_of(rays, corner) - direction_of(rays, first)
-                                : origin_of(rays, corner) - origin_of(rays, first);
-  if (!in_bundle_range(origin_of(rays, middle))) return false;
-  bundle.frame = make_frame(origin_of(rays, middle), direction_of(rays, middle), side);
+  const Vec3d side = common == Common::origin
+                         ? direction_of(rays, corner) - direction_of(rays, first)
+                         : origin_of(rays, corner) - origin_of(rays, first);
+  const Vec3d forward = direction_of(rays, middle), start = origin_of(rays, middle);
+  if (!in_bundle_range(start) || !in_bundle_range(forward)) return false;
+  bundle.frame = common == Common::end ? make_frame(start + forward, -forward, side)
+                                       : make_frame(start, forward, side);
   bundle.first = first;
   bundle.packets = static_cast<int>((count + width - 1) / width);
 
@@ -247,7 +274,7 @@ BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, s
     const int begin = group * group_packets, rest = bundle.packets - begin;
     const int end = begin + (rest < group_packets ? rest : group_packets);
     Extent& extent = bundle.group_extent[group];
-    extent = load_group<common>(stream, projection, begin, end, bundle, sums);
+    extent = load_group<common, seek>(stream, projection, begin, end, bundle, sums);
     bundle.extent = group == 0 ? extent : extent_of_both(bundle.extent, extent);
     if (!all(sums.belongs)) return false;
   }
@@ -255,7 +282,14 @@ BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, s
   bundle.squared_across = greatest_lane(sums.squared);
   bundle.c_low = least_lane(sums.c_low);
   bundle.c_high = greatest_lane(sums.c_high);
-  const float most = one_origin ? filter::bundle_width : filter::bundle_far;
+  // 2^-50 of the end's own size was lost when it was found.
+  const Vec3d& o = bundle.frame.org;
+  const double lost = __builtin_fabs(o.x) + __builtin_fabs(o.y) + __builtin_fabs(o.z);
+  bundle.shift = common != Common::end
+                     ? 0.0F
+                     : static_cast<float>((double{greatest_lane(sums.shift)} + lost * 0x1p-50) *
+                                          filter::bundle_shift_slope);
+  const float most = common != Common::direction ? filter::bundle_width : filter::bundle_far;
   const Extent& e = bundle.extent;
   return -most <= e.a_low && e.a_high <= most && -most <= e.b_low && e.b_high <= most;
 }

@@ -95,29 +95,39 @@ void any_hit_with(const GeometryView& geometry, const PaddedStream& stream, std:
       });
 }
 
-/// Rays begin .. end, at most a bundle, as bundles: halved until they fit, else as packets.
-template <Common common>
-void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
-                         std::size_t begin, std::size_t end, const HitStream& hits) {
+/// What does not fit into bundles goes as packets.
+void trace_rest(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                std::size_t end, const HitStream& hits) {
+  closest_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
+}
+void trace_rest(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                std::size_t end, std::uint8_t* occluded) {
+  any_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
+}
+
+/// Rays begin .. end, at most a bundle, as bundles: halved until they fit.
+template <Common common, class Answers>
+void trace_bundled(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                   std::size_t end, const Answers& answers) {
   constexpr std::size_t fewest = 32;
   const std::size_t count = end - begin;
   if (count < fewest) {
-    closest_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
-  } else if (!trace_bundle<common>(geometry, stream, begin, count, hits)) {
+    trace_rest(geometry, stream, begin, end, answers);
+  } else if (!trace_bundle<common>(geometry, stream, begin, count, answers)) {
     const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
-    closest_hit_bundled<common>(geometry, stream, begin, middle, hits);
-    closest_hit_bundled<common>(geometry, stream, middle, end, hits);
+    trace_bundled<common>(geometry, stream, begin, middle, answers);
+    trace_bundled<common>(geometry, stream, middle, end, answers);
   }
 }
 
 /// All rays, bundle by bundle.
-template <Common common>
-void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
-                         const HitStream& hits) {
+template <Common common, class Answers>
+void trace_bundled(const GeometryView& geometry, const PaddedStream& stream,
+                   const Answers& answers) {
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += bundle_size) {
     const std::size_t end = size - begin < bundle_size ? size : begin + bundle_size;
-    closest_hit_bundled<common>(geometry, stream, begin, end, hits);
+    trace_bundled<common>(geometry, stream, begin, end, answers);
   }
 }
 
@@ -126,9 +136,9 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
   const PaddedStream stream(rays);
   const bool bundled = query.form == Form::automatic;
   if (bundled && query.coherence == Coherence::common_origin) {
-    closest_hit_bundled<Common::origin>(geometry, stream, hits);
+    trace_bundled<Common::origin>(geometry, stream, hits);
   } else if (bundled && query.coherence == Coherence::common_direction) {
-    closest_hit_bundled<Common::direction>(geometry, stream, hits);
+    trace_bundled<Common::direction>(geometry, stream, hits);
   } else if (query.solver == Solver::fast) {
     closest_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
   } else {
@@ -139,7 +149,14 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
 void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
              std::uint8_t* occluded) {
   const PaddedStream stream(rays);
-  if (query.solver == Solver::fast) {
+  const bool bundled = query.form == Form::automatic;
+  if (bundled && query.coherence == Coherence::common_origin) {
+    trace_bundled<Common::origin>(geometry, stream, occluded);
+  } else if (bundled && query.coherence == Coherence::common_direction) {
+    trace_bundled<Common::direction>(geometry, stream, occluded);
+  } else if (bundled && query.coherence == Coherence::common_end) {
+    trace_bundled<Common::end>(geometry, stream, occluded);
+  } else if (query.solver == Solver::fast) {
     any_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
   } else {
     any_hit_with<Solver::robust>(geometry, stream, 0, rays.size, query.form, occluded);

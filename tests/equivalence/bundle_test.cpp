@@ -134,6 +134,29 @@ std::vector<Ray> in_one_direction(const Tile& tile, const Vec3d& eye) {
   return rays;
 }
 
+/// Rays from what the tile's rays hit, moved off it, towards a light: a point, or a direction.
+std::vector<Ray> towards_light(const BundleScene& scene, const std::vector<Ray>& tile,
+                               const Vec3d& light, bool is_point) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    const Hit hit = reference::closest_hit(tile[i], scene.spheres, {});
+    if (hit.id < 0) continue;
+    const Sphere& sphere = scene.spheres[static_cast<std::size_t>(hit.id)];
+    const Vec3d point = tile[i].org + vec_cast<double>(tile[i].dir) * hit.t;
+    const Vec3d normal = normalize(point - center_of(sphere));
+    const double moved = 0x1p-48 * (length(point) + length(point - center_of(sphere)));
+    Ray ray{point + normal * moved, vec_cast<float>(light)};
+    if (is_point) {
+      ray.dir = vec_cast<float>(light - ray.org);
+      ray.tmax = 1 - 0x1p-22F;
+    }
+    ray.source = hit.id;
+    ray.inside = i % 37 == 0;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
 bool judgeable(const Tile& tile) {
   return length(tile.middle) < 1e15 && length(tile.right) > 0;  // NaN is neither
 }
@@ -188,6 +211,44 @@ TEST_P(Bundle, GivesTheScalarPathsAnswers) {
   }
 }
 
+TEST_P(Bundle, FindsShadows) {
+  for (const BundleScene& scene : scenes()) {
+    const Geometry geometry(scene.spheres, {});
+    CaseRandom random(66);
+    std::size_t rays = 0, dark = 0;
+    for (int k = 0; k < 40; ++k) {
+      const Tile tile = aim(random, scene);
+      if (!judgeable(tile)) continue;
+      const std::vector<Ray> camera_rays = from_one_origin(tile, scene.eye);
+      // Near the eye, behind the spheres, among them; or where a sphere's rim is in the way.
+      const double away = length(tile.middle - scene.eye) * random.decade(-2, 2);
+      const Vec3d from = random.chance(0.5) ? scene.eye : tile.middle;
+      Vec3d light = from + random.direction() * away;
+      const Tile other = aim(random, scene);
+      const double beyond = 1 + random.decade(-3, 1);
+      if (random.chance(0.6) && judgeable(other))
+        light = tile.middle + (other.middle - tile.middle) * beyond;
+      for (const bool is_point : {true, false}) {
+        const Vec3d to = is_point ? light : light - tile.middle;
+        const auto shadow_rays = towards_light(scene, camera_rays, to, is_point);
+        const Coherence coherence = is_point ? Coherence::common_end : Coherence::common_direction;
+        const Query query{Solver::robust, Form::automatic, coherence};
+        const auto occluded = run_any(*kernels, geometry.view(), shadow_rays, query);
+        for (std::size_t i = 0; i < shadow_rays.size(); ++i) {
+          const bool expected = reference::any_hit(shadow_rays[i], scene.spheres, {});
+          ASSERT_EQ(occluded[i], expected ? 1 : 0)
+              << scene.name << " tile " << k << " ray " << i << (is_point ? " to a point" : "");
+          dark += expected ? 1U : 0U;
+        }
+        rays += shadow_rays.size();
+      }
+    }
+    EXPECT_GT(dark, rays / 20) << scene.name;
+    EXPECT_LT(dark, rays * 19 / 20) << scene.name;
+    EXPECT_GT(rays, 1000U) << scene.name;
+  }
+}
+
 TEST_P(Bundle, MeetsPlanesAsWell) {
   const BundleScene scene = cloud("over a floor", {0, 0, 0}, 1, 0.1, 5);
   const std::vector<Plane> planes = {{{0, -0.5F, 0}, {0, 1, 0}, 0}, {{0, 0, -3}, {0, 0.1F, 1}, 0}};
@@ -213,7 +274,8 @@ TEST_P(Bundle, TakesAnyStream) {
       wide.push_back({scene.eye, vec_cast<float>(Vec3d{2 * x, 2 * y, -3 * y * y - 1})});
       none.push_back({scene.eye + Vec3d{x, y, 0}, vec_cast<float>(Vec3d{-x, x * y, -3})});
     }
-    for (const Coherence coherence : {Coherence::common_origin, Coherence::common_direction}) {
+    for (const Coherence coherence :
+         {Coherence::common_origin, Coherence::common_direction, Coherence::common_end}) {
       check(scene, {}, geometry, wide, coherence);
       check(scene, {}, geometry, none, coherence);
     }

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "simd/kernel/bundle_discs.h"
+#include "simd/kernel/bundle_hits.h"
+#include "simd/kernel/bundle_rays.h"
+
+/// Whether a bundle's rays meet anything. Float decides nearly always; the double solver where a
+/// sphere's rim, or its depth, is too close to call.
+namespace boule::BOULE_KERNEL_ISA {
+
+template <Common common>
+class BundleAny {
+ public:
+  static constexpr Seek seek = Seek::any;
+
+  BundleAny(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
+      : stream_(stream), spheres_(spheres), rays_(rays) {
+    for (int p = 0; p < rays.packets; ++p) start(p);
+    for (float& limit : limit_) limit = -static_cast<float>(no_hit);
+    for (int group = 0; group * group_packets < rays.packets; ++group) update(group);
+  }
+
+  [[nodiscard]] float limit(int group) const { return limit_[group]; }
+  [[nodiscard]] float limit() const { return limit_of_all_; }
+  [[nodiscard]] bool done() const { return limit_of_all_ == -static_cast<float>(no_hit); }
+
+  /// A simple sphere against a group; true if that changes its hits: then update() it.
+  BOULE_INLINE bool meet(int group, const Discs& discs, int k, std::uint32_t slot) {
+    const DiscLanes disc(discs, k);
+    const int begin = group * group_packets;
+    bool changed = false;
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p) {
+      const Real q = disc_square<common>(rays_, p * width, disc);
+      if (any(Real(0.0F) <= q)) changed |= consider(p, disc, q, slot);
+    }
+    return changed;
+  }
+
+  /// Any other sphere against a group.
+  BOULE_NOINLINE void meet_awkward(int group, std::uint32_t slot) {
+    const int begin = group * group_packets;
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p) {
+      if (hit_[p] != all_lanes) resolve(p, slot, all_lanes & ~hit_[p]);
+    }
+    update(group);
+  }
+
+  /// Finds limit() again after a group's hits have changed.
+  BOULE_INLINE void update(int group) {
+    const int begin = group * group_packets;
+    float most = -static_cast<float>(no_hit);
+    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
+      most = hit_[p] != all_lanes && last_[p] > most ? last_[p] : most;
+    limit_[group] = most;
+    limit_of_all_ = limit_[0];
+    for (int k = 1; k < bundle_groups; ++k)
+      limit_of_all_ = limit_[k] > limit_of_all_ ? limit_[k] : limit_of_all_;
+  }
+
+  /// Adds the planes and writes it all.
+  void finish(const PlaneView& planes, std::uint8_t* occluded) {
+    for (int p = 0; p < rays_.packets; ++p) {
+      const std::size_t first = rays_.first + static_cast<std::size_t>(p * width);
+      if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
+      const std::size_t live = stream_.live(first);
+      for (std::size_t lane = 0; lane < live; ++lane)
+        occluded[first + lane] = static_cast<std::uint8_t>((hit_[p] >> lane) & 1U);
+    }
+  }
+
+ private:
+  /// Finds between which v the rays live. From their common end they run backwards, from v = (1 -
+  /// tmax) scale to scale.
+  BOULE_INLINE void start(int p) {
+    const int ray = p * width;
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
+    constexpr auto slack = static_cast<float>(filter::bundle_scale * filter::u);
+    const Real zero(0.0F), inward(1 - slack), outward(1 + slack);
+    const Real largest(std::numeric_limits<float>::max());
+    const Real scale = load(rays_.scale + ray), tmax = load(place.rays->tmax + place.first);
+    const Real until = select(largest < tmax, largest, tmax);
+    Real begin = zero, end_low, end_high;
+    if constexpr (common == Common::end) {
+      // What is lost where 1 - tmax is not exact is less than 24 u (1 + |tmax|).
+      const Real rest = (Real(1.0F) - until) + (Real(1.0F) + abs(until)) * Real(slack);
+      begin = rest * select(rest < zero, inward, outward) * scale + Real(rays_.shift);
+      end_low = scale * inward - Real(rays_.shift);
+      end_high = scale * outward + Real(rays_.shift);
+    } else {
+      const Real end = until * scale;
+      const RealMask ahead = zero < end;
+      end_low = end * select(ahead, inward, outward);
+      end_high = end * select(ahead, outward, inward);
+    }
+    store(begin_ + ray, begin);
+    store(end_low_ + ray, end_low);
+    store(end_high_ + ray, end_high);
+    const Real none(-static_cast<float>(no_hit));
+    last_[p] = greatest_lane(select(none <= end_high, end_high, none));  // NaN is left out
+    hit_[p] = 0;
+  }
+
+  /// What float knows of a sphere in W rays; true if that changes anything.
+  BOULE_INLINE bool consider(int p, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
+    const int ray = p * width;
+    const Real from = first_root<common>(rays_, ray, disc, q), to = from + disc.spread;
+    RealMask candidate = from <= load(end_high_ + ray);  // false for Q < 0
+    if constexpr (common == Common::direction) {
+      const Real second = to + sqrt(q) + sqrt(q);  // bounds the other root
+      candidate = candidate & (Real(0.0F) <= second);
+    }
+    const unsigned open = bits(candidate) & ~hit_[p];
+    if (open == 0) return false;
+    const RealMask certain =
+        (disc.sure <= q) & (load(begin_ + ray) < from) & (to < load(end_low_ + ray));
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
+    const unsigned own = own_sphere(place, spheres_.id[slot]);
+    hit_[p] |= bits(certain) & open & ~own;
+    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(place, own);
+    if (unclear != 0) resolve(p, slot, unclear);
+    return true;
+  }
+
+  /// Lanes whose rays leave this very sphere.
+  BOULE_INLINE static unsigned own_sphere(const PacketPlace& place, std::int32_t id) {
+    return bits(load_as_wide(place.rays->source + place.first) == Wide(static_cast<double>(id)));
+  }
+  /// Of those that leave their sphere the ones on its outside: they cannot meet it again.
+  BOULE_INLINE static unsigned leaves_outside(const PacketPlace& place, unsigned own) {
+    if (own == 0) return 0;
+    return own & ~bits(Wide(0.0) < load_as_wide(place.rays->inside + place.first));
+  }
+
+  /// Solves a sphere for those of W rays that `lanes` names.
+  BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned lanes) {
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
+    const ExactRays rays = load_exact(*place.rays, place.first);
+    hit_[p] |= lanes & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
+  }
+
+  BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
+    const ExactRays rays = load_exact(*place.rays, place.first);
+    for (std::size_t k = 0; k < planes.size; ++k)
+      hit_[p] |= bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
+  }
+
+  const PaddedStream& stream_;
+  const SphereView& spheres_;
+  const BundleRays& rays_;
+  float limit_[bundle_groups];
+  float limit_of_all_;
+  float last_[bundle_packets];  ///< the greatest v that a packet's rays live at
+  unsigned hit_[bundle_packets];
+  alignas(64) float begin_[bundle_size];                            ///< live from here for certain
+  alignas(64) float end_low_[bundle_size], end_high_[bundle_size];  ///< and until here, or there
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA
