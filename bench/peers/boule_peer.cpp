@@ -68,7 +68,15 @@ class BouleContender final : public Contender {
 
 /// What the renderer promises of such rays.
 Coherence coherence_of(RayKind kind) {
-  return kind == RayKind::primary ? Coherence::common_origin : Coherence::none;
+  switch (kind) {
+    case RayKind::primary:
+      return Coherence::common_origin;
+    case RayKind::shadow:
+      return Coherence::common_end;
+    case RayKind::diffuse:
+      break;
+  }
+  return Coherence::none;
 }
 
 }  // namespace

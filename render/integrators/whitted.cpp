@@ -74,7 +74,7 @@ void Whitted::add_light(const Light& light) {
   shadow_rays_.resize(arrivals_.size());
   occluded_.resize(arrivals_.size());
   shadow_ += arrivals_.size();
-  const Query query{settings_.solver, Form::automatic, Coherence::none};
+  const Query query{settings_.solver, Form::automatic, shadow_coherence(light)};
   kernels_.any_hit(geometry_, shadow_rays_.view(), query, occluded_.data());
   for (std::size_t k = 0; k < arrivals_.size(); ++k) {
     if (occluded_[k] != 0) continue;

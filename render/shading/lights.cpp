@@ -34,4 +34,9 @@ Ray shadow_ray(const Light& light, const Surface& surface) {
   return std::visit([&](const auto& any) { return shadow(any, surface); }, light);
 }
 
+Coherence shadow_coherence(const Light& light) {
+  return std::holds_alternative<PointLight>(light) ? Coherence::common_end
+                                                   : Coherence::common_direction;
+}
+
 }  // namespace boule

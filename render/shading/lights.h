@@ -2,6 +2,7 @@
 
 #include "core/scene/light.h"
 #include "render/shading/surface.h"
+#include "simd/abi/isa.h"
 
 namespace boule {
 
@@ -16,5 +17,8 @@ LightSample sample_light(const Light& light, const Vec3d& point);
 
 /// The ray that decides whether anything is: from the surface to the light.
 Ray shadow_ray(const Light& light, const Surface& surface);
+
+/// What a light's shadow rays have in common.
+Coherence shadow_coherence(const Light& light);
 
 }  // namespace boule
