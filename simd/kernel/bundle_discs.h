@@ -102,7 +102,7 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   store(discs.depth + at, depth);
   store(discs.near + at, near);
   discs.simple |= bits(simple & ~missed & (near <= limit)) << at;
-  discs.awkward |= bits(~simple & ~missed) << at;
+  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
 }
 
 /// Eight spheres, of which there are `count`: finds those that matter.
