@@ -114,21 +114,21 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
   Discs discs;
   place_discs<common, Hits::seek>(rays, factors, spheres, count, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1) {
-    const auto slot = first + static_cast<std::uint32_t>(std::countr_zero(left));
-    for (int group = 0; group * group_packets < rays.packets; ++group)
-      hits.meet_awkward(group, slot);
+    hits.meet_awkward(first + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
   if (discs.simple == 0) return;
   bound_discs<common>(factors, count, discs);
-  for (int group = 0; group * group_packets < rays.packets; ++group) {
-    unsigned left = discs_near(discs, rays.group_extent[group], hits.limit(group), count);
-    bool changed = false;
-    for (; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      changed |= hits.meet(group, discs, k, first + static_cast<std::uint32_t>(k));
+  bool changed = false;
+  for (unsigned left = discs.simple; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    unsigned groups = groups_near(rays.groups, hits.limits(), discs, k);
+    if (groups == 0) continue;
+    const DiscLanes disc(discs, k);
+    for (; groups != 0; groups &= groups - 1) {
+      changed |= hits.meet(std::countr_zero(groups), disc, first + static_cast<std::uint32_t>(k));
     }
-    if (changed) hits.update(group);
   }
+  if (changed) hits.update();
 }
 
 /// The spheres that are in no leaf.

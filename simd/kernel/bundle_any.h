@@ -20,46 +20,37 @@ class BundleAny {
   BundleAny(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
       : stream_(stream), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p);
-    for (float& limit : limit_) limit = -static_cast<float>(no_hit);
-    for (int group = 0; group * group_packets < rays.packets; ++group) update(group);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
   }
 
-  [[nodiscard]] float limit(int group) const { return limit_[group]; }
-  [[nodiscard]] float limit() const { return limit_of_all_; }
-  [[nodiscard]] bool done() const { return limit_of_all_ == -static_cast<float>(no_hit); }
+  [[nodiscard]] const float* limits() const { return limits_; }
+  [[nodiscard]] float limit() const { return limit_; }
+  [[nodiscard]] bool done() const { return limit_ == -static_cast<float>(no_hit); }
 
-  /// A simple sphere against a group; true if that changes its hits: then update() it.
-  BOULE_INLINE bool meet(int group, const Discs& discs, int k, std::uint32_t slot) {
-    const DiscLanes disc(discs, k);
-    const int begin = group * group_packets;
+  /// A simple sphere against a group; true if that changes its hits: update() then.
+  BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
+    const PacketRange packets = packets_of(rays_, group);
     bool changed = false;
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p) {
+    for (int p = packets.begin; p < packets.end; ++p) {
       const Real q = disc_square<common>(rays_, p * width, disc);
       if (any(Real(0.0F) <= q)) changed |= consider(p, disc, q, slot);
     }
+    if (changed) update(group);
     return changed;
   }
 
-  /// Any other sphere against a group.
-  BOULE_NOINLINE void meet_awkward(int group, std::uint32_t slot) {
-    const int begin = group * group_packets;
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p) {
+  /// Any other sphere against all rays.
+  BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
+    for (int p = 0; p < rays_.packets; ++p) {
       if (hit_[p] != all_lanes) resolve(p, slot, all_lanes & ~hit_[p]);
     }
-    update(group);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
   }
 
-  /// Finds limit() again after a group's hits have changed.
-  BOULE_INLINE void update(int group) {
-    const int begin = group * group_packets;
-    float most = -static_cast<float>(no_hit);
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
-      most = hit_[p] != all_lanes && last_[p] > most ? last_[p] : most;
-    limit_[group] = most;
-    limit_of_all_ = limit_[0];
-    for (int k = 1; k < bundle_groups; ++k)
-      limit_of_all_ = limit_[k] > limit_of_all_ ? limit_[k] : limit_of_all_;
-  }
+  /// Finds limit() again.
+  BOULE_INLINE void update() { limit_ = greatest_limit(limits_); }
 
   /// Adds the planes and writes it all.
   void finish(const PlaneView& planes, std::uint8_t* occluded) {
@@ -73,6 +64,14 @@ class BundleAny {
   }
 
  private:
+  BOULE_INLINE void update(int group) {
+    const PacketRange packets = packets_of(rays_, group);
+    float most = -static_cast<float>(no_hit);
+    for (int p = packets.begin; p < packets.end; ++p)
+      most = hit_[p] != all_lanes && last_[p] > most ? last_[p] : most;
+    limits_[group] = most;
+  }
+
   /// Finds between which v the rays live. From their common end they run backwards, from v = (1 -
   /// tmax) scale to scale.
   BOULE_INLINE void start(int p) {
@@ -152,8 +151,8 @@ class BundleAny {
   const PaddedStream& stream_;
   const SphereView& spheres_;
   const BundleRays& rays_;
-  float limit_[bundle_groups];
-  float limit_of_all_;
+  float limit_ = 0;
+  alignas(64) float limits_[bundle_groups];
   float last_[bundle_packets];  ///< the greatest v that a packet's rays live at
   unsigned hit_[bundle_packets];
   alignas(64) float begin_[bundle_size];                            ///< live from here for certain

@@ -149,19 +149,19 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs&
   }
 }
 
-/// Bits of the discs that some ray within `extent` may meet, no farther than `limit`.
-BOULE_INLINE unsigned discs_near(const Discs& discs, const Extent& extent, float limit,
-                                 unsigned count) {
+/// Bits of the groups of which some ray may meet disc k, no farther than its group's limit.
+BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits,
+                                  const Discs& discs, int k) {
+  const Real a_low(discs.a_low[k]), a_high(discs.a_high[k]);
+  const Real b_low(discs.b_low[k]), b_high(discs.b_high[k]), near(discs.near[k]);
   unsigned result = 0;
-  for (std::size_t at = 0; at < count; at += width) {
-    const RealMask in = (load(discs.a_low + at) <= Real(extent.a_high)) &
-                        (Real(extent.a_low) <= load(discs.a_high + at)) &
-                        (load(discs.b_low + at) <= Real(extent.b_high)) &
-                        (Real(extent.b_low) <= load(discs.b_high + at)) &
-                        (load(discs.near + at) <= Real(limit));
+  for (int at = 0; at < bundle_groups; at += width) {
+    const RealMask in = (a_low <= load(groups.a_high + at)) & (load(groups.a_low + at) <= a_high) &
+                        (b_low <= load(groups.b_high + at)) & (load(groups.b_low + at) <= b_high) &
+                        (near <= load(limits + at));
     result |= bits(in) << at;
   }
-  return result & discs.simple;
+  return result;
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -118,6 +118,12 @@ BOULE_INLINE Wide solve_first(const ExactRays& rays, const SphereLanes& sphere) 
   return (dot(f, f) - r * r) / (b + sqrt(rays.a * discriminant));
 }
 
+BOULE_INLINE float greatest_limit(const float* limits) {
+  Real most = load(limits);
+  for (int at = width; at < bundle_groups; at += width) most = filter_max(most, load(limits + at));
+  return greatest_lane(most);
+}
+
 /// The nearest hits of a bundle.
 template <Common common>
 class BundleHits {
@@ -127,23 +133,21 @@ class BundleHits {
   BundleHits(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
       : stream_(stream), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p * width);
-    for (float& limit : limit_) limit = -static_cast<float>(no_hit);
-    for (int group = 0; group * group_packets < rays.packets; ++group) update(group);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
   }
 
-  /// No hit of a group beyond this v is of interest.
-  [[nodiscard]] float limit(int group) const { return limit_[group]; }
-  [[nodiscard]] float limit() const { return limit_of_all_; }
+  /// By group: no hit beyond this v is of interest.
+  [[nodiscard]] const float* limits() const { return limits_; }
+  [[nodiscard]] float limit() const { return limit_; }
   [[nodiscard]] bool done() const { return false; }
 
-  /// A simple sphere against a group; true if that changes its hits: then update() it.
-  BOULE_INLINE bool meet(int group, const Discs& discs, int k, std::uint32_t slot) {
-    const DiscLanes disc(discs, k);
-    const int begin = group * group_packets;
-    const int end = rays_.packets < begin + group_packets ? rays_.packets : begin + group_packets;
+  /// A simple sphere against a group; true if that changes its hits: update() then.
+  BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
+    const PacketRange packets = packets_of(rays_, group);
     bool changed = false;
-    int p = begin;
-    for (; p + 2 <= end; p += 2) {
+    int p = packets.begin;
+    for (; p + 2 <= packets.end; p += 2) {
       const int ray = p * width;
       const Real q0 = disc_square<common>(rays_, ray, disc);
       const Real q1 = disc_square<common>(rays_, ray + width, disc);
@@ -152,31 +156,22 @@ class BundleHits {
       changed |= consider(ray, disc, q0, slot);
       changed |= consider(ray + width, disc, q1, slot);
     }
-    if (p < end) {
+    if (p < packets.end) {
       const Real q = disc_square<common>(rays_, p * width, disc);
       changed |= consider(p * width, disc, q, slot);
     }
+    if (changed) update(group);
     return changed;
   }
 
-  /// Finds limit() again after a group's hits have changed.
-  BOULE_INLINE void update(int group) {
-    const int begin = group * group_packets;
-    Real most(-static_cast<float>(no_hit));
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
-      most = filter_max(load(high_ + p * width), most);  // NaN is left out
-    limit_[group] = greatest_lane(most);
-    limit_of_all_ = limit_[0];
-    for (int k = 1; k < bundle_groups; ++k)
-      limit_of_all_ = limit_[k] > limit_of_all_ ? limit_[k] : limit_of_all_;
-  }
+  /// Finds limit() again.
+  BOULE_INLINE void update() { limit_ = greatest_limit(limits_); }
 
-  /// Any other sphere against a group.
-  BOULE_NOINLINE void meet_awkward(int group, std::uint32_t slot) {
-    const int begin = group * group_packets;
-    for (int p = begin; p < begin + group_packets && p < rays_.packets; ++p)
-      resolve(p * width, slot, all_lanes);
-    update(group);
+  /// Any other sphere against all rays.
+  BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
+    for (int p = 0; p < rays_.packets; ++p) resolve(p * width, slot, all_lanes);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
   }
 
   /// Solves what is hit, adds the planes, writes it all.
@@ -185,6 +180,14 @@ class BundleHits {
   }
 
  private:
+  BOULE_INLINE void update(int group) {
+    const PacketRange packets = packets_of(rays_, group);
+    Real most(-static_cast<float>(no_hit));
+    for (int p = packets.begin; p < packets.end; ++p)
+      most = filter_max(load(high_ + p * width), most);  // NaN is left out
+    limits_[group] = greatest_lane(most);
+  }
+
   BOULE_INLINE void start(int ray) {
     const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
     const Real largest(std::numeric_limits<float>::max());
@@ -344,8 +347,8 @@ class BundleHits {
   const PaddedStream& stream_;
   const SphereView& spheres_;
   const BundleRays& rays_;
-  float limit_[bundle_groups];
-  float limit_of_all_;
+  float limit_ = 0;
+  alignas(64) float limits_[bundle_groups];
   alignas(64) float low_[bundle_size];   ///< bounds of v of the hit, or of the end of the ray: what
   alignas(64) float high_[bundle_size];  ///< lies before low is nearer for certain
   alignas(64) float slot_[bundle_size];  ///< bits; no_slot: no hit

@@ -20,8 +20,8 @@ enum class Seek { nearest, any };
 
 inline constexpr int bundle_size = 256;
 inline constexpr int bundle_packets = bundle_size / width;
-/// A bundle is culled in groups of 64 rays.
-inline constexpr int bundle_groups = 4;
+/// A bundle's rays are culled in groups of 16: in Morton order 4 x 4 pixels, and packets of any W.
+inline constexpr int bundle_groups = 16;
 inline constexpr int group_packets = bundle_packets / bundle_groups;
 
 /// The axes in world coordinates.
@@ -34,6 +34,19 @@ struct Extent {
   float a_low, a_high, b_low, b_high;
 };
 
+/// The ranges of every group; one without rays meets nothing.
+struct GroupExtents {
+  alignas(64) float a_low[bundle_groups], a_high[bundle_groups];
+  alignas(64) float b_low[bundle_groups], b_high[bundle_groups];
+
+  BOULE_INLINE void set(int group, const Extent& e) {
+    a_low[group] = e.a_low;
+    a_high[group] = e.a_high;
+    b_low[group] = e.b_low;
+    b_high[group] = e.b_high;
+  }
+};
+
 /// The rays of a bundle as its filters see them.
 struct BundleRays {
   BundleFrame frame;
@@ -44,11 +57,20 @@ struct BundleRays {
   float squared_across;  ///< rho^2; 0 with one direction
   float c_low, c_high;   ///< origins along W; 0 with one origin
   Extent extent;         ///< of all rays
-  Extent group_extent[bundle_groups];
+  GroupExtents groups;
   alignas(64) float a[bundle_size], b[bundle_size];
   alignas(64) float c[bundle_size];      ///< origin along W; with one direction only
   alignas(64) float scale[bundle_size];  ///< v / t
 };
+
+/// Packets begin .. end - 1 of a bundle.
+struct PacketRange {
+  int begin, end;
+};
+BOULE_INLINE PacketRange packets_of(const BundleRays& rays, int group) {
+  const int begin = group * group_packets, end = begin + group_packets;
+  return {begin, end < rays.packets ? end : rays.packets};
+}
 
 BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
   return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
@@ -161,6 +183,8 @@ class Projection {
 };
 
 /// Ranges that grow ray by ray, W at a time.
+inline constexpr Extent no_extent = {static_cast<float>(no_hit), -static_cast<float>(no_hit),
+                                     static_cast<float>(no_hit), -static_cast<float>(no_hit)};
 struct ExtentLanes {
   Real a_low{static_cast<float>(no_hit)}, a_high{-static_cast<float>(no_hit)};
   Real b_low{static_cast<float>(no_hit)}, b_high{-static_cast<float>(no_hit)};
@@ -223,12 +247,13 @@ BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
   __builtin_prefetch(rays.source + first);
 }
 
-/// The packets begin .. end of a bundle: puts their rays into its frame and returns their extent.
+/// Puts the rays of these packets into their bundle's frame and returns their extent.
 template <Common common, Seek seek>
 BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<common>& projection,
-                               int begin, int end, BundleRays& bundle, BundleSums& sums) {
+                               const PacketRange& packets, BundleRays& bundle, BundleSums& sums) {
+  if (packets.begin >= packets.end) return no_extent;
   ExtentLanes extent;
-  for (int p = begin; p < end; ++p) {
+  for (int p = packets.begin; p < packets.end; ++p) {
     const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(p * width));
     prefetch_packet(stream.rays(),
                     bundle.first + static_cast<std::size_t>(p * width + bundle_size));
@@ -269,13 +294,12 @@ BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, s
 
   const Projection<common> projection(bundle.frame, rays, middle);
   BundleSums sums;
-  bundle.extent = {};
-  for (int group = 0; group * group_packets < bundle.packets; ++group) {
-    const int begin = group * group_packets, rest = bundle.packets - begin;
-    const int end = begin + (rest < group_packets ? rest : group_packets);
-    Extent& extent = bundle.group_extent[group];
-    extent = load_group<common, seek>(stream, projection, begin, end, bundle, sums);
-    bundle.extent = group == 0 ? extent : extent_of_both(bundle.extent, extent);
+  bundle.extent = no_extent;
+  for (int group = 0; group < bundle_groups; ++group) {
+    const PacketRange packets = packets_of(bundle, group);
+    const Extent extent = load_group<common, seek>(stream, projection, packets, bundle, sums);
+    bundle.groups.set(group, extent);
+    bundle.extent = extent_of_both(bundle.extent, extent);
     if (!all(sums.belongs)) return false;
   }
   bundle.across = greatest_lane(sums.across);
