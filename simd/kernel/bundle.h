@@ -11,7 +11,7 @@
 #include "simd/kernel/bundle_rays.h"
 #include "simd/kernel/traverse.h"
 
-/// Bundles against all spheres: up to 256 rays walk the tree together, front to back, by the four
+/// Bundles against all spheres: up to 1024 rays walk the tree together, front to back, by the four
 /// sides of their extent.
 namespace boule::BOULE_KERNEL_ISA {
 

@@ -7,7 +7,7 @@
 #include "simd/kernel/packet.h"
 #include "simd/kernel/padded_stream.h"
 
-/// Up to 256 rays that share an origin, a direction or an end, in a frame of their own, as
+/// Up to 1024 rays that share an origin, a direction or an end, in a frame of their own, as
 /// filter_bounds.h describes it. They walk a tree together.
 namespace boule::BOULE_KERNEL_ISA {
 
@@ -18,10 +18,10 @@ enum class Common { origin, direction, end };
 /// What is asked for.
 enum class Seek { nearest, any };
 
-inline constexpr int bundle_size = 256;
+inline constexpr int bundle_size = 1024;
 inline constexpr int bundle_packets = bundle_size / width;
-/// A bundle's rays are culled in groups of 16: in Morton order 4 x 4 pixels, and packets of any W.
-inline constexpr int bundle_groups = 16;
+/// A bundle's rays are culled in groups of 32: in Morton order 8 x 4 pixels, and packets of any W.
+inline constexpr int bundle_groups = 32;
 inline constexpr int group_packets = bundle_packets / bundle_groups;
 
 /// The axes in world coordinates.
