@@ -4,7 +4,7 @@
 //   bench_trace [--benchmark_filter='bundle/avx2/robust/u/100000']
 //
 // scan: no tree · single, packet: one form on the tree, no promise · bundle: primary rays declared
-// to have one origin. 256 x 256 primary rays in streams of 1024. A figure by itself says little:
+// to have one origin. 256 x 256 primary rays in streams of 16384. A figure by itself says little:
 // compare two builds by their instructions (valgrind --tool=callgrind), peers by bench_peers.
 #include <benchmark/benchmark.h>
 
@@ -22,8 +22,8 @@
 namespace boule::bench {
 namespace {
 
-constexpr int side = 256;                  // pixels
-constexpr std::size_t stream_size = 1024;  // rays, as the renderer has them
+constexpr int side = 256;                   // pixels
+constexpr std::size_t stream_size = 16384;  // rays, as the renderer has them
 
 /// One scene as one structure, and rays to ask it with.
 struct Trace {

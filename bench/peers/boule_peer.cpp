@@ -9,7 +9,7 @@
 namespace boule::bench {
 namespace {
 
-constexpr std::size_t stream_size = 1024;  // the renderer's
+constexpr std::size_t stream_size = 16384;  // the renderer's
 
 class BouleContender final : public Contender {
  public:

@@ -26,7 +26,7 @@ struct Answers {
 };
 
 /// Contenders are asked for whole blocks of so many rays: a multiple of every width.
-inline constexpr std::size_t block_size = 4096;
+inline constexpr std::size_t block_size = 16384;
 
 /// One way of answering a workload.
 class Contender {

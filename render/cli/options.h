@@ -52,7 +52,7 @@ struct RenderCommand : RunOptions {
   std::optional<PixelRect> crop;
   ViewSelection views;
   std::uint64_t seed = 0;
-  int tile = 16;
+  int tile = 0;  ///< what fits
   PixelOrder order = PixelOrder::tiles;
   Compression compression = Compression::zip;
   float exposure_stops = 0;

@@ -29,7 +29,7 @@ struct RayCounts {
 struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;                          ///< bounces after the primary hit, >= 0
-  std::size_t stream_size = 2048;             ///< most rays in one continuation stream, >= 1
+  std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
 };
 

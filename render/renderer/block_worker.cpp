@@ -5,8 +5,8 @@
 namespace boule {
 namespace {
 
-/// Camera rays per stream: enough to keep bundles full, few enough to stay in the cache.
-constexpr std::size_t camera_stream_size = 1024;
+/// Camera rays per stream: more would bring more of a light's rays together, but leave the cache.
+constexpr std::size_t camera_stream_size = 16384;
 
 }  // namespace
 

@@ -9,10 +9,16 @@ namespace {
 
 Diagnostic wrong(const char* key, const std::string& message) { return {message, key, {}, 0, 0}; }
 
+constexpr int smallest_fit = 16, largest_fit = 128;  // pixels
+
+int least_tile(const RenderOptions& options) {
+  return options.tile != 0 ? options.tile : smallest_fit;
+}
+
 Status check_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
-                               BlockOrder::bytes(rect, options.tile) +
+                               BlockOrder::bytes(rect, least_tile(options)) +
                                ViewChannels::bytes(options.views, rect);
   const std::uint64_t available = available_memory();
   if (needed <= available) return std::nullopt;
@@ -38,12 +44,24 @@ PixelRect rendered_rect(const RenderOptions& options) {
   return options.crop.value_or(PixelRect{0, 0, options.width, options.height});
 }
 
+int fitting_tile(const RenderOptions& options, unsigned workers) {
+  if (options.tile != 0) return options.tile;
+  if (options.order != PixelOrder::rows && options.order != PixelOrder::tiles) return smallest_fit;
+  constexpr std::uint64_t blocks_per_worker = 16;
+  const std::uint64_t area = rendered_rect(options).area();
+  int tile = largest_fit;
+  while (tile > smallest_fit &&
+         area < blocks_per_worker * workers * static_cast<std::uint64_t>(tile * tile))
+    tile /= 2;
+  return tile;
+}
+
 Status validate(const RenderOptions& options) {
   if (auto bad = check_range("image.size", options.width, 1, max_image_side)) return bad;
   if (auto bad = check_range("image.size", options.height, 1, max_image_side)) return bad;
   if (auto bad = check_range("image.spp", options.spp, 1, max_count)) return bad;
   if (auto bad = check_range("render.max_depth", options.max_depth, 0, max_count)) return bad;
-  if (auto bad = check_range("tile", options.tile, 1, max_tile)) return bad;
+  if (auto bad = check_range("tile", options.tile, 0, max_tile)) return bad;
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {
     return wrong("crop", "must be at least one pixel and lie within the frame of " +

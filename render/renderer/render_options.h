@@ -27,7 +27,7 @@ struct RenderOptions {
   std::optional<PixelRect> crop;  ///< render these pixels of the frame only
   ViewSelection views;            ///< what render_views() finds
   PixelOrder order = PixelOrder::tiles;
-  int tile = 16;                                  ///< pixels, side of a block, 1 .. 1024
+  int tile = 0;                                   ///< pixels, side of a block, 1 .. 1024; 0: fits
   unsigned threads = 0;                           ///< 0: as many as the hardware runs at once
   std::string isa = "auto";                       ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;      ///< rendering stops soon after it becomes true
@@ -39,6 +39,11 @@ RenderOptions options_of(const Scene& scene);
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);
+
+/// The side of a block, in pixels: options.tile, or, where that is 0, what suits. Large blocks
+/// bring many rays together, a light's above all; but every worker needs some, and an order that is
+/// for watching needs small ones.
+int fitting_tile(const RenderOptions& options, unsigned workers);
 
 /// The first option out of range, its key as in RenderOptions, or a picture that needs more memory
 /// than there is.

@@ -39,7 +39,9 @@ Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& optio
     Result<PreparedScene> prepared =
         prepare(scene, options.width, options.height, scheduler.parallel_for());
     if (!prepared) return prepared.error();
-    Renderer renderer(options, std::move(prepared).value(),
+    RenderOptions fitted = options;
+    fitted.tile = fitting_tile(options, scheduler.workers());
+    Renderer renderer(fitted, std::move(prepared).value(),
                       reference ? reference_kernels() : *selected.value());
     renderer.prepare_seconds_ = watch.seconds();
     return renderer;

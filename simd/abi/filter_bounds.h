@@ -53,6 +53,14 @@ inline constexpr float limit = 1e18f;
 ///   doubt = spread (2 r + 3 spread) + 12 u r^2.
 inline constexpr double spread = 12;
 
+/// Boxes of a tree. Against rays: a coordinate min - o, less the origin's error, is rounded twice,
+/// 1 / unit is 2 u off and the product is rounded, 5 u of t together. Against a bundle's sides, of
+/// the corner's distance: p - O, n and three sums, 1.25 (1 + 1 + 3) u.
+inline constexpr double box = 8;
+
+/// Where a bound is itself the result of up to 5 roundings, it is moved outward by so much.
+inline constexpr double outward = 8;
+
 /// Bundles (simd/kernel/bundle*.h): rays that share an origin O, or a direction, in the orthonormal
 /// frame (U, V, W) of a ray d0 amid them, W along d0; all three in double, 2^-50 off.
 ///
@@ -68,32 +76,33 @@ inline constexpr double spread = 12;
 ///   d - d0  rounded: u, U rounded to float: u, the dot product: 3 u            5 u D d.W
 ///   d.W     = |d0| + (d - d0).W <= 2 d.W and rounded likewise                   9 u d.W
 ///   a, b    both, the quotient (a product with 1 / d.W): 2 u                   16 u D
-///   e1, e2  X: u |X|, a: 16 u D Z, Z: u |a| Z, the product u |a| Z, the sum
-///           u (|X| + |a| Z), |a| <= D         2 u |X| + 19 u D Z  (or 2 u |X| + 6 u D)
-///           and 2^-44 (|X| + |Y| + Z) for what double has lost.
-///   delta   = bundle_center u (|X| + |Y|) + bundle_axis u D Z + 2^-44 F1 is shipped, F1 = |X| +
-///   |Y|
-///             + |Z|, and `floor`.
+///   e1, e2  X: u |X|, a: 16 u D Z, Z: u |a| Z, the product: u |a| Z, the sum: u |e1|; where it
+///           matters |X| <= |a| Z + |e1|, |a| <= D and |e1| <= 1.07 r
+///                                                19 u D Z + 2.2 u r  (or 7 u D + 2.2 u r)
+///           and bundle_double F1 for what double has lost, F1 = |X| + |Y| + |Z|.
+///   delta   = bundle_axis u D Z + bundle_double F1 + floor is shipped.
 ///   R2      = r^2 + G, G = r^2 (rho^2 (1 + 8 u) + bundle_square u) + 4 delta (r + delta), is then
 ///             more than e1^2 + e2^2 of any line that meets the sphere: sqrt(1 + rho^2) <= 1.07,
-///             and 4 > 2 sqrt(2) 1.07. bundle_square pays for 4 u in Q and 5 u in R2.
+///             and 4 > 2 sqrt(2) 1.07. bundle_square pays for the 2.2 u r above, 2 sqrt(2) 1.07
+///             2.2 = 6.7, for 4 u in Q and 5 u in R2: 15.7.
 ///   Q       = R2 - e1^2 - e2^2 < 0: the line misses.
 ///   D2      = 2 G + 4 delta (r + delta): Q >= D2, and the line meets it; the discriminant lies
 ///             between Q - D2 and Q.
 ///   v       = t |d|^2 / d.W (or t |d|): in this unit the first root is X a + Y b + Z - sqrt(disc),
 ///             (or Z - c - sqrt(disc)). Its float value is wrong by Z: u, the sums 4 u, a and b:
-///             17 u (|X| + |Y|), the root u r: 20 u F1 together; E1 = bundle_depth u F1.
-///   scale   |d|^2 / d.W is good to 14 u; bounds in v that come from t are shifted by bundle_scale.
+///             17 u (|X| + |Y|), the root u r: 20 u F1 together. |d|^2 / d.W is good to 14 u, and
+///             a v that comes from a t is rounded twice more, 16 u F1; E1 = bundle_depth u F1 pays
+///             for both, so that v of a t, rounded as it is, may be compared with these bounds.
+///             With one direction c is 6 u D off, and v may be D more than F1: bundle_depth u D
+///             comes on top.
 ///
 /// Rays with a common end, O, are seen from there, backwards: with d, not d - d0, so that D is
 /// |d|_1 / d.W, at most 2: a and b are then 7 u D off. Their lines miss O by what rounding d to
 /// float has cost, at most `shift`: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes
-/// are tested with, and scale, the ray's own end in v, grow by.
-inline constexpr double bundle_center = 4;
+/// are tested with, and the ray's own end in v grow by.
 inline constexpr double bundle_axis = 24;
-inline constexpr double bundle_square = 16;
-inline constexpr double bundle_depth = 24;
-inline constexpr double bundle_scale = 24;
+inline constexpr double bundle_square = 24;
+inline constexpr double bundle_depth = 40;
 inline constexpr double bundle_double = 0x1p-44;
 inline constexpr double bundle_shift_slope = 1.5;
 /// Rays whose ends are farther apart than this share of their length are no bundle.

@@ -70,8 +70,7 @@ class BundleSides {
     }
   }
 
-  /// 8 u of the corner's distance pay for its rounding: p - O, n and three sums, 1.25 (1 + 1 + 3)
-  /// u.
+  /// Rounded as filter_bounds.h says of boxes.
   BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
                                    float* near) const {
     const Real rows[6] = {
@@ -81,12 +80,14 @@ class BundleSides {
     const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
                       filter_max(abs(rows[1]), abs(rows[4])) +
                       filter_max(abs(rows[2]), abs(rows[5]));
-    const Real slack = filter_fma(size, Real(static_cast<float>(8 * filter::u)), origin_error_);
+    const Real slack =
+        filter_fma(size, Real(static_cast<float>(filter::box * filter::u)), origin_error_);
     RealMask out = Real(0.0F) < Real(0.0F);
     for (const Side& side : sides_) {
       const Real most = reach(side, side.far, rows) + slack;
-      out = out | (most < Real(side.offset) -
-                              abs(Real(side.offset)) * Real(static_cast<float>(8 * filter::u)));
+      out =
+          out | (most < Real(side.offset) - abs(Real(side.offset)) *
+                                                Real(static_cast<float>(filter::box * filter::u)));
     }
     const Real far = reach(depth_, depth_.far, rows) + slack;
     const Real begin = reach(depth_, depth_.near, rows) - slack - c_high_;
@@ -154,10 +155,17 @@ BOULE_INLINE void prefetch_child(const GeometryView& geometry, const BvhNode& no
   for (int at = 0; at < bytes; at += 64) __builtin_prefetch(begin + at);
 }
 
+/// What a bundle may cost, and what it has cost: leaves that it had to visit.
+struct Effort {
+  std::size_t most_leaves = ~std::size_t{0};
+  std::size_t leaves = 0;
+};
+
+/// False if that is given up, for the effort.
 template <Common common, class Hits>
-BOULE_INLINE void meet_tree(const BundleRays& rays, const DiscFactors& factors,
-                            const GeometryView& geometry, Hits& hits) {
-  if (geometry.bvh.size == 0) return;
+BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
+                            const GeometryView& geometry, Effort& effort, Hits& hits) {
+  if (geometry.bvh.size == 0) return true;
   const BundleSides<common> sides(rays);
   const SphereView& spheres = geometry.spheres;
   VisitStack stack;
@@ -166,6 +174,7 @@ BOULE_INLINE void meet_tree(const BundleRays& rays, const DiscFactors& factors,
     const Visit visit = stack.pop();
     if (hits.limit() < visit.near) continue;
     if (visit.leaf_size != 0) {
+      if (effort.leaves++ == effort.most_leaves) return false;
       const std::size_t slot = spheres.scanned + std::size_t{visit.child} * bvh_leaf_size;
       meet_spheres<common>(rays, factors, find_slot(spheres, slot),
                            static_cast<std::uint32_t>(slot), visit.leaf_size, hits);
@@ -181,34 +190,40 @@ BOULE_INLINE void meet_tree(const BundleRays& rays, const DiscFactors& factors,
       prefetch_child(geometry, node, k);
     }
   }
+  return true;
 }
 
-/// The nearest hits of `count` rays from `first` on; false if they are no bundle.
+/// How a bundle went: there is an answer, its rays are no bundle, or too much lies in their way.
+enum class Outcome { traced, no_bundle, crowded };
+
+/// The nearest hits of `count` rays from `first` on.
 template <Common common>
-BOULE_NOINLINE bool trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
-                                 std::size_t first, std::size_t count, const HitStream& hits) {
+BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
+                                    std::size_t first, std::size_t count, Effort& effort,
+                                    const HitStream& hits) {
   BundleRays rays;
-  if (!load_bundle<common, Seek::nearest>(stream, first, count, rays)) return false;
+  if (!load_bundle<common, Seek::nearest>(stream, first, count, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
   BundleHits<common> nearest(stream, geometry.spheres, rays);
   meet_scanned<common>(rays, factors, geometry.spheres, nearest);
-  meet_tree<common>(rays, factors, geometry, nearest);
+  if (!meet_tree<common>(rays, factors, geometry, effort, nearest)) return Outcome::crowded;
   nearest.finish(geometry.planes, hits);
-  return true;
+  return Outcome::traced;
 }
 
-/// Whether `count` rays from `first` on meet anything; false if they are no bundle.
+/// Whether `count` rays from `first` on meet anything.
 template <Common common>
-BOULE_NOINLINE bool trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
-                                 std::size_t first, std::size_t count, std::uint8_t* occluded) {
+BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
+                                    std::size_t first, std::size_t count, Effort& effort,
+                                    std::uint8_t* occluded) {
   BundleRays rays;
-  if (!load_bundle<common, Seek::any>(stream, first, count, rays)) return false;
+  if (!load_bundle<common, Seek::any>(stream, first, count, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
   BundleAny<common> any(stream, geometry.spheres, rays);
   meet_scanned<common>(rays, factors, geometry.spheres, any);
-  meet_tree<common>(rays, factors, geometry, any);
+  if (!meet_tree<common>(rays, factors, geometry, effort, any)) return Outcome::crowded;
   any.finish(geometry.planes, occluded);
-  return true;
+  return Outcome::traced;
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

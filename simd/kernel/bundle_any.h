@@ -77,23 +77,15 @@ class BundleAny {
   BOULE_INLINE void start(int p) {
     const int ray = p * width;
     const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
-    constexpr auto slack = static_cast<float>(filter::bundle_scale * filter::u);
-    const Real zero(0.0F), inward(1 - slack), outward(1 + slack);
+    const Real zero(0.0F), shift(rays_.shift);
     const Real largest(std::numeric_limits<float>::max());
     const Real scale = load(rays_.scale + ray), tmax = load(place.rays->tmax + place.first);
     const Real until = select(largest < tmax, largest, tmax);
-    Real begin = zero, end_low, end_high;
+    Real begin = zero, end_low = until * scale, end_high = end_low;
     if constexpr (common == Common::end) {
-      // What is lost where 1 - tmax is not exact is less than 24 u (1 + |tmax|).
-      const Real rest = (Real(1.0F) - until) + (Real(1.0F) + abs(until)) * Real(slack);
-      begin = rest * select(rest < zero, inward, outward) * scale + Real(rays_.shift);
-      end_low = scale * inward - Real(rays_.shift);
-      end_high = scale * outward + Real(rays_.shift);
-    } else {
-      const Real end = until * scale;
-      const RealMask ahead = zero < end;
-      end_low = end * select(ahead, inward, outward);
-      end_high = end * select(ahead, outward, inward);
+      begin = (Real(1.0F) - until) * scale + shift;
+      end_low = scale - shift;
+      end_high = scale + shift;
     }
     store(begin_ + ray, begin);
     store(end_low_ + ray, end_low);

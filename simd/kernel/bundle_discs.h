@@ -26,7 +26,7 @@ struct Discs {
 
 /// The bounds' factors for one bundle.
 struct DiscFactors {
-  Real center, axis, constant;  ///< delta = center (|X| + |Y|) + axis |Z| + exact F1 + constant
+  Real axis, constant;  ///< delta = axis |Z| + exact F1 + constant
   Real exact;
   Real depth;         ///< E1 = depth F1
   Real square;        ///< G = square r^2 + ...
@@ -36,16 +36,15 @@ struct DiscFactors {
 
   BOULE_INLINE DiscFactors(const BundleRays& rays, Common common) {
     constexpr auto u = static_cast<float>(filter::u);
-    const auto center_factor = static_cast<float>(filter::bundle_center * filter::u);
     const float axis_factor = static_cast<float>(filter::bundle_axis * filter::u) * rays.across;
     const bool one_origin = common != Common::direction;
-    depth_shift = rays.shift;
-    center = center_factor;
     exact = static_cast<float>(filter::bundle_double);
     depth = static_cast<float>(filter::bundle_depth) * u;
+    depth_shift = one_origin ? rays.shift : depth * rays.across;
     axis = one_origin ? axis_factor : 0.0F;
     constant = static_cast<float>(filter::floor) + (one_origin ? rays.shift : axis_factor);
-    square = rays.squared_across * (1 + 8 * u) + static_cast<float>(filter::bundle_square) * u;
+    square = rays.squared_across * (1 + static_cast<float>(filter::outward) * u) +
+             static_cast<float>(filter::bundle_square) * u;
     plane_length = one_origin ? 1.05F : 1.001F;
   }
 };
@@ -78,13 +77,13 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   const Vec3<Real> center{narrow(dot(f, wide_all(frame.u))), narrow(dot(f, wide_all(frame.v))),
                           narrow(dot(f, wide_all(frame.w)))};
   const Real r = abs(load_of_eight(spheres.radius, part));
-  const Real aside = abs(center.x) + abs(center.y), f1 = aside + abs(center.z);
-  const Real delta = filter_fma(
-      aside, factors.center,
-      filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant)));
+  const Real f1 = abs(center.x) + abs(center.y) + abs(center.z);
+  const Real delta =
+      filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant));
   const Real depth = filter_fnma(f1, factors.depth, center.z - factors.depth_shift);
   const Real near =
-      filter_fnma(r, Real(1 + 8 * static_cast<float>(filter::u)), depth) - rays.c_high;
+      filter_fnma(r, Real(1 + static_cast<float>(filter::outward * filter::u)), depth) -
+      rays.c_high;
   // A line that meets the sphere is this near its centre.
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
@@ -120,8 +119,8 @@ BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors
 /// The bounds of those that matter and are simple: see filter_bounds.h.
 template <Common common>
 BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs& discs) {
-  const Real outward(1 + 8 * static_cast<float>(filter::u));
-  const Real few(8 * static_cast<float>(filter::u));
+  constexpr auto few_roundings = static_cast<float>(filter::outward * filter::u);
+  const Real few(few_roundings), outward(1 + few_roundings);
   for (std::size_t at = 0; at < count; at += width) {
     const Real x = load(discs.x + at), y = load(discs.y + at), z = load(discs.z + at);
     const Real r = load(discs.radius + at), delta = load(discs.delta + at);

@@ -194,10 +194,8 @@ class BundleHits {
     const Real tmax = load(place.rays->tmax + place.first);
     // NaN stays: nothing is nearer than that. Infinity stays as well: all floats are.
     const Real end = select(largest < tmax, largest, tmax) * load(rays_.scale + ray);
-    constexpr auto slack = static_cast<float>(filter::bundle_scale * filter::u);
-    const RealMask ahead = Real(0.0F) < end;
-    store(low_ + ray, end * select(ahead, Real(1 - slack), Real(1 + slack)));
-    store(high_ + ray, end * select(ahead, Real(1 + slack), Real(1 - slack)));
+    store(low_ + ray, end);
+    store(high_ + ray, end);
     store(slot_ + ray, Real(slot_bits(no_slot)));
     store(solved_ + ray, Real(slot_bits(no_slot)));
     solved_any_[ray / width] = uniform_[ray / width] = false;
@@ -231,9 +229,9 @@ class BundleHits {
     bool settled = false;
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes), i = ray + lane;
-      const Interval v = interval_of(t[lane], i);
-      if (high_[i] < v.low) continue;
-      if (!(v.high < low_[i]) && slot_of(slot_[i]) != no_slot) {
+      const float v = static_cast<float>(t[lane]) * rays_.scale[i];
+      if (high_[i] < v) continue;
+      if (!(v < low_[i]) && slot_of(slot_[i]) != no_slot) {
         if (!settled) settle(ray, rays);
         settled = true;
         const bool tie = t[lane] == t_[i] && spheres_.id[slot] < spheres_.id[slot_of(slot_[i])];
@@ -243,19 +241,8 @@ class BundleHits {
       slot_[i] = solved_[i] = slot_bits(slot);
       solved_any_[ray / width] = true;
       uniform_[ray / width] = false;
-      low_[i] = v.low;
-      high_[i] = v.high < high_[i] ? v.high : high_[i];
+      low_[i] = high_[i] = v;
     }
-  }
-
-  struct Interval {
-    float low, high;
-  };
-  /// Bounds of v of a t that is a double.
-  [[nodiscard]] Interval interval_of(double t, int ray) const {
-    const float v = static_cast<float>(t) * rays_.scale[ray];
-    const float slack = __builtin_fabsf(v) * static_cast<float>(filter::bundle_scale * filter::u);
-    return {v - slack, v + slack};
   }
 
   /// Solves the hits of W rays that only float knows yet.

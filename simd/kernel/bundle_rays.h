@@ -20,9 +20,8 @@ enum class Seek { nearest, any };
 
 inline constexpr int bundle_size = 1024;
 inline constexpr int bundle_packets = bundle_size / width;
-/// A bundle's rays are culled in groups of 32: in Morton order 8 x 4 pixels, and packets of any W.
+/// A bundle's rays are culled in so many groups: of 1024 in Morton order, 8 x 4 pixels each.
 inline constexpr int bundle_groups = 32;
-inline constexpr int group_packets = bundle_packets / bundle_groups;
 
 /// The axes in world coordinates.
 struct BundleFrame {
@@ -52,6 +51,7 @@ struct BundleRays {
   BundleFrame frame;
   std::size_t first;     ///< ray of the stream
   int packets;           ///< of which the last may hold copies
+  int group_packets;     ///< of each group but the last ones
   float across;          ///< D
   float shift;           ///< lines with a common end miss it by at most this
   float squared_across;  ///< rho^2; 0 with one direction
@@ -68,7 +68,7 @@ struct PacketRange {
   int begin, end;
 };
 BOULE_INLINE PacketRange packets_of(const BundleRays& rays, int group) {
-  const int begin = group * group_packets, end = begin + group_packets;
+  const int begin = group * rays.group_packets, end = begin + rays.group_packets;
   return {begin, end < rays.packets ? end : rays.packets};
 }
 
@@ -189,11 +189,11 @@ struct ExtentLanes {
   Real a_low{static_cast<float>(no_hit)}, a_high{-static_cast<float>(no_hit)};
   Real b_low{static_cast<float>(no_hit)}, b_high{-static_cast<float>(no_hit)};
 
-  BOULE_INLINE void add(const Projected& p) {
-    a_low = filter_min(a_low, p.a);
-    a_high = filter_max(a_high, p.a);
-    b_low = filter_min(b_low, p.b);
-    b_high = filter_max(b_high, p.b);
+  BOULE_INLINE void add(const Real& a, const Real& b) {
+    a_low = filter_min(a_low, a);
+    a_high = filter_max(a_high, a);
+    b_low = filter_min(b_low, b);
+    b_high = filter_max(b_high, b);
   }
   [[nodiscard]] BOULE_INLINE Extent total() const {
     return {least_lane(a_low), greatest_lane(a_high), least_lane(b_low), greatest_lane(b_high)};
@@ -260,7 +260,7 @@ BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<comm
     const Projected ray = projection.project(*place.rays, place.first);
     sums.belongs = sums.belongs & projection.template belongs<seek>(*place.rays, place.first);
     sums.template add<common>(ray);
-    extent.add(ray);
+    extent.add(ray.a, ray.b);
     store(bundle.a + p * width, ray.a);
     store(bundle.b + p * width, ray.b);
     store(bundle.scale + p * width, ray.scale);
@@ -291,6 +291,7 @@ BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, s
                                        : make_frame(start, forward, side);
   bundle.first = first;
   bundle.packets = static_cast<int>((count + width - 1) / width);
+  bundle.group_packets = (bundle.packets + bundle_groups - 1) / bundle_groups;
 
   const Projection<common> projection(bundle.frame, rays, middle);
   BundleSums sums;

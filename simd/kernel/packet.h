@@ -82,7 +82,7 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   const Real largest(std::numeric_limits<float>::max());
   const Real from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
   const Real to = select(largest < far, largest, far);  // NaN stays: nothing is live then
-  const Real zero(0.0F), slack(static_cast<float>(8 * filter::u));
+  const Real zero(0.0F), slack(static_cast<float>(filter::outward * filter::u));
   out.live_from = from + abs(from) * slack;
   out.live_to = to - abs(to) * slack;
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);

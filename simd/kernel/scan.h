@@ -30,7 +30,7 @@ struct ClosestHit {
   /// A bound of t |dir|, from above (side 1) or below (-1).
   BOULE_INLINE static Real outward(const Wide& t, const RayLanes& rays, float side) {
     const Real distance = narrow(t * rays.filter.length);
-    return distance + abs(distance) * Real(side * static_cast<float>(8 * filter::u));
+    return distance + abs(distance) * Real(side * static_cast<float>(filter::outward * filter::u));
   }
 
   /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if

@@ -16,7 +16,7 @@ struct BoxRays {
   BOULE_INLINE explicit BoxRays(const FilterRays& rays)
       : org(rays.org),
         inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
-        error(rays.origin_error * Real(1 + static_cast<float>(8 * filter::u))),
+        error(rays.origin_error * Real(1 + static_cast<float>(filter::box * filter::u))),
         from(rays.dead_below) {}
 };
 
@@ -27,9 +27,8 @@ struct Boxes {
 
 /// Where rays enter boxes, and the lanes in which they certainly do not before `limit`.
 ///
-/// A coordinate min - o, less the origin's error, is rounded twice, 1 / unit is 2 u off and the
-/// product is rounded: 5 u of t together, 8 are shipped on either side. NaN (a ray that the filter
-/// cannot judge) passes every comparison.
+/// By filter_bounds.h, filter::box on either side. NaN (a ray that the filter cannot judge) passes
+/// every comparison.
 struct Entry {
   Real near;
   RealMask out;
@@ -46,7 +45,7 @@ BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org
 }
 
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
-  const Real slack(static_cast<float>(8 * filter::u));
+  const Real slack(static_cast<float>(filter::box * filter::u));
   Real near = rays.from, far = limit;
   cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, rays.error, near, far);
   cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, rays.error, near, far);
@@ -151,7 +150,7 @@ BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geo
   float limit = limit_of_all<Access>(best.limit());
   while (!stack.empty() && !best.done()) {
     const Visit visit = stack.pop();
-    const float slack = static_cast<float>(8 * filter::u);
+    const float slack = static_cast<float>(filter::box * filter::u);
     const float size = visit.near < 0 ? -visit.near : visit.near;
     if (limit < visit.near - size * slack) continue;
     if (visit.leaf_size == 0) {

@@ -33,7 +33,7 @@ TEST(Renderer, RefusesWrongOptionsByName) {
                         {"image.size", [](RenderOptions& o) { o.height = 65536; }},
                         {"image.spp", [](RenderOptions& o) { o.spp = 0; }},
                         {"render.max_depth", [](RenderOptions& o) { o.max_depth = -1; }},
-                        {"tile", [](RenderOptions& o) { o.tile = 0; }},
+                        {"tile", [](RenderOptions& o) { o.tile = -1; }},
                         {"tile", [](RenderOptions& o) { o.tile = 1025; }},
                         {"crop",
                          [](RenderOptions& o) {

@@ -1,0 +1,183 @@
+// Where a bundle's bounds are needed: for each of them scenes in which the answers would be wrong
+// without it (mutations.sh takes them away one by one).
+#include <cmath>
+
+#include "core/math/geometry.h"
+#include "tests/support/case_random.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+class BundleBounds : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    kernels = kernels_or_null(GetParam());
+    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  }
+
+  void check(const std::vector<Sphere>& spheres, const std::vector<Ray>& rays,
+             Coherence coherence) {
+    const Geometry geometry(spheres, {});
+    const Query query{Solver::robust, Form::automatic, coherence};
+    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], spheres, {});
+      ASSERT_EQ(occluded[i], expected.id < 0 ? 0 : 1) << "ray " << i;
+      met += expected.id < 0 ? 0U : 1U;
+    }
+    all += rays.size();
+    if (coherence == Coherence::common_end) return;
+    const auto hits = run_closest(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], spheres, {});
+      ASSERT_TRUE(same_bits(hits[i], expected))
+          << "ray " << i << ": " << hits[i].id << " " << hits[i].t << ", expected " << expected.id
+          << " " << expected.t;
+    }
+  }
+
+  const KernelTable* kernels = nullptr;
+  std::size_t all = 0, met = 0;
+};
+
+/// Near 1, on either side: how far from its centre a sphere is met.
+double near_rim(CaseRandom& random, double least, double most) {
+  const double sign = random.sign();
+  return 1 + sign * random.decade(least, most);
+}
+
+/// bundle_double: the rays of the bundle are all the same, so that nothing else is lost, and the
+/// sphere is 4e10 to 4e12 times its radius away. It lies next to the world's origin, where floats
+/// are dense.
+TEST_P(BundleBounds, SpecksFarAway) {
+  CaseRandom random(71);
+  for (int trial = 0; trial < 400; ++trial) {
+    const Vec3f dir = vec_cast<float>(random.direction());
+    const Vec3d towards = normalize(vec_cast<double>(dir));
+    const double r = random.decade(-11.9, -10);
+    const Vec3d center = random.perpendicular(towards) * (r * near_rim(random, -6, -2));
+    const Ray ray{vec_cast<double>(dir) * -random.uniform(3, 5), dir};
+    check({{vec_cast<float>(center), static_cast<float>(r), 0}}, std::vector<Ray>(64, ray),
+          Coherence::common_origin);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
+/// bundle_square: a narrow bundle along the rim of a large sphere.
+TEST_P(BundleBounds, TheRimOfALargeSphere) {
+  CaseRandom random(72);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Sphere sphere{vec_cast<float>(random.direction() * random.uniform(0, 1)),
+                        static_cast<float>(random.uniform(0.3, 1)), 0};
+    const Vec3d center = vec_cast<double>(sphere.center);
+    const Vec3d towards = random.direction(), side = random.perpendicular(towards);
+    const Vec3d eye = center - towards * (double{sphere.radius} * random.uniform(2.5, 4));
+    // Where the cone around the sphere touches it, or a cylinder.
+    const double distance = length(center - eye), sine = double{sphere.radius} / distance;
+    const double cosine = std::sqrt(1 - sine * sine);
+    const double beta = near_rim(random, -9, -6);
+    const Vec3d rim = side * (cosine * double{sphere.radius} * beta) -
+                      towards * (sine * double{sphere.radius} * beta);
+    std::vector<Ray> from_eye, parallel;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d off = random.direction() * 1e-7;
+      from_eye.push_back({eye, vec_cast<float>(center + rim + off - eye)});
+      const Vec3d start = eye + side * (beta * double{sphere.radius}) + off;
+      parallel.push_back({start, vec_cast<float>(towards)});
+    }
+    check({sphere}, from_eye, Coherence::common_origin);
+    check({sphere}, parallel, Coherence::common_direction);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
+/// bundle_shift_slope: close to a light, what its rays miss it by is a good part of a small sphere.
+TEST_P(BundleBounds, SpecksAroundALight) {
+  CaseRandom random(73);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3d light = random.direction() * 1e-3, back = random.direction();
+    const double away = random.decade(-4, -2), r = away * random.decade(-3, -1.5);
+    const Vec3d center =
+        light + back * away + random.perpendicular(back) * (r * near_rim(random, -6, -1));
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d org = light + back * random.uniform(0.5, 1) + random.direction() * (1e-3 * r);
+      Ray ray{org, vec_cast<float>(light - org)};
+      ray.tmax = 1 - 0x1p-22F;
+      rays.push_back(ray);
+    }
+    check({{vec_cast<float>(center), static_cast<float>(r), 0}}, rays, Coherence::common_end);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
+/// bundle_depth: rays that end where they meet a sphere, or next to it; parallel ones may begin far
+/// from each other.
+TEST_P(BundleBounds, EndsOnTheSurface) {
+  CaseRandom random(74);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Sphere sphere{vec_cast<float>(random.direction()),
+                        static_cast<float>(random.uniform(0.1, 0.5)), 0};
+    const Vec3d center = vec_cast<double>(sphere.center), towards = random.direction();
+    const Vec3d eye = center - towards * random.uniform(2, 9);
+    const double scale = random.decade(-3, 3);
+    std::vector<Ray> from_eye, parallel;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d off = random.direction() * (0.9 * double{sphere.radius});
+      from_eye.push_back({eye, vec_cast<float>((center + off - eye) * scale)});
+      const double behind = random.decade(-1, 3);
+      parallel.push_back({eye + off - towards * behind, vec_cast<float>(towards * scale)});
+    }
+    for (std::vector<Ray>* rays : {&from_eye, &parallel}) {
+      for (Ray& ray : *rays) {
+        const Hit hit = reference::closest_hit(ray, {&sphere, 1}, {});
+        const float t = static_cast<float>(hit.id < 0 ? 1 : hit.t);
+        ray.tmax = std::nextafter(t, random.chance(0.5) ? 2 * t : 0.0F);
+      }
+    }
+    check({sphere}, from_eye, Coherence::common_origin);
+    check({sphere}, parallel, Coherence::common_direction);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
+/// bundle_axis: tiles that are wide next to the spheres in them, which are met close to the rim.
+TEST_P(BundleBounds, WideTilesOfSpecks) {
+  CaseRandom random(75);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Vec3d towards = random.direction(), eye = towards * -4.0;
+    std::vector<Sphere> spheres;
+    std::vector<Ray> from_eye, parallel;
+    const double width = random.decade(-3, -0.5), r = width * random.decade(-5, -2);
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d at = random.perpendicular(towards) * (width * random.uniform());
+      from_eye.push_back({eye, vec_cast<float>(at - eye)});
+      parallel.push_back({eye + at, vec_cast<float>(towards)});
+      for (const Ray& ray : {from_eye.back(), parallel.back()}) {
+        const Vec3d dir = vec_cast<double>(ray.dir), side = random.perpendicular(normalize(dir));
+        const Vec3d center =
+            ray.org + dir * (4 / length(dir)) + side * (r * near_rim(random, -6, -2));
+        spheres.push_back({vec_cast<float>(center), static_cast<float>(r), 0});
+      }
+    }
+    check(spheres, from_eye, Coherence::common_origin);
+    check(spheres, parallel, Coherence::common_direction);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, BundleBounds, testing::ValuesIn(all_isa_names()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace boule::test
