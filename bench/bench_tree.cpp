@@ -128,7 +128,7 @@ void report(std::size_t n, RayBuffer& rays) {
   const Figures f = figures(view.bvh);
   const std::size_t slots = view.spheres.block_count * bvh_leaf_size;
   const double bytes = static_cast<double>(view.bvh.size * sizeof(BvhNode) +
-                                           view.spheres.leaf_count * sizeof(SphereBlock) +
+                                           view.spheres.block_count * sizeof(SphereBlock) +
                                            slots * sizeof(std::int32_t));
   HitBuffer hits(rays.size());
   const KernelTable& kernels = *select_kernels("avx2").value();

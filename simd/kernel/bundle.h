@@ -7,6 +7,7 @@
 #include "simd/abi/geometry.h"
 #include "simd/kernel/bundle_any.h"
 #include "simd/kernel/bundle_discs.h"
+#include "simd/kernel/bundle_grid.h"
 #include "simd/kernel/bundle_hits.h"
 #include "simd/kernel/bundle_rays.h"
 #include "simd/kernel/traverse.h"
@@ -30,6 +31,9 @@ class BundleSides {
     set_side(sides_[2], frame.v, frame.w, double{e.b_low} - off, 1);
     set_side(sides_[3], frame.v, frame.w, double{e.b_high} + off, -1);
     set_side(depth_, frame.w, frame.w, 0, 1);
+    set_side(across_[0], frame.u, frame.w, 0, 1);
+    set_side(across_[1], frame.v, frame.w, 0, 1);
+    off_ = static_cast<float>(off);
     const Vec3d& o = frame.org;
     const Vec3d lost = o - Vec3d{double{static_cast<float>(o.x)}, double{static_cast<float>(o.y)},
                                  double{static_cast<float>(o.z)}};
@@ -38,6 +42,27 @@ class BundleSides {
             (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) * 1.1 +
             filter::floor) +
         rays.shift;
+  }
+
+  /// Bits of the boxes among eight that there are rays in the grid's cells for.
+  BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid,
+                                    unsigned boxes) const {
+    alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
+        b_high[Discs::size];
+    for (std::size_t part = 0; part * width < bvh_width; ++part) {
+      const Range a = range(across_[0], node, part), b = range(across_[1], node, part);
+      const RayGrid::Cells cells = grid.cells(a.low, a.high, b.low, b.high);
+      store(a_low + part * width, cells.a_low);
+      store(a_high + part * width, cells.a_high);
+      store(b_low + part * width, cells.b_low);
+      store(b_high + part * width, cells.b_high);
+    }
+    unsigned result = 0;
+    for (unsigned left = boxes; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k])) result |= 1U << k;
+    }
+    return result;
   }
 
   /// Of eight boxes: where the bundle may enter them, in v, and bits of those it misses.
@@ -70,18 +95,56 @@ class BundleSides {
     }
   }
 
-  /// Rounded as filter_bounds.h says of boxes.
-  BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
-                                   float* near) const {
-    const Real rows[6] = {
-        load_of_eight(node.min_x, part) - org_.x, load_of_eight(node.min_y, part) - org_.y,
-        load_of_eight(node.min_z, part) - org_.z, load_of_eight(node.max_x, part) - org_.x,
-        load_of_eight(node.max_y, part) - org_.y, load_of_eight(node.max_z, part) - org_.z};
+  /// Eight boxes, or W of them, as seen from O, and how far off a distance of their corners may be
+  /// (filter_bounds.h).
+  struct Boxes {
+    Real rows[6];
+    Real slack;
+  };
+  BOULE_INLINE Boxes boxes_of(const BvhNode& node, std::size_t part) const {
+    Boxes boxes = {
+        {load_of_eight(node.min_x, part) - org_.x, load_of_eight(node.min_y, part) - org_.y,
+         load_of_eight(node.min_z, part) - org_.z, load_of_eight(node.max_x, part) - org_.x,
+         load_of_eight(node.max_y, part) - org_.y, load_of_eight(node.max_z, part) - org_.z},
+        Real(0.0F)};
+    const Real(&rows)[6] = boxes.rows;
     const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
                       filter_max(abs(rows[1]), abs(rows[4])) +
                       filter_max(abs(rows[2]), abs(rows[5]));
-    const Real slack =
+    boxes.slack =
         filter_fma(size, Real(static_cast<float>(filter::box * filter::u)), origin_error_);
+    return boxes;
+  }
+
+  struct Range {
+    Real low, high;
+  };
+  /// Of a, or b, of the rays that may meet boxes; of no use, or NaN, for those around O.
+  BOULE_INLINE Range range(const Side& side, const BvhNode& node, std::size_t part) const {
+    const Boxes boxes = boxes_of(node, part);
+    const Real low = reach(side, side.near, boxes.rows) - boxes.slack;
+    const Real high = reach(side, side.far, boxes.rows) + boxes.slack;
+    if constexpr (common == Common::direction) {
+      return {low - off_, high + off_};
+    } else {
+      const Real zero(0.0F), one(1.0F), outward(static_cast<float>(filter::outward * filter::u));
+      const Real near = reach(depth_, depth_.near, boxes.rows) - boxes.slack;
+      const Real far = reach(depth_, depth_.far, boxes.rows) + boxes.slack;
+      const Real least = low * (one / select(low < zero, near, far));
+      const Real most = high * (one / select(high < zero, far, near));
+      const Real none(static_cast<float>(no_hit));
+      const RealMask behind = near <= zero;
+      return {select(behind, zero - none, least - abs(least) * outward - off_),
+              select(behind, none, most + abs(most) * outward + off_)};
+    }
+  }
+
+  /// Rounded as filter_bounds.h says of boxes.
+  BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
+                                   float* near) const {
+    const Boxes boxes = boxes_of(node, part);
+    const Real(&rows)[6] = boxes.rows;
+    const Real& slack = boxes.slack;
     RealMask out = Real(0.0F) < Real(0.0F);
     for (const Side& side : sides_) {
       const Real most = reach(side, side.far, rows) + slack;
@@ -105,6 +168,8 @@ class BundleSides {
   Real c_low_, c_high_;
   Real origin_error_{0.0F};
   Side sides_[4], depth_;
+  Side across_[2];  ///< along U and V
+  Real off_;        ///< of a and b
 };
 
 /// Eight spheres from slot `first` on, of which there are `count`, against the bundle.
@@ -118,13 +183,16 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
     hits.meet_awkward(first + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
   if (discs.simple == 0) return;
-  bound_discs<common>(factors, count, discs);
+  bound_discs<common, Hits::seek>(factors, count, discs);
+  if constexpr (Hits::seek == Seek::any) {
+    if (hits.meet_few(discs, first)) return;
+  }
   bool changed = false;
   for (unsigned left = discs.simple; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     unsigned groups = groups_near(rays.groups, hits.limits(), discs, k);
     if (groups == 0) continue;
-    const DiscLanes disc(discs, k);
+    const DiscLanes disc = DiscLanes::same(discs, k);
     for (; groups != 0; groups &= groups - 1) {
       changed |= hits.meet(std::countr_zero(groups), disc, first + static_cast<std::uint32_t>(k));
     }
@@ -170,6 +238,8 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
   const SphereView& spheres = geometry.spheres;
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  RayGrid grid;
+  std::size_t fill_at = static_cast<std::size_t>(rays.packets * width) / 8;
   while (!stack.empty() && !hits.done()) {
     const Visit visit = stack.pop();
     if (hits.limit() < visit.near) continue;
@@ -183,6 +253,13 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     const BvhNode& node = geometry.bvh.nodes[visit.child];
     alignas(64) float near[Discs::size];
     unsigned in = ~sides.enter(node, hits.limit(), near) & ((1U << node.size) - 1);
+    if constexpr (Hits::seek == Seek::any) {
+      if (effort.leaves >= fill_at) {
+        hits.fill(grid);
+        fill_at += effort.leaves;
+      }
+      if (grid.known()) in = sides.meet_rays(node, grid, in);
+    }
     const int base = stack.count();
     for (; in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);

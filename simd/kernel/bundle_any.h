@@ -1,10 +1,12 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "simd/kernel/bundle_discs.h"
+#include "simd/kernel/bundle_grid.h"
 #include "simd/kernel/bundle_hits.h"
 #include "simd/kernel/bundle_rays.h"
 
@@ -39,6 +41,32 @@ class BundleAny {
     if (changed) update(group);
     return changed;
   }
+
+  /// Eight spheres from slot `first` on against the rays that their discs are in the way of, one by
+  /// one. False, and nothing done, if those are not few.
+  BOULE_INLINE bool meet_few(const Discs& discs, std::uint32_t first) {
+    const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
+    if (std::popcount(groups) > most_groups) return false;
+    int rays[most_rays], count = 0;
+    for (unsigned left = groups; left != 0; left &= left - 1) {
+      const PacketRange packets = packets_of(rays_, std::countr_zero(left));
+      for (int p = packets.begin; p < packets.end; ++p) {
+        for (unsigned in = amid(p, discs.all) & ~hit_[p]; in != 0; in &= in - 1) {
+          if (count == most_rays) return false;
+          rays[count++] = p * width + std::countr_zero(in);
+        }
+      }
+    }
+    bool changed = false;
+    for (int i = 0; i < count; ++i) changed |= meet_ray(rays[i], discs, first);
+    if (!changed) return true;
+    for (unsigned left = groups; left != 0; left &= left - 1) update(std::countr_zero(left));
+    update();
+    return true;
+  }
+
+  /// Tells the grid which rays are still to be answered.
+  void fill(RayGrid& grid) const { grid.fill(rays_, hit_); }
 
   /// Any other sphere against all rays.
   BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
@@ -95,25 +123,84 @@ class BundleAny {
     hit_[p] = 0;
   }
 
+  /// Where rays live, in v.
+  struct Lives {
+    Real begin;              ///< for certain from here
+    Real end_low, end_high;  ///< until here, or there
+  };
+  /// What float knows: lanes that may hit, and those that do unless they leave that sphere.
+  struct Verdict {
+    unsigned open, certain;
+  };
+  BOULE_INLINE static Verdict judge(const LineLanes& line, const Lives& lives,
+                                    const DiscLanes& disc, const Real& q) {
+    const Real from = first_root<common>(line, disc, q), to = from + disc.spread;
+    RealMask open = from <= lives.end_high;  // false for Q < 0
+    if constexpr (common == Common::direction) {
+      const Real second = to + sqrt(q) + sqrt(q);  // bounds the other root
+      open = open & (Real(0.0F) <= second);
+    }
+    const RealMask certain = open & (disc.sure <= q) & (lives.begin < from) & (to < lives.end_low);
+    return {bits(open), bits(certain)};
+  }
+
   /// What float knows of a sphere in W rays; true if that changes anything.
   BOULE_INLINE bool consider(int p, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
     const int ray = p * width;
-    const Real from = first_root<common>(rays_, ray, disc, q), to = from + disc.spread;
-    RealMask candidate = from <= load(end_high_ + ray);  // false for Q < 0
-    if constexpr (common == Common::direction) {
-      const Real second = to + sqrt(q) + sqrt(q);  // bounds the other root
-      candidate = candidate & (Real(0.0F) <= second);
-    }
-    const unsigned open = bits(candidate) & ~hit_[p];
+    const Verdict verdict =
+        judge(LineLanes::each<common>(rays_, ray),
+              {load(begin_ + ray), load(end_low_ + ray), load(end_high_ + ray)}, disc, q);
+    const unsigned open = verdict.open & ~hit_[p];
     if (open == 0) return false;
-    const RealMask certain =
-        (disc.sure <= q) & (load(begin_ + ray) < from) & (to < load(end_low_ + ray));
     const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
     const unsigned own = own_sphere(place, spheres_.id[slot]);
-    hit_[p] |= bits(certain) & open & ~own;
+    hit_[p] |= verdict.certain & open & ~own;
     const unsigned unclear = open & ~hit_[p] & ~leaves_outside(place, own);
     if (unclear != 0) resolve(p, slot, unclear);
     return true;
+  }
+
+  /// Lanes of a packet whose rays are within these extents.
+  BOULE_INLINE unsigned amid(int p, const Extent& e) const {
+    const Real a = load(rays_.a + p * width), b = load(rays_.b + p * width);
+    return bits((Real(e.a_low) <= a) & (a <= Real(e.a_high)) & (Real(e.b_low) <= b) &
+                (b <= Real(e.b_high)));
+  }
+
+  /// Eight simple spheres against one ray; true if it meets one.
+  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, std::uint32_t first) {
+    const LineLanes line = LineLanes::same<common>(rays_, ray);
+    const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
+    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+      const DiscLanes disc = DiscLanes::each(discs, at);
+      const Real q = disc_square<common>(line, disc);
+      if (!any(Real(0.0F) <= q)) continue;
+      const Verdict verdict = judge(line, lives, disc, q);
+      const unsigned open = verdict.open & discs.simple >> at;
+      if (open != 0 && decide(ray, open, verdict.certain, first + static_cast<std::uint32_t>(at)))
+        return true;
+    }
+    return false;
+  }
+
+  /// One ray and those of W spheres from `slot` on that it may hit, and that it does; true if so.
+  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, std::uint32_t slot) {
+    const int p = ray / width, lane = ray % width;
+    const unsigned bit = 1U << lane;
+    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
+    const std::size_t i = place.first + static_cast<std::size_t>(lane);
+    const std::int32_t source = place.rays->source[i];
+    for (unsigned left = open; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+      const bool own = spheres_.id[slot + k] == source;
+      if (own && place.rays->inside[i] == 0) continue;  // it cannot be met again
+      if (own || ((certain >> k) & 1U) == 0)
+        resolve(p, slot + k, bit);
+      else
+        hit_[p] |= bit;
+      if ((hit_[p] & bit) != 0) return true;
+    }
+    return false;
   }
 
   /// Lanes whose rays leave this very sphere.
@@ -139,6 +226,9 @@ class BundleAny {
     for (std::size_t k = 0; k < planes.size; ++k)
       hit_[p] |= bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
   }
+
+  /// As many groups, and rays in them, are few.
+  static constexpr int most_groups = 6, most_rays = 24;
 
   const PaddedStream& stream_;
   const SphereView& spheres_;

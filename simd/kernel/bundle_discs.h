@@ -17,8 +17,11 @@ struct Discs {
   alignas(64) float sure[size];     ///< D2
   alignas(64) float depth[size];    ///< Z - E1
   alignas(64) float spread[size];   ///< from the lower to the upper bound of v
-  alignas(64) float near[size];     ///< nothing of it is nearer than this v
+  alignas(64) float near[size];     ///< nothing of it is nearer than this v; no_hit: not simple
   alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];
+
+  Extent all;      ///< of the simple ones together
+  float all_near;  ///< the least
 
   unsigned simple;   ///< bits: discs that may be hit and that these bounds hold for
   unsigned awkward;  ///< bits: spheres that may be hit and that they do not hold for
@@ -93,15 +96,16 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   if constexpr (common != Common::direction || seek == Seek::nearest)
     simple = simple & (r + r + Real(rays.c_high) <= center.z);
   const std::size_t at = part * width;
+  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
   store(discs.x + at, center.x);
   store(discs.y + at, center.y);
   store(discs.z + at, center.z);
   store(discs.radius + at, r);
   store(discs.delta + at, delta);
   store(discs.depth + at, depth);
-  store(discs.near + at, near);
-  discs.simple |= bits(simple & ~missed & (near <= limit)) << at;
-  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
+  simple = simple & ~missed & (near <= limit);
+  store(discs.near + at, select(simple, near, Real(static_cast<float>(no_hit))));
+  discs.simple |= bits(simple) << at;
 }
 
 /// Eight spheres, of which there are `count`: finds those that matter.
@@ -117,10 +121,12 @@ BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors
 }
 
 /// The bounds of those that matter and are simple: see filter_bounds.h.
-template <Common common>
+template <Common common, Seek seek>
 BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs& discs) {
   constexpr auto few_roundings = static_cast<float>(filter::outward * filter::u);
   const Real few(few_roundings), outward(1 + few_roundings);
+  ExtentLanes all;
+  Real all_near(static_cast<float>(no_hit));
   for (std::size_t at = 0; at < count; at += width) {
     const Real x = load(discs.x + at), y = load(discs.y + at), z = load(discs.z + at);
     const Real r = load(discs.radius + at), delta = load(discs.delta + at);
@@ -145,14 +151,24 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs&
     store(discs.a_high + at, a + wide_a);
     store(discs.b_low + at, b - wide_b);
     store(discs.b_high + at, b + wide_b);
+    if constexpr (seek == Seek::any) {
+      const Real near = load(discs.near + at);
+      const RealMask simple = near < Real(static_cast<float>(no_hit));
+      all.add(simple, {a - wide_a, b - wide_b}, {a + wide_a, b + wide_b});
+      all_near = filter_min(all_near, near);
+    }
+  }
+  if constexpr (seek == Seek::any) {
+    discs.all = all.total();
+    discs.all_near = least_lane(all_near);
   }
 }
 
-/// Bits of the groups of which some ray may meet disc k, no farther than its group's limit.
-BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits,
-                                  const Discs& discs, int k) {
-  const Real a_low(discs.a_low[k]), a_high(discs.a_high[k]);
-  const Real b_low(discs.b_low[k]), b_high(discs.b_high[k]), near(discs.near[k]);
+/// Bits of the groups of which some ray may be within these extents, no farther than its group's
+/// limit.
+BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits, const Extent& e,
+                                  float least) {
+  const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high), near(least);
   unsigned result = 0;
   for (int at = 0; at < bundle_groups; at += width) {
     const RealMask in = (a_low <= load(groups.a_high + at)) & (load(groups.a_low + at) <= a_high) &
@@ -161,6 +177,14 @@ BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limit
     result |= bits(in) << at;
   }
   return result;
+}
+
+/// The same for disc k.
+BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits,
+                                  const Discs& discs, int k) {
+  return groups_near(groups, limits,
+                     {discs.a_low[k], discs.a_high[k], discs.b_low[k], discs.b_high[k]},
+                     discs.near[k]);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

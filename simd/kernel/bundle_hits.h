@@ -19,45 +19,65 @@ inline constexpr std::uint32_t no_slot = 0xffffffffU;
 BOULE_INLINE float slot_bits(std::uint32_t slot) { return std::bit_cast<float>(slot); }
 BOULE_INLINE std::uint32_t slot_of(float bits) { return std::bit_cast<std::uint32_t>(bits); }
 
-/// One disc in every lane.
+/// One disc in every lane, or W of them.
 struct DiscLanes {
   Real x, y, z, squared, sure, depth, spread;
 
-  BOULE_INLINE DiscLanes(const Discs& discs, int k)
-      : x(discs.x[k]),
-        y(discs.y[k]),
-        z(discs.z[k]),
-        squared(discs.squared[k]),
-        sure(discs.sure[k]),
-        depth(discs.depth[k]),
-        spread(discs.spread[k]) {}
+  /// Disc k in every lane.
+  BOULE_INLINE static DiscLanes same(const Discs& discs, int k) {
+    return {discs.x[k],    discs.y[k],     discs.z[k],     discs.squared[k],
+            discs.sure[k], discs.depth[k], discs.spread[k]};
+  }
+  /// Discs from `at` on, a disc a lane.
+  BOULE_INLINE static DiscLanes each(const Discs& discs, int at) {
+    return {load(discs.x + at),       load(discs.y + at),    load(discs.z + at),
+            load(discs.squared + at), load(discs.sure + at), load(discs.depth + at),
+            load(discs.spread + at)};
+  }
 };
 
-/// Q of W rays: negative where they miss for certain.
+/// W rays of a bundle, or one in every lane.
+struct LineLanes {
+  Real a, b, c;  ///< c with one direction only
+
+  template <Common common>
+  BOULE_INLINE static LineLanes each(const BundleRays& rays, int ray) {
+    constexpr bool parallel = common == Common::direction;
+    return {load(rays.a + ray), load(rays.b + ray), parallel ? load(rays.c + ray) : Real(0.0F)};
+  }
+  template <Common common>
+  BOULE_INLINE static LineLanes same(const BundleRays& rays, int ray) {
+    constexpr bool parallel = common == Common::direction;
+    return {rays.a[ray], rays.b[ray], parallel ? rays.c[ray] : 0.0F};
+  }
+};
+
+/// Q: negative where lines miss discs for certain.
 template <Common common>
-BOULE_INLINE Real disc_square(const BundleRays& rays, int ray, const DiscLanes& disc) {
-  const Real a = load(rays.a + ray), b = load(rays.b + ray);
+BOULE_INLINE Real disc_square(const LineLanes& line, const DiscLanes& disc) {
   Real e1, e2;
   if constexpr (common != Common::direction) {
-    e1 = filter_fnma(a, disc.z, disc.x);
-    e2 = filter_fnma(b, disc.z, disc.y);
+    e1 = filter_fnma(line.a, disc.z, disc.x);
+    e2 = filter_fnma(line.b, disc.z, disc.y);
   } else {
-    e1 = disc.x - a;
-    e2 = disc.y - b;
+    e1 = disc.x - line.a;
+    e2 = disc.y - line.b;
   }
   return filter_fnma(e2, e2, filter_fnma(e1, e1, disc.squared));
+}
+template <Common common>
+BOULE_INLINE Real disc_square(const BundleRays& rays, int ray, const DiscLanes& disc) {
+  return disc_square<common>(LineLanes::each<common>(rays, ray), disc);
 }
 
 /// Lower bound of the first root, in v; NaN for Q < 0.
 template <Common common>
-BOULE_INLINE Real first_root(const BundleRays& rays, int ray, const DiscLanes& disc,
-                             const Real& q) {
+BOULE_INLINE Real first_root(const LineLanes& line, const DiscLanes& disc, const Real& q) {
   const Real root = sqrt(q);
   if constexpr (common != Common::direction) {
-    const Real a = load(rays.a + ray), b = load(rays.b + ray);
-    return filter_fma(disc.x, a, filter_fma(disc.y, b, disc.depth)) - root;
+    return filter_fma(disc.x, line.a, filter_fma(disc.y, line.b, disc.depth)) - root;
   } else {
-    return disc.depth - load(rays.c + ray) - root;
+    return disc.depth - line.c - root;
   }
 }
 
@@ -204,7 +224,8 @@ class BundleHits {
   /// What float knows of a sphere in W rays; true if that changes anything.
   BOULE_INLINE bool consider(int ray, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
     const Real low = load(low_ + ray), high = load(high_ + ray);
-    const Real from = first_root<common>(rays_, ray, disc, q), to = from + disc.spread;
+    const Real from = first_root<common>(LineLanes::each<common>(rays_, ray), disc, q),
+               to = from + disc.spread;
     const RealMask candidate = from <= high;  // false for Q < 0
     if (!any(candidate)) return false;
     const RealMask nearer = candidate & (disc.sure <= q) & (to < low);

@@ -195,6 +195,13 @@ struct ExtentLanes {
     b_low = filter_min(b_low, b);
     b_high = filter_max(b_high, b);
   }
+  /// Ranges of some lanes.
+  BOULE_INLINE void add(const RealMask& lanes, const Real (&low)[2], const Real (&high)[2]) {
+    a_low = select(lanes, filter_min(a_low, low[0]), a_low);
+    a_high = select(lanes, filter_max(a_high, high[0]), a_high);
+    b_low = select(lanes, filter_min(b_low, low[1]), b_low);
+    b_high = select(lanes, filter_max(b_high, high[1]), b_high);
+  }
   [[nodiscard]] BOULE_INLINE Extent total() const {
     return {least_lane(a_low), greatest_lane(a_high), least_lane(b_low), greatest_lane(b_high)};
   }

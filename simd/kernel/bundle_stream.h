@@ -16,9 +16,6 @@ inline constexpr std::size_t fewest_rays = 32;
 
 /// Rays that have more leaves in their way than one for so many of them are sorted.
 inline constexpr std::size_t rays_per_leaf_in_place = 12;
-/// Sorted rays that have more leaves in their way than so many each are packets.
-inline constexpr std::size_t most_leaves_per_sorted_ray = 4;
-inline constexpr std::size_t unlimited_leaves = std::size_t{1} << 40;
 
 /// What does not fit into bundles goes as packets.
 BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
@@ -30,25 +27,21 @@ BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& s
   any_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
 }
 
-/// Rays begin .. end - 1, at most a bundle: halved until they fit, packets where they are too few,
-/// or crowded. Returns the leaves visited.
+/// Rays begin .. end - 1, at most a bundle: halved until they fit, packets where they are too few.
 template <Common common, class Answers>
-std::size_t trace_halved(const GeometryView& geometry, const PaddedStream& stream,
-                         std::size_t begin, std::size_t end, std::size_t most_leaves_per_ray,
-                         Answers answers) {
+void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                  std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
-  if (count >= fewest_rays) {
-    Effort effort{count * most_leaves_per_ray};
-    const Outcome outcome = trace_bundle<common>(geometry, stream, begin, count, effort, answers);
-    if (outcome == Outcome::traced) return effort.leaves;
-    if (outcome == Outcome::no_bundle) {
-      const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
-      return trace_halved<common>(geometry, stream, begin, middle, most_leaves_per_ray, answers) +
-             trace_halved<common>(geometry, stream, middle, end, most_leaves_per_ray, answers);
-    }
+  if (count < fewest_rays) {
+    trace_rest(geometry, stream, begin, end, answers);
+    return;
   }
-  trace_rest(geometry, stream, begin, end, answers);
-  return count * most_leaves_per_ray;
+  Effort effort;
+  const Outcome outcome = trace_bundle<common>(geometry, stream, begin, count, effort, answers);
+  if (outcome == Outcome::traced) return;
+  const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
+  trace_halved<common>(geometry, stream, begin, middle, answers);
+  trace_halved<common>(geometry, stream, middle, end, answers);
 }
 
 /// The nearest hits of all rays, in their order.
@@ -58,7 +51,7 @@ BOULE_INLINE void closest_hit_bundled(const GeometryView& geometry, const Padded
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += bundle_size) {
     const std::size_t end = size - begin < bundle_size ? size : begin + bundle_size;
-    trace_halved<common>(geometry, stream, begin, end, unlimited_leaves, hits);
+    trace_halved<common>(geometry, stream, begin, end, hits);
   }
 }
 
@@ -78,21 +71,6 @@ BOULE_INLINE std::size_t any_hit_in_place(const GeometryView& geometry, const Pa
   return begin;
 }
 
-/// How many rays the next bundle should have: large ones save visits while their rays share most
-/// of them.
-class BundleSize {
- public:
-  [[nodiscard]] std::size_t rays() const { return rays_; }
-  void learn(std::size_t traced, std::size_t leaves) {
-    if (leaves * 8 < traced && rays_ < bundle_size) rays_ *= 2;
-    if (leaves * 2 > traced && rays_ > fewest) rays_ /= 2;
-  }
-
- private:
-  static constexpr std::size_t fewest = 256;
-  std::size_t rays_ = fewest;
-};
-
 /// The same for all of them, sorted.
 template <Common common>
 BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStream& stream,
@@ -101,15 +79,11 @@ BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStr
   order.sort<common>(stream, begin, end);
   PooledRays pooled;
   alignas(64) std::uint8_t met[bundle_size];
-  BundleSize size;
-  for (std::size_t done = 0; done < order.size();) {
-    const std::size_t rest = order.size() - done, count = rest < size.rays() ? rest : size.rays();
+  for (std::size_t done = 0; done < order.size(); done += bundle_size) {
+    const std::size_t rest = order.size() - done, count = rest < bundle_size ? rest : bundle_size;
     const PaddedStream rays(pooled.gather(stream.rays(), order, done, count));
-    const std::size_t leaves =
-        trace_halved<common>(geometry, rays, 0, count, most_leaves_per_sorted_ray, met);
+    trace_halved<common>(geometry, rays, 0, count, met);
     for (std::size_t k = 0; k < count; ++k) occluded[order[done + k]] = met[k];
-    done += count;
-    size.learn(count, leaves);
   }
 }
 

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/kernel/bundle_rays.h"
+
+/// Where a bundle's rays are, coarsely. Rays that are fewer than the spheres around them leave gaps
+/// between each other, and more so as they meet things and are done: what lies in a gap need not be
+/// visited.
+namespace boule::BOULE_KERNEL_ISA {
+
+class RayGrid {
+ public:
+  /// Nothing is known before it is filled.
+  [[nodiscard]] bool known() const { return known_; }
+
+  /// Enters the rays but those that `done` has a bit for, packet by packet.
+  BOULE_NOINLINE void fill(const BundleRays& rays, const unsigned* done) {
+    a_ = axis(rays.extent.a_low, rays.extent.a_high);
+    b_ = axis(rays.extent.b_low, rays.extent.b_high);
+    for (std::uint32_t& row : rows_) row = 0;
+    alignas(64) float column[width], row[width];
+    for (int p = 0; p < rays.packets; ++p) {
+      if (done[p] == all_lanes) continue;
+      store(column, cell(a_, load(rays.a + p * width)));
+      store(row, cell(b_, load(rays.b + p * width)));
+      for (unsigned left = all_lanes & ~done[p]; left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        rows_[static_cast<int>(row[lane])] |= 1U << static_cast<int>(column[lane]);
+      }
+    }
+    known_ = true;
+  }
+
+  /// Lanes of W ranges of a and b, NaN for unknown.
+  struct Cells {
+    Real a_low, a_high, b_low, b_high;
+  };
+  BOULE_INLINE Cells cells(const Real& a_low, const Real& a_high, const Real& b_low,
+                           const Real& b_high) const {
+    return {cell(a_, a_low), cell_above(a_, a_high), cell(b_, b_low), cell_above(b_, b_high)};
+  }
+
+  /// Whether there are rays in these cells.
+  [[nodiscard]] bool any_in(float a_low, float a_high, float b_low, float b_high) const {
+    const unsigned columns = (2U << static_cast<int>(a_high)) - (1U << static_cast<int>(a_low));
+    const int end = static_cast<int>(b_high);
+    for (int row = static_cast<int>(b_low); row <= end; ++row) {
+      if ((rows_[row] & columns) != 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int side = 16;
+
+  struct Axis {
+    float low, scale;
+  };
+  static Axis axis(float low, float high) {
+    return {low, high > low ? static_cast<float>(side) / (high - low) : 0.0F};
+  }
+  /// Rises with x, as the roundings do; 0 for NaN.
+  BOULE_INLINE static Real cell(const Axis& axis, const Real& x) {
+    const Real zero(0.0F), last(static_cast<float>(side - 1));
+    const Real at = (x - Real(axis.low)) * Real(axis.scale);
+    const Real low = select(zero <= at, at, zero);
+    return select(low <= last, low, last);
+  }
+  /// The same, but the last for NaN.
+  BOULE_INLINE static Real cell_above(const Axis& axis, const Real& x) {
+    const Real zero(0.0F), last(static_cast<float>(side - 1));
+    const Real at = (x - Real(axis.low)) * Real(axis.scale);
+    const Real low = select(at <= last, at, last);
+    return select(low <= zero, zero, low);
+  }
+
+  bool known_ = false;
+  Axis a_, b_;
+  std::uint32_t rows_[side];
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA
