@@ -1,13 +1,12 @@
 #include "bench/bench_scenes.h"
 
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "bench/balls.h"
-#include "core/math/elementary.h"
-#include "core/math/random.h"
+#include "bench/hard_scenes.h"
+#include "bench/uniform_spheres.h"
 
 namespace boule::bench {
 namespace {
@@ -18,14 +17,7 @@ constexpr int deepest_flake = 6;
 BenchScene random_scene(const std::string& name, int n) {
   BenchScene scene;
   scene.name = name;
-  const auto radius = static_cast<float>(std::sqrt(4 / (elementary::pi * n)));
-  for (int i = 0; i < n; ++i) {
-    const auto at = random4(static_cast<std::uint32_t>(i), 0, 0, 0, 7);
-    scene.spheres.push_back(
-        {{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
-         radius,
-         0});
-  }
+  scene.spheres = uniform_spheres(static_cast<std::size_t>(n));
   scene.camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   scene.camera.fov = 25.61F;
   scene.light.position = {0.3F, 2, -1.5F};
@@ -64,12 +56,15 @@ Result<BenchScene> make_scene(const std::string& name) {
   if (const auto depth = number_after("flake", name, 0, deepest_flake)) {
     return flake_scene(name, *depth);
   }
-  return Diagnostic{
-      "no scene " + quote(name) + ", expected uN, N from 1 to 10000000, or flakeD, D from 0 to 6",
-      {},
-      {},
-      0,
-      0};
+  if (auto scene = make_hard_scene(name, random_scene("u1000", 1000))) return *std::move(scene);
+  std::string others;
+  for (const std::string& hard : hard_scene_names()) others += ", " + hard;
+  return Diagnostic{"no scene " + quote(name) +
+                        ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6" + others,
+                    {},
+                    {},
+                    0,
+                    0};
 }
 
 }  // namespace boule::bench

@@ -22,7 +22,7 @@ struct BenchScene {
 std::vector<std::string> scene_names();
 
 /// uN: N random spheres in the unit cube that cover it four times over, r = sqrt(4 / (pi N)).
-/// flakeD: the sphereflake of depth D, 0 to 6, without its floor.
+/// flakeD: the sphereflake of depth D, 0 to 6, without its floor. Or a hard one (hard_scenes.h).
 Result<BenchScene> make_scene(const std::string& name);
 
 }  // namespace boule::bench

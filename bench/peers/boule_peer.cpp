@@ -9,8 +9,6 @@
 namespace boule::bench {
 namespace {
 
-constexpr std::size_t stream_size = 16384;  // the renderer's
-
 class BouleContender final : public Contender {
  public:
   struct Memory {
@@ -36,6 +34,7 @@ class BouleContender final : public Contender {
 
   void trace(std::size_t first, std::size_t last) override {
     const RayStream rays = workload_.rays->view();
+    const std::size_t stream_size = info().width;
     for (; first < last; first += stream_size) {
       const RayStream stream = part_of(rays, first, std::min(stream_size, last - first));
       if (workload_.kind == RayKind::shadow) {
@@ -88,6 +87,7 @@ std::vector<std::unique_ptr<Contender>> BoulePeer::contenders(const Workload& wo
   hits_.resize(workload.rays->size());
   occluded_.resize(workload.rays->size());
   std::vector<std::unique_ptr<Contender>> all;
+  const std::size_t stream_size = block_size(workload);  // the renderer's
   for (const std::string& isa : isas_) {
     const KernelTable& kernels = *select_kernels(isa).value();
     const auto add = [&](const char* suffix, const Query& query) {

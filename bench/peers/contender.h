@@ -8,6 +8,7 @@
 #include "bench/bench_scenes.h"
 #include "bench/peers/rays.h"
 #include "core/math/ray.h"
+#include "simd/abi/stream.h"
 #include "simd/build/stream_buffer.h"
 
 namespace boule::bench {
@@ -25,8 +26,10 @@ struct Answers {
   std::vector<std::uint8_t> occluded;
 };
 
-/// Contenders are asked for whole blocks of so many rays: a multiple of every width.
-inline constexpr std::size_t block_size = 16384;
+/// Contenders are asked for whole blocks of so many rays: the renderer's.
+inline std::size_t block_size(const Workload& workload) {
+  return fitting_stream_size(workload.scene->spheres.size());
+}
 
 /// One way of answering a workload.
 class Contender {
@@ -49,7 +52,8 @@ class Contender {
 
   /// Makes everything ready for tracing all rays afresh. Not timed.
   virtual void prepare() = 0;
-  /// Traces rays first .. last - 1; `first` a multiple of block_size. Timed; from several threads.
+  /// Traces rays first .. last - 1; `first` a multiple of block_size(). Timed; from several
+  /// threads.
   virtual void trace(std::size_t first, std::size_t last) = 0;
   /// The answers, once all rays are traced and before anybody else prepares.
   virtual void answer(Answers& answers) const = 0;

@@ -40,7 +40,8 @@ double seconds_of(clockid_t clock) {
 }
 
 /// Seconds that one pass over all rays takes: CPU time of the one thread, or wall clock.
-double time_pass(Contender& contender, std::size_t size, unsigned threads) {
+double time_pass(Contender& contender, const Workload& workload, unsigned threads) {
+  const std::size_t size = workload.rays->size(), block_rays = block_size(workload);
   contender.prepare();
   const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
   const double begin = seconds_of(clock);
@@ -48,8 +49,8 @@ double time_pass(Contender& contender, std::size_t size, unsigned threads) {
     contender.trace(0, size);
   } else {
     Scheduler scheduler(threads);
-    scheduler.parallel_for()((size + block_size - 1) / block_size, [&](std::size_t block) {
-      contender.trace(block * block_size, std::min(size, (block + 1) * block_size));
+    scheduler.parallel_for()((size + block_rays - 1) / block_rays, [&](std::size_t block) {
+      contender.trace(block * block_rays, std::min(size, (block + 1) * block_rays));
     });
   }
   return seconds_of(clock) - begin;
@@ -72,7 +73,7 @@ bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
 
 void run_one(Entrant& entrant, const Workload& workload, unsigned threads) {
   const std::size_t size = workload.rays->size();
-  const double seconds = time_pass(*entrant.contender, size, threads);
+  const double seconds = time_pass(*entrant.contender, workload, threads);
   entrant.rates.push_back(1e-6 * static_cast<double>(size) / seconds);
 }
 

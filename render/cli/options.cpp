@@ -134,7 +134,7 @@ void add_file_options(CLI::App& app, RenderCommand& command) {
 
 void add_block_options(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--tile", command.tile, 1, max_tile,
-            "Side of a tile in pixels (16 to 128, as fits)");
+            "Side of a tile in pixels (16 to 256, as fits)");
   add_choice(app, "--order", command.order,
              std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
                         Choice{"progressive", PixelOrder::progressive},

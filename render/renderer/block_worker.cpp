@@ -3,21 +3,15 @@
 #include <utility>
 
 namespace boule {
-namespace {
-
-/// Camera rays per stream: more would bring more of a light's rays together, but leave the cache.
-constexpr std::size_t camera_stream_size = 16384;
-
-}  // namespace
 
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
-    : setup_(setup), integrator_(std::move(integrator)), radiance_(camera_stream_size) {
-  pixels_.reserve(camera_stream_size);
+    : setup_(setup), integrator_(std::move(integrator)), radiance_(setup.stream_size) {
+  pixels_.reserve(setup.stream_size);
 }
 
 bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
   pixels_.clear();
-  samples_.resize(camera_stream_size);
+  samples_.resize(setup_.stream_size);
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1) continue;
@@ -25,7 +19,7 @@ bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
       const RasterPoint place = setup_.sampler.position(x, y, sample);
       samples_.set(pixels_.size(), place.x, place.y);
       pixels_.push_back({x, y});
-      if (pixels_.size() == camera_stream_size && !trace(film)) return false;
+      if (pixels_.size() == setup_.stream_size && !trace(film)) return false;
     }
   }
   return trace(film);
@@ -41,7 +35,7 @@ bool BlockWorker::trace(Film& film) {
   if (!integrator_->trace(rays_, setup_.scene.coherence, radiance_.data())) return false;
   for (std::size_t k = 0; k < count; ++k) film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
   pixels_.clear();
-  samples_.resize(camera_stream_size);
+  samples_.resize(setup_.stream_size);
   return true;
 }
 

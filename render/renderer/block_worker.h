@@ -20,6 +20,7 @@ struct BlockSetup {
   const KernelTable& kernels;
   Sampler sampler;
   std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
+  std::size_t stream_size;                ///< most camera rays in a stream, >= 1
 };
 
 /// Renders blocks on one thread, with memory of its own that it keeps from block to block.

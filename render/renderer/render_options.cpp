@@ -3,13 +3,14 @@
 #include "render/frame/film.h"
 #include "render/frame/memory.h"
 #include "render/image/image.h"
+#include "simd/abi/stream.h"
 
 namespace boule {
 namespace {
 
 Diagnostic wrong(const char* key, const std::string& message) { return {message, key, {}, 0, 0}; }
 
-constexpr int smallest_fit = 16, largest_fit = 128;  // pixels
+constexpr int smallest_fit = 16, usual_fit = 128;  // pixels
 
 int least_tile(const RenderOptions& options) {
   return options.tile != 0 ? options.tile : smallest_fit;
@@ -44,12 +45,13 @@ PixelRect rendered_rect(const RenderOptions& options) {
   return options.crop.value_or(PixelRect{0, 0, options.width, options.height});
 }
 
-int fitting_tile(const RenderOptions& options, unsigned workers) {
+int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres) {
   if (options.tile != 0) return options.tile;
   if (options.order != PixelOrder::rows && options.order != PixelOrder::tiles) return smallest_fit;
-  constexpr std::uint64_t blocks_per_worker = 16;
+  const bool large = fitting_stream_size(spheres) > usual_fit * usual_fit;
+  const std::uint64_t blocks_per_worker = large ? 8 : 16;
   const std::uint64_t area = rendered_rect(options).area();
-  int tile = largest_fit;
+  int tile = large ? 2 * usual_fit : usual_fit;
   while (tile > smallest_fit &&
          area < blocks_per_worker * workers * static_cast<std::uint64_t>(tile * tile))
     tile /= 2;

@@ -42,8 +42,8 @@ PixelRect rendered_rect(const RenderOptions& options);
 
 /// The side of a block, in pixels: options.tile, or, where that is 0, what suits. Large blocks
 /// bring many rays together, a light's above all; but every worker needs some, and an order that is
-/// for watching needs small ones.
-int fitting_tile(const RenderOptions& options, unsigned workers);
+/// for watching needs small ones. `spheres`: of the scene.
+int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres);
 
 /// The first option out of range, its key as in RenderOptions, or a picture that needs more memory
 /// than there is.

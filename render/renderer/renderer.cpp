@@ -20,8 +20,9 @@ Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0};
 Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels)
     : options_(options),
       scene_(std::make_unique<const PreparedScene>(std::move(scene))),
-      setup_(std::make_unique<const BlockSetup>(BlockSetup{
-          *scene_, kernels, Sampler(options.spp, options.seed), block_pixels(options.tile)})),
+      setup_(std::make_unique<const BlockSetup>(
+          BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed),
+                     block_pixels(options.tile), fitting_stream_size(scene_->spheres.size())})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -40,7 +41,7 @@ Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& optio
         prepare(scene, options.width, options.height, scheduler.parallel_for());
     if (!prepared) return prepared.error();
     RenderOptions fitted = options;
-    fitted.tile = fitting_tile(options, scheduler.workers());
+    fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());
     Renderer renderer(fitted, std::move(prepared).value(),
                       reference ? reference_kernels() : *selected.value());
     renderer.prepare_seconds_ = watch.seconds();
@@ -132,6 +133,7 @@ std::unique_ptr<BlockWorker> Renderer::make_worker() const {
   IntegratorSettings settings;
   settings.solver = options_.solver;
   settings.max_depth = options_.max_depth;
+  settings.stream_size = setup_->stream_size;
   settings.cancel = options_.cancel;
   return std::make_unique<BlockWorker>(
       *setup_, std::make_unique<Whitted>(*scene_, setup_->kernels, settings));

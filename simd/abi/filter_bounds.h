@@ -112,8 +112,8 @@ inline constexpr float bundle_shift = 0x1p-10F;
 inline constexpr float bundle_width = 0.25F;
 
 /// A sphere is simple for a bundle if it lies in front of it, Z >= 2 r (or 2 r beyond every
-/// origin), F1 < bundle_far and r > bundle_small; the others go to the double solver.
+/// origin) and F1 < bundle_far; the others go to the double solver. What underflows is paid for by
+/// `floor` in delta.
 inline constexpr float bundle_far = 1e15F;
-inline constexpr float bundle_small = 1e-12F;
 
 }  // namespace boule::filter

@@ -37,4 +37,10 @@ struct SampleStream {
   std::size_t size;
 };
 
+/// Rays per stream that suit any hit among so many spheres: more rays of a light are closer
+/// together, which pays for their memory where spheres do not fit into caches either.
+constexpr std::size_t fitting_stream_size(std::size_t spheres) {
+  return spheres > 262144 ? 65536 : 16384;
+}
+
 }  // namespace boule

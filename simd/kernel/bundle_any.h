@@ -46,7 +46,9 @@ class BundleAny {
   /// one. False, and nothing done, if those are not few.
   BOULE_INLINE bool meet_few(const Discs& discs, std::uint32_t first) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
-    if (std::popcount(groups) > most_groups) return false;
+    unsigned more = groups;
+    for (int k = 0; k < most_groups; ++k) more &= more - 1;
+    if (more != 0) return false;
     int rays[most_rays], count = 0;
     for (unsigned left = groups; left != 0; left &= left - 1) {
       const PacketRange packets = packets_of(rays_, std::countr_zero(left));

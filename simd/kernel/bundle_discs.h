@@ -91,7 +91,7 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
   const RealMask missed = judged & outside<common>(rays.extent, center, reach);
-  RealMask simple = judged & (Real(filter::bundle_small) < r);
+  RealMask simple = judged & (Real(0.0F) <= r);
   // Parallel rays may begin anywhere among the spheres: any hit then asks where.
   if constexpr (common != Common::direction || seek == Seek::nearest)
     simple = simple & (r + r + Real(rays.c_high) <= center.z);

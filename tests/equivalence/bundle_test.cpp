@@ -1,5 +1,7 @@
 // Tiles of rays that share an origin or a direction: the bundle's answers are the scalar path's.
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/math/geometry.h"
 #include "tests/support/case_random.h"
@@ -84,13 +86,25 @@ std::vector<BundleScene> scenes() {
 }
 
 /// The even bits of a Morton index.
-int even_bits(int i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4) | (i >> 3 & 8); }
+int even_bits(int i) {
+  return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4) | (i >> 3 & 8) | (i >> 4 & 16);
+}
 
-/// A tile of 16 x 16 rays, in Morton order, around the rim of a sphere, as wide as some share of
-/// what is seen of the sphere: where a bound that is too small would show.
+/// A tile of rays, in Morton order, around the rim of a sphere, as wide as some share of what is
+/// seen of the sphere: where a bound that is too small would show.
 struct Tile {
   Vec3d middle, right, up;  ///< a target, and the tile's half sides from there
   double length;            ///< of the directions, as a multiple
+  int side = 16;            ///< rays
+
+  [[nodiscard]] int rays() const { return side * side; }
+  /// The target of ray i.
+  [[nodiscard]] Vec3d target(int i) const { return middle + offset(i); }
+  [[nodiscard]] Vec3d offset(int i) const {
+    const double half = side / 2.0;
+    return right * ((even_bits(i) + 0.5 - half) / half) +
+           up * ((even_bits(i >> 1) + 0.5 - half) / half);
+  }
 };
 
 Tile aim(CaseRandom& random, const BundleScene& scene) {
@@ -101,7 +115,13 @@ Tile aim(CaseRandom& random, const BundleScene& scene) {
   const Vec3d towards = normalize(view), side = random.perpendicular(towards);
   const double widest = scene.widest * distance;
   const double width = std::fmin(widest, std::fabs(double{sphere.radius}) * random.decade(-7, 1.5));
-  Tile tile{center_of(sphere) + side * (beta * double{sphere.radius}), {}, {}, 1};
+  // A sphere's box is touched where its rim is farthest along an axis.
+  const Vec3d axis = std::array{Vec3d{1, 0, 0}, Vec3d{0, 1, 0},
+                                Vec3d{0, 0, 1}}[static_cast<std::size_t>(random.below(3))];
+  const Vec3d upright = axis - towards * dot(axis, towards);
+  const Vec3d rim =
+      random.chance(0.3) && length(upright) > 0 ? normalize(upright) * random.sign() : side;
+  Tile tile{center_of(sphere) + rim * (beta * double{sphere.radius}), {}, {}, 1};
   tile.right = random.perpendicular(towards) * width;
   tile.up = cross(towards, tile.right);
   if (random.chance(0.3)) tile.length = random.decade(-3, 3);
@@ -116,9 +136,8 @@ void shorten(CaseRandom& random, double until, std::vector<Ray>& rays) {
 
 std::vector<Ray> from_one_origin(const Tile& tile, const Vec3d& eye) {
   std::vector<Ray> rays;
-  for (int i = 0; i < 256; ++i) {
-    const double x = (even_bits(i) - 7.5) / 8, y = (even_bits(i >> 1) - 7.5) / 8;
-    const Vec3d to = tile.middle + tile.right * x + tile.up * y - eye;
+  for (int i = 0; i < tile.rays(); ++i) {
+    const Vec3d to = tile.target(i) - eye;
     rays.push_back({eye, vec_cast<float>(to * (tile.length / length(to)))});
   }
   return rays;
@@ -127,10 +146,7 @@ std::vector<Ray> from_one_origin(const Tile& tile, const Vec3d& eye) {
 std::vector<Ray> in_one_direction(const Tile& tile, const Vec3d& eye) {
   const Vec3f dir = vec_cast<float>(normalize(tile.middle - eye) * tile.length);
   std::vector<Ray> rays;
-  for (int i = 0; i < 256; ++i) {
-    const double x = (even_bits(i) - 7.5) / 8, y = (even_bits(i >> 1) - 7.5) / 8;
-    rays.push_back({eye + tile.right * x + tile.up * y, dir});
-  }
+  for (int i = 0; i < tile.rays(); ++i) rays.push_back({eye + tile.offset(i), dir});
   return rays;
 }
 
@@ -195,7 +211,8 @@ TEST_P(Bundle, GivesTheScalarPathsAnswers) {
       met = 0;
       constexpr int tiles = 24;
       for (int k = 0; k < tiles; ++k) {
-        const Tile tile = aim(random, scene);
+        Tile tile = aim(random, scene);
+        tile.side = 8 << k % 3;
         if (!judgeable(tile)) continue;
         std::vector<Ray> rays = from_one_origin(tile, scene.eye);
         const double until = length(tile.middle - scene.eye) / tile.length;
@@ -247,6 +264,109 @@ TEST_P(Bundle, FindsShadows) {
     EXPECT_LT(dark, rays * 19 / 20) << scene.name;
     EXPECT_GT(rays, 1000U) << scene.name;
   }
+}
+
+/// Rays from all over the place and from spheres, towards one point or in one direction.
+std::vector<Ray> scattered(CaseRandom& random, const std::vector<Sphere>& spheres,
+                           std::size_t count, const Vec3d& light, bool is_point) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    Ray ray{{x, y, z}, vec_cast<float>(light)};
+    if (random.chance(0.3)) {
+      ray.source = random.below(static_cast<int>(spheres.size()));
+      ray.inside = random.chance(0.5);
+      const Sphere& sphere = spheres[static_cast<std::size_t>(ray.source)];
+      const double off = ray.inside ? -0x1p-46 : 0x1p-46;
+      ray.org = center_of(sphere) + random.direction() * (double{sphere.radius} * (1 + off));
+    }
+    if (is_point) {
+      ray.dir = vec_cast<float>(light - ray.org);
+      ray.tmax = 1 - 0x1p-22F;
+    }
+    if (random.chance(0.01)) ray.tmax = static_cast<float>(random.uniform(0, 1));
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// Rays that have little in common with their neighbours in the stream are sorted, a pool at a
+/// time; among many spheres they are few for each.
+TEST_P(Bundle, SortsShadowRays) {
+  for (const auto& [spheres, count] : {std::pair{300, 66000}, std::pair{4000, 5000}}) {
+    CaseRandom random(67);
+    BundleScene scene = cloud("scattered", {0, 0, 0}, 1, 0.1, 0);
+    while (scene.spheres.size() < static_cast<std::size_t>(spheres)) {
+      const Vec3d center = random.direction() * random.uniform(0, 1);
+      scene.spheres.push_back(
+          {vec_cast<float>(center), static_cast<float>(random.decade(-2.5, -1.3)), 0});
+    }
+    const Geometry geometry(scene.spheres, {});
+    for (const auto& [light, is_point] :
+         {std::pair{Vec3d{0.1, 0.2, -0.3}, true}, std::pair{Vec3d{5, 9, 2}, true},
+          std::pair{Vec3d{1, -2, 0.3}, false}}) {
+      const auto rays =
+          scattered(random, scene.spheres, static_cast<std::size_t>(count), light, is_point);
+      const Coherence coherence = is_point ? Coherence::common_end : Coherence::common_direction;
+      const auto occluded =
+          run_any(*kernels, geometry.view(), rays, {Solver::robust, Form::automatic, coherence});
+      std::size_t dark = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const bool expected = reference::any_hit(rays[i], scene.spheres, {});
+        ASSERT_EQ(occluded[i], expected ? 1 : 0)
+            << spheres << " spheres, ray " << i << (is_point ? " to a point" : "");
+        dark += expected ? 1U : 0U;
+      }
+      EXPECT_GT(dark, rays.size() / 10);
+      EXPECT_LT(dark, rays.size() * 9 / 10);
+    }
+  }
+}
+
+/// Columns of specks along z from 1 to 1.1, as seen from the origin across its rays: from 1.1 (a,
+/// b) to (a, b), or back. Only one end of a column is in a ray's way: another ray would hide that
+/// one is lost.
+void add_columns(CaseRandom& random, std::vector<Sphere>& spheres, std::vector<Ray>& rays) {
+  const double apart = random.uniform(0.03, 0.045);
+  for (int column = 0; column < 100; ++column) {
+    const double a = apart * (column % 10 - 4.5), b = apart * (column / 10 - 4.5);
+    const int aim_at = random.chance(0.5) ? 0 : 7;
+    const bool back = random.chance(0.5);
+    for (int i = 0; i < 8; ++i) {
+      const double far = i / 7.0, z = 1 + 0.1 * far, across = 1.1 - 0.1 * (back ? 1 - far : far);
+      const Vec3d center{a * across, b * across, z};
+      spheres.push_back({vec_cast<float>(center), 1e-4F, 0});
+      if (i != aim_at) continue;
+      const Vec3d through = center + random.direction() * 1.2e-4;
+      Ray ray{through * (3 / z), {}};
+      ray.dir = vec_cast<float>(ray.org * -1.0);
+      ray.tmax = 1 - 0x1p-22F;
+      rays.push_back(ray);
+    }
+  }
+}
+
+/// Leaves that are deep and lie across the rays of a light: what their boxes are to the grid of its
+/// rays is not where they begin or end.
+TEST_P(Bundle, MeetsSpecksOfDeepLeaves) {
+  CaseRandom random(68);
+  std::size_t all = 0, dark = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    std::vector<Sphere> spheres;
+    std::vector<Ray> rays;
+    add_columns(random, spheres, rays);
+    const Geometry geometry(spheres, {});
+    const Query query{Solver::robust, Form::automatic, Coherence::common_end};
+    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool expected = reference::any_hit(rays[i], spheres, {});
+      ASSERT_EQ(occluded[i], expected ? 1 : 0) << "trial " << trial << " ray " << i;
+      dark += expected ? 1U : 0U;
+    }
+    all += rays.size();
+  }
+  EXPECT_GT(dark, all / 3);
+  EXPECT_LT(dark, all);
 }
 
 TEST_P(Bundle, MeetsPlanesAsWell) {

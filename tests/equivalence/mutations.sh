@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# mutations.sh SOURCE BUILD: takes the bounds of filter_bounds.h away, one by one. The equivalence
+# tests must see it every time, and must pass where nothing is changed.
+set -euo pipefail
+source="$1" build="$2"
+copy="$build/source"
+rm -rf "$copy"
+mkdir -p "$copy"
+cp -r "$source"/{CMakeLists.txt,CMakePresets.json,README.md,LICENSE,bench,core,render,scenes,simd,tests} "$copy"
+cmake -G Ninja -S "$copy" -B "$build/build" -DCMAKE_BUILD_TYPE=Release \
+  -DBOULE_RENDER=OFF -DBOULE_TESTS=ON -DBOULE_WERROR=ON >/dev/null
+bounds="simd/abi/filter_bounds.h"
+tests=$build/build/tests/equivalence/boule_test_equivalence
+
+passes() {
+  cmake --build "$build/build" --target boule_test_equivalence >"$build/log" || { cat "$build/log"; exit 1; }
+  "$tests" --gtest_brief=1 --gtest_filter='-*RejectSweep*' >"$build/log" 2>&1
+}
+
+passes || { echo "unchanged: the tests fail"; cat "$build/log"; exit 1; }
+survivors=0
+while read -r name value; do
+  sed -E "s/(inline constexpr (double|float) $name = )[^;]+;/\1$value;/" "$source/$bounds" >"$copy/$bounds"
+  if cmp -s "$source/$bounds" "$copy/$bounds"; then
+    echo "$name: no such bound"
+    survivors=$((survivors + 1))
+  elif passes; then
+    echo "$name = $value: not seen"
+    survivors=$((survivors + 1))
+  else
+    echo "$name = $value: seen by $(grep -c '^\[  FAILED  \].*(' "$build/log") tests"
+  fi
+done <<'BOUNDS'
+slack 0
+spread 0
+box 0
+bundle_axis 0
+bundle_square 0
+bundle_depth 0
+bundle_double 0
+bundle_shift_slope 0
+bundle_far 1e38F
+BOUNDS
+exit $((survivors != 0))
