@@ -223,7 +223,7 @@ BOULE_INLINE void prefetch_child(const GeometryView& geometry, const BvhNode& no
   for (int at = 0; at < bytes; at += 64) __builtin_prefetch(begin + at);
 }
 
-/// What a bundle may cost, and what it has cost: leaves that it had to visit.
+/// What a bundle may cost: leaves that it visits.
 struct Effort {
   std::size_t most_leaves = ~std::size_t{0};
   std::size_t leaves = 0;
@@ -244,7 +244,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     const Visit visit = stack.pop();
     if (hits.limit() < visit.near) continue;
     if (visit.leaf_size != 0) {
-      if (effort.leaves++ == effort.most_leaves) return false;
+      if (effort.leaves++ == effort.most_leaves || hits.too_close()) return false;
       const std::size_t slot = spheres.scanned + std::size_t{visit.child} * bvh_leaf_size;
       meet_spheres<common>(rays, factors, find_slot(spheres, slot),
                            static_cast<std::uint32_t>(slot), visit.leaf_size, hits);

@@ -29,6 +29,9 @@ class BundleAny {
   [[nodiscard]] const float* limits() const { return limits_; }
   [[nodiscard]] float limit() const { return limit_; }
   [[nodiscard]] bool done() const { return limit_ == -static_cast<float>(no_hit); }
+  /// Too much is too close to call: spheres that are small for how far they are from the light, but
+  /// not for the rays, which begin among them.
+  [[nodiscard]] bool too_close() const { return unclear_ > most_unclear * rays_.packets; }
 
   /// A simple sphere against a group; true if that changes its hits: update() then.
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
@@ -158,7 +161,10 @@ class BundleAny {
     const unsigned own = own_sphere(place, spheres_.id[slot]);
     hit_[p] |= verdict.certain & open & ~own;
     const unsigned unclear = open & ~hit_[p] & ~leaves_outside(place, own);
-    if (unclear != 0) resolve(p, slot, unclear);
+    if (unclear != 0) {
+      ++unclear_;
+      resolve(p, slot, unclear);
+    }
     return true;
   }
 
@@ -196,10 +202,12 @@ class BundleAny {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
       const bool own = spheres_.id[slot + k] == source;
       if (own && place.rays->inside[i] == 0) continue;  // it cannot be met again
-      if (own || ((certain >> k) & 1U) == 0)
+      if (own || ((certain >> k) & 1U) == 0) {
+        ++unclear_;
         resolve(p, slot + k, bit);
-      else
+      } else {
         hit_[p] |= bit;
+      }
       if ((hit_[p] & bit) != 0) return true;
     }
     return false;
@@ -229,12 +237,15 @@ class BundleAny {
       hit_[p] |= bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
   }
 
+  /// Packets are not cheaper before so many solves for each.
+  static constexpr int most_unclear = 2;
   /// As many groups, and rays in them, are few.
   static constexpr int most_groups = 6, most_rays = 24;
 
   const PaddedStream& stream_;
   const SphereView& spheres_;
   const BundleRays& rays_;
+  int unclear_ = 0;  ///< times that float could not tell
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];
   float last_[bundle_packets];  ///< the greatest v that a packet's rays live at

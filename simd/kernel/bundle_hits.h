@@ -161,6 +161,7 @@ class BundleHits {
   [[nodiscard]] const float* limits() const { return limits_; }
   [[nodiscard]] float limit() const { return limit_; }
   [[nodiscard]] bool done() const { return false; }
+  [[nodiscard]] bool too_close() const { return false; }
 
   /// A simple sphere against a group; true if that changes its hits: update() then.
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {

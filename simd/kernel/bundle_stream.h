@@ -27,18 +27,21 @@ BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& s
   any_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
 }
 
-/// Rays begin .. end - 1, at most a bundle: halved until they fit, packets where they are too few.
+/// Rays begin .. end - 1, at most a bundle: halved until they fit; packets where they are too few,
+/// or better off.
 template <Common common, class Answers>
 void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
                   std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
-  if (count < fewest_rays) {
+  Effort effort;
+  const Outcome outcome =
+      count < fewest_rays ? Outcome::crowded
+                          : trace_bundle<common>(geometry, stream, begin, count, effort, answers);
+  if (outcome == Outcome::traced) return;
+  if (outcome == Outcome::crowded) {
     trace_rest(geometry, stream, begin, end, answers);
     return;
   }
-  Effort effort;
-  const Outcome outcome = trace_bundle<common>(geometry, stream, begin, count, effort, answers);
-  if (outcome == Outcome::traced) return;
   const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
   trace_halved<common>(geometry, stream, begin, middle, answers);
   trace_halved<common>(geometry, stream, middle, end, answers);
