@@ -55,8 +55,9 @@ inline constexpr double spread = 12;
 
 /// Boxes of a tree. Against rays: a coordinate min - o, less the origin's error, is rounded twice,
 /// 1 / unit is 2 u off and the product is rounded, 5 u of t together. Against a bundle's sides, of
-/// the corner's distance: p - O, n and three sums, 1.25 (1 + 1 + 3) u.
-inline constexpr double box = 8;
+/// the corner's distance: p - O, n and three sums, 1.25 (1 + 1 + 3) u; a v that it is compared with
+/// may be 16 u off (below).
+inline constexpr double box = 24;
 
 /// Where a bound is itself the result of up to 5 roundings, it is moved outward by so much.
 inline constexpr double outward = 8;
@@ -112,8 +113,9 @@ inline constexpr float bundle_shift = 0x1p-10F;
 inline constexpr float bundle_width = 0.25F;
 
 /// A sphere is simple for a bundle if it lies in front of it, Z >= 2 r (or 2 r beyond every
-/// origin) and F1 < bundle_far; the others go to the double solver. What underflows is paid for by
-/// `floor` in delta.
+/// origin; any hit of parallel rays takes spheres from everywhere), F1 and r are below bundle_far
+/// and Z is not below `floor`; the others go to the double solver. What underflows in products is
+/// paid for by `floor` in delta.
 inline constexpr float bundle_far = 1e15F;
 
 }  // namespace boule::filter

@@ -20,12 +20,16 @@ namespace boule::BOULE_KERNEL_ISA {
 template <Common common>
 class BundleSides {
  public:
-  explicit BundleSides(const BundleRays& rays)
-      : org_(narrow_all(rays.frame.org)), c_low_(rays.c_low), c_high_(rays.c_high) {
+  explicit BundleSides(const BundleRays& rays) : org_(narrow_all(rays.frame.org)) {
     const BundleFrame& frame = rays.frame;
     // a and b are this far off.
     const double off = double{filter::bundle_axis} * filter::u * double{rays.across};
     const Extent& e = rays.extent;
+    if constexpr (common == Common::direction) {
+      const float c_off = static_cast<float>(filter::bundle_depth * filter::u) * rays.across;
+      c_low_ = rays.c_low - c_off;
+      c_high_ = rays.c_high + c_off;
+    }
     set_side(sides_[0], frame.u, frame.w, double{e.a_low} - off, 1);
     set_side(sides_[1], frame.u, frame.w, double{e.a_high} + off, -1);
     set_side(sides_[2], frame.v, frame.w, double{e.b_low} - off, 1);
@@ -165,7 +169,7 @@ class BundleSides {
   }
 
   Vec3<Real> org_;
-  Real c_low_, c_high_;
+  Real c_low_{0.0F}, c_high_{0.0F};
   Real origin_error_{0.0F};
   Side sides_[4], depth_;
   Side across_[2];  ///< along U and V

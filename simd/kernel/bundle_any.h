@@ -180,6 +180,7 @@ class BundleAny {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
     for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+      if (discs.simple >> at == 0) break;
       const DiscLanes disc = DiscLanes::each(discs, at);
       const Real q = disc_square<common>(line, disc);
       if (!any(Real(0.0F) <= q)) continue;

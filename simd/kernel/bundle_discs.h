@@ -91,10 +91,12 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
   const RealMask missed = judged & outside<common>(rays.extent, center, reach);
-  RealMask simple = judged & (Real(0.0F) <= r);
+  RealMask simple = judged & (r < Real(filter::bundle_far));
   // Parallel rays may begin anywhere among the spheres: any hit then asks where.
   if constexpr (common != Common::direction || seek == Seek::nearest)
     simple = simple & (r + r + Real(rays.c_high) <= center.z);
+  if constexpr (common != Common::direction)
+    simple = simple & (Real(static_cast<float>(filter::floor)) <= center.z);  // for 1 / Z
   const std::size_t at = part * width;
   discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
   store(discs.x + at, center.x);

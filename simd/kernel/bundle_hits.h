@@ -81,14 +81,18 @@ BOULE_INLINE Real first_root(const LineLanes& line, const DiscLanes& disc, const
   }
 }
 
+/// Whose origins the solver takes: the bundle's is in registers, and any ray's but for the sign of
+/// a zero, which a sphere around it would show.
+enum class Origins { bundle, own };
+
 /// W rays of a bundle as the double solver sees them.
-template <Common common>
+template <Common common, Origins origins = Origins::own>
 BOULE_INLINE void load_exact(const PaddedStream& stream, const BundleRays& bundle, int ray,
                              ExactRays& out) {
   const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(ray));
   const RayStream& rays = *place.rays;
   const std::size_t first = place.first;
-  out.org = common == Common::origin
+  out.org = common == Common::origin && origins == Origins::bundle
                 ? wide_all(bundle.frame.org)
                 : Vec3<Wide>{load(rays.org_x + first), load(rays.org_y + first),
                              load(rays.org_z + first)};
@@ -204,8 +208,10 @@ class BundleHits {
   BOULE_INLINE void update(int group) {
     const PacketRange packets = packets_of(rays_, group);
     Real most(-static_cast<float>(no_hit));
-    for (int p = packets.begin; p < packets.end; ++p)
-      most = filter_max(load(high_ + p * width), most);  // NaN is left out
+    for (int p = packets.begin; p < packets.end; ++p) {
+      const Real high = load(high_ + p * width);
+      most = select(most < high, high, most);  // NaN is left out
+    }
     limits_[group] = greatest_lane(most);
   }
 
@@ -295,7 +301,7 @@ class BundleHits {
     Wide nearest(no_hit);
     if (any(hit)) {
       ExactRays rays;
-      load_exact<common>(stream_, rays_, ray, rays);
+      load_exact<common, Origins::bundle>(stream_, rays_, ray, rays);
       const Wide t =
           solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
                                                   : gather_slots(spheres_, slot_ + ray));

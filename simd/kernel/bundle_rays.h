@@ -154,7 +154,8 @@ class Projection {
     const RealMask fresh =
         (tmin <= zero) & (zero <= tmin) & (Real(source == -1 ? 0.0F : 1.0F) <= zero);
     if constexpr (common == Common::end) {
-      return fresh;  // `shift` tells
+      // `shift` tells the rest; what is behind the end is not seen.
+      return fresh & (load(rays.tmax + first) <= Real(1.0F));
     } else if constexpr (common == Common::origin) {
       const Vec3<Wide> org = load_origin(rays, first);
       const WideMask same = (org.x == org_.x) & (org.y == org_.y) & (org.z == org_.z);

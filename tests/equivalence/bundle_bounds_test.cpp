@@ -1,5 +1,6 @@
 // Where a bundle's bounds are needed: for each of them scenes in which the answers would be wrong
 // without it (mutations.sh takes them away one by one).
+#include <array>
 #include <cmath>
 
 #include "core/math/geometry.h"
@@ -148,6 +149,43 @@ TEST_P(BundleBounds, EndsOnTheSurface) {
   }
   EXPECT_GT(met, all / 4);
   EXPECT_LT(met, all * 3 / 4);
+}
+
+/// box: rays that end where they meet a sphere of a tree head-on, where its box begins.
+TEST_P(BundleBounds, EndsOnTheBox) {
+  CaseRandom random(76);
+  for (int trial = 0; trial < 60; ++trial) {
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 100; ++i)
+      spheres.push_back({vec_cast<float>(random.direction() * random.uniform(0, 1)),
+                         static_cast<float>(random.decade(-3, -1.5)), 0});
+    const std::array axes = {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+    const Vec3d axis = axes[static_cast<std::size_t>(random.below(3))] * random.sign();
+    const Sphere& sphere = spheres[static_cast<std::size_t>(random.below(100))];
+    const Vec3d center = vec_cast<double>(sphere.center);
+    const Vec3d eye = center - axis * random.uniform(0, 5);
+    const float scale = static_cast<float>(random.decade(-3, 3));
+    std::vector<Ray> from_eye, parallel;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d off =
+          random.perpendicular(axis) * (double{sphere.radius} * random.decade(-7, -3));
+      from_eye.push_back({eye, vec_cast<float>((center + off - eye) * double{scale})});
+      parallel.push_back(
+          {eye + off * 1e3 - axis * random.decade(-3, 1), vec_cast<float>(axis) * scale});
+    }
+    for (std::vector<Ray>* rays : {&from_eye, &parallel}) {
+      for (Ray& ray : *rays) {
+        const Hit hit = reference::closest_hit(ray, spheres, {});
+        const float t = static_cast<float>(hit.id < 0 ? 1 : hit.t);
+        ray.tmax = random.chance(0.5) ? t : std::nextafter(t, random.chance(0.5) ? 2 * t : 0.0F);
+      }
+    }
+    check(spheres, from_eye, Coherence::common_origin);
+    check(spheres, parallel, Coherence::common_direction);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 9 / 10);
 }
 
 /// bundle_axis: tiles that are wide next to the spheres in them, which are met close to the rim.

@@ -1,6 +1,7 @@
 // Tiles of rays that share an origin or a direction: the bundle's answers are the scalar path's.
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/math/geometry.h"
@@ -409,6 +410,79 @@ TEST_P(Bundle, TakesAnyStream) {
     wide[200].tmax = std::nanf("");
     wide[201].tmax = -1;
     check(scene, {}, geometry, wide, Coherence::common_origin);
+  }
+}
+
+/// Rays without an end, NaN, do not hide what the others meet: any ray of a group may be one.
+TEST_P(Bundle, LeavesOutRaysOfNaN) {
+  for (const BundleScene& scene : {cloud("outside", {0, 0, 0}, 1, 0.1, 5), on_the_ground()}) {
+    const Geometry geometry(scene.spheres, {});
+    CaseRandom random(69);
+    for (int k = 0; k < 40; ++k) {
+      const Tile tile = aim(random, scene);
+      std::vector<Ray> from_eye = from_one_origin(tile, scene.eye);
+      std::vector<Ray> parallel = in_one_direction(tile, scene.eye);
+      for (std::vector<Ray>* rays : {&from_eye, &parallel}) {
+        for (std::size_t i = 0; i < rays->size(); ++i) {
+          if (k == 0 ? i % 8 == 7 : random.chance(0.1)) (*rays)[i].tmax = std::nanf("");
+        }
+      }
+      check(scene, {}, geometry, from_eye, Coherence::common_origin);
+      check(scene, {}, geometry, parallel, Coherence::common_direction);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Spheres at, around and right in front of the eye, of sizes next to nothing, beside others; and
+/// one so large that its square is no float.
+TEST_P(Bundle, MeetsSpheresAtTheEye) {
+  std::vector<Ray> from_eye, parallel;
+  for (int i = 0; i < 64; ++i) {
+    const float x = 1e-3F * static_cast<float>(even_bits(i)),
+                y = 1e-3F * static_cast<float>(even_bits(i >> 1));
+    from_eye.push_back({{0, 0, 0}, {x, y, 1}});
+    parallel.push_back({{double{x}, double{y}, -5}, {0, 0, 1}});
+  }
+  const std::vector<Sphere> others = {{{0, 0, 5}, 0.004F, 0},
+                                      {{0.02F, 0, 7}, 0.02F, 0},
+                                      {{0, 0.05F, 9}, 0.03F, 0},
+                                      {{0.01F, 0.02F, 4}, 0.01F, 0}};
+  const std::vector<Sphere> hard = {{{0, 0, 1e-39F}, 4e-40F, 0}, {{0, 0, 0}, 0, 0},
+                                    {{0, 0, 1e-30F}, 1e-31F, 0}, {{0, 0, 1e-18F}, 1e-20F, 0},
+                                    {{0, 0, 1e-17F}, 4e-18F, 0}, {{0, 0, 0}, 2e19F, 0},
+                                    {{0, 0, 0}, 1e15F, 0},       {{0, 0, 5}, 0, 0}};
+  for (std::size_t which = 0; which <= hard.size(); ++which) {
+    for (std::size_t at = 0; at <= others.size(); ++at) {
+      BundleScene scene{"hard sphere " + std::to_string(which), others, {}};
+      if (which < hard.size())
+        scene.spheres.insert(scene.spheres.begin() + static_cast<std::ptrdiff_t>(at), hard[which]);
+      while (scene.spheres.size() < 8) scene.spheres.push_back(others[1]);
+      const Geometry geometry(scene.spheres, {});
+      check(scene, {}, geometry, from_eye, Coherence::common_origin);
+      check(scene, {}, geometry, parallel, Coherence::common_direction);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Rays that go on beyond the end that they have in common.
+TEST_P(Bundle, GoesOnBeyondTheEnd) {
+  const BundleScene scene = cloud("around a light", {0, 0, 0}, 1, 0.1, 0);
+  const Geometry geometry(scene.spheres, {});
+  const Vec3d light{0.1, 0.2, 0.5};
+  std::vector<Ray> rays;
+  for (int i = 0; i < 1024; ++i) {
+    const Vec3d org{0.01 * even_bits(i), 0.01 * even_bits(i >> 1), 3};
+    rays.push_back({org, vec_cast<float>(light - org)});
+  }
+  for (const float tmax :
+       {1.0F, 1 + 0x1p-23F, 1.5F, 1e30F, std::numeric_limits<float>::infinity()}) {
+    for (Ray& ray : rays) ray.tmax = tmax;
+    const Query query{Solver::robust, Form::automatic, Coherence::common_end};
+    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      ASSERT_EQ(occluded[i], reference::any_hit(rays[i], scene.spheres, {}) ? 1 : 0) << "ray " << i;
   }
 }
 
