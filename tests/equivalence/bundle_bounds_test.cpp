@@ -214,6 +214,44 @@ TEST_P(BundleBounds, WideTilesOfSpecks) {
   EXPECT_GT(met, all / 8);
 }
 
+/// Columns of specks along z from 1 to 1.1, as seen from the origin across its rays: from 1.1 (a,
+/// b) to (a, b), or back. Only one end of a column is in a ray's way: another ray would hide that
+/// one is lost.
+void add_columns(CaseRandom& random, std::vector<Sphere>& spheres, std::vector<Ray>& rays) {
+  const double apart = random.uniform(0.03, 0.045);
+  for (int column = 0; column < 100; ++column) {
+    const double a = apart * (column % 10 - 4.5), b = apart * (column / 10 - 4.5);
+    const int aim_at = random.chance(0.5) ? 0 : 7;
+    const bool back = random.chance(0.5);
+    for (int i = 0; i < 8; ++i) {
+      const double far = i / 7.0, z = 1 + 0.1 * far, across = 1.1 - 0.1 * (back ? 1 - far : far);
+      const Vec3d center{a * across, b * across, z};
+      spheres.push_back({vec_cast<float>(center), 1e-4F, 0});
+      if (i != aim_at) continue;
+      const Vec3d through = center + random.direction() * 1.2e-4;
+      Ray ray{through * (3 / z), {}};
+      ray.dir = vec_cast<float>(ray.org * -1.0);
+      ray.tmax = 1 - 0x1p-22F;
+      rays.push_back(ray);
+    }
+  }
+}
+
+/// Leaves that are deep and lie across the rays of a light: what their boxes are to the grid of its
+/// rays is not where they begin or end.
+TEST_P(BundleBounds, SpecksOfDeepLeaves) {
+  CaseRandom random(68);
+  for (int trial = 0; trial < 40; ++trial) {
+    std::vector<Sphere> spheres;
+    std::vector<Ray> rays;
+    add_columns(random, spheres, rays);
+    check(spheres, rays, Coherence::common_end);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 3);
+  EXPECT_LT(met, all);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tables, BundleBounds, testing::ValuesIn(all_isa_names()),
                          [](const auto& tested) { return tested.param; });
 
