@@ -22,8 +22,8 @@
 namespace boule::bench {
 namespace {
 
-constexpr int side = 256;                   // pixels
-constexpr std::size_t stream_size = 16384;  // rays, as the renderer has them
+constexpr int side = 256;                                    // pixels
+constexpr std::size_t stream_size = fitting_stream_size(0);  // rays, as the renderer has them
 
 /// One scene as one structure, and rays to ask it with.
 struct Trace {

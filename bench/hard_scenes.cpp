@@ -18,9 +18,9 @@ void copy_twice(BenchScene& scene, float below, float above) {
   }
 }
 
-/// Where floats are dense: around the origin, seen along an axis.
+/// Radii of 1e-6 at a distance of 4, where floats are dense: around the origin, seen along an axis.
 void move_away(BenchScene& scene) {
-  const float size = 4e-6F / 4 / scene.spheres[0].radius;  // of the cube
+  const float size = 1e-6F / scene.spheres[0].radius;  // of the cube
   for (Sphere& sphere : scene.spheres) {
     sphere.center = (sphere.center - Vec3f{0.5F, 0.5F, 0.5F}) * size;
     sphere.radius *= size;

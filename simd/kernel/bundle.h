@@ -48,13 +48,15 @@ class BundleSides {
         rays.shift;
   }
 
-  /// Bits of the boxes among eight that there are rays in the grid's cells for.
+  /// Bits of the boxes among those entered that there are rays in the grid's cells for.
   BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid,
-                                    unsigned boxes) const {
+                                    unsigned entered) const {
     alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
         b_high[Discs::size];
     for (std::size_t part = 0; part * width < bvh_width; ++part) {
-      const Range a = range(across_[0], node, part), b = range(across_[1], node, part);
+      const Boxes boxes = boxes_of(node, part);
+      const Range depth = distances(depth_, boxes);
+      const Range a = slopes(across_[0], boxes, depth), b = slopes(across_[1], boxes, depth);
       const RayGrid::Cells cells = grid.cells(a.low, a.high, b.low, b.high);
       store(a_low + part * width, cells.a_low);
       store(a_high + part * width, cells.a_high);
@@ -62,7 +64,7 @@ class BundleSides {
       store(b_high + part * width, cells.b_high);
     }
     unsigned result = 0;
-    for (unsigned left = boxes; left != 0; left &= left - 1) {
+    for (unsigned left = entered; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
       if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k])) result |= 1U << k;
     }
@@ -123,21 +125,22 @@ class BundleSides {
   struct Range {
     Real low, high;
   };
+  /// Of the corners along an axis.
+  BOULE_INLINE static Range distances(const Side& axis, const Boxes& boxes) {
+    return {reach(axis, axis.near, boxes.rows) - boxes.slack,
+            reach(axis, axis.far, boxes.rows) + boxes.slack};
+  }
   /// Of a, or b, of the rays that may meet boxes; of no use, or NaN, for those around O.
-  BOULE_INLINE Range range(const Side& side, const BvhNode& node, std::size_t part) const {
-    const Boxes boxes = boxes_of(node, part);
-    const Real low = reach(side, side.near, boxes.rows) - boxes.slack;
-    const Real high = reach(side, side.far, boxes.rows) + boxes.slack;
+  BOULE_INLINE Range slopes(const Side& axis, const Boxes& boxes, const Range& depth) const {
+    const auto [low, high] = distances(axis, boxes);
     if constexpr (common == Common::direction) {
       return {low - off_, high + off_};
     } else {
       const Real zero(0.0F), one(1.0F), outward(static_cast<float>(filter::outward * filter::u));
-      const Real near = reach(depth_, depth_.near, boxes.rows) - boxes.slack;
-      const Real far = reach(depth_, depth_.far, boxes.rows) + boxes.slack;
-      const Real least = low * (one / select(low < zero, near, far));
-      const Real most = high * (one / select(high < zero, far, near));
+      const Real least = low * (one / select(low < zero, depth.low, depth.high));
+      const Real most = high * (one / select(high < zero, depth.high, depth.low));
       const Real none(static_cast<float>(no_hit));
-      const RealMask behind = near <= zero;
+      const RealMask behind = depth.low <= zero;
       return {select(behind, zero - none, least - abs(least) * outward - off_),
               select(behind, none, most + abs(most) * outward + off_)};
     }
@@ -147,18 +150,16 @@ class BundleSides {
   BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
                                    float* near) const {
     const Boxes boxes = boxes_of(node, part);
-    const Real(&rows)[6] = boxes.rows;
-    const Real& slack = boxes.slack;
     RealMask out = Real(0.0F) < Real(0.0F);
     for (const Side& side : sides_) {
-      const Real most = reach(side, side.far, rows) + slack;
+      const Real most = reach(side, side.far, boxes.rows) + boxes.slack;
       out =
           out | (most < Real(side.offset) - abs(Real(side.offset)) *
                                                 Real(static_cast<float>(filter::box * filter::u)));
     }
-    const Real far = reach(depth_, depth_.far, rows) + slack;
-    const Real begin = reach(depth_, depth_.near, rows) - slack - c_high_;
-    out = out | (far < c_low_) | (Real(limit) < begin);
+    const Range depth = distances(depth_, boxes);
+    const Real begin = depth.low - c_high_;
+    out = out | (depth.high < c_low_) | (Real(limit) < begin);
     store(near + part * width, begin);
     return bits(out);
   }

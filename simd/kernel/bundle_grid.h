@@ -64,10 +64,7 @@ class RayGrid {
   }
   /// Rises with x, as the roundings do; 0 for NaN.
   BOULE_INLINE static Real cell(const Axis& axis, const Real& x) {
-    const Real zero(0.0F), last(static_cast<float>(side - 1));
-    const Real at = (x - Real(axis.low)) * Real(axis.scale);
-    const Real low = select(zero <= at, at, zero);
-    return select(low <= last, low, last);
+    return cut_to_cells((x - Real(axis.low)) * Real(axis.scale), side - 1);
   }
   /// The same, but the last for NaN.
   BOULE_INLINE static Real cell_above(const Axis& axis, const Real& x) {

@@ -183,6 +183,13 @@ class Projection {
   Real length_;
 };
 
+/// Cuts to 0 .. last; 0 for NaN.
+BOULE_INLINE Real cut_to_cells(const Real& x, int last) {
+  const Real zero(0.0F), end(static_cast<float>(last));
+  const Real low = select(zero <= x, x, zero);
+  return select(low <= end, low, end);
+}
+
 /// Ranges that grow ray by ray, W at a time.
 inline constexpr Extent no_extent = {static_cast<float>(no_hit), -static_cast<float>(no_hit),
                                      static_cast<float>(no_hit), -static_cast<float>(no_hit)};

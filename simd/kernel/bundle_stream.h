@@ -33,18 +33,18 @@ template <Common common, class Answers>
 void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
                   std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
-  Effort effort;
-  const Outcome outcome =
-      count < fewest_rays ? Outcome::crowded
-                          : trace_bundle<common>(geometry, stream, begin, count, effort, answers);
-  if (outcome == Outcome::traced) return;
-  if (outcome == Outcome::crowded) {
-    trace_rest(geometry, stream, begin, end, answers);
-    return;
+  if (count >= fewest_rays) {
+    Effort effort;
+    const Outcome outcome = trace_bundle<common>(geometry, stream, begin, count, effort, answers);
+    if (outcome == Outcome::traced) return;
+    if (outcome == Outcome::no_bundle) {
+      const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
+      trace_halved<common>(geometry, stream, begin, middle, answers);
+      trace_halved<common>(geometry, stream, middle, end, answers);
+      return;
+    }
   }
-  const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
-  trace_halved<common>(geometry, stream, begin, middle, answers);
-  trace_halved<common>(geometry, stream, middle, end, answers);
+  trace_rest(geometry, stream, begin, end, answers);
 }
 
 /// The nearest hits of all rays, in their order.

@@ -99,15 +99,9 @@ class DirectionOrder {
     template <class Place>
     BOULE_INLINE void find_cells(const Place& place, Index* cell) const {
       alignas(64) float x[width], y[width];
-      store(x, cut((place.x - x_low) * scale));
-      store(y, cut((place.y - y_low) * scale));
+      store(x, cut_to_cells((place.x - x_low) * scale, static_cast<int>(side) - 1));
+      store(y, cut_to_cells((place.y - y_low) * scale, static_cast<int>(side) - 1));
       for (int lane = 0; lane < width; ++lane) cell[lane] = curve_position(x[lane], y[lane]);
-    }
-    /// 0 for NaN.
-    BOULE_INLINE Real cut(const Real& x) const {
-      const Real zero(0.0F), last(static_cast<float>(side - 1));
-      const Real low = select(zero <= x, x, zero);
-      return select(low <= last, low, last);
     }
   };
 

@@ -200,6 +200,17 @@ class Bundle : public testing::TestWithParam<std::string> {
       met += expected.id < 0 ? 0U : 1U;
     }
   }
+  /// Only whether the rays meet anything.
+  void check_any(const BundleScene& scene, const Geometry& geometry, const std::vector<Ray>& rays,
+                 Coherence coherence) {
+    const Query query{Solver::robust, Form::automatic, coherence};
+    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool expected = reference::any_hit(rays[i], scene.spheres, {});
+      ASSERT_EQ(occluded[i], expected ? 1 : 0) << scene.name << " ray " << i;
+      met += expected ? 1U : 0U;
+    }
+  }
   const KernelTable* kernels = nullptr;
   std::size_t met = 0;
 };
@@ -233,7 +244,8 @@ TEST_P(Bundle, FindsShadows) {
   for (const BundleScene& scene : scenes()) {
     const Geometry geometry(scene.spheres, {});
     CaseRandom random(66);
-    std::size_t rays = 0, dark = 0;
+    std::size_t rays = 0;
+    met = 0;
     for (int k = 0; k < 40; ++k) {
       const Tile tile = aim(random, scene);
       if (!judgeable(tile)) continue;
@@ -250,19 +262,14 @@ TEST_P(Bundle, FindsShadows) {
         const Vec3d to = is_point ? light : light - tile.middle;
         const auto shadow_rays = towards_light(scene, camera_rays, to, is_point);
         const Coherence coherence = is_point ? Coherence::common_end : Coherence::common_direction;
-        const Query query{Solver::robust, Form::automatic, coherence};
-        const auto occluded = run_any(*kernels, geometry.view(), shadow_rays, query);
-        for (std::size_t i = 0; i < shadow_rays.size(); ++i) {
-          const bool expected = reference::any_hit(shadow_rays[i], scene.spheres, {});
-          ASSERT_EQ(occluded[i], expected ? 1 : 0)
-              << scene.name << " tile " << k << " ray " << i << (is_point ? " to a point" : "");
-          dark += expected ? 1U : 0U;
-        }
+        SCOPED_TRACE(testing::Message() << "tile " << k << (is_point ? " to a point" : ""));
+        check_any(scene, geometry, shadow_rays, coherence);
+        if (HasFatalFailure()) return;
         rays += shadow_rays.size();
       }
     }
-    EXPECT_GT(dark, rays / 20) << scene.name;
-    EXPECT_LT(dark, rays * 19 / 20) << scene.name;
+    EXPECT_GT(met, rays / 20) << scene.name;
+    EXPECT_LT(met, rays * 19 / 20) << scene.name;
     EXPECT_GT(rays, 1000U) << scene.name;
   }
 }
@@ -309,17 +316,12 @@ TEST_P(Bundle, SortsShadowRays) {
       const auto rays =
           scattered(random, scene.spheres, static_cast<std::size_t>(count), light, is_point);
       const Coherence coherence = is_point ? Coherence::common_end : Coherence::common_direction;
-      const auto occluded =
-          run_any(*kernels, geometry.view(), rays, {Solver::robust, Form::automatic, coherence});
-      std::size_t dark = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        const bool expected = reference::any_hit(rays[i], scene.spheres, {});
-        ASSERT_EQ(occluded[i], expected ? 1 : 0)
-            << spheres << " spheres, ray " << i << (is_point ? " to a point" : "");
-        dark += expected ? 1U : 0U;
-      }
-      EXPECT_GT(dark, rays.size() / 10);
-      EXPECT_LT(dark, rays.size() * 9 / 10);
+      SCOPED_TRACE(testing::Message() << spheres << " spheres" << (is_point ? ", to a point" : ""));
+      met = 0;
+      check_any(scene, geometry, rays, coherence);
+      if (HasFatalFailure()) return;
+      EXPECT_GT(met, rays.size() / 10);
+      EXPECT_LT(met, rays.size() * 9 / 10);
     }
   }
 }
@@ -433,10 +435,8 @@ TEST_P(Bundle, GoesOnBeyondTheEnd) {
   for (const float tmax :
        {1.0F, 1 + 0x1p-23F, 1.5F, 1e30F, std::numeric_limits<float>::infinity()}) {
     for (Ray& ray : rays) ray.tmax = tmax;
-    const Query query{Solver::robust, Form::automatic, Coherence::common_end};
-    const auto occluded = run_any(*kernels, geometry.view(), rays, query);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      ASSERT_EQ(occluded[i], reference::any_hit(rays[i], scene.spheres, {}) ? 1 : 0) << "ray " << i;
+    check_any(scene, geometry, rays, Coherence::common_end);
+    if (HasFatalFailure()) return;
   }
 }
 
