@@ -278,30 +278,28 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
 /// How a bundle went: there is an answer, its rays are no bundle, or too much lies in their way.
 enum class Outcome { traced, no_bundle, crowded };
 
-/// The nearest hits of `count` rays from `first` on.
+/// The nearest hits of a bundle of rays.
 template <Common common>
-BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
-                                    std::size_t first, std::size_t count, Effort& effort,
-                                    const HitStream& hits) {
+BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const RaysInPlace<common>& source,
+                                    Effort& effort, const HitStream& hits) {
   BundleRays rays;
-  if (!load_bundle<common, Seek::nearest>(stream, first, count, rays)) return Outcome::no_bundle;
+  if (!load_bundle<common, Seek::nearest>(source, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
-  BundleHits<common> nearest(stream, geometry.spheres, rays);
+  BundleHits<common> nearest(source, geometry.spheres, rays);
   meet_scanned<common>(rays, factors, geometry.spheres, nearest);
   if (!meet_tree<common>(rays, factors, geometry, effort, nearest)) return Outcome::crowded;
   nearest.finish(geometry.planes, hits);
   return Outcome::traced;
 }
 
-/// Whether `count` rays from `first` on meet anything.
-template <Common common>
-BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const PaddedStream& stream,
-                                    std::size_t first, std::size_t count, Effort& effort,
-                                    std::uint8_t* occluded) {
+/// Whether a bundle of rays meet anything.
+template <Common common, class Source>
+BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const Source& source,
+                                    Effort& effort, std::uint8_t* occluded) {
   BundleRays rays;
-  if (!load_bundle<common, Seek::any>(stream, first, count, rays)) return Outcome::no_bundle;
+  if (!load_bundle<common, Seek::any>(source, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
-  BundleAny<common> any(stream, geometry.spheres, rays);
+  BundleAny<common, Source> any(source, geometry.spheres, rays);
   meet_scanned<common>(rays, factors, geometry.spheres, any);
   if (!meet_tree<common>(rays, factors, geometry, effort, any)) return Outcome::crowded;
   any.finish(geometry.planes, occluded);

@@ -14,13 +14,13 @@
 /// sphere's rim, or its depth, is too close to call.
 namespace boule::BOULE_KERNEL_ISA {
 
-template <Common common>
+template <Common common, class Source>
 class BundleAny {
  public:
   static constexpr Seek seek = Seek::any;
 
-  BundleAny(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
-      : stream_(stream), spheres_(spheres), rays_(rays) {
+  BundleAny(const Source& source, const SphereView& spheres, const BundleRays& rays)
+      : source_(source), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p);
     for (int group = 0; group < bundle_groups; ++group) update(group);
     update();
@@ -88,11 +88,8 @@ class BundleAny {
   /// Adds the planes and writes it all.
   void finish(const PlaneView& planes, std::uint8_t* occluded) {
     for (int p = 0; p < rays_.packets; ++p) {
-      const std::size_t first = rays_.first + static_cast<std::size_t>(p * width);
       if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
-      const std::size_t live = stream_.live(first);
-      for (std::size_t lane = 0; lane < live; ++lane)
-        occluded[first + lane] = static_cast<std::uint8_t>((hit_[p] >> lane) & 1U);
+      source_.answer(p * width, hit_[p], occluded);
     }
   }
 
@@ -109,10 +106,9 @@ class BundleAny {
   /// tmax) scale to scale.
   BOULE_INLINE void start(int p) {
     const int ray = p * width;
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
     const Real zero(0.0F), shift(rays_.shift);
     const Real largest(std::numeric_limits<float>::max());
-    const Real scale = load(rays_.scale + ray), tmax = load(place.rays->tmax + place.first);
+    const Real scale = load(rays_.scale + ray), tmax = source_.tmax(ray);
     const Real until = select(largest < tmax, largest, tmax);
     Real begin = zero, end_low = until * scale, end_high = end_low;
     if constexpr (common == Common::end) {
@@ -157,10 +153,9 @@ class BundleAny {
               {load(begin_ + ray), load(end_low_ + ray), load(end_high_ + ray)}, disc, q);
     const unsigned open = verdict.open & ~hit_[p];
     if (open == 0) return false;
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
-    const unsigned own = own_sphere(place, spheres_.id[slot]);
+    const unsigned own = own_sphere(ray, spheres_.id[slot]);
     hit_[p] |= verdict.certain & open & ~own;
-    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(place, own);
+    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(ray, own);
     if (unclear != 0) {
       ++unclear_;
       resolve(p, slot, unclear);
@@ -196,13 +191,11 @@ class BundleAny {
   BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, std::uint32_t slot) {
     const int p = ray / width, lane = ray % width;
     const unsigned bit = 1U << lane;
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
-    const std::size_t i = place.first + static_cast<std::size_t>(lane);
-    const std::int32_t source = place.rays->source[i];
+    const std::int32_t source = source_.sources(p * width)[lane];
     for (unsigned left = open; left != 0; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
       const bool own = spheres_.id[slot + k] == source;
-      if (own && place.rays->inside[i] == 0) continue;  // it cannot be met again
+      if (own && source_.insides(p * width)[lane] == 0) continue;  // it cannot be met again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
         resolve(p, slot + k, bit);
@@ -215,27 +208,28 @@ class BundleAny {
   }
 
   /// Lanes whose rays leave this very sphere.
-  BOULE_INLINE static unsigned own_sphere(const PacketPlace& place, std::int32_t id) {
-    return bits(load_as_wide(place.rays->source + place.first) == Wide(static_cast<double>(id)));
+  BOULE_INLINE unsigned own_sphere(int ray, std::int32_t id) const {
+    return bits(load_as_wide(source_.sources(ray)) == Wide(static_cast<double>(id)));
   }
   /// Of those that leave their sphere the ones on its outside: they cannot meet it again.
-  BOULE_INLINE static unsigned leaves_outside(const PacketPlace& place, unsigned own) {
+  BOULE_INLINE unsigned leaves_outside(int ray, unsigned own) const {
     if (own == 0) return 0;
-    return own & ~bits(Wide(0.0) < load_as_wide(place.rays->inside + place.first));
+    return own & ~bits(Wide(0.0) < load_as_wide(source_.insides(ray)));
   }
 
   /// Solves a sphere for those of W rays that `lanes` names.
   BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned lanes) {
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
+    const PacketPlace place = source_.packet(p * width, lanes);
     const ExactRays rays = load_exact(*place.rays, place.first);
     hit_[p] |= lanes & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
   }
 
   BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(p * width));
+    const unsigned open = all_lanes & ~hit_[p];
+    const PacketPlace place = source_.packet(p * width, open);
     const ExactRays rays = load_exact(*place.rays, place.first);
     for (std::size_t k = 0; k < planes.size; ++k)
-      hit_[p] |= bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
+      hit_[p] |= open & bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
   }
 
   /// Packets are not cheaper before so many solves for each.
@@ -243,7 +237,7 @@ class BundleAny {
   /// As many groups, and rays in them, are few.
   static constexpr int most_groups = 6, most_rays = 24;
 
-  const PaddedStream& stream_;
+  const Source& source_;
   const SphereView& spheres_;
   const BundleRays& rays_;
   int unclear_ = 0;  ///< times that float could not tell

@@ -20,7 +20,7 @@ class RayGrid {
   BOULE_NOINLINE void fill(const BundleRays& rays, const unsigned* done) {
     a_ = axis(rays.extent.a_low, rays.extent.a_high);
     b_ = axis(rays.extent.b_low, rays.extent.b_high);
-    for (std::uint32_t& row : rows_) row = 0;
+    for (std::uint64_t& row : rows_) row = 0;
     alignas(64) float column[width], row[width];
     for (int p = 0; p < rays.packets; ++p) {
       if (done[p] == all_lanes) continue;
@@ -28,7 +28,7 @@ class RayGrid {
       store(row, cell(b_, load(rays.b + p * width)));
       for (unsigned left = all_lanes & ~done[p]; left != 0; left &= left - 1) {
         const int lane = std::countr_zero(left);
-        rows_[static_cast<int>(row[lane])] |= 1U << static_cast<int>(column[lane]);
+        rows_[static_cast<int>(row[lane])] |= std::uint64_t{1} << static_cast<int>(column[lane]);
       }
     }
     known_ = true;
@@ -45,7 +45,8 @@ class RayGrid {
 
   /// Whether there are rays in these cells.
   [[nodiscard]] bool any_in(float a_low, float a_high, float b_low, float b_high) const {
-    const unsigned columns = (2U << static_cast<int>(a_high)) - (1U << static_cast<int>(a_low));
+    const std::uint64_t columns = (std::uint64_t{2} << static_cast<int>(a_high)) -
+                                  (std::uint64_t{1} << static_cast<int>(a_low));
     const int end = static_cast<int>(b_high);
     for (int row = static_cast<int>(b_low); row <= end; ++row) {
       if ((rows_[row] & columns) != 0) return true;
@@ -54,7 +55,7 @@ class RayGrid {
   }
 
  private:
-  static constexpr int side = 16;
+  static constexpr int side = 32;
 
   struct Axis {
     float low, scale;
@@ -76,7 +77,7 @@ class RayGrid {
 
   bool known_ = false;
   Axis a_, b_;
-  std::uint32_t rows_[side];
+  std::uint64_t rows_[side];
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

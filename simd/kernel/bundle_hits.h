@@ -87,9 +87,7 @@ enum class Origins { bundle, own };
 
 /// W rays of a bundle as the double solver sees them.
 template <Common common, Origins origins = Origins::own>
-BOULE_INLINE void load_exact(const PaddedStream& stream, const BundleRays& bundle, int ray,
-                             ExactRays& out) {
-  const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(ray));
+BOULE_INLINE void load_exact(const PacketPlace& place, const BundleRays& bundle, ExactRays& out) {
   const RayStream& rays = *place.rays;
   const std::size_t first = place.first;
   out.org = common == Common::origin && origins == Origins::bundle
@@ -154,8 +152,8 @@ class BundleHits {
  public:
   static constexpr Seek seek = Seek::nearest;
 
-  BundleHits(const PaddedStream& stream, const SphereView& spheres, const BundleRays& rays)
-      : stream_(stream), spheres_(spheres), rays_(rays) {
+  BundleHits(const RaysInPlace<common>& source, const SphereView& spheres, const BundleRays& rays)
+      : source_(source), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p * width);
     for (int group = 0; group < bundle_groups; ++group) update(group);
     update();
@@ -216,9 +214,7 @@ class BundleHits {
   }
 
   BOULE_INLINE void start(int ray) {
-    const PacketPlace place = stream_.packet(rays_.first + static_cast<std::size_t>(ray));
-    const Real largest(std::numeric_limits<float>::max());
-    const Real tmax = load(place.rays->tmax + place.first);
+    const Real largest(std::numeric_limits<float>::max()), tmax = source_.tmax(ray);
     // NaN stays: nothing is nearer than that. Infinity stays as well: all floats are.
     const Real end = select(largest < tmax, largest, tmax) * load(rays_.scale + ray);
     store(low_ + ray, end);
@@ -249,7 +245,7 @@ class BundleHits {
   /// Solves a sphere for W rays; those of `lanes` may take it.
   BOULE_NOINLINE void resolve(int ray, std::uint32_t slot, unsigned lanes) {
     ExactRays rays;
-    load_exact<common>(stream_, rays_, ray, rays);
+    load_exact<common>(source_.packet(ray), rays_, rays);
     const Roots roots = solve_robust(rays, broadcast_slot(spheres_, slot));
     alignas(64) double t[width];
     store(t, roots.t);
@@ -290,9 +286,8 @@ class BundleHits {
   }
 
   BOULE_INLINE void finish(int ray, const PlaneView& planes, const HitStream& hits) {
-    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
-    const bool whole = stream_.live(first) == static_cast<std::size_t>(width);
-    if (solved_any_[ray / width] || planes.size != 0 || !whole) {
+    const std::size_t first = source_.first() + static_cast<std::size_t>(ray);
+    if (solved_any_[ray / width] || planes.size != 0 || source_.live(ray) != width) {
       finish_any(ray, planes, hits);
       return;
     }
@@ -301,7 +296,7 @@ class BundleHits {
     Wide nearest(no_hit);
     if (any(hit)) {
       ExactRays rays;
-      load_exact<common, Origins::bundle>(stream_, rays_, ray, rays);
+      load_exact<common, Origins::bundle>(source_.packet(ray), rays_, rays);
       const Wide t =
           solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
                                                   : gather_slots(spheres_, slot_ + ray));
@@ -314,7 +309,7 @@ class BundleHits {
   /// The same with whatever may come up.
   BOULE_NOINLINE void finish_any(int ray, const PlaneView& planes, const HitStream& hits) {
     ExactRays rays;
-    load_exact<common>(stream_, rays_, ray, rays);
+    load_exact<common>(source_.packet(ray), rays_, rays);
     settle(ray, rays);
     const Real slots = load(slot_ + ray);
     alignas(64) double t[width];
@@ -322,8 +317,8 @@ class BundleHits {
     store(t, select(widen(slots <= slots), load(t_ + ray), Wide(no_hit)));
     find_ids(ray, id);
     meet_planes(rays, planes, t, id);
-    const std::size_t first = rays_.first + static_cast<std::size_t>(ray);
-    const std::size_t live = stream_.live(first);
+    const std::size_t first = source_.first() + static_cast<std::size_t>(ray);
+    const auto live = static_cast<std::size_t>(source_.live(ray));
     for (std::size_t lane = 0; lane < live; ++lane) {
       hits.t[first + lane] = t[lane];
       hits.id[first + lane] = id[lane];
@@ -359,7 +354,7 @@ class BundleHits {
     for (int lane = 0; lane < width; ++lane) id[lane] = static_cast<std::int32_t>(ids[lane]);
   }
 
-  const PaddedStream& stream_;
+  const RaysInPlace<common>& source_;
   const SphereView& spheres_;
   const BundleRays& rays_;
   float limit_ = 0;

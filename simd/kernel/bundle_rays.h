@@ -4,21 +4,13 @@
 #include <cstdint>
 
 #include "simd/abi/filter_bounds.h"
+#include "simd/kernel/bundle_source.h"
 #include "simd/kernel/packet.h"
-#include "simd/kernel/padded_stream.h"
 
 /// Up to 1024 rays that share an origin, a direction or an end, in a frame of their own, as
 /// filter_bounds.h describes it. They walk a tree together.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle's rays have in common. `end`: the point at t = 1; such rays are seen from there,
-/// backwards.
-enum class Common { origin, direction, end };
-
-/// What is asked for.
-enum class Seek { nearest, any };
-
-inline constexpr int bundle_size = 1024;
 inline constexpr int bundle_packets = bundle_size / width;
 /// A bundle's rays are culled in so many groups: of 1024 in Morton order, 8 x 4 pixels each.
 inline constexpr int bundle_groups = 32;
@@ -49,7 +41,6 @@ struct GroupExtents {
 /// The rays of a bundle as its filters see them.
 struct BundleRays {
   BundleFrame frame;
-  std::size_t first;     ///< ray of the stream
   int packets;           ///< of which the last may hold copies
   int group_packets;     ///< of each group but the last ones
   float across;          ///< D
@@ -72,18 +63,7 @@ BOULE_INLINE PacketRange packets_of(const BundleRays& rays, int group) {
   return {begin, end < rays.packets ? end : rays.packets};
 }
 
-BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
-  return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
-}
-BOULE_INLINE Vec3d origin_of(const RayStream& rays, std::size_t i) {
-  return {rays.org_x[i], rays.org_y[i], rays.org_z[i]};
-}
 BOULE_INLINE Vec3d scaled_to_unit(const Vec3d& v) { return v * (1 / __builtin_sqrt(dot(v, v))); }
-BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
-
 /// W along `forward`, U as near to `side` as that allows. NaN comes from NaN, and from no forward.
 BOULE_INLINE BundleFrame make_frame(const Vec3d& org, const Vec3d& forward, const Vec3d& side) {
   const Vec3d w = scaled_to_unit(forward);
@@ -107,79 +87,35 @@ struct Projected {
 template <Common common>
 class Projection {
  public:
-  /// `middle`: the ray along whose direction, or through whose origin, W goes.
-  Projection(const BundleFrame& frame, const RayStream& rays, std::size_t middle)
-      : org_(wide_all(frame.org)),
-        dir_(narrow_all(direction_of(rays, middle))),
+  /// `middle`: the sight along which W goes, or what directions all have in common.
+  Projection(const BundleFrame& frame, const Vec3d& middle)
+      : middle_(narrow_all(middle)),
         u_(narrow_all(frame.u)),
         v_(narrow_all(frame.v)),
         w_(narrow_all(frame.w)),
-        length_(static_cast<float>(
-            __builtin_sqrt(dot(direction_of(rays, middle), direction_of(rays, middle))))) {}
+        length_(static_cast<float>(__builtin_sqrt(dot(middle, middle)))) {}
 
-  BOULE_INLINE Projected project(const RayStream& rays, std::size_t first) const {
+  BOULE_INLINE Projected project(const Sight& ray) const {
+    const Vec3<Real>& sight = ray.sight;
     if constexpr (common == Common::origin) {
-      const Vec3<Real> dir = load_direction(rays, first), off = dir - dir_;
+      const Vec3<Real> off = sight - middle_;
       const Real inverse = Real(1.0F) / (length_ + filter_dot(off, w_));
-      return {filter_dot(off, u_) * inverse,  filter_dot(off, v_) * inverse, Real(0.0F),
-              filter_dot(dir, dir) * inverse, sum_abs_of(off) * inverse,     Real(0.0F)};
+      return {filter_dot(off, u_) * inverse,      filter_dot(off, v_) * inverse, Real(0.0F),
+              filter_dot(sight, sight) * inverse, sum_abs_of(off) * inverse,     ray.shift};
     } else if constexpr (common == Common::end) {
-      const Vec3<Real> dir = load_direction(rays, first);
-      const Vec3<Real> back{Real(0.0F) - dir.x, Real(0.0F) - dir.y, Real(0.0F) - dir.z};
+      const Vec3<Real> back{Real(0.0F) - sight.x, Real(0.0F) - sight.y, Real(0.0F) - sight.z};
       const Real inverse = Real(1.0F) / filter_dot(back, w_);
-      const Vec3<Wide> end = load_origin(rays, first) + widen(dir);
-      return {filter_dot(back, u_) * inverse,
-              filter_dot(back, v_) * inverse,
-              Real(0.0F),
-              filter_dot(dir, dir) * inverse,
-              sum_abs_of(back) * inverse,
-              sum_abs_of(narrow(end - org_))};
+      return {filter_dot(back, u_) * inverse,     filter_dot(back, v_) * inverse, Real(0.0F),
+              filter_dot(sight, sight) * inverse, sum_abs_of(back) * inverse,     ray.shift};
     } else {
-      const Vec3<Real> off = narrow(load_origin(rays, first) - org_);
-      return {filter_dot(off, u_), filter_dot(off, v_), filter_dot(off, w_), length_,
-              sum_abs_of(off),     Real(0.0F)};
-    }
-  }
-
-  /// Lanes whose rays may be in the bundle: what they must share they do, they live from t = 0 on
-  /// and, to seek the nearest hit, leave nothing.
-  template <Seek seek>
-  BOULE_INLINE RealMask belongs(const RayStream& rays, std::size_t first) const {
-    const Real zero(0.0F), tmin = load(rays.tmin + first);
-    std::int32_t source = -1;
-    if constexpr (seek == Seek::nearest) {
-      for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane)
-        source &= rays.source[first + lane];
-    }
-    const RealMask fresh =
-        (tmin <= zero) & (zero <= tmin) & (Real(source == -1 ? 0.0F : 1.0F) <= zero);
-    if constexpr (common == Common::end) {
-      // `shift` tells the rest; what is behind the end is not seen.
-      return fresh & (load(rays.tmax + first) <= Real(1.0F));
-    } else if constexpr (common == Common::origin) {
-      const Vec3<Wide> org = load_origin(rays, first);
-      const WideMask same = (org.x == org_.x) & (org.y == org_.y) & (org.z == org_.z);
-      return fresh & (bits(same) == all_lanes ? zero <= zero : zero < zero);
-    } else {
-      const Vec3<Real> dir = load_direction(rays, first);
-      return fresh & (dir.x <= dir_.x) & (dir_.x <= dir.x) & (dir.y <= dir_.y) & (dir_.y <= dir.y) &
-             (dir.z <= dir_.z) & (dir_.z <= dir.z);
+      return {filter_dot(sight, u_), filter_dot(sight, v_),
+              filter_dot(sight, w_), length_,
+              sum_abs_of(sight),     ray.shift};
     }
   }
 
  private:
-  BOULE_INLINE static Vec3<Real> load_direction(const RayStream& rays, std::size_t first) {
-    return {load(rays.dir_x + first), load(rays.dir_y + first), load(rays.dir_z + first)};
-  }
-  BOULE_INLINE static Vec3<Wide> load_origin(const RayStream& rays, std::size_t first) {
-    return {load(rays.org_x + first), load(rays.org_y + first), load(rays.org_z + first)};
-  }
-  BOULE_INLINE static Real sum_abs_of(const Vec3<Real>& v) {
-    return abs(v.x) + abs(v.y) + abs(v.z);
-  }
-
-  Vec3<Wide> org_;
-  Vec3<Real> dir_, u_, v_, w_;
+  Vec3<Real> middle_, u_, v_, w_;
   Real length_;
 };
 
@@ -245,41 +181,23 @@ struct BundleSums {
   }
 };
 
-/// Asks for the packet at `first`, unless the stream ends before it: a bundle's rays come once, and
-/// from memory.
-BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
-  if (first >= rays.size) return;
-  for (int line = 0; line * 8 < width; ++line) {
-    __builtin_prefetch(rays.org_x + first + line * 8);
-    __builtin_prefetch(rays.org_y + first + line * 8);
-    __builtin_prefetch(rays.org_z + first + line * 8);
-  }
-  __builtin_prefetch(rays.dir_x + first);
-  __builtin_prefetch(rays.dir_y + first);
-  __builtin_prefetch(rays.dir_z + first);
-  __builtin_prefetch(rays.tmin + first);
-  __builtin_prefetch(rays.tmax + first);
-  __builtin_prefetch(rays.source + first);
-}
-
 /// Puts the rays of these packets into their bundle's frame and returns their extent.
-template <Common common, Seek seek>
-BOULE_INLINE Extent load_group(const PaddedStream& stream, const Projection<common>& projection,
+template <Common common, Seek seek, class Source>
+BOULE_INLINE Extent load_group(const Source& source, const Projection<common>& projection,
                                const PacketRange& packets, BundleRays& bundle, BundleSums& sums) {
   if (packets.begin >= packets.end) return no_extent;
   ExtentLanes extent;
   for (int p = packets.begin; p < packets.end; ++p) {
-    const PacketPlace place = stream.packet(bundle.first + static_cast<std::size_t>(p * width));
-    prefetch_packet(stream.rays(),
-                    bundle.first + static_cast<std::size_t>(p * width + bundle_size));
-    const Projected ray = projection.project(*place.rays, place.first);
-    sums.belongs = sums.belongs & projection.template belongs<seek>(*place.rays, place.first);
+    const int at = p * width;
+    source.prefetch_next(at);
+    const Projected ray = projection.project(source.sight(at));
+    sums.belongs = sums.belongs & source.template belongs<seek>(at);
     sums.template add<common>(ray);
     extent.add(ray.a, ray.b);
-    store(bundle.a + p * width, ray.a);
-    store(bundle.b + p * width, ray.b);
-    store(bundle.scale + p * width, ray.scale);
-    if constexpr (common == Common::direction) store(bundle.c + p * width, ray.c);
+    store(bundle.a + at, ray.a);
+    store(bundle.b + at, ray.b);
+    store(bundle.scale + at, ray.scale);
+    if constexpr (common == Common::direction) store(bundle.c + at, ray.c);
   }
   return extent.total();
 }
@@ -289,31 +207,32 @@ BOULE_INLINE bool in_bundle_range(const Vec3d& v) {
   return __builtin_fabs(v.x) < limit && __builtin_fabs(v.y) < limit && __builtin_fabs(v.z) < limit;
 }
 
-/// Rays first .. first + count - 1 of the stream, count at most bundle_size, as a bundle. False if
-/// they are none: they do not share what they must, are too wide, or not finite.
-template <Common common, Seek seek>
-BOULE_NOINLINE bool load_bundle(const PaddedStream& stream, std::size_t first, std::size_t count,
-                                BundleRays& bundle) {
-  const RayStream& rays = stream.rays();
-  // In Morton order ray 3/4 is the middle of a tile, ray 1/3 its corner along x.
-  const std::size_t middle = first + count * 3 / 4, corner = first + (count - 1) / 3;
-  const Vec3d side = common == Common::origin
-                         ? direction_of(rays, corner) - direction_of(rays, first)
-                         : origin_of(rays, corner) - origin_of(rays, first);
-  const Vec3d forward = direction_of(rays, middle), start = origin_of(rays, middle);
-  if (!in_bundle_range(start) || !in_bundle_range(forward)) return false;
-  bundle.frame = common == Common::end ? make_frame(start + forward, -forward, side)
-                                       : make_frame(start, forward, side);
-  bundle.first = first;
-  bundle.packets = static_cast<int>((count + width - 1) / width);
+/// The frame of a bundle, W along the sight of ray `middle`.
+template <Common common, class Source>
+BOULE_INLINE BundleFrame frame_of(const Source& source, const Vec3d& middle) {
+  // In Morton order ray 1/3 is the corner along x of a tile.
+  const Vec3d side = source.one_sight((source.count() - 1) / 3) - source.one_sight(0);
+  return make_frame(source.org(), common == Common::end ? -middle : middle, side);
+}
+
+/// At most bundle_size rays as a bundle. False if they are none: they do not share what they must,
+/// are too wide, or not finite.
+template <Common common, Seek seek, class Source>
+BOULE_NOINLINE bool load_bundle(const Source& source, BundleRays& bundle) {
+  const int count = source.count();
+  // In Morton order ray 3/4 is the middle of a tile.
+  const Vec3d middle = common == Common::direction ? source.dir() : source.one_sight(count * 3 / 4);
+  if (!in_bundle_range(source.org()) || !in_bundle_range(middle)) return false;
+  bundle.frame = frame_of<common>(source, middle);
+  bundle.packets = (count + width - 1) / width;
   bundle.group_packets = (bundle.packets + bundle_groups - 1) / bundle_groups;
 
-  const Projection<common> projection(bundle.frame, rays, middle);
+  const Projection<common> projection(bundle.frame, middle);
   BundleSums sums;
   bundle.extent = no_extent;
   for (int group = 0; group < bundle_groups; ++group) {
     const PacketRange packets = packets_of(bundle, group);
-    const Extent extent = load_group<common, seek>(stream, projection, packets, bundle, sums);
+    const Extent extent = load_group<common, seek>(source, projection, packets, bundle, sums);
     bundle.groups.set(group, extent);
     bundle.extent = extent_of_both(bundle.extent, extent);
     if (!all(sums.belongs)) return false;

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "simd/kernel/bundle.h"
-#include "simd/kernel/direction_order.h"
 #include "simd/kernel/packet_stream.h"
+#include "simd/kernel/ray_pool.h"
 
 /// Streams of rays that have something in common: bundle by bundle. Which rays share one is a
 /// question of time only.
@@ -27,6 +27,21 @@ BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& s
   any_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
 }
 
+/// Rays of the stream as one bundle.
+template <Common common>
+BOULE_INLINE Outcome trace_in_place(const GeometryView& geometry, const PaddedStream& stream,
+                                    std::size_t first, std::size_t count, Effort& effort,
+                                    const HitStream& hits) {
+  return trace_bundle(geometry, RaysInPlace<common>(stream, first, count), effort, hits);
+}
+template <Common common>
+BOULE_INLINE Outcome trace_in_place(const GeometryView& geometry, const PaddedStream& stream,
+                                    std::size_t first, std::size_t count, Effort& effort,
+                                    std::uint8_t* occluded) {
+  return trace_bundle<common>(geometry, RaysInPlace<common>(stream, first, count), effort,
+                              occluded);
+}
+
 /// Rays begin .. end - 1, at most a bundle: halved until they fit; packets where they are too few,
 /// or better off.
 template <Common common, class Answers>
@@ -35,7 +50,7 @@ void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std:
   const std::size_t count = end - begin;
   if (count >= fewest_rays) {
     Effort effort;
-    const Outcome outcome = trace_bundle<common>(geometry, stream, begin, count, effort, answers);
+    const Outcome outcome = trace_in_place<common>(geometry, stream, begin, count, effort, answers);
     if (outcome == Outcome::traced) return;
     if (outcome == Outcome::no_bundle) {
       const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
@@ -67,26 +82,40 @@ BOULE_INLINE std::size_t any_hit_in_place(const GeometryView& geometry, const Pa
   while (end - begin >= fewest_rays) {
     const std::size_t count = end - begin < bundle_size ? end - begin : bundle_size;
     Effort effort{count / rays_per_leaf_in_place};
-    if (trace_bundle<common>(geometry, stream, begin, count, effort, occluded) != Outcome::traced)
+    if (trace_in_place<common>(geometry, stream, begin, count, effort, occluded) != Outcome::traced)
       break;
     begin += count;
   }
   return begin;
 }
 
-/// The same for all of them, sorted.
+/// Rays first .. first + count - 1 of a pool that make no bundle as they are.
+template <Common common>
+BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<common>& pool,
+                                   std::size_t first, std::size_t count, std::uint8_t* occluded) {
+  GatheredRays<bundle_size> rays;
+  for (std::size_t k = 0; k < count; ++k) rays.set(k, pool.stream(), pool.index(first + k));
+  const PaddedStream stream(rays.view(count));
+  std::uint8_t met[bundle_size];
+  trace_halved<common>(geometry, stream, 0, count, met);
+  for (std::size_t k = 0; k < count; ++k) occluded[pool.index(first + k)] = met[k];
+}
+
+/// Whether rays begin .. end - 1, at most a pool, meet anything, sorted.
 template <Common common>
 BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStream& stream,
                                    std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  DirectionOrder order;
-  order.sort<common>(stream, begin, end);
-  PooledRays pooled;
-  alignas(64) std::uint8_t met[bundle_size];
-  for (std::size_t done = 0; done < order.size(); done += bundle_size) {
-    const std::size_t rest = order.size() - done, count = rest < bundle_size ? rest : bundle_size;
-    const PaddedStream rays(pooled.gather(stream.rays(), order, done, count));
-    trace_halved<common>(geometry, rays, 0, count, met);
-    for (std::size_t k = 0; k < count; ++k) occluded[order[done + k]] = met[k];
+  RayPool<common> pool(stream, begin, end);
+  pool.sort();
+  for (std::size_t done = 0; done < pool.size(); done += bundle_size) {
+    const std::size_t rest = pool.size() - done, count = rest < bundle_size ? rest : bundle_size;
+    Outcome outcome = Outcome::no_bundle;
+    if (pool.all_belong()) {
+      const RaysOfPool<common> rays(pool, done, static_cast<int>(count));
+      Effort effort;
+      outcome = trace_bundle<common>(geometry, rays, effort, occluded);
+    }
+    if (outcome != Outcome::traced) trace_gathered(geometry, pool, done, count, occluded);
   }
 }
 

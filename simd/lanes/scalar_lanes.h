@@ -35,6 +35,19 @@ BOULE_INLINE Wide load(const double* p) { return *p; }
 BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) { return p[part]; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
+/// A row of four floats as columns, and back: see xsimd_lanes.h.
+struct Columns {
+  Real x, y, z, w;
+};
+BOULE_INLINE Columns load_rows(const float* const* rows) {
+  return {rows[0][0], rows[0][1], rows[0][2], rows[0][3]};
+}
+BOULE_INLINE void store_rows(float* p, const Columns& columns) {
+  p[0] = columns.x.v;
+  p[1] = columns.y.v;
+  p[2] = columns.z.v;
+  p[3] = columns.w.v;
+}
 BOULE_INLINE Wide lane_numbers() { return 0.0; }
 
 BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }

@@ -161,6 +161,33 @@ BOULE_INLINE Floats load_of_eight(const float* p, std::size_t part) {
 }
 #endif
 
+// Rows of four floats: lanes 4k .. 4k + 3 are the row at p[4k], or at p + 16k.
+#if defined(__AVX512F__)
+BOULE_INLINE Floats load_fours(const float* const* p) {
+  Floats a = _mm512_castps128_ps512(_mm_load_ps(p[0]));
+  a = _mm512_insertf32x4(a, _mm_load_ps(p[4]), 1);
+  a = _mm512_insertf32x4(a, _mm_load_ps(p[8]), 2);
+  return _mm512_insertf32x4(a, _mm_load_ps(p[12]), 3);
+}
+BOULE_INLINE void store_fours(float* p, Floats a) {
+  _mm_store_ps(p, _mm512_castps512_ps128(a));
+  _mm_store_ps(p + 16, _mm512_extractf32x4_ps(a, 1));
+  _mm_store_ps(p + 32, _mm512_extractf32x4_ps(a, 2));
+  _mm_store_ps(p + 48, _mm512_extractf32x4_ps(a, 3));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Floats load_fours(const float* const* p) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[0])), _mm_load_ps(p[4]), 1);
+}
+BOULE_INLINE void store_fours(float* p, Floats a) {
+  _mm_store_ps(p, _mm256_castps256_ps128(a));
+  _mm_store_ps(p + 16, _mm256_extractf128_ps(a, 1));
+}
+#else
+BOULE_INLINE Floats load_fours(const float* const* p) { return Floats::load_aligned(p[0]); }
+BOULE_INLINE void store_fours(float* p, Floats a) { a.store_aligned(p); }
+#endif
+
 }  // namespace gaps
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -45,6 +45,32 @@ BOULE_INLINE void store(double* p, Wide a) {
   a.hi.store_aligned(p + width / 2);
 }
 
+/// W rows of four floats, 16 bytes aligned each, as columns; row k is lane k.
+struct Columns {
+  Real x, y, z, w;
+};
+/// Columns to rows in fours of lanes, and back.
+BOULE_INLINE Columns transpose(const Columns& c) {
+  // xsimd zips 128 bits at a time.
+  const Floats xz = xsimd::zip_lo(c.x.v, c.z.v), yw = xsimd::zip_lo(c.y.v, c.w.v);
+  const Floats xz_high = xsimd::zip_hi(c.x.v, c.z.v), yw_high = xsimd::zip_hi(c.y.v, c.w.v);
+  return {xsimd::zip_lo(xz, yw), xsimd::zip_hi(xz, yw), xsimd::zip_lo(xz_high, yw_high),
+          xsimd::zip_hi(xz_high, yw_high)};
+}
+/// `rows`: one pointer for each.
+BOULE_INLINE Columns load_rows(const float* const* rows) {
+  return transpose({gaps::load_fours(rows), gaps::load_fours(rows + 1), gaps::load_fours(rows + 2),
+                    gaps::load_fours(rows + 3)});
+}
+/// One after the other.
+BOULE_INLINE void store_rows(float* p, const Columns& columns) {
+  const Columns rows = transpose(columns);
+  gaps::store_fours(p, rows.x.v);
+  gaps::store_fours(p + 4, rows.y.v);
+  gaps::store_fours(p + 8, rows.z.v);
+  gaps::store_fours(p + 12, rows.w.v);
+}
+
 /// 0, 1, .. W - 1.
 BOULE_INLINE Wide lane_numbers() {
   alignas(64) double numbers[width];

@@ -30,6 +30,14 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
   store(out.lane_numbers, lane_numbers());
+  store_rows(out.rows, {a, b, c, a});
+  const float* rows[width];
+  for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);
+  const Columns columns = load_rows(rows);
+  store(out.columns[0], columns.x);
+  store(out.columns[1], columns.y);
+  store(out.columns[2], columns.z);
+  store(out.columns[3], columns.w);
   out.less = bits(a < b);
   out.less_equal = bits(a <= b);
   out.wide_less = bits(x < y);
