@@ -192,13 +192,19 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
   if constexpr (Hits::seek == Seek::any) {
     if (hits.meet_few(discs, first)) return;
   }
-  bool changed = false;
+  // All of them are compared before any is met: a branch for each, which no CPU foresees, would
+  // keep the comparisons apart.
+  unsigned groups_of[Discs::size], near = 0;
   for (unsigned left = discs.simple; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
-    unsigned groups = groups_near(rays.groups, hits.limits(), discs, k);
-    if (groups == 0) continue;
+    groups_of[k] = groups_near(rays.groups, hits.limits(), discs, k);
+    near |= (groups_of[k] != 0 ? 1U : 0U) << k;
+  }
+  bool changed = false;
+  for (; near != 0; near &= near - 1) {
+    const int k = std::countr_zero(near);
     const DiscLanes disc = DiscLanes::same(discs, k);
-    for (; groups != 0; groups &= groups - 1) {
+    for (unsigned groups = groups_of[k]; groups != 0; groups &= groups - 1) {
       changed |= hits.meet(std::countr_zero(groups), disc, first + static_cast<std::uint32_t>(k));
     }
   }

@@ -14,6 +14,13 @@
 /// sphere's rim, or its depth, is too close to call.
 namespace boule::BOULE_KERNEL_ISA {
 
+/// (std::popcount() may be a call that kernels must not make.)
+BOULE_INLINE int count_bits(unsigned bits) {
+  bits -= bits >> 1 & 0x55555555U;
+  bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
+  return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);
+}
+
 template <Common common, class Source>
 class BundleAny {
  public:
@@ -49,29 +56,34 @@ class BundleAny {
   /// one. False, and nothing done, if those are not few.
   BOULE_INLINE bool meet_few(const Discs& discs, std::uint32_t first) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
-    unsigned more = groups;
-    for (int k = 0; k < most_groups; ++k) more &= more - 1;
-    if (more != 0) return false;
-    int rays[most_rays], count = 0;
+    if (count_bits(groups) > few_.groups) return false;
+    int rays[most_rays + group_size], count = 0;
     for (unsigned left = groups; left != 0; left &= left - 1) {
-      const PacketRange packets = packets_of(rays_, std::countr_zero(left));
-      for (int p = packets.begin; p < packets.end; ++p) {
-        for (unsigned in = amid(p, discs.all) & ~hit_[p]; in != 0; in &= in - 1) {
-          if (count == most_rays) return false;
-          rays[count++] = p * width + std::countr_zero(in);
-        }
-      }
+      const int group = std::countr_zero(left), first_ray = packets_of(rays_, group).begin * width;
+      for (unsigned in = open_amid(group, discs.all); in != 0; in &= in - 1)
+        rays[count++] = first_ray + std::countr_zero(in);
+      if (count > few_.rays) return false;
+    }
+    // Those that miss all of them drop out without a branch for each.
+    int near = 0;
+    for (int i = 0; i < count; ++i) {
+      rays[near] = rays[i];
+      near += touches(rays[i], discs) ? 1 : 0;
     }
     bool changed = false;
-    for (int i = 0; i < count; ++i) changed |= meet_ray(rays[i], discs, first);
+    for (int i = 0; i < near; ++i) changed |= meet_ray(rays[i], discs, first);
     if (!changed) return true;
     for (unsigned left = groups; left != 0; left &= left - 1) update(std::countr_zero(left));
     update();
     return true;
   }
 
-  /// Tells the grid which rays are still to be answered.
-  void fill(RayGrid& grid) const { grid.fill(rays_, hit_); }
+  /// Tells the grid which rays are still to be answered. A bundle that gets here has many spheres
+  /// for its rays.
+  void fill(RayGrid& grid) {
+    grid.fill(rays_, hit_);
+    few_ = {10, most_rays};
+  }
 
   /// Any other sphere against all rays.
   BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
@@ -163,13 +175,27 @@ class BundleAny {
     return true;
   }
 
-  /// Lanes of a packet whose rays are within these extents.
-  BOULE_INLINE unsigned amid(int p, const Extent& e) const {
-    const Real a = load(rays_.a + p * width), b = load(rays_.b + p * width);
-    return bits((Real(e.a_low) <= a) & (a <= Real(e.a_high)) & (Real(e.b_low) <= b) &
-                (b <= Real(e.b_high)));
+  /// Bits of a group's rays that are within these extents and have met nothing.
+  BOULE_INLINE unsigned open_amid(int group, const Extent& e) const {
+    const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high);
+    const PacketRange packets = packets_of(rays_, group);
+    unsigned result = 0;
+    for (int p = packets.begin; p < packets.end; ++p) {
+      const Real a = load(rays_.a + p * width), b = load(rays_.b + p * width);
+      const unsigned in = bits((a_low <= a) & (a <= a_high) & (b_low <= b) & (b <= b_high));
+      result |= (in & ~hit_[p]) << ((p - packets.begin) * width);
+    }
+    return result;
   }
 
+  /// Whether float cannot rule out that a ray meets one of eight simple spheres.
+  BOULE_INLINE bool touches(int ray, const Discs& discs) const {
+    const LineLanes line = LineLanes::same<common>(rays_, ray);
+    unsigned in = 0;
+    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width)
+      in |= bits(Real(0.0F) <= disc_square<common>(line, DiscLanes::each(discs, at))) << at;
+    return (in & discs.simple) != 0;
+  }
   /// Eight simple spheres against one ray; true if it meets one.
   BOULE_INLINE bool meet_ray(int ray, const Discs& discs, std::uint32_t first) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
@@ -234,12 +260,19 @@ class BundleAny {
 
   /// Packets are not cheaper before so many solves for each.
   static constexpr int most_unclear = 2;
+  static constexpr int most_rays = 48;
+  static constexpr int group_size = bundle_size / bundle_groups;
+  static_assert(group_size <= 32);
+
   /// As many groups, and rays in them, are few.
-  static constexpr int most_groups = 6, most_rays = 24;
+  struct Few {
+    int groups, rays;
+  };
 
   const Source& source_;
   const SphereView& spheres_;
   const BundleRays& rays_;
+  Few few_ = {6, 24};
   int unclear_ = 0;  ///< times that float could not tell
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];

@@ -293,16 +293,18 @@ class BundleHits {
     }
     const Real slots = load(slot_ + ray);
     const WideMask hit = widen(slots <= slots);  // no_slot is NaN
-    Wide nearest(no_hit);
-    if (any(hit)) {
-      ExactRays rays;
-      load_exact<common, Origins::bundle>(source_.packet(ray), rays_, rays);
-      const Wide t =
-          solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
-                                                  : gather_slots(spheres_, slot_ + ray));
-      nearest = select(hit, t, nearest);
+    if (!any(hit)) {
+      store(hits.t + first, Wide(no_hit));
+      for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane)
+        hits.id[first + lane] = -1;
+      return;
     }
-    store(hits.t + first, nearest);
+    ExactRays rays;
+    load_exact<common, Origins::bundle>(source_.packet(ray), rays_, rays);
+    const Wide t =
+        solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_of(slot_[ray]))
+                                                : gather_slots(spheres_, slot_ + ray));
+    store(hits.t + first, select(hit, t, Wide(no_hit)));
     find_ids(ray, hits.id + first);
   }
 

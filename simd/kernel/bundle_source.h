@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/abi/filter_bounds.h"
+#include "simd/abi/isa.h"
 #include "simd/kernel/packet.h"
 #include "simd/kernel/padded_stream.h"
 
@@ -30,6 +30,34 @@ BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
 }
 BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
 BOULE_INLINE Real sum_abs_of(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+/// Bits as bytes, 0 or 1.
+BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
+  for (int at = 0; at < width; at += 8) {
+    // Eight copies, of which each keeps one bit; the sum's top bits tell which are not 0.
+    const std::uint64_t one_each = (bits >> at & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
+    const std::uint64_t ones = (one_each + 0x7f7f7f7f7f7f7f7fU) >> 7 & 0x0101010101010101U;
+    __builtin_memcpy(bytes + at, &ones, 8);
+  }
+}
+/// Whether W bytes are all 0.
+BOULE_INLINE bool all_zero(const std::uint8_t* bytes) {
+  std::uint64_t words[max_width / 8] = {0};
+  __builtin_memcpy(words, bytes, width);
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : words) any |= word;
+  return any == 0;
+}
+
+/// Whether W sources are all -1.
+BOULE_INLINE bool none_leaves(const std::int32_t* sources) {
+  std::uint64_t words[max_width / 2];
+  __builtin_memset(words, 0xff, sizeof words);
+  __builtin_memcpy(words, sources, width * sizeof *sources);
+  std::uint64_t both = ~std::uint64_t{0};
+  for (const std::uint64_t word : words) both &= word;
+  return both == ~std::uint64_t{0};
+}
 
 /// How W rays differ: by their directions, or, with one direction, by their origins less O.
 struct Sight {
@@ -68,13 +96,9 @@ class SharedByRays {
     const RayStream& rays = *place.rays;
     const std::size_t first = place.first;
     const Real zero(0.0F), tmin = load(rays.tmin + first);
-    std::int32_t source = -1;
-    if constexpr (seek == Seek::nearest) {
-      for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane)
-        source &= rays.source[first + lane];
-    }
-    const RealMask fresh =
-        (tmin <= zero) & (zero <= tmin) & (Real(source == -1 ? 0.0F : 1.0F) <= zero);
+    RealMask fresh = (tmin <= zero) & (zero <= tmin);
+    if constexpr (seek == Seek::nearest)
+      fresh = fresh & (Real(none_leaves(rays.source + first) ? 0.0F : 1.0F) <= zero);
     if constexpr (common == Common::end) {
       // `shift` tells the rest; what is behind the end is not seen.
       return fresh & (load(rays.tmax + first) <= Real(1.0F));
@@ -115,24 +139,6 @@ BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
   __builtin_prefetch(rays.tmin + first);
   __builtin_prefetch(rays.tmax + first);
   __builtin_prefetch(rays.source + first);
-}
-
-/// Bits as bytes, 0 or 1.
-BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
-  for (int at = 0; at < width; at += 8) {
-    // Eight copies, of which each keeps one bit; the sum's top bits tell which are not 0.
-    const std::uint64_t one_each = (bits >> at & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
-    const std::uint64_t ones = (one_each + 0x7f7f7f7f7f7f7f7fU) >> 7 & 0x0101010101010101U;
-    __builtin_memcpy(bytes + at, &ones, 8);
-  }
-}
-/// Whether W bytes are all 0.
-BOULE_INLINE bool all_zero(const std::uint8_t* bytes) {
-  std::uint64_t words[max_width / 8] = {0};
-  __builtin_memcpy(words, bytes, width);
-  std::uint64_t any = 0;
-  for (const std::uint64_t word : words) any |= word;
-  return any == 0;
 }
 
 /// Where a bundle's rays come from, asked packet by packet: here neighbours in a stream, in

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/abi/isa.h"
 #include "simd/kernel/bundle_rays.h"
 #include "simd/kernel/bundle_source.h"
 #include "simd/kernel/direction_order.h"
