@@ -60,7 +60,7 @@ class BundleAny {
     int rays[most_rays + group_size], count = 0;
     for (unsigned left = groups; left != 0; left &= left - 1) {
       const int group = std::countr_zero(left), first_ray = packets_of(rays_, group).begin * width;
-      for (unsigned in = open_amid(group, discs.all); in != 0; in &= in - 1)
+      for (unsigned in = open_amid(group, discs); in != 0; in &= in - 1)
         rays[count++] = first_ray + std::countr_zero(in);
       if (count > few_.rays) return false;
     }
@@ -175,14 +175,17 @@ class BundleAny {
     return true;
   }
 
-  /// Bits of a group's rays that are within these extents and have met nothing.
-  BOULE_INLINE unsigned open_amid(int group, const Extent& e) const {
+  /// Bits of a group's rays that are amid these discs, do not end before them and have met nothing.
+  BOULE_INLINE unsigned open_amid(int group, const Discs& discs) const {
+    const Extent& e = discs.all;
+    const Real near(discs.all_near);
     const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high);
     const PacketRange packets = packets_of(rays_, group);
     unsigned result = 0;
     for (int p = packets.begin; p < packets.end; ++p) {
       const Real a = load(rays_.a + p * width), b = load(rays_.b + p * width);
-      const unsigned in = bits((a_low <= a) & (a <= a_high) & (b_low <= b) & (b <= b_high));
+      const unsigned in = bits((a_low <= a) & (a <= a_high) & (b_low <= b) & (b <= b_high) &
+                               (near <= load(end_high_ + p * width)));
       result |= (in & ~hit_[p]) << ((p - packets.begin) * width);
     }
     return result;
@@ -191,9 +194,12 @@ class BundleAny {
   /// Whether float cannot rule out that a ray meets one of eight simple spheres.
   BOULE_INLINE bool touches(int ray, const Discs& discs) const {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
+    const Real end(end_high_[ray]);
     unsigned in = 0;
-    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width)
-      in |= bits(Real(0.0F) <= disc_square<common>(line, DiscLanes::each(discs, at))) << at;
+    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+      const Real q = disc_square<common>(line, DiscLanes::each(discs, at));
+      in |= bits((Real(0.0F) <= q) & (load(discs.near + at) <= end)) << at;
+    }
     return (in & discs.simple) != 0;
   }
   /// Eight simple spheres against one ray; true if it meets one.
