@@ -48,8 +48,8 @@ class BundleSides {
         rays.shift;
   }
 
-  /// Bits of the boxes among those entered that there are rays in the grid's cells for.
-  BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid,
+  /// Bits of the boxes among those entered, from v = near on, that the grid has rays for.
+  BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid, const float* near,
                                     unsigned entered) const {
     alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
         b_high[Discs::size];
@@ -66,7 +66,7 @@ class BundleSides {
     unsigned result = 0;
     for (unsigned left = entered; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k])) result |= 1U << k;
+      if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k], near[k])) result |= 1U << k;
     }
     return result;
   }
@@ -273,7 +273,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
         hits.fill(grid);
         fill_at += effort.leaves;
       }
-      if (grid.known()) in = sides.meet_rays(node, grid, in);
+      if (grid.known()) in = sides.meet_rays(node, grid, near, in);
     }
     const int base = stack.count();
     for (; in != 0; in &= in - 1) {

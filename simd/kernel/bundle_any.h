@@ -81,7 +81,7 @@ class BundleAny {
   /// Tells the grid which rays are still to be answered. A bundle that gets here has many spheres
   /// for its rays.
   void fill(RayGrid& grid) {
-    grid.fill(rays_, hit_);
+    grid.fill(rays_, hit_, end_high_);
     few_ = {10, most_rays};
   }
 
