@@ -1,0 +1,110 @@
+// A picture is the same whichever way its rays are traced: with a scan of all spheres or a tree, in
+// bundles, in packets or one by one.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "render/frame/film.h"
+#include "render/integrators/whitted.h"
+#include "render/renderer/block_worker.h"
+#include "tests/render/test_scenes.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+constexpr int side = 64;
+
+/// mixed_scene() amid a thousand small spheres.
+Scene crowded_scene() {
+  Scene scene = mixed_scene(side, side);
+  CaseRandom random(77);
+  const std::size_t materials = scene.materials.size();
+  for (std::size_t i = 0; i < 1000; ++i) {
+    Sphere sphere;
+    sphere.center = {static_cast<float>(random.uniform(-3, 3)),
+                     static_cast<float>(random.uniform(0, 3)),
+                     static_cast<float>(random.uniform(-3, 3))};
+    sphere.radius = static_cast<float>(random.uniform(0.02, 0.12));
+    sphere.material = static_cast<std::uint32_t>(i % materials);
+    scene.spheres.push_back(sphere);
+  }
+  return scene;
+}
+
+// Kernels of one ISA that trace all rays in one form. KernelTable has plain functions, so what they
+// forward to is global.
+const KernelTable* forwarded = nullptr;
+std::uint64_t calls = 0;
+
+template <Form form>
+void closest_in(const GeometryView& geometry, const RayStream& rays, const Query& query,
+                const HitStream& hits) {
+  ++calls;
+  forwarded->closest_hit(geometry, rays, {query.solver, form, query.coherence}, hits);
+}
+template <Form form>
+void any_in(const GeometryView& geometry, const RayStream& rays, const Query& query,
+            std::uint8_t* occluded) {
+  ++calls;
+  forwarded->any_hit(geometry, rays, {query.solver, form, query.coherence}, occluded);
+}
+template <Form form>
+KernelTable kernels_in() {
+  return {forwarded->isa, forwarded->width, forwarded->primary_rays, closest_in<form>,
+          any_in<form>};
+}
+
+/// The pixels' bits.
+std::vector<std::uint32_t> picture(const Scene& scene, Structure structure,
+                                   const KernelTable& kernels) {
+  PreparedScene prepared = prepare(scene, side, side).value();
+  prepared.geometry = Geometry(prepared.spheres, prepared.planes, structure);
+  const BlockSetup setup{prepared, kernels, Sampler(2, 1), block_pixels(side), 16384};
+  BlockWorker worker(setup, std::make_unique<Whitted>(prepared, kernels, IntegratorSettings{}));
+  const PixelRect all{0, 0, side, side};
+  Film film(all);
+  EXPECT_TRUE(worker.render(all, 2, film));
+  std::vector<std::uint32_t> bits;
+  for (const Color& pixel : film.to_image().pixels) {
+    for (const float x : {pixel.r, pixel.g, pixel.b})
+      bits.push_back(std::bit_cast<std::uint32_t>(x));
+  }
+  return bits;
+}
+
+class Paths : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    forwarded = kernels_or_null(GetParam());
+    if (forwarded == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  }
+};
+
+TEST_P(Paths, GiveTheSamePicture) {
+  const Scene pinhole_scene = crowded_scene();
+  Scene parallel_scene = pinhole_scene;
+  parallel_scene.camera = OrthographicCamera{{{2, 4, 6}, {0, 0.5f, 0}, {0, 1, 0}}, 6};
+  for (const Scene& scene : {pinhole_scene, parallel_scene}) {
+    const auto expected = picture(scene, Structure::scan, reference_kernels());
+    ASSERT_EQ(expected.size(), std::size_t{3} * side * side);
+    for (const Structure structure : {Structure::scan, Structure::bvh}) {
+      SCOPED_TRACE(structure == Structure::scan ? "scan" : "tree");
+      calls = 0;
+      EXPECT_EQ(picture(scene, structure, kernels_in<Form::automatic>()), expected) << "bundles";
+      EXPECT_EQ(picture(scene, structure, kernels_in<Form::packet>()), expected) << "packets";
+      EXPECT_EQ(picture(scene, structure, kernels_in<Form::single>()), expected) << "single rays";
+      EXPECT_GT(calls, 30U);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Paths, testing::ValuesIn(all_isa_names()),
+                         [](const auto& tested) { return tested.param; });
+
+}  // namespace
+}  // namespace boule::test
