@@ -10,8 +10,8 @@
 namespace boule {
 
 /// What one ISA's kernel object exports, and all of it: nothing else crosses the border.
-/// Every function is thread-safe, allocates nothing and cannot fail. The rounding mode must be
-/// to nearest and denormals must not be flushed.
+/// Every function is thread-safe, allocates nothing and cannot fail; any_hit needs 1.5 MiB of the
+/// caller's stack. The rounding mode must be to nearest and denormals must not be flushed.
 struct KernelTable {
   Isa isa;
   int width;  ///< float lanes of a packet

@@ -194,15 +194,15 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
   }
   // All of them are compared before any is met: a branch for each, which no CPU foresees, would
   // keep the comparisons apart.
-  unsigned groups_of[Discs::size], near = 0;
+  unsigned groups_of[Discs::size], wanted = 0;
   for (unsigned left = discs.simple; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     groups_of[k] = groups_near(rays.groups, hits.limits(), discs, k);
-    near |= (groups_of[k] != 0 ? 1U : 0U) << k;
+    wanted |= (groups_of[k] != 0 ? 1U : 0U) << k;
   }
   bool changed = false;
-  for (; near != 0; near &= near - 1) {
-    const int k = std::countr_zero(near);
+  for (; wanted != 0; wanted &= wanted - 1) {
+    const int k = std::countr_zero(wanted);
     const DiscLanes disc = DiscLanes::same(discs, k);
     for (unsigned groups = groups_of[k]; groups != 0; groups &= groups - 1) {
       changed |= hits.meet(std::countr_zero(groups), disc, first + static_cast<std::uint32_t>(k));

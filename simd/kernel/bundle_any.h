@@ -57,7 +57,7 @@ class BundleAny {
   BOULE_INLINE bool meet_few(const Discs& discs, std::uint32_t first) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
     if (count_bits(groups) > few_.groups) return false;
-    int rays[most_rays + group_size], count = 0;
+    int rays[few_among_many.rays + group_size], count = 0;
     for (unsigned left = groups; left != 0; left &= left - 1) {
       const int group = std::countr_zero(left), first_ray = packets_of(rays_, group).begin * width;
       for (unsigned in = open_amid(group, discs); in != 0; in &= in - 1)
@@ -78,11 +78,11 @@ class BundleAny {
     return true;
   }
 
-  /// Tells the grid which rays are still to be answered. A bundle that gets here has many spheres
-  /// for its rays.
+  /// Tells the grid which rays are still to be answered. A bundle that comes to that has many
+  /// spheres for its rays: more of them are few.
   void fill(RayGrid& grid) {
     grid.fill(rays_, hit_, end_high_);
-    few_ = {10, most_rays};
+    few_ = few_among_many;
   }
 
   /// Any other sphere against all rays.
@@ -197,11 +197,13 @@ class BundleAny {
     const Real end(end_high_[ray]);
     unsigned in = 0;
     for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+      if (discs.simple >> at == 0) break;
       const Real q = disc_square<common>(line, DiscLanes::each(discs, at));
       in |= bits((Real(0.0F) <= q) & (load(discs.near + at) <= end)) << at;
     }
     return (in & discs.simple) != 0;
   }
+
   /// Eight simple spheres against one ray; true if it meets one.
   BOULE_INLINE bool meet_ray(int ray, const Discs& discs, std::uint32_t first) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
@@ -266,19 +268,19 @@ class BundleAny {
 
   /// Packets are not cheaper before so many solves for each.
   static constexpr int most_unclear = 2;
-  static constexpr int most_rays = 48;
   static constexpr int group_size = bundle_size / bundle_groups;
   static_assert(group_size <= 32);
 
-  /// As many groups, and rays in them, are few.
+  /// As many groups, and rays in them, are few; measured.
   struct Few {
     int groups, rays;
   };
+  static constexpr Few few_at_first = {6, 24}, few_among_many = {10, 48};
 
   const Source& source_;
   const SphereView& spheres_;
   const BundleRays& rays_;
-  Few few_ = {6, 24};
+  Few few_ = few_at_first;
   int unclear_ = 0;  ///< times that float could not tell
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];

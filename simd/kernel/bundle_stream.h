@@ -89,15 +89,21 @@ BOULE_INLINE std::size_t any_hit_in_place(const GeometryView& geometry, const Pa
   return begin;
 }
 
-/// Rays first .. first + count - 1 of a pool that make no bundle as they are.
+/// Rays first .. first + count - 1 of a pool whose bundle went that way, with all there is to know
+/// of them: halved if they are no bundle, else as packets.
 template <Common common>
 BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<common>& pool,
-                                   std::size_t first, std::size_t count, std::uint8_t* occluded) {
+                                   std::size_t first, std::size_t count, Outcome outcome,
+                                   std::uint8_t* occluded) {
   GatheredRays<bundle_size> rays;
   for (std::size_t k = 0; k < count; ++k) rays.set(k, pool.stream(), pool.index(first + k));
   const PaddedStream stream(rays.view(count));
   std::uint8_t met[bundle_size];
-  trace_halved<common>(geometry, stream, 0, count, met);
+  if (outcome == Outcome::no_bundle) {
+    trace_halved<common>(geometry, stream, 0, count, met);
+  } else {
+    trace_rest(geometry, stream, 0, count, met);
+  }
   for (std::size_t k = 0; k < count; ++k) occluded[pool.index(first + k)] = met[k];
 }
 
@@ -105,17 +111,16 @@ BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<c
 template <Common common>
 BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStream& stream,
                                    std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  RayPool<common> pool(stream, begin, end);
-  pool.sort();
+  const RayPool<common> pool(stream, begin, end);
   for (std::size_t done = 0; done < pool.size(); done += bundle_size) {
     const std::size_t rest = pool.size() - done, count = rest < bundle_size ? rest : bundle_size;
     Outcome outcome = Outcome::no_bundle;
-    if (pool.all_belong()) {
+    if (pool.all_belong() && count >= fewest_rays) {
       const RaysOfPool<common> rays(pool, done, static_cast<int>(count));
       Effort effort;
       outcome = trace_bundle<common>(geometry, rays, effort, occluded);
     }
-    if (outcome != Outcome::traced) trace_gathered(geometry, pool, done, count, occluded);
+    if (outcome != Outcome::traced) trace_gathered(geometry, pool, done, count, outcome, occluded);
   }
 }
 

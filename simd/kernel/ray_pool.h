@@ -12,22 +12,44 @@
 /// Pools of shadow rays, sorted for their light, and the bundles that come from them.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle needs of a ray of a pool, in one place: sorted, neighbours are no longer side by
-/// side in memory.
-struct PooledRay {
-  alignas(16) float sight_and_tmax[4];
-};
-
+/// Rays of a stream in an order of their own. What a bundle needs of one is kept in one place:
+/// sorted, neighbours are no longer side by side in memory.
 template <Common common>
 class RayPool {
  public:
   /// Rays begin .. end - 1 of the stream, at most pool_size; `begin` is a multiple of W.
   RayPool(const PaddedStream& stream, std::size_t begin, std::size_t end)
-      : stream_(stream), begin_(begin), size_(end - begin), shared_(stream.rays(), begin) {}
+      : stream_(stream), begin_(begin), size_(end - begin), shared_(stream.rays(), begin) {
+    sort();
+  }
   RayPool(const RayPool&) = delete;
   RayPool& operator=(const RayPool&) = delete;
 
-  /// To be called first.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const RayStream& stream() const { return stream_.rays(); }
+  [[nodiscard]] const SharedByRays<common>& shared() const { return shared_; }
+  /// Whether all rays share what they must.
+  [[nodiscard]] bool all_belong() const { return all_belong_; }
+  /// Whether any leaves a sphere on its inside.
+  [[nodiscard]] bool any_inside() const { return any_inside_; }
+  /// The greatest of Sight.
+  [[nodiscard]] float shift() const { return shift_; }
+  [[nodiscard]] std::size_t begin() const { return begin_; }
+  /// Which rays from begin() on come one after the other; the last one more often, up to a packet.
+  [[nodiscard]] const std::uint16_t* order() const { return order_; }
+  /// The ray of the stream that comes k-th.
+  [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
+  /// x, y and z of its sight and tmax, of the i-th ray from begin() on.
+  [[nodiscard]] const float* ray(std::size_t i) const { return rays_ + 4 * i; }
+
+ private:
+  static constexpr std::size_t chunk = 128;
+
+  struct PoolSums {
+    RealMask belong = Real(0.0F) <= Real(0.0F);
+    bool inside = false;
+    Real shift{0.0F};
+  };
   BOULE_NOINLINE void sort() {
     const RayStream& rays = stream_.rays();
     const LightView<common> view(rays, begin_, begin_ + size_);
@@ -54,41 +76,16 @@ class RayPool {
     for (std::size_t k = size_; k % width != 0; ++k) order_[k] = order_[size_ - 1];
   }
 
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const RayStream& stream() const { return stream_.rays(); }
-  [[nodiscard]] const SharedByRays<common>& shared() const { return shared_; }
-  /// Whether all rays share what they must.
-  [[nodiscard]] bool all_belong() const { return all_belong_; }
-  /// Whether any leaves a sphere on its inside.
-  [[nodiscard]] bool any_inside() const { return any_inside_; }
-  /// The greatest of Sight.
-  [[nodiscard]] float shift() const { return shift_; }
-  [[nodiscard]] std::size_t begin() const { return begin_; }
-  /// Which rays from begin() on come one after the other; the last one more often, up to a packet.
-  [[nodiscard]] const std::uint16_t* order() const { return order_; }
-  /// The ray of the stream that comes k-th.
-  [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
-  /// x, y and z of its sight and tmax, of the i-th ray from begin() on.
-  [[nodiscard]] const float* ray(std::size_t i) const { return rays_[i].sight_and_tmax; }
-
- private:
-  static constexpr std::size_t chunk = 128;
-
-  struct PoolSums {
-    RealMask belong = Real(0.0F) <= Real(0.0F);
-    bool inside = false;
-    Real shift{0.0F};
-  };
   /// Notes what will be asked of W rays.
   BOULE_INLINE Vec3<Real> enter(std::size_t i, PoolSums& sums) {
     const PacketPlace packet = stream_.packet(begin_ + i);
-    prefetch_packet(*packet.rays, packet.first);
+    prefetch_packet(stream_.rays(), begin_ + i + chunk);
     const Sight s = shared_.sight(packet);
     sums.belong = sums.belong & shared_.template belongs<Seek::any>(packet) & (s.shift <= s.shift);
     sums.inside = sums.inside || !all_zero(packet.rays->inside + packet.first);
     sums.shift = filter_max(sums.shift, s.shift);
     const Real tmax = load(packet.rays->tmax + packet.first);
-    store_rows(rays_[i].sight_and_tmax, {s.sight.x, s.sight.y, s.sight.z, tmax});
+    store_rows(rays_ + 4 * i, {s.sight.x, s.sight.y, s.sight.z, tmax});
     return s.sight;
   }
 
@@ -107,7 +104,7 @@ class RayPool {
   SharedByRays<common> shared_;
   bool all_belong_ = false, any_inside_ = false;
   float shift_ = 0;
-  alignas(64) PooledRay rays_[pool_size + max_width];
+  alignas(64) float rays_[4 * (pool_size + max_width)];
   std::uint16_t order_[pool_size + max_width];
   std::uint16_t cell_[pool_size + max_width];
 };

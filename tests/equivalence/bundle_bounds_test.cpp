@@ -104,17 +104,18 @@ TEST_P(BundleBounds, SpecksAroundALight) {
   for (int trial = 0; trial < 300; ++trial) {
     const Vec3d light = random.direction() * 1e-3, back = random.direction();
     std::vector<Sphere> specks;
-    double least = 1;
+    double radius = 0;
     for (int i = 0; i < (trial % 2 == 0 ? 1 : 100); ++i) {
       const double away = random.decade(-4, -2), r = away * random.decade(-3, -1.5);
       const double rim = i == 0 ? near_rim(random, -6, -1) : random.uniform(1.5, 3);
       const Vec3d center = light + back * away + random.perpendicular(back) * (r * rim);
       specks.push_back({vec_cast<float>(center), static_cast<float>(r), 0});
-      if (i == 0) least = r;
+      if (i == 0) radius = r;
     }
     std::vector<Ray> rays;
     for (int i = 0; i < 64; ++i) {
-      const Vec3d org = light + back * random.uniform(0.5, 1) + random.direction() * (1e-3 * least);
+      const Vec3d org =
+          light + back * random.uniform(0.5, 1) + random.direction() * (1e-3 * radius);
       Ray ray{org, vec_cast<float>(light - org)};
       ray.tmax = 1 - 0x1p-22F;
       rays.push_back(ray);

@@ -16,6 +16,7 @@ struct BundleScene {
   std::vector<Sphere> spheres;
   Vec3d eye;
   double widest = 0.2;  ///< of the tiles, as a slope
+  std::vector<Plane> planes = {};
 };
 
 Vec3d center_of(const Sphere& sphere) { return vec_cast<double>(sphere.center); }
@@ -206,7 +207,7 @@ class Bundle : public testing::TestWithParam<std::string> {
     const Query query{Solver::robust, Form::automatic, coherence};
     const auto occluded = run_any(*kernels, geometry.view(), rays, query);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const bool expected = reference::any_hit(rays[i], scene.spheres, {});
+      const bool expected = reference::any_hit(rays[i], scene.spheres, scene.planes);
       ASSERT_EQ(occluded[i], expected ? 1 : 0) << scene.name << " ray " << i;
       met += expected ? 1U : 0U;
     }
@@ -309,10 +310,12 @@ TEST_P(Bundle, SortsShadowRays) {
       scene.spheres.push_back(
           {vec_cast<float>(center), static_cast<float>(random.decade(-2.5, -1.3)), 0});
     }
-    const Geometry geometry(scene.spheres, {});
     for (const auto& [light, is_point] :
          {std::pair{Vec3d{0.1, 0.2, -0.3}, true}, std::pair{Vec3d{5, 9, 2}, true},
           std::pair{Vec3d{1, -2, 0.3}, false}}) {
+      if (is_point) scene.planes = {{{0, -0.8F, 0}, {0.1F, 1, 0}, 0}};
+      if (!is_point) scene.planes.clear();  // all would meet it
+      const Geometry geometry(scene.spheres, scene.planes);
       const auto rays =
           scattered(random, scene.spheres, static_cast<std::size_t>(count), light, is_point);
       const Coherence coherence = is_point ? Coherence::common_end : Coherence::common_direction;

@@ -30,7 +30,7 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
   store(out.lane_numbers, lane_numbers());
-  store_rows(out.rows, {a, b, c, a});
+  store_rows(out.rows, {a, b, c, a + b});
   const float* rows[width];
   for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);
   const Columns columns = load_rows(rows);

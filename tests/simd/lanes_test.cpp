@@ -165,7 +165,7 @@ TEST_P(Lanes, Conversions) {
 
 TEST_P(Lanes, RowsAndColumns) {
   for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
-    const float row[4] = {in.a[i], in.b[i], in.c[i], in.a[i]};
+    const float row[4] = {in.a[i], in.b[i], in.c[i], out.add[i]};
     for (int k = 0; k < 4; ++k) {
       ASSERT_TRUE(same(out.rows[4 * i + k], row[k]));
       ASSERT_TRUE(same(out.columns[k][out.width - 1 - i], row[k]));
