@@ -64,6 +64,7 @@ BOULE_INLINE PacketRange packets_of(const BundleRays& rays, int group) {
 }
 
 BOULE_INLINE Vec3d scaled_to_unit(const Vec3d& v) { return v * (1 / __builtin_sqrt(dot(v, v))); }
+
 /// W along `forward`, U as near to `side` as that allows. NaN comes from NaN, and from no forward.
 BOULE_INLINE BundleFrame make_frame(const Vec3d& org, const Vec3d& forward, const Vec3d& side) {
   const Vec3d w = scaled_to_unit(forward);

@@ -28,18 +28,11 @@ BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& s
 }
 
 /// Rays of the stream as one bundle.
-template <Common common>
+template <Common common, class Answers>
 BOULE_INLINE Outcome trace_in_place(const GeometryView& geometry, const PaddedStream& stream,
                                     std::size_t first, std::size_t count, Effort& effort,
-                                    const HitStream& hits) {
-  return trace_bundle(geometry, RaysInPlace<common>(stream, first, count), effort, hits);
-}
-template <Common common>
-BOULE_INLINE Outcome trace_in_place(const GeometryView& geometry, const PaddedStream& stream,
-                                    std::size_t first, std::size_t count, Effort& effort,
-                                    std::uint8_t* occluded) {
-  return trace_bundle<common>(geometry, RaysInPlace<common>(stream, first, count), effort,
-                              occluded);
+                                    Answers answers) {
+  return trace_bundle<common>(geometry, RaysInPlace<common>(stream, first, count), effort, answers);
 }
 
 /// Rays begin .. end - 1, at most a bundle: halved until they fit; packets where they are too few,

@@ -7,8 +7,8 @@
 #include "simd/kernel/bundle_rays.h"
 
 /// Neighbours in the picture may be far apart as a light sees them, and others close together: a
-/// pool of rays is sorted by where they are for the light. Only the time depends on
-/// the order, so plain floats do.
+/// pool of rays is sorted by where they are for the light. Only the time depends on the order, so
+/// plain floats do.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Rays that are sorted together.

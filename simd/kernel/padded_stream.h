@@ -15,17 +15,45 @@ struct PacketPlace {
   std::size_t first;
 };
 
+/// Some rays of a stream side by side, wherever they are in it.
+template <std::size_t capacity>
+class GatheredRays {
+ public:
+  /// Takes ray i of the stream as its k-th.
+  BOULE_INLINE void set(std::size_t k, const RayStream& rays, std::size_t i) {
+    org_x_[k] = rays.org_x[i];
+    org_y_[k] = rays.org_y[i];
+    org_z_[k] = rays.org_z[i];
+    dir_x_[k] = rays.dir_x[i];
+    dir_y_[k] = rays.dir_y[i];
+    dir_z_[k] = rays.dir_z[i];
+    tmin_[k] = rays.tmin[i];
+    tmax_[k] = rays.tmax[i];
+    source_[k] = rays.source[i];
+    inside_[k] = rays.inside[i];
+  }
+  /// The first `size`.
+  [[nodiscard]] RayStream view(std::size_t size) {
+    return {org_x_, org_y_, org_z_, dir_x_, dir_y_, dir_z_, tmin_, tmax_, source_, inside_, size};
+  }
+
+ private:
+  alignas(64) double org_x_[capacity], org_y_[capacity], org_z_[capacity];
+  alignas(64) float dir_x_[capacity], dir_y_[capacity], dir_z_[capacity];
+  alignas(64) float tmin_[capacity], tmax_[capacity];
+  alignas(64) std::int32_t source_[capacity];
+  alignas(64) std::uint8_t inside_[capacity];
+};
+
 /// The last packet is filled up with copies of the last ray: they can neither change nor slow down
 /// the others.
 class PaddedStream {
  public:
   explicit PaddedStream(const RayStream& rays)
-      : rays_(rays),
-        tail_{org_x_, org_y_, org_z_,  dir_x_,  dir_y_, dir_z_,
-              tmin_,  tmax_,  source_, inside_, lanes},
-        tail_begin_(rays.size / lanes * lanes) {
+      : rays_(rays), tail_begin_(rays.size / lanes * lanes) {
     if (tail_begin_ == rays.size) return;
     for (std::size_t lane = 0; lane < lanes; ++lane) copy(lane);
+    tail_ = copies_.view(lanes);
   }
   PaddedStream(const PaddedStream&) = delete;
   PaddedStream& operator=(const PaddedStream&) = delete;
@@ -46,24 +74,11 @@ class PaddedStream {
 
   void copy(std::size_t lane) {
     const std::size_t wanted = tail_begin_ + lane;
-    const std::size_t i = wanted < rays_.size ? wanted : rays_.size - 1;
-    org_x_[lane] = rays_.org_x[i];
-    org_y_[lane] = rays_.org_y[i];
-    org_z_[lane] = rays_.org_z[i];
-    dir_x_[lane] = rays_.dir_x[i];
-    dir_y_[lane] = rays_.dir_y[i];
-    dir_z_[lane] = rays_.dir_z[i];
-    tmin_[lane] = rays_.tmin[i];
-    tmax_[lane] = rays_.tmax[i];
-    source_[lane] = rays_.source[i];
-    inside_[lane] = rays_.inside[i];
+    copies_.set(lane, rays_, wanted < rays_.size ? wanted : rays_.size - 1);
   }
 
-  alignas(64) double org_x_[lanes], org_y_[lanes], org_z_[lanes];
-  alignas(64) float dir_x_[lanes], dir_y_[lanes], dir_z_[lanes], tmin_[lanes], tmax_[lanes];
-  alignas(64) std::int32_t source_[lanes];
-  alignas(64) std::uint8_t inside_[lanes];
-  RayStream rays_, tail_;
+  GatheredRays<lanes> copies_;
+  RayStream rays_, tail_{};
   std::size_t tail_begin_;
 };
 
