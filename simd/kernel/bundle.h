@@ -177,20 +177,18 @@ class BundleSides {
   Real off_;        ///< of a and b
 };
 
-/// Eight spheres from slot `first` on, of which there are `count`, against the bundle.
+/// Some spheres against the bundle.
 template <Common common, class Hits>
 BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
-                               const SlotPlace& spheres, std::uint32_t first, unsigned count,
-                               Hits& hits) {
+                               const Eights& spheres, Hits& hits) {
   Discs discs;
-  place_discs<common, Hits::seek>(rays, factors, spheres, count, hits.limit(), discs);
-  for (unsigned left = discs.awkward; left != 0; left &= left - 1) {
-    hits.meet_awkward(first + static_cast<std::uint32_t>(std::countr_zero(left)));
-  }
+  place_discs<common, Hits::seek>(rays, factors, spheres, hits.limit(), discs);
+  for (unsigned left = discs.awkward; left != 0; left &= left - 1)
+    hits.meet_awkward(spheres.slot(std::countr_zero(left)));
   if (discs.simple == 0) return;
-  bound_discs<common, Hits::seek>(factors, count, discs);
+  bound_discs<common, Hits::seek>(factors, spheres.parts(), discs);
   if constexpr (Hits::seek == Seek::any) {
-    if (hits.meet_few(discs, first)) return;
+    if (hits.meet_few(discs, spheres)) return;
   }
   // All of them are compared before any is met: a branch for each, which no CPU foresees, would
   // keep the comparisons apart.
@@ -204,9 +202,9 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
   for (; wanted != 0; wanted &= wanted - 1) {
     const int k = std::countr_zero(wanted);
     const DiscLanes disc = DiscLanes::same(discs, k);
-    for (unsigned groups = groups_of[k]; groups != 0; groups &= groups - 1) {
-      changed |= hits.meet(std::countr_zero(groups), disc, first + static_cast<std::uint32_t>(k));
-    }
+    const std::uint32_t slot = spheres.slot(k);
+    for (unsigned groups = groups_of[k]; groups != 0; groups &= groups - 1)
+      changed |= hits.meet(std::countr_zero(groups), disc, slot);
   }
   if (changed) hits.update();
 }
@@ -215,11 +213,16 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
 template <Common common, class Hits>
 BOULE_INLINE void meet_scanned(const BundleRays& rays, const DiscFactors& factors,
                                const SphereView& spheres, Hits& hits) {
-  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += bvh_leaf_size) {
+  const auto count_from = [&](std::size_t first) {
     const std::size_t rest = spheres.scanned - first;
-    meet_spheres<common>(rays, factors, find_slot(spheres, first),
-                         static_cast<std::uint32_t>(first),
-                         static_cast<unsigned>(rest < 8 ? rest : 8), hits);
+    return static_cast<unsigned>(rest < bvh_leaf_size ? rest : bvh_leaf_size);
+  };
+  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += Eights::size) {
+    Eights eights(spheres, first, count_from(first));
+    const std::size_t second = first + bvh_leaf_size;
+    if (Eights::most > 1 && second < spheres.scanned)
+      eights.add(spheres, second, count_from(second));
+    meet_spheres<common>(rays, factors, eights, hits);
   }
 }
 
@@ -259,10 +262,17 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     const Visit visit = stack.pop();
     if (hits.limit() < visit.near) continue;
     if (visit.leaf_size != 0) {
-      if (effort.leaves++ == effort.most_leaves || hits.too_close()) return false;
-      const std::size_t slot = spheres.scanned + std::size_t{visit.child} * bvh_leaf_size;
-      meet_spheres<common>(rays, factors, find_slot(spheres, slot),
-                           static_cast<std::uint32_t>(slot), visit.leaf_size, hits);
+      if (effort.leaves++ >= effort.most_leaves || hits.too_close()) return false;
+      const auto first_slot = [&](const Visit& leaf) {
+        return spheres.scanned + std::size_t{leaf.child} * bvh_leaf_size;
+      };
+      Eights eights(spheres, first_slot(visit), visit.leaf_size);
+      if (Eights::most > 1 && !stack.empty() && stack.top().leaf_size != 0) {
+        const Visit next = stack.pop();
+        ++effort.leaves;
+        eights.add(spheres, first_slot(next), next.leaf_size);
+      }
+      meet_spheres<common>(rays, factors, eights, hits);
       continue;
     }
     const BvhNode& node = geometry.bvh.nodes[visit.child];

@@ -52,9 +52,9 @@ class BundleAny {
     return changed;
   }
 
-  /// Eight spheres from slot `first` on against the rays that their discs are in the way of, one by
-  /// one. False, and nothing done, if those are not few.
-  BOULE_INLINE bool meet_few(const Discs& discs, std::uint32_t first) {
+  /// Spheres against the rays that their discs are in the way of, one by one. False, and nothing
+  /// done, if those are not few.
+  BOULE_INLINE bool meet_few(const Discs& discs, const Eights& spheres) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
     if (count_bits(groups) > few_.groups) return false;
     int rays[few_among_many.rays + group_size], count = 0;
@@ -71,7 +71,7 @@ class BundleAny {
       near += touches(rays[i], discs) ? 1 : 0;
     }
     bool changed = false;
-    for (int i = 0; i < near; ++i) changed |= meet_ray(rays[i], discs, first);
+    for (int i = 0; i < near; ++i) changed |= meet_ray(rays[i], discs, spheres);
     if (!changed) return true;
     for (unsigned left = groups; left != 0; left &= left - 1) update(std::countr_zero(left));
     update();
@@ -191,12 +191,12 @@ class BundleAny {
     return result;
   }
 
-  /// Whether float cannot rule out that a ray meets one of eight simple spheres.
+  /// Whether float cannot rule out that a ray meets one of some simple spheres.
   BOULE_INLINE bool touches(int ray, const Discs& discs) const {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Real end(end_high_[ray]);
     unsigned in = 0;
-    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+    for (int at = 0; at < Discs::size; at += width) {
       if (discs.simple >> at == 0) break;
       const Real q = disc_square<common>(line, DiscLanes::each(discs, at));
       in |= bits((Real(0.0F) <= q) & (load(discs.near + at) <= end)) << at;
@@ -204,35 +204,37 @@ class BundleAny {
     return (in & discs.simple) != 0;
   }
 
-  /// Eight simple spheres against one ray; true if it meets one.
-  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, std::uint32_t first) {
+  /// Simple spheres against one ray; true if it meets one.
+  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const Eights& spheres) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
-    for (int at = 0; at < static_cast<int>(bvh_leaf_size); at += width) {
+    for (int at = 0; at < Discs::size; at += width) {
       if (discs.simple >> at == 0) break;
       const DiscLanes disc = DiscLanes::each(discs, at);
       const Real q = disc_square<common>(line, disc);
       if (!any(Real(0.0F) <= q)) continue;
       const Verdict verdict = judge(line, lives, disc, q);
       const unsigned open = verdict.open & discs.simple >> at;
-      if (open != 0 && decide(ray, open, verdict.certain, first + static_cast<std::uint32_t>(at)))
-        return true;
+      if (open != 0 && decide(ray, open, verdict.certain, spheres, at)) return true;
     }
     return false;
   }
 
-  /// One ray and those of W spheres from `slot` on that it may hit, and that it does; true if so.
-  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, std::uint32_t slot) {
+  /// One ray and those of W spheres from place `at` on that it may hit, and that it does; true if
+  /// so.
+  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const Eights& spheres,
+                           int at) {
     const int p = ray / width, lane = ray % width;
     const unsigned bit = 1U << lane;
     const std::int32_t source = source_.sources(p * width)[lane];
     for (unsigned left = open; left != 0; left &= left - 1) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-      const bool own = spheres_.id[slot + k] == source;
+      const int k = std::countr_zero(left);
+      const std::uint32_t slot = spheres.slot(at + k);
+      const bool own = spheres_.id[slot] == source;
       if (own && source_.insides(p * width)[lane] == 0) continue;  // it cannot be met again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
-        resolve(p, slot + k, bit);
+        resolve(p, slot, bit);
       } else {
         hit_[p] |= bit;
       }
@@ -275,7 +277,8 @@ class BundleAny {
   struct Few {
     int groups, rays;
   };
-  static constexpr Few few_at_first = {6, 24}, few_among_many = {10, 48};
+  static constexpr Few few_at_first = Eights::most == 1 ? Few{6, 24} : Few{8, 32};
+  static constexpr Few few_among_many = Eights::most == 1 ? Few{10, 48} : Few{12, 64};
 
   const Source& source_;
   const SphereView& spheres_;

@@ -5,12 +5,63 @@
 #include "simd/kernel/bundle_rays.h"
 #include "simd/kernel/primitive_access.h"
 
-/// Spheres as a bundle sees them, eight at a time: each a disc around (X, Y) at the depth Z.
+/// Spheres as a bundle sees them, eight at a time, or two leaves: each a disc around (X, Y) at the
+/// depth Z.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Eight discs; where there are more lanes, they come twice.
+/// Up to eight spheres that are neighbours, and as many others where there are lanes for them.
+class Eights {
+ public:
+  static constexpr int most = width < 16 ? 1 : 2;
+  static constexpr int size = most * static_cast<int>(bvh_leaf_size);
+
+  /// `count` spheres from slot `first` on, a multiple of 8.
+  BOULE_INLINE Eights(const SphereView& spheres, std::size_t first, unsigned count) {
+    for (int i = 0; i < most; ++i) set(i, spheres, first, i == 0 ? count : 0);
+  }
+  /// The others.
+  BOULE_INLINE void add(const SphereView& spheres, std::size_t first, unsigned count) {
+    set(most - 1, spheres, first, count);
+  }
+
+  /// The places that spheres are in: bits.
+  [[nodiscard]] BOULE_INLINE unsigned there() const {
+    unsigned result = 0;
+    for (int i = 0; i < most; ++i) result |= ((1U << count_[i]) - 1) << i * 8;
+    return result;
+  }
+  [[nodiscard]] BOULE_INLINE std::uint32_t slot(int place) const {
+    return first_[most == 1 ? 0 : place / 8] + static_cast<std::uint32_t>(place % 8);
+  }
+  /// Of W places, the part `part` of them.
+  BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
+    return {load(&SlotPlace::center_x, part), load(&SlotPlace::center_y, part),
+            load(&SlotPlace::center_z, part)};
+  }
+  BOULE_INLINE Real radii(std::size_t part) const { return load(&SlotPlace::radius, part); }
+  /// Before this part there is a sphere in every part, and none from it on.
+  [[nodiscard]] BOULE_INLINE std::size_t parts() const {
+    return most == 1 ? (count_[0] + width - 1) / width : 1;
+  }
+
+ private:
+  BOULE_INLINE void set(int i, const SphereView& spheres, std::size_t first, unsigned count) {
+    spheres_[i] = find_slot(spheres, first);
+    first_[i] = static_cast<std::uint32_t>(first);
+    count_[i] = count;
+  }
+  BOULE_INLINE Real load(const float* SlotPlace::*row, std::size_t part) const {
+    return load_of_eights(spheres_[0].*row, spheres_[most - 1].*row, part);
+  }
+
+  SlotPlace spheres_[most];
+  std::uint32_t first_[most];
+  unsigned count_[most];
+};
+
+/// Their discs.
 struct Discs {
-  static constexpr int size = width < 8 ? 8 : width;
+  static constexpr int size = Eights::size;
   alignas(64) float x[size], y[size], z[size];
   alignas(64) float radius[size], delta[size];
   alignas(64) float squared[size];  ///< R2
@@ -70,16 +121,13 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
 /// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
 template <Common common, Seek seek>
 BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
-                             const SlotPlace& spheres, std::size_t part, const Real& limit,
+                             const Eights& spheres, std::size_t part, const Real& limit,
                              Discs& discs) {
   const BundleFrame& frame = rays.frame;
-  const Vec3<Wide> f =
-      widen(Vec3<Real>{load_of_eight(spheres.center_x, part), load_of_eight(spheres.center_y, part),
-                       load_of_eight(spheres.center_z, part)}) -
-      wide_all(frame.org);
+  const Vec3<Wide> f = widen(spheres.centers(part)) - wide_all(frame.org);
   const Vec3<Real> center{narrow(dot(f, wide_all(frame.u))), narrow(dot(f, wide_all(frame.v))),
                           narrow(dot(f, wide_all(frame.w)))};
-  const Real r = abs(load_of_eight(spheres.radius, part));
+  const Real r = abs(spheres.radii(part));
   const Real f1 = abs(center.x) + abs(center.y) + abs(center.z);
   const Real delta =
       filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant));
@@ -110,26 +158,26 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   discs.simple |= bits(simple) << at;
 }
 
-/// Eight spheres, of which there are `count`: finds those that matter.
+/// Finds those that matter.
 template <Common common, Seek seek>
 BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
-                              const SlotPlace& spheres, unsigned count, float limit, Discs& discs) {
+                              const Eights& spheres, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
-  for (std::size_t part = 0; part * width < count; ++part)
+  for (std::size_t part = 0; part < spheres.parts(); ++part)
     place_part<common, seek>(rays, factors, spheres, part, limit, discs);
-  const unsigned there = (1U << count) - 1;
+  const unsigned there = spheres.there();
   discs.simple &= there;
   discs.awkward &= there;
 }
 
 /// The bounds of those that matter and are simple: see filter_bounds.h.
 template <Common common, Seek seek>
-BOULE_INLINE void bound_discs(const DiscFactors& factors, unsigned count, Discs& discs) {
+BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Discs& discs) {
   constexpr auto few_roundings = static_cast<float>(filter::outward * filter::u);
   const Real few(few_roundings), outward(1 + few_roundings);
   ExtentLanes all;
   Real all_near(static_cast<float>(no_hit));
-  for (std::size_t at = 0; at < count; at += width) {
+  for (std::size_t at = 0; at < parts * width; at += width) {
     const Real x = load(discs.x + at), y = load(discs.y + at), z = load(discs.z + at);
     const Real r = load(discs.radius + at), delta = load(discs.delta + at);
     const Real grown = Real(4.0F) * delta * (r + delta), square = r * r;

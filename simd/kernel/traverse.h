@@ -65,6 +65,7 @@ class VisitStack {
  public:
   [[nodiscard]] bool empty() const { return count_ == 0; }
   Visit pop() { return visits_[--count_]; }
+  [[nodiscard]] const Visit& top() const { return visits_[count_ - 1]; }
   /// Keeps what one node adds sorted; `base` is the count before its first child.
   void push(const Visit& visit, int base) {
     int place = count_++;

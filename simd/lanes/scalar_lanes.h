@@ -33,6 +33,9 @@ BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
 /// Lanes from an array of eight, the part `part` of it.
 BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) { return p[part]; }
+BOULE_INLINE Real load_of_eights(const float* first, const float*, std::size_t part) {
+  return first[part];
+}
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 /// A row of four floats as columns, and back: see xsimd_lanes.h.

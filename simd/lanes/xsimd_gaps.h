@@ -155,9 +155,16 @@ BOULE_INLINE float greatest(Floats a) { return vmaxvq_f32(a); }
 BOULE_INLINE Floats load_of_eight(const float* p, std::size_t) {
   return _mm512_broadcast_f32x8(_mm256_load_ps(p));
 }
+BOULE_INLINE Floats load_of_eights(const float* first, const float* second, std::size_t) {
+  const Floats low = _mm512_castps256_ps512(_mm256_load_ps(first));
+  return _mm512_insertf32x8(low, _mm256_load_ps(second), 1);
+}
 #else
 BOULE_INLINE Floats load_of_eight(const float* p, std::size_t part) {
   return Floats::load_aligned(p + part * Floats::size);
+}
+BOULE_INLINE Floats load_of_eights(const float* first, const float*, std::size_t part) {
+  return load_of_eight(first, part);
 }
 #endif
 

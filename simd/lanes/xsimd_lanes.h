@@ -39,6 +39,10 @@ BOULE_INLINE Wide load(const double* p) {
 BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) {
   return gaps::load_of_eight(p, part);
 }
+/// The same from the first of two such arrays; sixteen lanes get both.
+BOULE_INLINE Real load_of_eights(const float* first, const float* second, std::size_t part) {
+  return gaps::load_of_eights(first, second, part);
+}
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {
   a.lo.store_aligned(p);
