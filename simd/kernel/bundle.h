@@ -41,11 +41,11 @@ class BundleSides {
     const Vec3d& o = frame.org;
     const Vec3d lost = o - Vec3d{double{static_cast<float>(o.x)}, double{static_cast<float>(o.y)},
                                  double{static_cast<float>(o.z)}};
-    origin_error_ =
-        static_cast<float>(
-            (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) * 1.1 +
-            filter::floor) +
-        rays.shift;
+    origin_error_ = static_cast<float>(
+                        (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) *
+                            filter::lost_outward +
+                        filter::floor) +
+                    rays.shift;
   }
 
   /// Bits of the boxes among those entered, from v = near on, that the grid has rays for.

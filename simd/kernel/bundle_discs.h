@@ -12,8 +12,9 @@ namespace boule::BOULE_KERNEL_ISA {
 /// Up to eight spheres that are neighbours, and as many others where there are lanes for them.
 class Eights {
  public:
-  static constexpr int most = width < 16 ? 1 : 2;
-  static constexpr int size = most * static_cast<int>(bvh_leaf_size);
+  static constexpr int eight = bvh_leaf_size;
+  static constexpr int most = width < 2 * eight ? 1 : 2;
+  static constexpr int size = most * eight;
 
   /// `count` spheres from slot `first` on, a multiple of 8.
   BOULE_INLINE Eights(const SphereView& spheres, std::size_t first, unsigned count) {
@@ -27,11 +28,11 @@ class Eights {
   /// The places that spheres are in: bits.
   [[nodiscard]] BOULE_INLINE unsigned there() const {
     unsigned result = 0;
-    for (int i = 0; i < most; ++i) result |= ((1U << count_[i]) - 1) << i * 8;
+    for (int i = 0; i < most; ++i) result |= ((1U << count_[i]) - 1) << i * eight;
     return result;
   }
   [[nodiscard]] BOULE_INLINE std::uint32_t slot(int place) const {
-    return first_[most == 1 ? 0 : place / 8] + static_cast<std::uint32_t>(place % 8);
+    return first_[most == 1 ? 0 : place / eight] + static_cast<std::uint32_t>(place % eight);
   }
   /// Of W places, the part `part` of them.
   BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
@@ -99,7 +100,7 @@ struct DiscFactors {
     constant = static_cast<float>(filter::floor) + (one_origin ? rays.shift : axis_factor);
     square = rays.squared_across * (1 + static_cast<float>(filter::outward) * u) +
              static_cast<float>(filter::bundle_square) * u;
-    plane_length = one_origin ? 1.05F : 1.001F;
+    plane_length = one_origin ? filter::bundle_side : filter::bundle_side_parallel;
   }
 };
 
@@ -185,8 +186,7 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Dis
     const Real sure = g + g + grown, e1 = z - load(discs.depth + at);
     store(discs.squared + at, squared);
     store(discs.sure + at, sure);
-    store(discs.spread + at,
-          filter_fma(sqrt(sure), outward, (e1 + e1) * Real(1.25F)));  // E1 comes back u |Z| off
+    store(discs.spread + at, filter_fma(sqrt(sure), outward, e1 * Real(filter::bundle_twice)));
     // Where a group's extent may meet the disc: |a - X / Z| <= (r' + delta) / Z.
     const Real half = (sqrt(squared) + delta + delta) * outward;
     Real a = x, b = y, wide = half;

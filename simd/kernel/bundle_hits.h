@@ -15,7 +15,9 @@ namespace boule::BOULE_KERNEL_ISA {
 /// No sphere's slot.
 inline constexpr std::uint32_t no_slot = 0xffffffffU;
 
-/// Slots travel through lanes as floats that are never calculated with.
+/// Slots travel through lanes as floats that are never calculated with, but no_slot is told from
+/// others by being NaN: the bits of slots below this are no NaN.
+inline constexpr std::size_t most_bundle_slots = 0x7f800000U;
 BOULE_INLINE float slot_bits(std::uint32_t slot) { return std::bit_cast<float>(slot); }
 BOULE_INLINE std::uint32_t slot_of(float bits) { return std::bit_cast<std::uint32_t>(bits); }
 

@@ -164,8 +164,8 @@ struct BundleSums {
 
   template <Common common>
   BOULE_INLINE void add(const Projected& ray) {
-    constexpr float widest = common == Common::origin ? 1.0F
-                             : common == Common::end  ? 2.0F
+    constexpr float widest = common == Common::origin ? filter::bundle_across
+                             : common == Common::end  ? 2 * filter::bundle_across
                                                       : filter::bundle_far;
     // NaN passes none of these.
     belongs = belongs & (ray.across <= Real(widest)) & (ray.scale < Real(filter::limit)) &
@@ -242,13 +242,13 @@ BOULE_NOINLINE bool load_bundle(const Source& source, BundleRays& bundle) {
   bundle.squared_across = greatest_lane(sums.squared);
   bundle.c_low = least_lane(sums.c_low);
   bundle.c_high = greatest_lane(sums.c_high);
-  // 2^-50 of the end's own size was lost when it was found.
   const Vec3d& o = bundle.frame.org;
   const double lost = __builtin_fabs(o.x) + __builtin_fabs(o.y) + __builtin_fabs(o.z);
-  bundle.shift = common != Common::end
-                     ? 0.0F
-                     : static_cast<float>((double{greatest_lane(sums.shift)} + lost * 0x1p-50) *
-                                          filter::bundle_shift_slope);
+  bundle.shift =
+      common != Common::end
+          ? 0.0F
+          : static_cast<float>((double{greatest_lane(sums.shift)} + lost * filter::bundle_end) *
+                               filter::bundle_shift_slope);
   const float most = common != Common::direction ? filter::bundle_width : filter::bundle_far;
   const Extent& e = bundle.extent;
   return -most <= e.a_low && e.a_high <= most && -most <= e.b_low && e.b_high <= most;

@@ -7,10 +7,15 @@
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
 
+bool may_bundle(const GeometryView& geometry, const Query& query) {
+  return query.form == Form::automatic &&
+         geometry.spheres.block_count <= most_bundle_slots / bvh_leaf_size;
+}
+
 void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
                  const HitStream& hits) {
   const PaddedStream stream(rays);
-  const bool bundled = query.form == Form::automatic;
+  const bool bundled = may_bundle(geometry, query);
   if (bundled && query.coherence == Coherence::common_origin) {
     closest_hit_bundled<Common::origin>(geometry, stream, hits);
   } else if (bundled && query.coherence == Coherence::common_direction) {
@@ -25,7 +30,7 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
 void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
              std::uint8_t* occluded) {
   const PaddedStream stream(rays);
-  const bool bundled = query.form == Form::automatic;
+  const bool bundled = may_bundle(geometry, query);
   if (bundled && query.coherence == Coherence::common_origin) {
     any_hit_bundled<Common::origin>(geometry, stream, occluded);
   } else if (bundled && query.coherence == Coherence::common_direction) {

@@ -139,11 +139,11 @@ struct LeafSpheres {
     return Access::place_of_eight(step) + Wide(first_slot);
   }
 
-  /// Lanes that certainly miss, or hold no sphere. 4 u above the reject's own slack pay for what is
-  /// rounded here.
+  /// Lanes that certainly miss, or hold no sphere.
   template <bool origins_exact>
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
-    const Real outward(static_cast<float>(1 + (filter::slack + 4) * filter::u)), r = radius(step);
+    const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u)),
+        r = radius(step);
     const Real squared =
         filter_fma(r * r, outward, Real(static_cast<float>(2 * filter::squared_floor)));
     const Real grown = abs(r) * outward + Real(static_cast<float>(2 * filter::floor));

@@ -30,6 +30,10 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
   store(out.lane_numbers, lane_numbers());
+  for (std::size_t part = 0; part * width < 8; ++part) {
+    store(out.eight + part * width, load_of_eight(in.a, part));
+    store(out.eights + part * width, load_of_eights(in.a, in.b, part));
+  }
   store_rows(out.rows, {a, b, c, a + b});
   const float* rows[width];
   for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);

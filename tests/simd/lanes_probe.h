@@ -21,6 +21,7 @@ struct LaneOutputs {
   alignas(64) double wide_div[most_lanes], wide_sqrt[most_lanes], wide_abs[most_lanes];
   alignas(64) double wide_copysign[most_lanes], wide_select[most_lanes], widen[most_lanes];
   alignas(64) double lane_numbers[most_lanes];
+  alignas(64) float eight[most_lanes], eights[most_lanes];  ///< from eight of a, and of a and b
   alignas(64) float rows[4 * most_lanes];    ///< from a, b, c and a + b, lane by lane
   alignas(64) float columns[4][most_lanes];  ///< from these rows, the last one first
   unsigned less, less_equal, wide_less, wide_less_equal, wide_equal;

@@ -1,6 +1,7 @@
 // Every lane operation of every ISA against plain C++, bit for bit, special values included.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -169,6 +170,16 @@ TEST_P(Lanes, RowsAndColumns) {
     for (int k = 0; k < 4; ++k) {
       ASSERT_TRUE(same(out.rows[4 * i + k], row[k]));
       ASSERT_TRUE(same(out.columns[k][out.width - 1 - i], row[k]));
+    }
+  });
+}
+
+TEST_P(Lanes, OfArraysOfEight) {
+  for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
+    if (i > 0) return;  // all at once
+    for (int k = 0; k < std::max(out.width, 8); ++k) {
+      ASSERT_TRUE(same(out.eight[k], in.a[k % 8]));
+      ASSERT_TRUE(same(out.eights[k], k < 8 ? in.a[k] : in.b[k - 8]));
     }
   });
 }
