@@ -76,6 +76,26 @@ TreeScene lattice() {
   return scene;
 }
 
+/// Rays that begin just within a sphere and leave it at right angles to the way from its centre:
+/// f.d is next to nothing, and whether f.f is more than r^2 is all that the reject goes by.
+TreeScene skimming() {
+  TreeScene scene{"skimming", {}, {}};
+  CaseRandom random(56);
+  for (int i = 0; i < 343; ++i) {
+    const Vec3f at = float_point(random, {0, 0, 0}, 0.1);
+    scene.spheres.push_back({at, static_cast<float>(random.uniform(0.5, 1)), 0});
+  }
+  for (int i = 0; i < 1800; ++i) {
+    const Sphere& sphere = scene.spheres[static_cast<std::size_t>(i % 343)];
+    const Vec3d out = random.direction();
+    const double depth = std::exp2(-20.0 - i % 8);
+    const Vec3d org = vec_cast<double>(sphere.center) + out * (double{sphere.radius} * (1 - depth));
+    const Vec3f dir = vec_cast<float>(random.perpendicular(out));
+    scene.rays.push_back({vec_cast<double>(vec_cast<float>(org)), dir});
+  }
+  return scene;
+}
+
 TreeScene on_the_ground() {
   TreeScene scene = cloud("ground of 1e6", {0, 1, 0}, 3, 0.2, 4);
   scene.spheres[5] = {{0, -1e6F, 0}, 1e6F, 0};
@@ -157,6 +177,7 @@ std::vector<TreeScene> scenes() {
           cloud("in units of 1e-12", {0, 0, 0}, 1e-12, 1e-13, 3e-12),
           cloud("in units of 1e12", {0, 0, 0}, 1e12, 1e11, 3e12),
           lattice(),
+          skimming(),
           on_the_ground(),
           copies(),
           between_floats(),
