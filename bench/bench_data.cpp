@@ -1,6 +1,7 @@
 #include "bench/bench_data.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -62,16 +63,16 @@ void make_rays(RayBuffer& rays) {
   reference_kernels().primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
 }
 
-void make_half_b(BenchData& data) {
+void make_book(BenchData& data) {
   const std::size_t n = data.spheres.size(), rays = data.rays.size();
   for (AlignedArray<float>* array : {&data.center_x, &data.center_y, &data.center_z})
     array->resize(n);
-  data.radius_squared.resize(n, -1);  // padding: missed
+  data.radius.resize(n, std::numeric_limits<float>::quiet_NaN());  // padding: missed
   for (std::size_t i = 0; i < n; ++i) {
     data.center_x[i] = data.spheres[i].center.x;
     data.center_y[i] = data.spheres[i].center.y;
     data.center_z[i] = data.spheres[i].center.z;
-    data.radius_squared[i] = data.spheres[i].radius * data.spheres[i].radius;
+    data.radius[i] = data.spheres[i].radius;
   }
   const RayStream view = data.rays.view();
   for (AlignedArray<float>* array : {&data.org_x, &data.org_y, &data.org_z, &data.t})
@@ -81,19 +82,19 @@ void make_half_b(BenchData& data) {
     data.org_y[i] = static_cast<float>(view.org_y[i]);
     data.org_z[i] = static_cast<float>(view.org_z[i]);
   }
-  data.half_b = {data.center_x.data(),
-                 data.center_y.data(),
-                 data.center_z.data(),
-                 data.radius_squared.data(),
-                 n,
-                 data.org_x.data(),
-                 data.org_y.data(),
-                 data.org_z.data(),
-                 view.dir_x,
-                 view.dir_y,
-                 view.dir_z,
-                 rays,
-                 data.t.data()};
+  data.book = {data.center_x.data(),
+               data.center_y.data(),
+               data.center_z.data(),
+               data.radius.data(),
+               n,
+               data.org_x.data(),
+               data.org_y.data(),
+               data.org_z.data(),
+               view.dir_x,
+               view.dir_y,
+               view.dir_z,
+               rays,
+               data.t.data()};
 }
 
 std::unique_ptr<BenchData> make(const std::string& kind, std::size_t n) {
@@ -120,7 +121,7 @@ std::unique_ptr<BenchData> make(const std::string& kind, std::size_t n) {
                                                     {}});
   make_rays(data->rays);
   data->hits.resize(data->rays.size());
-  make_half_b(*data);
+  make_book(*data);
   return data;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/half_b.h"
+#include "bench/book_solvers.h"
 #include "core/scene/primitive.h"
 #include "simd/build/aligned_array.h"
 #include "simd/build/geometry_builder.h"
@@ -22,10 +22,10 @@ struct BenchData {
   RayBuffer rays;
   HitBuffer hits;
 
-  // The same for the half-b contenders.
-  AlignedArray<float> center_x, center_y, center_z, radius_squared;
+  // The same for the solvers of textbooks.
+  AlignedArray<float> center_x, center_y, center_z, radius;
   AlignedArray<float> org_x, org_y, org_z, t;
-  HalfBData half_b;
+  BookData book;
 };
 
 /// The data of one experiment, made once and kept. `kind`: sparse, ordinary, every, planes.

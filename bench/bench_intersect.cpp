@@ -1,5 +1,5 @@
 // Throughput of ray-sphere and ray-plane tests: every ISA, solver and form against the plain scalar
-// half-b loop and against the best half-b kernel of the same width, in one run.
+// half-b loop and against the solvers of textbooks, as wide, in one run.
 //
 //   bench_intersect [--benchmark_filter=...]
 //
@@ -20,49 +20,8 @@
 
 namespace boule {
 
-namespace bench::scalar {
-void half_b(const HalfBData& data);
-}
-namespace bench::sse42 {
-void half_b(const HalfBData& data);
-}
-namespace bench::avx2 {
-void half_b(const HalfBData& data);
-}
-namespace bench::avx512 {
-void half_b(const HalfBData& data);
-}
-namespace bench::neon {
-void half_b(const HalfBData& data);
-}
-
 namespace bench {
 namespace {
-
-HalfB half_b_of(Isa isa) {
-  switch (isa) {
-    case Isa::scalar:
-      return scalar::half_b;
-#ifdef BOULE_HAS_SSE42
-    case Isa::sse42:
-      return sse42::half_b;
-#endif
-#ifdef BOULE_HAS_AVX2
-    case Isa::avx2:
-      return avx2::half_b;
-#endif
-#ifdef BOULE_HAS_AVX512
-    case Isa::avx512:
-      return avx512::half_b;
-#endif
-#ifdef BOULE_HAS_NEON
-    case Isa::neon:
-      return neon::half_b;
-#endif
-    default:
-      return nullptr;
-  }
-}
 
 std::int64_t tests(const benchmark::State& state, const BenchData& data) {
   return static_cast<std::int64_t>(state.iterations()) *
@@ -82,10 +41,10 @@ void run_kernel(benchmark::State& state, const KernelTable& kernels, const Query
   state.SetItemsProcessed(tests(state, data));
 }
 
-void run_half_b(benchmark::State& state, HalfB half_b, BenchData& data) {
+void run_book(benchmark::State& state, const BookSolver& solver, BenchData& data) {
   for (auto _ : state) {
-    half_b(data.half_b);
-    benchmark::DoNotOptimize(data.half_b.t);
+    solver.nearest(data.book);
+    benchmark::DoNotOptimize(data.book.t);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(tests(state, data));
@@ -93,7 +52,7 @@ void run_half_b(benchmark::State& state, HalfB half_b, BenchData& data) {
 
 /// The plain loop that a textbook has, as the compiler makes it at -O3 for the base CPU.
 void run_scalar_loop(benchmark::State& state, BenchData& data) {
-  const HalfBData& d = data.half_b;
+  const BookData& d = data.book;
   for (auto _ : state) {
     for (std::size_t ray = 0; ray < d.rays; ++ray) {
       float best = std::numeric_limits<float>::infinity();
@@ -101,7 +60,7 @@ void run_scalar_loop(benchmark::State& state, BenchData& data) {
         const float fx = d.center_x[i] - d.org_x[ray], fy = d.center_y[i] - d.org_y[ray];
         const float fz = d.center_z[i] - d.org_z[ray];
         const float b = fx * d.dir_x[ray] + fy * d.dir_y[ray] + fz * d.dir_z[ray];
-        const float cc = fx * fx + fy * fy + fz * fz - d.radius_squared[i];
+        const float cc = fx * fx + fy * fy + fz * fz - d.radius[i] * d.radius[i];
         const float discriminant = b * b - cc;
         if (discriminant < 0) continue;
         const float half_chord = std::sqrt(discriminant);
@@ -127,6 +86,15 @@ const Named queries[] = {
 
 void add(const std::string& name, auto run) { benchmark::RegisterBenchmark(name.c_str(), run); }
 
+void register_book(const IsaInfo& info, const std::string& where, BenchData& data,
+                   RatioReporter& reporter) {
+  const std::string end = "/" + std::string(info.name) + where;
+  for (const BookSolver& solver : book_solvers(info.isa)) {
+    add(solver.name + end, [=, &data](auto& state) { run_book(state, solver, data); });
+    if (solver.name != std::string("half_b")) reporter.compare(solver.name + end, "half_b" + end);
+  }
+}
+
 void register_kernels(const std::string& kind, std::size_t n, RatioReporter& reporter) {
   BenchData* const data = &bench_data(kind, n);
   const std::string where = "/" + kind + "/" + std::to_string(n);
@@ -136,9 +104,7 @@ void register_kernels(const std::string& kind, std::size_t n, RatioReporter& rep
     if (!info.supported) continue;
     const KernelTable* const kernels = select_kernels(info.name).value();
     const std::string isa(info.name);
-    const HalfB half_b = half_b_of(info.isa);
-    if (spheres)
-      add("half_b/" + isa + where, [=](auto& state) { run_half_b(state, half_b, *data); });
+    if (spheres) register_book(info, where, *data, reporter);
     for (const Named& named : queries) {
       const Query query = named.query;
       const std::string name = isa + "/" + named.name + where;
@@ -158,16 +124,18 @@ void check_answers(const std::string& kind, std::size_t n) {
   kernels->closest_hit(data.geometry.view(), data.rays.view(), queries[0].query, data.hits.view());
   for (const IsaInfo& info : list_isas()) {
     if (!info.supported) continue;
-    half_b_of(info.isa)(data.half_b);
-    std::size_t differ = 0;
-    for (std::size_t i = 0; i < data.rays.size(); ++i) {
-      const double t = data.hits.get(i).t, other = static_cast<double>(data.t[i]);
-      differ += t == other || std::fabs(t - other) < 1e-3 ? 0U : 1U;
+    for (const BookSolver& solver : book_solvers(info.isa)) {
+      solver.nearest(data.book);
+      std::size_t differ = 0;
+      for (std::size_t i = 0; i < data.rays.size(); ++i) {
+        const double t = data.hits.get(i).t, other = static_cast<double>(data.t[i]);
+        differ += t == other || std::fabs(t - other) < 1e-3 ? 0U : 1U;
+      }
+      if (differ <= data.rays.size() / 100) continue;
+      std::fprintf(stderr, "%s %s differs in %zu rays of %s\n", solver.name,
+                   std::string(info.name).c_str(), differ, kind.c_str());
+      std::exit(1);
     }
-    if (differ <= data.rays.size() / 100) continue;
-    std::fprintf(stderr, "half_b %s differs in %zu rays of %s\n", std::string(info.name).c_str(),
-                 differ, kind.c_str());
-    std::exit(1);
   }
 }
 

@@ -1,0 +1,261 @@
+// The contenders, compiled once per ISA. F = c - o throughout, h = d / |d|, one division and one
+// root a ray; the hot loop asks for the sign of the discriminant alone.
+#include "bench/book_solvers.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "bench/vectors.h"
+
+namespace boule::bench::BOULE_KERNEL_ISA {
+namespace {
+
+#define BOULE_HOT [[gnu::always_inline]] inline
+
+template <class V>
+struct Line {
+  V ox, oy, oz, dx, dy, dz;
+  V hx, hy, hz;         ///< unit
+  V a, inverse_length;  ///< d.d, 1 / |d|
+};
+
+template <class V>
+struct Ball {
+  V x, y, z, r;
+};
+
+/// In t. Where the discriminant is negative the others mean nothing.
+template <class V>
+struct Roots {
+  V discriminant, first, second;
+};
+
+template <class V>
+struct Apart {
+  V x, y, z;
+};
+
+template <class V>
+BOULE_HOT Apart<V> from_origin(const Line<V>& line, const Ball<V>& ball) {
+  return {ball.x - line.ox, ball.y - line.oy, ball.z - line.oz};
+}
+
+template <class V>
+BOULE_HOT V dot(const Apart<V>& a, V x, V y, V z) {
+  return multiply_add(a.z, z, multiply_add(a.y, y, a.x * x));
+}
+
+/// r^2 - F.F, in the order that keeps the chain short.
+template <class V>
+BOULE_HOT V power(const Apart<V>& f, V r) {
+  return negated_multiply_add(
+      f.z, f.z, negated_multiply_add(f.y, f.y, negated_multiply_add(f.x, f.x, r * r)));
+}
+
+template <class V>
+BOULE_HOT V least(V a, V b) {
+  return pick(a < b, a, b);
+}
+template <class V>
+BOULE_HOT V most(V a, V b) {
+  return pick(a < b, b, a);
+}
+template <class V>
+BOULE_HOT V with_sign_of(V magnitude, V sign) {
+  return pick(sign < all<V>(0.0F), -magnitude, magnitude);
+}
+
+/// The formula that school teaches: A t^2 + B t + C = 0 with o - c, 4 A C and all.
+struct Textbook {
+  using V = Floats;
+  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = all<V>(-2.0F) * dot(f, line.dx, line.dy, line.dz);
+    return multiply_add(b, b, all<V>(4.0F) * line.a * power(f, ball.r));
+  }
+  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+    const V b = all<V>(-2.0F) * dot(from_origin(line, ball), line.dx, line.dy, line.dz);
+    const V d = discriminant(line, ball), s = root(d), twice = line.a + line.a;
+    return {d, (-b - s) / twice, (-b + s) / twice};
+  }
+};
+
+/// The lecture's even b, with unit directions: t = b -/+ sqrt(b^2 - (F.F - r^2)).
+template <class Vector>
+struct HalfB {
+  using V = Vector;
+  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = dot(f, line.hx, line.hy, line.hz);
+    return multiply_add(b, b, power(f, ball.r));
+  }
+  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+    const V b = dot(from_origin(line, ball), line.hx, line.hy, line.hz);
+    const V d = discriminant(line, ball), s = root(d);
+    return {d, (b - s) * line.inverse_length, (b + s) * line.inverse_length};
+  }
+};
+
+/// One root as q = b +/- sqrt(discriminant), whose terms have one sign, the other as c / q.
+template <class V>
+BOULE_HOT Roots<V> stable_roots(V d, V b, V c) {
+  const V q = b + with_sign_of(root(d), b), other = c / q;
+  return {d, least(q, other), most(q, other)};
+}
+
+struct StableQ {
+  using V = Floats;
+  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+    return HalfB<V>::discriminant(line, ball);
+  }
+  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = dot(f, line.hx, line.hy, line.hz);
+    Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
+    roots.first *= line.inverse_length;
+    roots.second *= line.inverse_length;
+    return roots;
+  }
+};
+
+/// Kahan's b^2 - a c: what rounding the products has lost is found by fused operations and added
+/// again. Where nothing is fused nothing is found, and there is no such contender.
+struct Kahan {
+  using V = Floats;
+  BOULE_HOT static V difference(V b, V a, V c) {
+    const V square = b * b, product = a * c;
+    const V lost = multiply_add(b, b, -square) - multiply_add(a, c, -product);
+    return (square - product) + lost;
+  }
+  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    return difference(dot(f, line.dx, line.dy, line.dz), line.a, -power(f, ball.r));
+  }
+  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = dot(f, line.dx, line.dy, line.dz), c = -power(f, ball.r);
+    const V d = difference(b, line.a, c), q = b + with_sign_of(root(d), b);
+    const V one = q / line.a, other = c / q;
+    return {d, least(one, other), most(one, other)};
+  }
+};
+
+/// r^2 less the squared distance of the centre from the line, |F - (F.h) h|^2: Ray Tracing Gems,
+/// chapter 7, and what Embree and Cycles do.
+template <class Vector>
+struct ClosestApproach {
+  using V = Vector;
+  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = dot(f, line.hx, line.hy, line.hz);
+    const Apart<V> l = {negated_multiply_add(b, line.hx, f.x),
+                        negated_multiply_add(b, line.hy, f.y),
+                        negated_multiply_add(b, line.hz, f.z)};
+    return power(l, ball.r);
+  }
+  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+    const Apart<V> f = from_origin(line, ball);
+    const V b = dot(f, line.hx, line.hy, line.hz);
+    Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
+    roots.first *= line.inverse_length;
+    roots.second *= line.inverse_length;
+    return roots;
+  }
+};
+
+template <class V>
+BOULE_HOT Line<V> get_line(const BookData& data, std::size_t ray) {
+  Line<V> line;
+  line.ox = get<V>(data.org_x + ray);
+  line.oy = get<V>(data.org_y + ray);
+  line.oz = get<V>(data.org_z + ray);
+  line.dx = get<V>(data.dir_x + ray);
+  line.dy = get<V>(data.dir_y + ray);
+  line.dz = get<V>(data.dir_z + ray);
+  line.a = multiply_add(line.dz, line.dz, multiply_add(line.dy, line.dy, line.dx * line.dx));
+  line.inverse_length = all<V>(1.0F) / root(line.a);
+  line.hx = line.dx * line.inverse_length;
+  line.hy = line.dy * line.inverse_length;
+  line.hz = line.dz * line.inverse_length;
+  return line;
+}
+
+template <class V>
+BOULE_HOT Ball<V> one_for_all(const BookData& data, std::size_t i) {
+  return {all<V>(data.center_x[i]), all<V>(data.center_y[i]), all<V>(data.center_z[i]),
+          all<V>(data.radius[i])};
+}
+
+template <class V>
+BOULE_HOT V nearer(const Roots<V>& roots, V best) {
+  const V zero = all<V>(0.0F), t = pick(roots.first > zero, roots.first, roots.second);
+  const auto hit = (roots.discriminant >= zero) & (t > zero) & (t < best);
+  return pick(hit, t, best);
+}
+
+template <class Solver>
+void nearest(const BookData& data) {
+  using V = typename Solver::V;
+  constexpr std::size_t chunk = 256;
+  std::uint32_t list[chunk + 4];
+  const V zero = all<V>(0.0F);
+  for (std::size_t ray = 0; ray < data.rays; ray += lanes_of<V>) {
+    const Line<V> line = get_line<V>(data, ray);
+    V best = all<V>(std::numeric_limits<float>::infinity());
+    for (std::size_t begin = 0; begin < data.spheres; begin += chunk) {
+      const std::size_t end = begin + chunk < data.spheres ? begin + chunk : data.spheres;
+      std::size_t count = 0;
+      for (std::size_t i = begin; i < end; i += 4) {  // padded: four may be read
+        const auto in = [&](std::size_t k) {
+          return Solver::discriminant(line, one_for_all<V>(data, i + k)) >= zero;
+        };
+        const auto in0 = in(0), in1 = in(1), in2 = in(2), in3 = in(3);
+        if (none(in0 | in1 | in2 | in3)) continue;
+        list[count] = static_cast<std::uint32_t>(i);
+        count += none(in0) ? 0 : 1;
+        list[count] = static_cast<std::uint32_t>(i + 1);
+        count += none(in1) ? 0 : 1;
+        list[count] = static_cast<std::uint32_t>(i + 2);
+        count += none(in2) ? 0 : 1;
+        list[count] = static_cast<std::uint32_t>(i + 3);
+        count += none(in3) ? 0 : 1;
+      }
+      for (std::size_t k = 0; k < count; ++k)
+        best = nearer(Solver::roots(line, one_for_all<V>(data, list[k])), best);
+    }
+    put(data.t + ray, best);
+  }
+}
+
+template <class Solver>
+void pairs(const BookData& data) {
+  using V = typename Solver::V;
+  for (std::size_t i = 0; i < data.rays; i += lanes_of<V>) {
+    const Ball<V> ball = {get<V>(data.center_x + i), get<V>(data.center_y + i),
+                          get<V>(data.center_z + i), get<V>(data.radius + i)};
+    const V none_yet = all<V>(std::numeric_limits<float>::infinity());
+    put(data.t + i, nearer(Solver::roots(get_line<V>(data, i), ball), none_yet));
+  }
+}
+
+template <class Solver>
+constexpr BookSolver solver(const char* name) {
+  return {name, nearest<Solver>, pairs<Solver>};
+}
+
+}  // namespace
+
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+const BookSolver book_solvers[] = {
+    solver<Textbook>("textbook"),
+    solver<HalfB<Floats>>("half_b"),
+    solver<StableQ>("stable_q"),
+    solver<ClosestApproach<Floats>>("closest_approach"),
+    solver<HalfB<Doubles>>("half_b_double"),
+    solver<ClosestApproach<Doubles>>("closest_approach_double"),
+    solver<Kahan>("kahan"),
+};
+const std::size_t book_solver_count = sizeof book_solvers / sizeof *book_solvers - (fuses ? 0 : 1);
+
+}  // namespace boule::bench::BOULE_KERNEL_ISA

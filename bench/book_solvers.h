@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "simd/abi/isa.h"
+
+namespace boule::bench {
+
+/// What the solvers of textbooks read: spheres and rays as structures of arrays of float, padded to
+/// 16 and aligned to 64 bytes. Radii positive; spheres that fill up have the radius NaN.
+struct BookData {
+  const float *center_x, *center_y, *center_z, *radius;
+  std::size_t spheres;
+  const float *org_x, *org_y, *org_z, *dir_x, *dir_y, *dir_z;
+  std::size_t rays;
+  float* t;  ///< out: nearest t > 0, or infinity
+};
+
+/// A way of solving |o + t d - c| = r that is in books and programs, W rays at a time, as fast as
+/// it goes in the loop shape of the kernels: W rays against one sphere, four spheres a branch,
+/// roots outside the hot loop. What each computes stands in book_solvers.cpp.
+struct BookSolver {
+  const char* name;
+  void (*nearest)(const BookData&);  ///< every ray against all spheres
+  void (*pairs)(const BookData&);    ///< ray i against sphere i
+};
+
+/// Those of an ISA: none where this program or this CPU has no such kernels. Which, and in which
+/// order, is the same for all but Kahan's, which comes last where operations are fused.
+std::span<const BookSolver> book_solvers(Isa isa);
+
+}  // namespace boule::bench
