@@ -33,11 +33,13 @@ struct BuildBox {
   }
 };
 
-/// A box around a sphere, rounded to nearest: what splits are weighed by.
-inline BuildBox rough_box(const BuildSphere& sphere) {
-  const Float4 at = load4(sphere.at), r = {at[3], at[3], at[3], at[3]};
+/// A box around a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest: what
+/// splits are weighed by.
+inline BuildBox rough_box(Float4 at) {
+  const Float4 r = {at[3], at[3], at[3], at[3]};
   return {at - r, at + r};
 }
+inline BuildBox rough_box(const BuildSphere& sphere) { return rough_box(load4(sphere.at)); }
 
 /// The box that is tested, wider than the sphere: see filter_bounds.h.
 inline BuildBox outward_box(const BuildSphere& sphere) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "simd/abi/isa.h"
 #include "simd/build/binary_forest.h"
@@ -26,43 +28,80 @@ void for_chunks(const ParallelFor& parallel_for, std::size_t count, const auto& 
   });
 }
 
-/// The box of all spheres that have one.
-BuildBox box_of_all(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
-  std::vector<BuildBox> boxes(spheres.size() / chunk_size + 1);
-  for_chunks(parallel_for, spheres.size(), [&](auto chunk, std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (in_filter_range(spheres[i])) boxes[chunk].add(rough_box(build_sphere(spheres[i], 0)));
+/// Spheres in three sorts.
+struct Sorted {
+  std::vector<std::int32_t> unfit;   ///< those that fit no box, in order
+  std::vector<std::int32_t> giants;  ///< those whose box is too large, in order
+  BuildBox rest;                     ///< the box of all others
+};
+
+void sort(const std::vector<Sphere>& spheres, std::size_t first, std::size_t end, double giant_area,
+          Sorted& sorted) {
+  BuildBox rest;
+  for (std::size_t i = first; i < end; ++i) {
+    const auto id = static_cast<std::int32_t>(i);
+    if (!in_filter_range(spheres[i])) {
+      sorted.unfit.push_back(id);
+      continue;
     }
+    const Sphere& s = spheres[i];  // no BuildSphere: four stores and one load would wait
+    const BuildBox box = rough_box(Float4{s.center.x, s.center.y, s.center.z, std::fabs(s.radius)});
+    if (box.area() > giant_area) {
+      sorted.giants.push_back(id);
+    } else {
+      rest.add(box);
+    }
+  }
+  sorted.rest = rest;
+}
+
+Sorted sort(const std::vector<Sphere>& spheres, double giant_area,
+            const ParallelFor& parallel_for) {
+  std::vector<Sorted> chunks(spheres.size() / chunk_size + 1);
+  for_chunks(parallel_for, spheres.size(), [&](auto chunk, std::size_t first, std::size_t end) {
+    sort(spheres, first, end, giant_area, chunks[chunk]);
   });
-  BuildBox all;
-  for (const BuildBox& box : boxes) all.add(box);
+  Sorted all;
+  for (const Sorted& some : chunks) {
+    all.unfit.insert(all.unfit.end(), some.unfit.begin(), some.unfit.end());
+    all.giants.insert(all.giants.end(), some.giants.begin(), some.giants.end());
+    all.rest.add(some.rest);
+  }
   return all;
 }
 
+/// Leaves the largest `most` of `ids`, in order; of equal ones the first.
+void keep_largest(std::vector<std::int32_t>& ids, std::size_t most,
+                  const std::vector<Sphere>& spheres) {
+  if (ids.size() <= most) return;
+  const auto end = ids.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(ids.begin(), end, ids.end(), [&](std::int32_t a, std::int32_t b) {
+    const float ra = std::fabs(spheres[static_cast<std::size_t>(a)].radius);
+    const float rb = std::fabs(spheres[static_cast<std::size_t>(b)].radius);
+    return ra != rb ? ra > rb : a < b;
+  });
+  ids.erase(end, ids.end());
+  std::sort(ids.begin(), ids.end());
+}
+
 /// The spheres that no tree should hold, in order: those that fit no box, and the first few giants.
+/// With giants away the box of all is smaller, and what remains is judged again: a dome on a ground
+/// sphere is a giant as well. As the box shrinks so does the bound: each pass finds those of the
+/// passes before again. Where they are too many the largest go, since each is one box less that
+/// nearly every ray meets.
 std::vector<std::int32_t> find_apart(const std::vector<Sphere>& spheres,
                                      const ParallelFor& parallel_for) {
   constexpr std::size_t most = 16;
-  const double giant_area = 0.25 * box_of_all(spheres, parallel_for).area();
-  const auto is_giant = [&](const Sphere& s) {
-    return rough_box(build_sphere(s, 0)).area() > giant_area;
-  };
-  std::vector<std::vector<std::int32_t>> found(spheres.size() / chunk_size + 1);
-  for_chunks(parallel_for, spheres.size(), [&](auto chunk, std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (!in_filter_range(spheres[i]) || is_giant(spheres[i]))
-        found[chunk].push_back(static_cast<std::int32_t>(i));
-    }
-  });
-  std::vector<std::int32_t> apart;
-  std::size_t giants = 0;
-  for (const auto& some : found) {
-    for (const std::int32_t id : some) {
-      const bool giant = in_filter_range(spheres[static_cast<std::size_t>(id)]);
-      if (!giant || giants < most) apart.push_back(id);
-      giants += giant ? 1 : 0;
-    }
+  Sorted sorted = sort(spheres, BuildBox::inf, parallel_for);
+  while (sorted.giants.size() < most) {
+    Sorted next = sort(spheres, 0.25 * sorted.rest.area(), parallel_for);
+    if (next.giants.size() <= sorted.giants.size()) break;  // fewer: nothing remained
+    sorted = std::move(next);
   }
+  keep_largest(sorted.giants, most, spheres);
+  std::vector<std::int32_t> apart;
+  std::merge(sorted.unfit.begin(), sorted.unfit.end(), sorted.giants.begin(), sorted.giants.end(),
+             std::back_inserter(apart));
   return apart;
 }
 

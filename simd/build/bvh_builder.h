@@ -21,8 +21,9 @@ struct Bvh {
 /// Builds a tree of 8-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
 /// to the least sum of areas (binary_tree.h). Nodes and leaves lie in depth-first order. The bits
 /// do not depend on `parallel_for`. Kept apart, to be scanned: spheres beyond filter::limit or not
-/// finite, and up to 16 whose box is a good part of all (a ground sphere would be in everybody's
-/// way). Takes any spheres; the depth is bounded by bvh_max_depth. Throws std::bad_alloc.
+/// finite, and up to 16 whose box is a good part of the box of all, or of all that remain when
+/// others are away (a ground sphere would be in everybody's way). Takes any spheres; the depth is
+/// bounded by bvh_max_depth. Throws std::bad_alloc.
 Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
 
 /// A block of slots that hold no sphere.
