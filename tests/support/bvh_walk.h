@@ -1,0 +1,79 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "simd/abi/isa.h"
+#include "simd/build/bvh_builder.h"
+
+namespace boule::test {
+
+/// What walking a whole tree tells.
+struct Walk {
+  const Bvh& bvh;
+  const std::vector<Sphere>& spheres;
+  int depth = 0;
+  std::size_t leaves = 0, in_leaves = 0;
+
+  bool holds(const BvhNode& node, std::size_t k, const Sphere& s) const {
+    const double r = std::fabs(double{s.radius});
+    return double{node.min_x[k]} < double{s.center.x} - r &&
+           double{s.center.x} + r < double{node.max_x[k]} &&
+           double{node.min_y[k]} < double{s.center.y} - r &&
+           double{s.center.y} + r < double{node.max_y[k]} &&
+           double{node.min_z[k]} < double{s.center.z} - r &&
+           double{s.center.z} + r < double{node.max_z[k]};
+  }
+  /// Visits node `index`; returns the slots below it.
+  std::vector<std::int32_t> below(std::size_t index, int level) {
+    depth = std::max(depth, level);
+    const BvhNode& node = bvh.nodes[index];
+    EXPECT_GE(node.size, 1);
+    EXPECT_LE(node.size, bvh_width);
+    std::vector<std::int32_t> all;
+    for (std::size_t k = 0; k < node.size; ++k) {
+      std::vector<std::int32_t> some;
+      if (node.leaf_size[k] > 0) {
+        EXPECT_LE(node.leaf_size[k], bvh_leaf_size);
+        ++leaves;
+        in_leaves += node.leaf_size[k];
+        for (std::size_t i = 0; i < node.leaf_size[k]; ++i)
+          some.push_back(bvh.slots.at(bvh.scanned + node.child[k] * bvh_leaf_size + i));
+      } else {
+        EXPECT_GT(node.child[k], index);  // children come later: no loops
+        some = below(node.child[k], level + 1);
+      }
+      for (const std::int32_t id : some) {
+        EXPECT_TRUE(holds(node, k, spheres.at(static_cast<std::size_t>(id)))) << id;
+      }
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+};
+
+/// Checks everything that makes a tree valid and returns its figures.
+inline Walk check(const Bvh& bvh, const std::vector<Sphere>& spheres) {
+  Walk walk{bvh, spheres};
+  EXPECT_EQ(bvh.scanned % max_width, 0U);
+  EXPECT_EQ((bvh.slots.size() - bvh.scanned) % bvh_leaf_size, 0U);
+  std::vector<std::int32_t> found(bvh.slots.begin(),
+                                  bvh.slots.begin() + static_cast<std::ptrdiff_t>(bvh.scanned));
+  if (!bvh.nodes.empty()) {
+    const std::vector<std::int32_t> below = walk.below(0, 1);
+    found.insert(found.end(), below.begin(), below.end());
+  }
+  std::erase(found, -1);
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found.size(), spheres.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], static_cast<std::int32_t>(i));
+  EXPECT_LE(walk.depth, bvh_max_depth);
+  return walk;
+}
+
+}  // namespace boule::test
