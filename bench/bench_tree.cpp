@@ -1,5 +1,6 @@
 // The quality of the tree: what the surface area heuristic says of it, how full its leaves are, its
-// bytes, how many nodes and leaves a camera ray visits, and what the kernels make of it.
+// bytes and those of all that is kept, how many nodes and leaves a camera ray visits, and what the
+// kernels make of it.
 //
 //   bench_tree [spheres...]
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "bench/uniform_spheres.h"
 #include "core/scene/camera.h"
+#include "simd/abi/isa.h"
 #include "simd/build/camera_builder.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/build/stream_buffer.h"
@@ -108,6 +110,24 @@ void visit(const BvhView& bvh, const Ray& ray, double limit, std::uint32_t index
   }
 }
 
+/// Bytes a sphere takes while a picture is made: nodes, leaves and ids, what is scanned as arrays
+/// (SphereView: six floats), and what shading looks up (PreparedScene::spheres: the sphere and its
+/// material's number). Materials are no part of it, spheres share them.
+struct Bytes {
+  double tree, all;
+};
+
+Bytes bytes_per_sphere(const GeometryView& view, std::size_t n) {
+  const std::size_t slots = view.spheres.block_count * bvh_leaf_size;
+  const std::size_t tree = view.bvh.size * sizeof(BvhNode) +
+                           view.spheres.block_count * sizeof(SphereBlock) +
+                           slots * sizeof(std::int32_t);
+  const std::size_t arrays = padded(view.spheres.scanned) * 6 * sizeof(float);
+  const std::size_t shading = n * sizeof(Sphere);
+  const auto count = static_cast<double>(n);
+  return {static_cast<double>(tree) / count, static_cast<double>(tree + arrays + shading) / count};
+}
+
 double seconds_of(const KernelTable& kernels, const GeometryView& geometry, RayBuffer& rays,
                   HitBuffer& hits, Form form) {
   std::vector<double> times;
@@ -126,10 +146,7 @@ void report(std::size_t n, RayBuffer& rays) {
   const Geometry geometry(spheres, {}, Structure::bvh);
   const GeometryView view = geometry.view();
   const Figures f = figures(view.bvh);
-  const std::size_t slots = view.spheres.block_count * bvh_leaf_size;
-  const double bytes = static_cast<double>(view.bvh.size * sizeof(BvhNode) +
-                                           view.spheres.block_count * sizeof(SphereBlock) +
-                                           slots * sizeof(std::int32_t));
+  const Bytes bytes = bytes_per_sphere(view, n);
   HitBuffer hits(rays.size());
   const KernelTable& kernels = *select_kernels("avx2").value();
   const double count = static_cast<double>(rays.size());
@@ -139,10 +156,11 @@ void report(std::size_t n, RayBuffer& rays) {
   for (std::size_t i = 0; i < rays.size(); i += 16)
     visit(view.bvh, rays.get(i), hits.get(i).t, 0, visits);
   std::printf(
-      "u%-8zu SAH nodes %6.2f leaves %6.2f sum %6.2f | fill leaf %.2f node %.2f | %5.1f B/sphere | "
-      "visits/ray nodes %6.2f leaves %6.2f | Mray/s packet %6.2f single %6.2f\n",
-      n, f.nodes, f.leaves, f.nodes + f.leaves, f.leaf_fill, f.node_fill,
-      bytes / static_cast<double>(n), static_cast<double>(visits.nodes) * 16 / count,
+      "u%-8zu SAH nodes %6.2f leaves %6.2f sum %6.2f | fill leaf %.2f node %.2f | "
+      "B/sphere tree %5.1f all %5.1f | visits/ray nodes %6.2f leaves %6.2f | "
+      "Mray/s packet %6.2f single %6.2f\n",
+      n, f.nodes, f.leaves, f.nodes + f.leaves, f.leaf_fill, f.node_fill, bytes.tree, bytes.all,
+      static_cast<double>(visits.nodes) * 16 / count,
       static_cast<double>(visits.leaves) * 16 / count, packet, single);
 }
 
