@@ -70,6 +70,9 @@ class Rendering {
   ExitCode run();
 
  private:
+  /// Loads and prepares the scene, and lets go of what was loaded: it may be as large as all the
+  /// rest.
+  ExitCode prepare(std::optional<Renderer>& renderer);
   ExitCode render(Renderer& renderer);
   ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
@@ -84,6 +87,14 @@ class Rendering {
 
 ExitCode Rendering::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
+  std::optional<Renderer> renderer;
+  const ExitCode prepared = prepare(renderer);
+  if (prepared != done) return prepared;
+  for (const std::string& text : renderer->notes()) report_.note("boule: note: " + text);
+  return render(*renderer);
+}
+
+ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   const auto loaded = load_scene(command_.scene, {command_.polygons});
   if (!loaded) return report(loaded.error(), invalid_input);
   const Scene& scene = loaded.value().scene;
@@ -93,12 +104,10 @@ ExitCode Rendering::run() {
 
   RenderOptions options = combine(scene, command_);
   options.progress = [this](const Progress& progress) { report_.progress(progress); };
-  auto renderer = Renderer::create(scene, options);
-  if (!renderer) return report_refusal(renderer.error(), command_);
-  for (const std::string& text : renderer.value().notes()) {
-    report_.note("boule: note: " + text);
-  }
-  return render(renderer.value());
+  auto created = Renderer::create(scene, options);
+  if (!created) return report_refusal(created.error(), command_);
+  renderer = std::move(created).value();
+  return done;
 }
 
 ExitCode Rendering::render(Renderer& renderer) {
