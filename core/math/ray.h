@@ -21,7 +21,8 @@ struct Ray {
   float tmin = 0;
   float tmax = std::numeric_limits<float>::infinity();
   std::int32_t source = no_primitive;  ///< primitive the ray leaves, or no_primitive
-  bool inside = false;                 ///< the ray leaves `source`, a sphere, on its inside
+  /// The ray leaves `source`, a sphere, on its inside: from a point of its surface.
+  bool inside = false;
 };
 
 /// The open segment from `from` to `to` as a ray: dir = to - from, 0 < t < 1.

@@ -55,19 +55,19 @@ inline constexpr float limit = 1e18f;
 ///   doubt = spread (2 r + 3 spread) + 12 u r^2.
 inline constexpr double spread = 12;
 
-/// Boxes of a tree. Against rays: a coordinate min - o, less the origin's error, is rounded twice,
-/// 1 / unit is 2 u off and the product is rounded, 5 u of t together. Against a bundle's sides, of
-/// the corner's distance: p - O, n and three sums, 1.25 (1 + 1 + 3) u; a v that it is compared with
-/// may be 16 u off (below).
+/// Boxes of a tree. Against rays: a coordinate x - o, less the floor, is rounded twice, 1 / unit is
+/// 2 u off and the product is rounded, 5 u of t together. Against a bundle's sides, of the corner's
+/// distance: x - O, n and three sums, 1.25 (1 + 1 + 3) u; a v that it is compared with may be 16 u
+/// off (below). Where an origin is no float, it is u |o| <= u |x| + u |x - o| off: a box has 3 u
+/// |x| for that (below), and what is left are 1 u of t, or 1.25 u of the distance.
 inline constexpr double box = 24;
-/// What the floats of O or of an origin have lost, summed up in double and rounded once.
-inline constexpr double lost_outward = 1.1;
 
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
 /// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than
 /// what follows. A float of the size of x has steps of at most 2^-23 |x|: box_step |x| outward are
 /// two steps or more, and rounding to float takes away half a step, or, where that crosses into
-/// longer steps, one of at least four. Below 2^-126 steps are 2^-149: box_floor is four of them.
+/// longer steps, one of at least four: 3 u |x| are left in any case. Below 2^-126 steps are 2^-149:
+/// box_floor is four of them.
 inline constexpr double box_step = 0x1p-22;
 inline constexpr double box_floor = 0x1p-147;
 

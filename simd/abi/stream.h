@@ -17,7 +17,7 @@ struct RayStream {
   float* tmin;
   float* tmax;
   std::int32_t* source;  ///< primitive id the ray leaves, or -1
-  std::uint8_t* inside;  ///< 1: it leaves `source`, a sphere, on its inside
+  std::uint8_t* inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
   std::size_t size;
 };
 

@@ -38,14 +38,7 @@ class BundleSides {
     set_side(across_[0], frame.u, frame.w, 0, 1);
     set_side(across_[1], frame.v, frame.w, 0, 1);
     off_ = static_cast<float>(off);
-    const Vec3d& o = frame.org;
-    const Vec3d lost = o - Vec3d{double{static_cast<float>(o.x)}, double{static_cast<float>(o.y)},
-                                 double{static_cast<float>(o.z)}};
-    origin_error_ = static_cast<float>(
-                        (__builtin_fabs(lost.x) + __builtin_fabs(lost.y) + __builtin_fabs(lost.z)) *
-                            filter::lost_outward +
-                        filter::floor) +
-                    rays.shift;
+    shift_ = rays.shift + static_cast<float>(filter::floor);
   }
 
   /// Bits of the boxes among those entered, from v = near on, that the grid has rays for.
@@ -117,8 +110,7 @@ class BundleSides {
     const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
                       filter_max(abs(rows[1]), abs(rows[4])) +
                       filter_max(abs(rows[2]), abs(rows[5]));
-    boxes.slack =
-        filter_fma(size, Real(static_cast<float>(filter::box * filter::u)), origin_error_);
+    boxes.slack = filter_fma(size, Real(static_cast<float>(filter::box * filter::u)), shift_);
     return boxes;
   }
 
@@ -171,7 +163,7 @@ class BundleSides {
 
   Vec3<Real> org_;
   Real c_low_{0.0F}, c_high_{0.0F};
-  Real origin_error_{0.0F};
+  Real shift_{0.0F};
   Side sides_[4], depth_;
   Side across_[2];  ///< along U and V
   Real off_;        ///< of a and b

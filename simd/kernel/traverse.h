@@ -10,13 +10,11 @@ namespace boule::BOULE_KERNEL_ISA {
 /// Rays as box tests see them.
 struct BoxRays {
   Vec3<Real> org, inverse;  ///< 1 / unit direction
-  Real error;               ///< of org, plus filter::floor
   Real from;                ///< nothing is live below this t |dir|
 
   BOULE_INLINE explicit BoxRays(const FilterRays& rays)
       : org(rays.org),
         inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
-        error(rays.origin_error * Real(1 + static_cast<float>(filter::box * filter::u))),
         from(rays.dead_below) {}
 };
 
@@ -36,8 +34,9 @@ struct Entry {
 
 /// One axis: [near, far] cut to the slab's.
 BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org,
-                              const Real& inverse, const Real& error, Real& near, Real& far) {
-  const Real a = (low - org - error) * inverse, b = (high - org + error) * inverse;
+                              const Real& inverse, Real& near, Real& far) {
+  const Real floor(static_cast<float>(filter::floor));
+  const Real a = (low - org - floor) * inverse, b = (high - org + floor) * inverse;
   const RealMask rising = a < b;
   const Real enter = select(rising, a, b), leave = select(rising, b, a);
   near = select(near < enter, enter, near);
@@ -47,9 +46,9 @@ BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
   const Real slack(static_cast<float>(filter::box * filter::u));
   Real near = rays.from, far = limit;
-  cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, rays.error, near, far);
-  cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, rays.error, near, far);
-  cut_to_slab(boxes.min.z, boxes.max.z, rays.org.z, rays.inverse.z, rays.error, near, far);
+  cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, near, far);
+  cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, near, far);
+  cut_to_slab(boxes.min.z, boxes.max.z, rays.org.z, rays.inverse.z, near, far);
   return {near, far + abs(far) * slack < near - abs(near) * slack};
 }
 
