@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "bench/vectors.h"
+#include "core/base/platform.h"
 
 namespace boule::bench::BOULE_KERNEL_ISA {
 namespace {
-
-#define BOULE_HOT [[gnu::always_inline]] inline
 
 template <class V>
 struct Line {
@@ -36,44 +35,44 @@ struct Apart {
 };
 
 template <class V>
-BOULE_HOT Apart<V> from_origin(const Line<V>& line, const Ball<V>& ball) {
+BOULE_INLINE Apart<V> from_origin(const Line<V>& line, const Ball<V>& ball) {
   return {ball.x - line.ox, ball.y - line.oy, ball.z - line.oz};
 }
 
 template <class V>
-BOULE_HOT V dot(const Apart<V>& a, V x, V y, V z) {
+BOULE_INLINE V dot(const Apart<V>& a, V x, V y, V z) {
   return multiply_add(a.z, z, multiply_add(a.y, y, a.x * x));
 }
 
 /// r^2 - F.F, in the order that keeps the chain short.
 template <class V>
-BOULE_HOT V power(const Apart<V>& f, V r) {
+BOULE_INLINE V power(const Apart<V>& f, V r) {
   return negated_multiply_add(
       f.z, f.z, negated_multiply_add(f.y, f.y, negated_multiply_add(f.x, f.x, r * r)));
 }
 
 template <class V>
-BOULE_HOT V least(V a, V b) {
+BOULE_INLINE V least(V a, V b) {
   return pick(a < b, a, b);
 }
 template <class V>
-BOULE_HOT V most(V a, V b) {
+BOULE_INLINE V most(V a, V b) {
   return pick(a < b, b, a);
 }
 template <class V>
-BOULE_HOT V with_sign_of(V magnitude, V sign) {
+BOULE_INLINE V with_sign_of(V magnitude, V sign) {
   return pick(sign < all<V>(0.0F), -magnitude, magnitude);
 }
 
 /// The formula that school teaches: A t^2 + B t + C = 0 with o - c, 4 A C and all.
 struct Textbook {
   using V = Floats;
-  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = all<V>(-2.0F) * dot(f, line.dx, line.dy, line.dz);
     return multiply_add(b, b, all<V>(4.0F) * line.a * power(f, ball.r));
   }
-  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const V b = all<V>(-2.0F) * dot(from_origin(line, ball), line.dx, line.dy, line.dz);
     const V d = discriminant(line, ball), s = root(d), twice = line.a + line.a;
     return {d, (-b - s) / twice, (-b + s) / twice};
@@ -84,12 +83,12 @@ struct Textbook {
 template <class Vector>
 struct HalfB {
   using V = Vector;
-  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.hx, line.hy, line.hz);
     return multiply_add(b, b, power(f, ball.r));
   }
-  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const V b = dot(from_origin(line, ball), line.hx, line.hy, line.hz);
     const V d = discriminant(line, ball), s = root(d);
     return {d, (b - s) * line.inverse_length, (b + s) * line.inverse_length};
@@ -98,17 +97,17 @@ struct HalfB {
 
 /// One root as q = b +/- sqrt(discriminant), whose terms have one sign, the other as c / q.
 template <class V>
-BOULE_HOT Roots<V> stable_roots(V d, V b, V c) {
+BOULE_INLINE Roots<V> stable_roots(V d, V b, V c) {
   const V q = b + with_sign_of(root(d), b), other = c / q;
   return {d, least(q, other), most(q, other)};
 }
 
 struct StableQ {
   using V = Floats;
-  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     return HalfB<V>::discriminant(line, ball);
   }
-  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.hx, line.hy, line.hz);
     Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
@@ -122,16 +121,16 @@ struct StableQ {
 /// again. Where nothing is fused nothing is found, and there is no such contender.
 struct Kahan {
   using V = Floats;
-  BOULE_HOT static V difference(V b, V a, V c) {
+  BOULE_INLINE static V difference(V b, V a, V c) {
     const V square = b * b, product = a * c;
     const V lost = multiply_add(b, b, -square) - multiply_add(a, c, -product);
     return (square - product) + lost;
   }
-  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     return difference(dot(f, line.dx, line.dy, line.dz), line.a, -power(f, ball.r));
   }
-  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.dx, line.dy, line.dz), c = -power(f, ball.r);
     const V d = difference(b, line.a, c), q = b + with_sign_of(root(d), b);
@@ -145,7 +144,7 @@ struct Kahan {
 template <class Vector>
 struct ClosestApproach {
   using V = Vector;
-  BOULE_HOT static V discriminant(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.hx, line.hy, line.hz);
     const Apart<V> l = {negated_multiply_add(b, line.hx, f.x),
@@ -153,7 +152,7 @@ struct ClosestApproach {
                         negated_multiply_add(b, line.hz, f.z)};
     return power(l, ball.r);
   }
-  BOULE_HOT static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
+  BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.hx, line.hy, line.hz);
     Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
@@ -164,7 +163,7 @@ struct ClosestApproach {
 };
 
 template <class V>
-BOULE_HOT Line<V> get_line(const BookData& data, std::size_t ray) {
+BOULE_INLINE Line<V> get_line(const BookData& data, std::size_t ray) {
   Line<V> line;
   line.ox = get<V>(data.org_x + ray);
   line.oy = get<V>(data.org_y + ray);
@@ -181,13 +180,13 @@ BOULE_HOT Line<V> get_line(const BookData& data, std::size_t ray) {
 }
 
 template <class V>
-BOULE_HOT Ball<V> one_for_all(const BookData& data, std::size_t i) {
+BOULE_INLINE Ball<V> one_for_all(const BookData& data, std::size_t i) {
   return {all<V>(data.center_x[i]), all<V>(data.center_y[i]), all<V>(data.center_z[i]),
           all<V>(data.radius[i])};
 }
 
 template <class V>
-BOULE_HOT V nearer(const Roots<V>& roots, V best) {
+BOULE_INLINE V nearer(const Roots<V>& roots, V best) {
   const V zero = all<V>(0.0F), t = pick(roots.first > zero, roots.first, roots.second);
   const auto hit = (roots.discriminant >= zero) & (t > zero) & (t < best);
   return pick(hit, t, best);

@@ -3,17 +3,26 @@
 
 namespace boule::bench {
 
-#define BOULE_BOOK(isa)                       \
-  namespace isa {                             \
-  extern const BookSolver book_solvers[];     \
-  extern const std::size_t book_solver_count; \
-  }
-BOULE_BOOK(scalar)
-BOULE_BOOK(sse42)
-BOULE_BOOK(avx2)
-BOULE_BOOK(avx512)
-BOULE_BOOK(neon)
-#undef BOULE_BOOK
+namespace scalar {
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+}  // namespace scalar
+namespace sse42 {
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+}  // namespace sse42
+namespace avx2 {
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+}  // namespace avx2
+namespace avx512 {
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+}  // namespace avx512
+namespace neon {
+extern const BookSolver book_solvers[];
+extern const std::size_t book_solver_count;
+}  // namespace neon
 
 std::span<const BookSolver> book_solvers(Isa isa) {
   if (!cpu_supports(isa)) return {};

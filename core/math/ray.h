@@ -26,7 +26,9 @@ struct Ray {
 };
 
 /// The open segment from `from` to `to` as a ray: dir = to - from, 0 < t < 1.
-/// tmax is 1 - 4u: dir is rounded to float, so the far end itself is only known to that.
+/// tmax is 1 - 4u: dir is rounded to float, so the far end itself is only known to that. A surface
+/// that the far end lies on, if it is tilted against the axes, may still be met by segments that
+/// graze it at sines below 1/4: rounding dir moves the end by up to u |dir|.
 inline Ray segment(const Vec3d& from, const Vec3d& to) {
   Ray ray{from, vec_cast<float>(to - from)};
   ray.tmax = static_cast<float>(1 - 4 * unit_roundoff);

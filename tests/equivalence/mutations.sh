@@ -32,6 +32,9 @@ while read -r name value; do
   fi
 done <<'BOUNDS'
 slack 0
+slack_on_the_spot 0
+floor 0
+limit 3e38F
 spread 0
 box 0
 bundle_axis 0
