@@ -73,10 +73,9 @@ std::vector<View> views_of(const Scene& scene, const std::vector<Ray>& rays,
   return views;
 }
 
-class WideViews : public testing::TestWithParam<std::string> {};
+class WideViews : public OnEachIsa {};
 
 TEST_P(WideViews, HaveTheReferencesBits) {
-  if (kernels_or_null(GetParam()) == nullptr) GTEST_SKIP() << "not on this CPU";
   for (const Scene& scene : {mixed_scene(45, 31), glass_cloud(33, 17)}) {
     RenderOptions options = options_for(scene);
     options.isa = GetParam();
@@ -86,8 +85,7 @@ TEST_P(WideViews, HaveTheReferencesBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, WideViews, testing::ValuesIn(all_isa_names()),
-                         [](const auto& isa) { return isa.param; });
+INSTANTIATE_TEST_SUITE_P(Isa, WideViews, each_isa(), isa_name);
 
 TEST(Views, DoNotDependOnThreadsTilesOrderOrSamples) {
   const Scene scene = mixed_scene(45, 31);

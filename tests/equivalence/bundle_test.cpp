@@ -179,13 +179,8 @@ bool judgeable(const Tile& tile) {
   return length(tile.middle) < 1e15 && length(tile.right) > 0;  // NaN is neither
 }
 
-class Bundle : public testing::TestWithParam<std::string> {
+class Bundle : public OnEachIsa {
  protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-
   /// The kernels' answers to one stream, with a promise, against the scalar path's.
   void check(const BundleScene& scene, const std::vector<Plane>& planes, const Geometry& geometry,
              const std::vector<Ray>& rays, Coherence coherence) {
@@ -212,7 +207,6 @@ class Bundle : public testing::TestWithParam<std::string> {
       met += expected ? 1U : 0U;
     }
   }
-  const KernelTable* kernels = nullptr;
   std::size_t met = 0;
 };
 
@@ -464,8 +458,7 @@ TEST_P(Bundle, LooksEverywhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Bundle, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, Bundle, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

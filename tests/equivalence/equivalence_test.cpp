@@ -1,35 +1,16 @@
 // Every kernel table x form x closest/any hit x hard case against the scalar path, bit for bit.
-#include "tests/support/hard_cases.h"
-#include "tests/support/kernel_runs.h"
+#include "tests/support/hard_case_runs.h"
 
 namespace boule::test {
 namespace {
 
-struct Param {
-  std::string isa;
-  HardCaseSpec spec;
-};
-void PrintTo(const Param& param, std::ostream* out) {
-  *out << param.isa << " " << name_of(param.spec);
-}
-
-std::vector<Param> params() {
-  std::vector<Param> all;
-  for (const std::string& isa : all_isa_names()) {
-    for (const HardCaseSpec& spec : hard_case_specs()) all.push_back({isa, spec});
-  }
-  return all;
-}
-
-class Equivalence : public testing::TestWithParam<Param> {
+class Equivalence : public OnEachHardCase {
  protected:
   void SetUp() override {
-    kernels = kernels_or_null(GetParam().isa);
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam().isa;
+    OnEachHardCase::SetUp();
     // 61 primitives and 517 rays: neither fills whole packets or chunks.
     hard_case = make_hard_case(GetParam().spec, 61, 517);
   }
-  const KernelTable* kernels = nullptr;
   HardCase hard_case;
 };
 
@@ -54,9 +35,7 @@ TEST_P(Equivalence, RobustEqualsTheScalarPathBitForBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Equivalence, testing::ValuesIn(params()), [](const auto& tested) {
-  return tested.param.isa + "_" + name_of(tested.param.spec);
-});
+INSTANTIATE_TEST_SUITE_P(Tables, Equivalence, each_hard_case(), hard_case_name);
 
 /// A case proves nothing if its rays all miss.
 TEST(HardCases, EveryRowHasHitsAndMisses) {

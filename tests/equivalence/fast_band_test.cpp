@@ -35,14 +35,7 @@ bool has_band(const HardCaseSpec& spec) {
          !(scaled && std::abs(spec.k) >= 18);
 }
 
-class FastBand : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-  const KernelTable* kernels = nullptr;
-};
+class FastBand : public OnEachIsa {};
 
 TEST_P(FastBand, SphereDecisionsAreWrongOnlyNearTheRim) {
   double worst_decision = 0, worst_residual = 0;
@@ -107,8 +100,7 @@ TEST_P(FastBand, PlaneDecisionsAreWrongOnlyNearTheHorizon) {
   EXPECT_LE(worst, 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, FastBand, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, FastBand, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -6,29 +6,12 @@
 
 #include "core/math/geometry.h"
 #include "tests/support/case_random.h"
-#include "tests/support/hard_cases.h"
-#include "tests/support/kernel_runs.h"
+#include "tests/support/hard_case_runs.h"
 
 namespace boule::test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
-
-struct Param {
-  std::string isa;
-  HardCaseSpec spec;
-};
-void PrintTo(const Param& param, std::ostream* out) {
-  *out << param.isa << " " << name_of(param.spec);
-}
-
-std::vector<Param> params() {
-  std::vector<Param> all;
-  for (const std::string& isa : all_isa_names()) {
-    for (const HardCaseSpec& spec : hard_case_specs()) all.push_back({isa, spec});
-  }
-  return all;
-}
 
 Hit closest_of(const HardCase& hard_case, const Ray& ray) {
   return reference::closest_hit(ray, hard_case.spheres, hard_case.planes);
@@ -232,13 +215,8 @@ std::vector<Ray> finite_ones(const std::vector<Ray>& rays) {
   return result;
 }
 
-class HardBundles : public testing::TestWithParam<Param> {
+class HardBundles : public OnEachHardCase {
  protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam().isa);
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam().isa;
-  }
-
   /// Takes the case with so many primitives. Alone, no other hides what becomes of its rim.
   void use(std::size_t primitives) {
     hard_case = make_hard_case(GetParam().spec, primitives, 517);
@@ -284,7 +262,6 @@ class HardBundles : public testing::TestWithParam<Param> {
 
   static Query query(Coherence coherence) { return {Solver::robust, Form::automatic, coherence}; }
 
-  const KernelTable* kernels = nullptr;
   HardCase hard_case;
   std::vector<Geometry> geometries;  ///< scan, bvh
   int met = 0;
@@ -346,9 +323,7 @@ TEST_P(HardBundles, SortShadowRays) {
   EXPECT_GT(met, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, HardBundles, testing::ValuesIn(params()), [](const auto& tested) {
-  return tested.param.isa + "_" + name_of(tested.param.spec);
-});
+INSTANTIATE_TEST_SUITE_P(Tables, HardBundles, each_hard_case(), hard_case_name);
 
 }  // namespace
 }  // namespace boule::test

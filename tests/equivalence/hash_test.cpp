@@ -51,14 +51,7 @@ TEST(Hash, OfTheReferencePath) {
   EXPECT_EQ(hash.value(), all_hits);
 }
 
-class Kernels : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-  const KernelTable* kernels = nullptr;
-};
+class Kernels : public OnEachIsa {};
 
 TEST_P(Kernels, HashOfAllHits) {
   for (const Structure structure : {Structure::scan, Structure::bvh}) {
@@ -97,8 +90,7 @@ TEST_P(Kernels, HashOfAllPrimaryRays) {
   EXPECT_EQ(hash.value(), all_primary_rays);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Kernels, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, Kernels, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -23,13 +23,8 @@ std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-class LaneIndependence : public testing::TestWithParam<std::string> {
+class LaneIndependence : public OnEachIsa {
  protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-
   /// Nearest hits for every form and both solvers; calls check(hits, solver) with each.
   template <class Check>
   void for_all_queries(const HardCase& scene, const std::vector<Ray>& rays, const Check& check) {
@@ -48,7 +43,6 @@ class LaneIndependence : public testing::TestWithParam<std::string> {
                        {solver, Form::single, Coherence::none})[0];
   }
 
-  const KernelTable* kernels = nullptr;
   HardCase hard_case = make_hard_case({"L", 0}, 37, 80);
 };
 
@@ -161,8 +155,7 @@ TEST_P(LaneIndependence, AnEmptySceneIsMissed) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, LaneIndependence, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, LaneIndependence, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -6,7 +6,7 @@
 namespace boule::test {
 namespace {
 
-class PrimaryRays : public testing::TestWithParam<std::string> {};
+class PrimaryRays : public OnEachIsa {};
 
 void expect_same(const KernelTable& kernels, const Camera& camera, int width, int height) {
   CaseRandom random(3);
@@ -33,8 +33,6 @@ void expect_same(const KernelTable& kernels, const Camera& camera, int width, in
 }
 
 TEST_P(PrimaryRays, EqualTheScalarPath) {
-  const KernelTable* kernels = kernels_or_null(GetParam());
-  if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
   const CameraPose pose{{2.1F, 1.3F, 1.7F}, {0.1F, -0.2F, 0.3F}, {0, 0, 1}};
   for (const FovAxis axis : {FovAxis::x, FovAxis::y, FovAxis::max}) {
     expect_same(*kernels, PinholeCamera{pose, 45, axis}, 640, 361);
@@ -43,8 +41,7 @@ TEST_P(PrimaryRays, EqualTheScalarPath) {
   expect_same(*kernels, OrthographicCamera{pose, 3.7F}, 640, 361);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, PrimaryRays, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, PrimaryRays, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -70,14 +70,7 @@ float weakened(const Pair& pair, double slack) {
   return static_cast<float>(r * r * (1 + slack * u) - (shipped - slack) * u * b * b);
 }
 
-class RejectSweep : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-  const KernelTable* kernels = nullptr;
-};
+class RejectSweep : public OnEachIsa {};
 
 TEST_P(RejectSweep, TheSlackIsEnoughAndNotForNothing) {
   const std::vector<Pair> pairs =
@@ -142,8 +135,7 @@ TEST_P(RejectSweep, TheSphereGrowsByTheOriginsError) {
   std::printf("\n");
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, RejectSweep, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, RejectSweep, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -60,12 +60,8 @@ std::vector<HardCase> cases() {
   return all;
 }
 
-class Scale : public testing::TestWithParam<std::string> {
+class Scale : public OnEachIsa {
  protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
   [[nodiscard]] std::vector<Hit> hits_of(const HardCase& scene, Form form) const {
     const Geometry geometry(scene.spheres, scene.planes);
     return run_closest(*kernels, geometry.view(), scene.rays,
@@ -84,7 +80,6 @@ class Scale : public testing::TestWithParam<std::string> {
       ASSERT_GT(met, hits.size() / 10);
     }
   }
-  const KernelTable* kernels = nullptr;
 };
 
 TEST_P(Scale, OfTheSceneScalesT) {
@@ -102,8 +97,7 @@ TEST_P(Scale, OfNormalsIsNothing) {
     for (const int k : exponents) expect_scaled(scene, scaled_normals(scene, k), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Scale, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, Scale, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

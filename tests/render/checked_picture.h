@@ -189,12 +189,4 @@ inline void expect_right(const Verdict& verdict) {
   EXPECT_LT(verdict.unsure * 100, verdict.hits) << verdict;
 }
 
-/// Tests of pictures, one for each ISA.
-class PictureChecks : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (kernels_or_null(GetParam()) == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-};
-
 }  // namespace boule::test

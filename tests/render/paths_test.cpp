@@ -78,15 +78,10 @@ std::vector<std::uint32_t> picture(const Scene& scene, Structure structure,
   return bits;
 }
 
-class Paths : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    forwarded = kernels_or_null(GetParam());
-    if (forwarded == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-};
+class Paths : public OnEachIsa {};
 
 TEST_P(Paths, GiveTheSamePicture) {
+  forwarded = kernels;
   const Scene pinhole_scene = crowded_scene();
   Scene parallel_scene = pinhole_scene;
   parallel_scene.camera = OrthographicCamera{{{2, 4, 6}, {0, 0.5f, 0}, {0, 1, 0}}, 6};
@@ -95,9 +90,9 @@ TEST_P(Paths, GiveTheSamePicture) {
     ASSERT_EQ(expected.size(), std::size_t{3} * side * side);
     for (const Structure structure : {Structure::scan, Structure::bvh}) {
       SCOPED_TRACE(structure == Structure::scan ? "scan" : "tree");
-      const auto check = [&](const KernelTable& kernels, const char* form) {
+      const auto check = [&](const KernelTable& table, const char* form) {
         calls = 0;
-        EXPECT_EQ(picture(scene, structure, kernels), expected) << form;
+        EXPECT_EQ(picture(scene, structure, table), expected) << form;
         EXPECT_GT(calls, 10U) << form;
       };
       check(kernels_in<Form::automatic>(), "bundles");
@@ -107,8 +102,7 @@ TEST_P(Paths, GiveTheSamePicture) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, Paths, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, Paths, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -66,7 +66,7 @@ Errors errors_of(const Scene& scene, const CheckedPicture& picture) {
   return out;
 }
 
-class WhatIsSeen : public PictureChecks {};
+class WhatIsSeen : public OnEachIsa {};
 
 // Rings are errors of t that come and go along a scanline. Half an ulp is the rounding to float.
 TEST_P(WhatIsSeen, NoRingsOnADistantSphere) {
@@ -244,8 +244,7 @@ TEST_P(WhatIsSeen, TheSameAtAnyScale) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WhatIsSeen, testing::ValuesIn(all_isa_names()),
-                         [](const auto& isa) { return isa.param; });
+INSTANTIATE_TEST_SUITE_P(All, WhatIsSeen, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

@@ -27,10 +27,9 @@ const Image& expected() {
   return image;
 }
 
-class PictureOfIsa : public testing::TestWithParam<std::string> {};
+class PictureOfIsa : public OnEachIsa {};
 
 TEST_P(PictureOfIsa, IsTheSame) {
-  if (kernels_or_null(GetParam()) == nullptr) GTEST_SKIP() << "not on this CPU";
   RenderOptions options = options_of(scene());
   options.isa = GetParam();
   EXPECT_EQ(differing_pixels(render(scene(), options), expected()), 0);
@@ -40,8 +39,7 @@ TEST_P(PictureOfIsa, IsTheSame) {
   EXPECT_EQ(differing_pixels(render(glass, glass_options), render(glass)), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PictureOfIsa, testing::ValuesIn(all_isa_names()),
-                         [](const auto& isa) { return isa.param; });
+INSTANTIATE_TEST_SUITE_P(All, PictureOfIsa, each_isa(), isa_name);
 
 TEST(Picture, IsTheSameFromTheReferencePath) {
   RenderOptions options = options_of(scene());

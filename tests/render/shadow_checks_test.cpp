@@ -10,7 +10,7 @@
 namespace boule::test {
 namespace {
 
-using ShadowChecks = PictureChecks;
+class ShadowChecks : public OnEachIsa {};
 
 /// Unit balls on a ground sphere whose top is the origin.
 Scene ground_scene(double radius) {
@@ -189,8 +189,7 @@ TEST_P(ShadowChecks, NoLightEntersAClosedSphere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShadowChecks, testing::ValuesIn(all_isa_names()),
-                         [](const auto& isa) { return isa.param; });
+INSTANTIATE_TEST_SUITE_P(All, ShadowChecks, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

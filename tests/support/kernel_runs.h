@@ -29,6 +29,22 @@ inline const KernelTable* kernels_or_null(const std::string& isa) {
   return kernels ? kernels.value() : nullptr;
 }
 
+/// A test on the kernels of each ISA: skipped, and shown so, where this CPU cannot run them.
+class OnEachIsa : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    kernels = kernels_or_null(GetParam());
+    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
+  }
+
+  const KernelTable* kernels = nullptr;
+};
+/// Its parameters, and what they are called.
+inline auto each_isa() { return testing::ValuesIn(all_isa_names()); }
+inline std::string isa_name(const testing::TestParamInfo<std::string>& tested) {
+  return tested.param;
+}
+
 inline RayBuffer to_stream(const std::vector<Ray>& rays) {
   RayBuffer buffer(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) buffer.set(i, rays[i]);
