@@ -44,12 +44,14 @@ BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org
 }
 
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
-  const Real slack(static_cast<float>(filter::box * filter::u));
   Real near = rays.from, far = limit;
   cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, near, far);
   cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, near, far);
   cut_to_slab(boxes.min.z, boxes.max.z, rays.org.z, rays.inverse.z, near, far);
-  return {near, far + abs(far) * slack < near - abs(near) * slack};
+  // By products: beside a slab, and along it, near is infinite and has to stay so.
+  const Real less(static_cast<float>(1 - filter::box * filter::u));
+  const Real more(static_cast<float>(1 + filter::box * filter::u));
+  return {near, filter_max(far * less, far * more) < filter_min(near * less, near * more)};
 }
 
 /// A child to visit: where the first ray enters it.
