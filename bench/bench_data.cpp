@@ -1,7 +1,6 @@
 #include "bench/bench_data.h"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 
@@ -45,7 +44,7 @@ std::vector<Plane> random_planes(std::size_t n) {
 }
 
 /// Pixels in Morton order, x first, so that each packet is a block of the picture.
-void make_rays(RayBuffer& rays) {
+RayBuffer camera_rays() {
   SampleBuffer samples;
   samples.resize(side * side);
   for (unsigned i = 0; i < side * side; ++i) {
@@ -59,78 +58,31 @@ void make_rays(RayBuffer& rays) {
   PinholeCamera camera;
   camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   camera.fov = 25.61F;
-  rays.resize(side * side);
+  RayBuffer rays(side * side);
   reference_kernels().primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
-}
-
-void make_book(BenchData& data) {
-  const std::size_t n = data.spheres.size(), rays = data.rays.size();
-  for (AlignedArray<float>* array : {&data.center_x, &data.center_y, &data.center_z})
-    array->resize(n);
-  data.radius.resize(n, std::numeric_limits<float>::quiet_NaN());  // padding: missed
-  for (std::size_t i = 0; i < n; ++i) {
-    data.center_x[i] = data.spheres[i].center.x;
-    data.center_y[i] = data.spheres[i].center.y;
-    data.center_z[i] = data.spheres[i].center.z;
-    data.radius[i] = data.spheres[i].radius;
-  }
-  const RayStream view = data.rays.view();
-  for (AlignedArray<float>* array : {&data.org_x, &data.org_y, &data.org_z, &data.t})
-    array->resize(rays);
-  for (std::size_t i = 0; i < rays; ++i) {
-    data.org_x[i] = static_cast<float>(view.org_x[i]);
-    data.org_y[i] = static_cast<float>(view.org_y[i]);
-    data.org_z[i] = static_cast<float>(view.org_z[i]);
-  }
-  data.book = {data.center_x.data(),
-               data.center_y.data(),
-               data.center_z.data(),
-               data.radius.data(),
-               n,
-               data.org_x.data(),
-               data.org_y.data(),
-               data.org_z.data(),
-               view.dir_x,
-               view.dir_y,
-               view.dir_z,
-               rays,
-               data.t.data()};
-}
-
-std::unique_ptr<BenchData> make(const std::string& kind, std::size_t n) {
-  std::vector<Sphere> spheres;
-  std::vector<Plane> planes;
-  if (kind == "planes") {
-    planes = random_planes(n);
-  } else {
-    spheres = random_spheres(kind, n);
-  }
-  auto data = std::make_unique<BenchData>(BenchData{spheres,
-                                                    planes,
-                                                    Geometry(spheres, planes, Structure::scan),
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {},
-                                                    {}});
-  make_rays(data->rays);
-  data->hits.resize(data->rays.size());
-  make_book(*data);
-  return data;
+  return rays;
 }
 
 }  // namespace
 
+BenchData::BenchData(const std::string& kind, std::size_t n)
+    : spheres(kind == "planes" ? std::vector<Sphere>{} : random_spheres(kind, n)),
+      planes(kind == "planes" ? random_planes(n) : std::vector<Plane>{}),
+      geometry(spheres, planes, Structure::scan),
+      rays(camera_rays()),
+      hits(rays.size()),
+      book(spheres.size(), rays.size()) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) book.set(i, spheres[i]);
+  const RayStream view = rays.view();
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    book.set(i, Ray{{view.org_x[i], view.org_y[i], view.org_z[i]},
+                    {view.dir_x[i], view.dir_y[i], view.dir_z[i]}});
+}
+
 BenchData& bench_data(const std::string& kind, std::size_t n) {
   static std::map<std::pair<std::string, std::size_t>, std::unique_ptr<BenchData>> made;
   auto& data = made[{kind, n}];
-  if (!data) data = make(kind, n);
+  if (!data) data = std::make_unique<BenchData>(kind, n);
   return *data;
 }
 

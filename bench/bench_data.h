@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/book_solvers.h"
+#include "bench/book_arrays.h"
 #include "core/scene/primitive.h"
-#include "simd/build/aligned_array.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/build/stream_buffer.h"
 
@@ -16,16 +15,14 @@ namespace boule::bench {
 /// the eye (0.5, 0.5, -1.2) across 25.61 degrees. sparse: a sphere covers 1e-4 of the picture;
 /// ordinary: the spheres cover it four times over; every: each test survives the reject.
 struct BenchData {
+  BenchData(const std::string& kind, std::size_t n);
+
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
   Geometry geometry;
   RayBuffer rays;
   HitBuffer hits;
-
-  // The same for the solvers of textbooks.
-  AlignedArray<float> center_x, center_y, center_z, radius;
-  AlignedArray<float> org_x, org_y, org_z, t;
-  BookData book;
+  BookArrays book;  ///< the same for the solvers of textbooks
 };
 
 /// The data of one experiment, made once and kept. `kind`: sparse, ordinary, every, planes.

@@ -4,6 +4,7 @@
 // in double: where both roots lie within its step the wrong one may be the nearer.
 //
 //   bench_errors [rays per case, 2000]
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -32,16 +33,17 @@ void run(std::size_t rays) {
   std::map<std::string, Sum> sums;
   print_head();
   for (const test::HardCaseSpec& spec : sphere_cases()) {
-    for (const HardErrors& row : hard_errors(spec, rays, isa)) {
+    for (auto& [contender, figures] : hard_errors(spec, rays, isa)) {
+      const double p99 = figures.ulp_quantile(0.99), residual = figures.max_residual;
       std::printf("%-9s %-24s %7zu %7zu | %9.3g %9.3g %9.3g | %11.3g\n", name_of(spec).c_str(),
-                  row.contender.c_str(), row.wrong_decisions, row.wrong_roots, row.ulp_p50,
-                  row.ulp_p99, row.ulp_max, row.residual);
-      Sum& sum = sums[row.contender];
-      sum.pairs += row.pairs;
-      sum.wrong_decisions += row.wrong_decisions;
-      sum.wrong_roots += row.wrong_roots;
-      sum.worst_p99 = row.ulp_p99 > sum.worst_p99 ? row.ulp_p99 : sum.worst_p99;
-      sum.residual = row.residual > sum.residual ? row.residual : sum.residual;
+                  contender.c_str(), figures.wrong_decisions, figures.wrong_roots,
+                  figures.ulp_quantile(0.5), p99, figures.ulp_quantile(1), residual);
+      Sum& sum = sums[contender];
+      sum.pairs += figures.pairs;
+      sum.wrong_decisions += figures.wrong_decisions;
+      sum.wrong_roots += figures.wrong_roots;
+      sum.worst_p99 = std::max(sum.worst_p99, p99);
+      sum.residual = std::max(sum.residual, residual);
     }
   }
   std::printf("\n%-24s %9s %9s %9s | %11s | %11s\n", "all cases", "pairs", "hit/mis", "roots",

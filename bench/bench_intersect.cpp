@@ -43,8 +43,8 @@ void run_kernel(benchmark::State& state, const KernelTable& kernels, const Query
 
 void run_book(benchmark::State& state, const BookSolver& solver, BenchData& data) {
   for (auto _ : state) {
-    solver.nearest(data.book);
-    benchmark::DoNotOptimize(data.book.t);
+    solver.nearest(data.book.data());
+    benchmark::DoNotOptimize(data.book.data().t);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(tests(state, data));
@@ -52,7 +52,7 @@ void run_book(benchmark::State& state, const BookSolver& solver, BenchData& data
 
 /// The plain loop that a textbook has, as the compiler makes it at -O3 for the base CPU.
 void run_scalar_loop(benchmark::State& state, BenchData& data) {
-  const BookData& d = data.book;
+  const BookData& d = data.book.data();
   for (auto _ : state) {
     for (std::size_t ray = 0; ray < d.rays; ++ray) {
       float best = std::numeric_limits<float>::infinity();
@@ -125,10 +125,10 @@ void check_answers(const std::string& kind, std::size_t n) {
   for (const IsaInfo& info : list_isas()) {
     if (!info.supported) continue;
     for (const BookSolver& solver : book_solvers(info.isa)) {
-      solver.nearest(data.book);
+      solver.nearest(data.book.data());
       std::size_t differ = 0;
       for (std::size_t i = 0; i < data.rays.size(); ++i) {
-        const double t = data.hits.get(i).t, other = static_cast<double>(data.t[i]);
+        const double t = data.hits.get(i).t, other = static_cast<double>(data.book.data().t[i]);
         differ += t == other || std::fabs(t - other) < 1e-3 ? 0U : 1U;
       }
       if (differ <= data.rays.size() / 100) continue;

@@ -95,11 +95,14 @@ struct HalfB {
   }
 };
 
-/// One root as q = b +/- sqrt(discriminant), whose terms have one sign, the other as c / q.
+/// With unit directions, one root as q = b +/- sqrt(d), d the discriminant, whose terms have one
+/// sign, the other as (F.F - r^2) / q.
 template <class V>
-BOULE_INLINE Roots<V> stable_roots(V d, V b, V c) {
-  const V q = b + with_sign_of(root(d), b), other = c / q;
-  return {d, least(q, other), most(q, other)};
+BOULE_INLINE Roots<V> stable_roots(const Line<V>& line, const Ball<V>& ball, V d) {
+  const Apart<V> f = from_origin(line, ball);
+  const V b = dot(f, line.hx, line.hy, line.hz), q = b + with_sign_of(root(d), b);
+  const V other = -power(f, ball.r) / q;
+  return {d, least(q, other) * line.inverse_length, most(q, other) * line.inverse_length};
 }
 
 struct StableQ {
@@ -108,12 +111,7 @@ struct StableQ {
     return HalfB<V>::discriminant(line, ball);
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
-    const Apart<V> f = from_origin(line, ball);
-    const V b = dot(f, line.hx, line.hy, line.hz);
-    Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
-    roots.first *= line.inverse_length;
-    roots.second *= line.inverse_length;
-    return roots;
+    return stable_roots(line, ball, discriminant(line, ball));
   }
 };
 
@@ -153,12 +151,7 @@ struct ClosestApproach {
     return power(l, ball.r);
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
-    const Apart<V> f = from_origin(line, ball);
-    const V b = dot(f, line.hx, line.hy, line.hz);
-    Roots<V> roots = stable_roots(discriminant(line, ball), b, -power(f, ball.r));
-    roots.first *= line.inverse_length;
-    roots.second *= line.inverse_length;
-    return roots;
+    return stable_roots(line, ball, discriminant(line, ball));
   }
 };
 
@@ -242,11 +235,7 @@ constexpr BookSolver solver(const char* name) {
   return {name, nearest<Solver>, pairs<Solver>};
 }
 
-}  // namespace
-
-extern const BookSolver book_solvers[];
-extern const std::size_t book_solver_count;
-const BookSolver book_solvers[] = {
+constexpr BookSolver all_solvers[] = {
     solver<Textbook>("textbook"),
     solver<HalfB<Floats>>("half_b"),
     solver<StableQ>("stable_q"),
@@ -255,6 +244,11 @@ const BookSolver book_solvers[] = {
     solver<ClosestApproach<Doubles>>("closest_approach_double"),
     solver<Kahan>("kahan"),
 };
-const std::size_t book_solver_count = sizeof book_solvers / sizeof *book_solvers - (fuses ? 0 : 1);
+
+}  // namespace
+
+extern const std::span<const BookSolver> book_solvers;
+const std::span<const BookSolver> book_solvers(all_solvers,
+                                               std::size(all_solvers) - (fuses ? 0 : 1));
 
 }  // namespace boule::bench::BOULE_KERNEL_ISA

@@ -2,11 +2,10 @@
 
 #include <limits>
 
-#include "bench/book_solvers.h"
+#include "bench/book_arrays.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
-#include "tests/oracle/hard_figures.h"
 
 namespace boule::bench {
 namespace {
@@ -39,15 +38,7 @@ HardErrors judge(const std::string& contender, const Pairs& pairs, const std::ve
   test::HardFigures figures;
   for (std::size_t i = 0; i < t.size(); ++i)
     figures.add(pairs.all.rays[i], pairs.sphere(i), t[i], pairs.truth[i]);
-  return {contender,
-          figures.pairs,
-          figures.hits,
-          figures.wrong_decisions,
-          figures.wrong_roots,
-          figures.ulp_quantile(0.5),
-          figures.ulp_quantile(0.99),
-          figures.ulp_quantile(1),
-          figures.max_residual};
+  return {contender, figures};
 }
 
 /// Each sphere by itself, with all rays that are aimed at it.
@@ -67,34 +58,6 @@ std::vector<double> solve(const Pairs& pairs, const KernelTable& kernels, Solver
   return t;
 }
 
-/// The pairs as textbooks' solvers read them.
-struct BookPairs {
-  explicit BookPairs(const Pairs& pairs) {
-    const std::size_t rays = pairs.all.rays.size();
-    for (AlignedArray<float>* row : {&x, &y, &z, &ox, &oy, &oz, &dx, &dy, &dz, &t})
-      row->resize(rays);
-    r.resize(rays, std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t i = 0; i < rays; ++i) {
-      const Sphere& sphere = pairs.sphere(i);
-      const Ray& ray = pairs.all.rays[i];
-      x[i] = sphere.center.x;
-      y[i] = sphere.center.y;
-      z[i] = sphere.center.z;
-      r[i] = sphere.radius;
-      ox[i] = static_cast<float>(ray.org.x);
-      oy[i] = static_cast<float>(ray.org.y);
-      oz[i] = static_cast<float>(ray.org.z);
-      dx[i] = ray.dir.x;
-      dy[i] = ray.dir.y;
-      dz[i] = ray.dir.z;
-    }
-    data = {x.data(),  y.data(),  z.data(),  r.data(),  rays, ox.data(), oy.data(),
-            oz.data(), dx.data(), dy.data(), dz.data(), rays, t.data()};
-  }
-  AlignedArray<float> x, y, z, r, ox, oy, oz, dx, dy, dz, t;
-  BookData data{};
-};
-
 }  // namespace
 
 std::vector<test::HardCaseSpec> sphere_cases() {
@@ -113,10 +76,14 @@ std::vector<HardErrors> hard_errors(const test::HardCaseSpec& spec, std::size_t 
   std::vector<HardErrors> rows;
   rows.push_back(judge("robust", pairs, solve(pairs, kernels, Solver::robust)));
   rows.push_back(judge("fast", pairs, solve(pairs, kernels, Solver::fast)));
-  BookPairs book(pairs);
+  BookArrays book(rays, rays);
+  for (std::size_t i = 0; i < rays; ++i) {
+    book.set(i, pairs.sphere(i));
+    book.set(i, pairs.all.rays[i]);
+  }
   for (const BookSolver& solver : book_solvers(isa)) {
-    solver.pairs(book.data);
-    const float* const t = book.t.data();
+    solver.pairs(book.data());
+    const float* const t = book.data().t;
     rows.push_back(judge(solver.name, pairs, std::vector<double>(t, t + rays)));
   }
   return rows;

@@ -5,17 +5,15 @@
 #include <vector>
 
 #include "simd/abi/isa.h"
+#include "tests/oracle/hard_figures.h"
 #include "tests/support/hard_cases.h"
 
 namespace boule::bench {
 
-/// Three columns: what one contender did wrong in one hard case. See tests/oracle/hard_figures.h.
+/// What one contender did wrong in one hard case, the bounds of its rays aside.
 struct HardErrors {
   std::string contender;
-  std::size_t pairs = 0, hits = 0;
-  std::size_t wrong_decisions = 0, wrong_roots = 0;
-  double ulp_p50 = 0, ulp_p99 = 0, ulp_max = 0;  ///< of float t
-  double residual = 0;                           ///< of float t, in u max(F, r)
+  test::HardFigures figures;
 };
 
 /// Rows that every contender can be asked: spheres, float origins, finite inputs, t > 0.
