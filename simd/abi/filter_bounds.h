@@ -48,31 +48,29 @@ inline constexpr float limit = 1e18f;
 ///   l          f: u F, b: 5 u F + E, unit: u F, the product: u F, the difference: u F
 ///                                                               |error of l| <= 9 u F + E
 ///
-/// spread = 12 u (F1 + r) + E, F1 = |fx| + |fy| + |fz|, bounds both, and the 3 u (F + r) that is
-/// lost when the ends of the intervals are added up. A hit has |l| <= r, so its discriminant r^2 -
-/// l.l is wrong by at most 2 r spread + spread^2 (from l) + 8 u (r + spread)^2 (from squares and
-/// sums):
+/// spread = 12 u (F1 + r) + E, F1 = |fx| + |fy| + |fz|, bounds both, the 2 u (F + r) that is lost
+/// when the ends of the intervals are added up, and the u (F + r) by which a t |dir| that they are
+/// compared with, itself no more than F + r where that matters, is rounded. A hit has |l| <= r, so
+/// its discriminant r^2 - l.l is wrong by at most 2 r spread + spread^2 (from l) + 8 u (r +
+/// spread)^2 (from squares and sums):
 ///   doubt = spread (2 r + 3 spread) + 12 u r^2.
 inline constexpr double spread = 12;
 
 /// Boxes of a tree. Against rays: a coordinate x - o, less the floor, is rounded twice, 1 / unit is
-/// 2 u off and the product is rounded, 5 u of t together. Against a bundle's sides, of the corner's
-/// distance: x - O, n and three sums, 1.25 (1 + 1 + 3) u; a v that it is compared with may be 16 u
-/// off (below). Where an origin is no float, it is u |o| <= u |x| + u |x - o| off: a box has 3 u
-/// |x| for that (below), and what is left are 1 u of t, or 1.25 u of the distance.
+/// 2 u off and the product is rounded, 5 u of t together, and u of the t that it is compared with.
+/// Against a bundle's sides, of the corner's distance: x - O, n and three sums, 1.25 (1 + 1 + 3) u;
+/// a v that it is compared with may be 16 u off (below). Where an origin is no float, it is u |o|
+/// <= u |x| + u |x - o| off: a box has 3 u |x| for that (below), and what is left are 1 u of t, or
+/// 1.25 u of the distance.
 inline constexpr double box = 24;
 
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
 /// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than
 /// what follows. A float of the size of x has steps of at most 2^-23 |x|: box_step |x| outward are
 /// two steps or more, and rounding to float takes away half a step, or, where that crosses into
-/// longer steps, one of at least four: 3 u |x| are left in any case. Below 2^-126 steps are 2^-149:
-/// box_floor is four of them.
+/// longer steps, one of at least four: 3 u |x| are left in any case. Below 2^-126, where steps are
+/// 2^-149, half a step may be lost: whatever meets a box has `floor` for it.
 inline constexpr double box_step = 0x1p-22;
-inline constexpr double box_floor = 0x1p-147;
-
-/// Where a bound is itself the result of up to 5 roundings, it is moved outward by so much.
-inline constexpr double outward = 8;
 
 /// Bundles (simd/kernel/bundle*.h): rays that share an origin O, or a direction, in the orthonormal
 /// frame (U, V, W) of a ray d0 amid them, W along d0; all three in double, 2^-50 off.
@@ -96,20 +94,29 @@ inline constexpr double outward = 8;
 ///                                                19 u D Z + 2.2 u r  (or 7 u D + 2.2 u r)
 ///           and bundle_double F1 for what double has lost, F1 = |X| + |Y| + |Z|.
 ///   delta   = bundle_axis u D Z + bundle_double F1 + floor is shipped.
-///   R2      = r^2 + G, G = r^2 (rho^2 (1 + 8 u) + bundle_square u) + 4 delta (r + delta), is then
-///             more than e1^2 + e2^2 of any line that meets the sphere: sqrt(1 + rho^2) <= 1.07,
-///             and 4 > 2 sqrt(2) 1.07. bundle_square pays for the 2.2 u r above, 2 sqrt(2) 1.07
-///             2.2 = 6.7, for 4 u in Q and 5 u in R2: 15.7.
+///   R2      = r^2 + G, G = r^2 (rho^2 + bundle_square u) + 4 delta (r + delta), is then more than
+///             e1^2 + e2^2 of any line that meets the sphere: sqrt(1 + rho^2) <= 1.07, so that e
+///             costs 2 sqrt(2) 1.07 19 u D Z r = 58 u D Z r, and rho^2, with its a and b, 2 (0.25 +
+///             0.25) 16 u D r^2, at most 8 u D Z r, of the 96 u D Z r that are there.
+///             bundle_square pays for the 2.2 u r above, 2 sqrt(2) 1.07 2.2 = 6.7, for 4 u in Q and
+///             5.5 u in R2, rho^2 included: 16.2.
 ///   Q       = R2 - e1^2 - e2^2 < 0: the line misses.
 ///   D2      = 2 G + 4 delta (r + delta): Q >= D2, and the line meets it; the discriminant lies
-///             between Q - D2 and Q.
+///             between Q - D2 and Q. Needed is G as shipped and G as needed, 40.2 u r^2 of 48 (and
+///             164 u D Z r of 288): the difference pays for D2's own roundings and its root's.
+///   extent  A ray that meets the sphere has |a - X / Z| <= (sqrt(R2) + 2 delta) / Z. With 1 / Z
+///             the same on either side of a difference that is at most D, this takes 16 u D for a
+///             and 5 u D for X, the quotient, 1 / Z and the difference, of 48 u D; and 2.2 u r for
+///             X and the quotient, 7 u r for the root, the sums and the product, of the 10.6 u r
+///             that bundle_square has added to the root.
 ///   v       = t |d|^2 / d.W (or t |d|): in this unit the first root is X a + Y b + Z - sqrt(disc),
 ///             (or Z - c - sqrt(disc)). Its float value is wrong by Z: u, the sums 4 u, a and b:
 ///             17 u (|X| + |Y|), the root u r: 20 u F1 together. |d|^2 / d.W is good to 14 u, and
 ///             a v that comes from a t is rounded twice more, 16 u F1; E1 = bundle_depth u F1 pays
 ///             for both, so that v of a t, rounded as it is, may be compared with these bounds.
 ///             From the lower bound to the upper it is 2 E1 + sqrt(D2). Only Z - E1 is kept: of it
-///             E1 comes back u |Z| off, and bundle_twice pays for that.
+///             E1 comes back u |Z| off, and bundle_twice pays for that and for the sum's rounding.
+///             No point of the sphere has a v below Z - r: E1 pays for the two roundings there.
 ///             With one direction c is 6 u D off, and v may be D more than F1: bundle_depth u D
 ///             comes on top.
 ///
@@ -118,6 +125,9 @@ inline constexpr double outward = 8;
 /// float has cost, at most `shift`, and by bundle_end of |O|_1, lost when the end was found in
 /// double: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes are tested with, and the
 /// ray's own end in v grow by.
+///
+/// A box in (a, b), for the grid of a bundle's rays, is two quotients, 2 u, and moved by
+/// bundle_axis u D, rounded: 3 u D that matter, and 16 u D for a ray's a, of 24 u D.
 inline constexpr double bundle_axis = 24;
 inline constexpr double bundle_square = 24;
 inline constexpr double bundle_depth = 40;
@@ -127,11 +137,9 @@ inline constexpr float bundle_side = 1.05F;
 inline constexpr float bundle_side_parallel = 1.001F;
 inline constexpr double bundle_shift_slope = 1.5;
 inline constexpr double bundle_end = 0x1p-50;
-/// Rays whose ends are farther apart than this share of their length are no bundle.
-inline constexpr float bundle_shift = 0x1p-10F;
 
 /// Bundles wider than this (|a| or |b|) are split, and those whose D is greater (with a common
-/// end: twice as great).
+/// end: twice as great): rays much shorter than d0.
 inline constexpr float bundle_width = 0.25F;
 inline constexpr float bundle_across = 1;
 

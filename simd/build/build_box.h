@@ -48,9 +48,8 @@ inline BuildBox outward_box(const BuildSphere& sphere) {
   const double r = double{at[3]} * (1 + filter::box_step);
   for (int k = 0; k < 3; ++k) {
     const double low = double{at[k]} - r, high = double{at[k]} + r;
-    box.low[k] = static_cast<float>(low - (std::fabs(low) * filter::box_step + filter::box_floor));
-    box.high[k] =
-        static_cast<float>(high + (std::fabs(high) * filter::box_step + filter::box_floor));
+    box.low[k] = static_cast<float>(low - std::fabs(low) * filter::box_step);
+    box.high[k] = static_cast<float>(high + std::fabs(high) * filter::box_step);
   }
   box.low[3] = box.high[3] = 0;
   return box;

@@ -128,13 +128,12 @@ class BundleSides {
     if constexpr (common == Common::direction) {
       return {low - off_, high + off_};
     } else {
-      const Real zero(0.0F), one(1.0F), outward(static_cast<float>(filter::outward * filter::u));
+      const Real zero(0.0F), one(1.0F);
       const Real least = low * (one / select(low < zero, depth.low, depth.high));
       const Real most = high * (one / select(high < zero, depth.high, depth.low));
       const Real none(static_cast<float>(no_hit));
       const RealMask behind = depth.low <= zero;
-      return {select(behind, zero - none, least - abs(least) * outward - off_),
-              select(behind, none, most + abs(most) * outward + off_)};
+      return {select(behind, zero - none, least - off_), select(behind, none, most + off_)};
     }
   }
 

@@ -98,8 +98,7 @@ struct DiscFactors {
     depth_shift = one_origin ? rays.shift : depth * rays.across;
     axis = one_origin ? axis_factor : 0.0F;
     constant = static_cast<float>(filter::floor) + (one_origin ? rays.shift : axis_factor);
-    square = rays.squared_across * (1 + static_cast<float>(filter::outward) * u) +
-             static_cast<float>(filter::bundle_square) * u;
+    square = rays.squared_across + static_cast<float>(filter::bundle_square) * u;
     plane_length = one_origin ? filter::bundle_side : filter::bundle_side_parallel;
   }
 };
@@ -133,9 +132,7 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   const Real delta =
       filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant));
   const Real depth = filter_fnma(f1, factors.depth, center.z - factors.depth_shift);
-  const Real near =
-      filter_fnma(r, Real(1 + static_cast<float>(filter::outward * filter::u)), depth) -
-      rays.c_high;
+  const Real near = depth - r - rays.c_high;
   // A line that meets the sphere is this near its centre.
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
@@ -174,8 +171,6 @@ BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors
 /// The bounds of those that matter and are simple: see filter_bounds.h.
 template <Common common, Seek seek>
 BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Discs& discs) {
-  constexpr auto few_roundings = static_cast<float>(filter::outward * filter::u);
-  const Real few(few_roundings), outward(1 + few_roundings);
   ExtentLanes all;
   Real all_near(static_cast<float>(no_hit));
   for (std::size_t at = 0; at < parts * width; at += width) {
@@ -186,25 +181,24 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Dis
     const Real sure = g + g + grown, e1 = z - load(discs.depth + at);
     store(discs.squared + at, squared);
     store(discs.sure + at, sure);
-    store(discs.spread + at, filter_fma(sqrt(sure), outward, e1 * Real(filter::bundle_twice)));
-    // Where a group's extent may meet the disc: |a - X / Z| <= (r' + delta) / Z.
-    const Real half = (sqrt(squared) + delta + delta) * outward;
+    store(discs.spread + at, filter_fma(e1, Real(filter::bundle_twice), sqrt(sure)));
+    // Where a group's extent may meet the disc: |a - X / Z| <= (r' + 2 delta) / Z.
+    const Real half = sqrt(squared) + delta + delta;
     Real a = x, b = y, wide = half;
     if constexpr (common != Common::direction) {
       const Real inverse = Real(1.0F) / z;
       a = x * inverse;
       b = y * inverse;
-      wide = half * inverse * outward;
+      wide = half * inverse;
     }
-    const Real wide_a = filter_fma(abs(a), few, wide), wide_b = filter_fma(abs(b), few, wide);
-    store(discs.a_low + at, a - wide_a);
-    store(discs.a_high + at, a + wide_a);
-    store(discs.b_low + at, b - wide_b);
-    store(discs.b_high + at, b + wide_b);
+    store(discs.a_low + at, a - wide);
+    store(discs.a_high + at, a + wide);
+    store(discs.b_low + at, b - wide);
+    store(discs.b_high + at, b + wide);
     if constexpr (seek == Seek::any) {
       const Real near = load(discs.near + at);
       const RealMask simple = near < Real(static_cast<float>(no_hit));
-      all.add(simple, {a - wide_a, b - wide_b}, {a + wide_a, b + wide_b});
+      all.add(simple, {a - wide, b - wide}, {a + wide, b + wide});
       all_near = filter_min(all_near, near);
     }
   }

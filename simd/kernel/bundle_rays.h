@@ -157,6 +157,10 @@ BOULE_INLINE Extent extent_of_both(const Extent& a, const Extent& b) {
           a.b_low < b.b_low ? a.b_low : b.b_low, a.b_high > b.b_high ? a.b_high : b.b_high};
 }
 
+/// Rays that miss their common end by more of their length than this are no bundle. What bounds
+/// say of them is true, but too little.
+inline constexpr float farthest_end = 0x1p-10F;
+
 /// What load_bundle() finds out about all its rays, W at a time.
 struct BundleSums {
   RealMask belongs = Real(0.0F) <= Real(0.0F);
@@ -169,8 +173,7 @@ struct BundleSums {
                                                       : filter::bundle_far;
     // NaN passes none of these.
     belongs = belongs & (ray.across <= Real(widest)) & (ray.scale < Real(filter::limit)) &
-              (Real(1 / filter::limit) < ray.scale) &
-              (ray.shift <= ray.scale * Real(filter::bundle_shift));
+              (Real(1 / filter::limit) < ray.scale) & (ray.shift <= ray.scale * Real(farthest_end));
     across = filter_max(across, ray.across);
     shift = filter_max(shift, ray.shift);
     if constexpr (common != Common::direction) {

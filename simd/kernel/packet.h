@@ -33,7 +33,7 @@ struct FilterRays {
   bool origins_exact;       ///< every origin is a float
   Wide length;              ///< |dir|
   Real inverse_length;      ///< 1 / |dir|
-  Real live_from, live_to;  ///< inner bounds of the live interval of t |dir|
+  Real live_from, live_to;  ///< the live interval of t |dir|, rounded
   Real dead_below;          ///< nothing is live below this t |dir|: 0, or -inf where tmin < 0
 };
 
@@ -82,9 +82,9 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   const Real largest(std::numeric_limits<float>::max());
   const Real from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
   const Real to = select(largest < far, largest, far);  // NaN stays: nothing is live then
-  const Real zero(0.0F), slack(static_cast<float>(filter::outward * filter::u));
-  out.live_from = from + abs(from) * slack;
-  out.live_to = to - abs(to) * slack;
+  const Real zero(0.0F);
+  out.live_from = from;
+  out.live_to = to;
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
   return out;
 }

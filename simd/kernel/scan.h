@@ -17,7 +17,7 @@ struct ClosestHit {
   Wide t, id;    ///< the nearest hit that is solved
   Wide pending;  ///< slot of a sphere that is hit for certain, nearer for certain, or -1
   Real
-      nearest;  ///< lower bound of t |dir| of the pending hit, else of the solved one, else of tmax
+      nearest;  ///< lower bound of t |dir| of the pending hit, else that of the solved one, or tmax
   Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
@@ -25,12 +25,11 @@ struct ClosestHit {
         id(-1.0),
         pending(-1.0),
         nearest(rays.filter.live_to),
-        reach(outward(rays.exact.tmax, rays, 1)) {}
+        reach(distance(rays.exact.tmax, rays)) {}
 
-  /// A bound of t |dir|, from above (side 1) or below (-1).
-  BOULE_INLINE static Real outward(const Wide& t, const RayLanes& rays, float side) {
-    const Real distance = narrow(t * rays.filter.length);
-    return distance + abs(distance) * Real(side * static_cast<float>(filter::outward * filter::u));
+  /// t |dir|, rounded: the bounds that it is compared with pay for that (filter_bounds.h).
+  BOULE_INLINE static Real distance(const Wide& t, const RayLanes& rays) {
+    return narrow(t * rays.filter.length);
   }
 
   /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if
@@ -75,10 +74,9 @@ struct ClosestHit {
                          const RayLanes& rays) {
     t = select(lanes, new_t, t);
     id = select(lanes, new_id, id);
-    const Real end = outward(t, rays, 1);
-    reach = select(end < reach, end, reach);
-    const Real begin = outward(t, rays, -1);
-    nearest = select(begin < rays.filter.live_to, begin, rays.filter.live_to);
+    const Real solved = distance(t, rays);
+    reach = select(solved < reach, solved, reach);
+    nearest = select(solved < rays.filter.live_to, solved, rays.filter.live_to);
   }
 };
 
@@ -89,7 +87,7 @@ struct AnyHit {
   Real far;  ///< upper bound of live t |dir| that is still of interest
 
   BOULE_INLINE explicit AnyHit(const RayLanes& rays)
-      : far(ClosestHit::outward(rays.exact.tmax, rays, 1)) {}
+      : far(ClosestHit::distance(rays.exact.tmax, rays)) {}
 
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Wide&,
                              const FilterRays& rays) {

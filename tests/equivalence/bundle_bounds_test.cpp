@@ -10,13 +10,8 @@
 namespace boule::test {
 namespace {
 
-class BundleBounds : public testing::TestWithParam<std::string> {
+class BundleBounds : public OnEachIsa {
  protected:
-  void SetUp() override {
-    kernels = kernels_or_null(GetParam());
-    if (kernels == nullptr) GTEST_SKIP() << "this CPU has no " << GetParam();
-  }
-
   void check(const std::vector<Sphere>& spheres, const std::vector<Ray>& rays,
              Coherence coherence) {
     const Geometry geometry(spheres, {});
@@ -38,7 +33,6 @@ class BundleBounds : public testing::TestWithParam<std::string> {
     }
   }
 
-  const KernelTable* kernels = nullptr;
   std::size_t all = 0, met = 0;
 };
 
@@ -127,6 +121,28 @@ TEST_P(BundleBounds, SpecksAroundALight) {
   EXPECT_LT(met, all * 3 / 4);
 }
 
+/// bundle_end: rays that end behind a speck, a million units from the world's origin, where a
+/// double step is 1e-10. They are all the same: their ends, rounded, do not tell how far off they
+/// are.
+TEST_P(BundleBounds, EndsFarFromTheWorldsOrigin) {
+  CaseRandom random(77);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Vec3f center = vec_cast<float>(random.direction() * 2e6);
+    const double r = random.decade(-7, -5);
+    const Vec3d org = vec_cast<double>(center) + random.direction() * (r * random.uniform(3, 20));
+    const Vec3d view = vec_cast<double>(center) - org;
+    const double distance = length(view), sine = r / distance * near_rim(random, -5, -2);
+    const Vec3d towards = view * (1 / distance), side = random.perpendicular(towards);
+    const Vec3d dir = towards * std::sqrt(1 - sine * sine) + side * sine;
+    Ray ray{org, vec_cast<float>(dir * (distance + r * random.uniform(3, 6)))};
+    ray.tmax = 1 - 0x1p-22F;
+    check({{center, static_cast<float>(r), 0}}, std::vector<Ray>(64, ray), Coherence::common_end);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
 /// bundle_depth: rays that end where they meet a sphere, or next to it; parallel ones may begin far
 /// from each other.
 TEST_P(BundleBounds, EndsOnTheSurface) {
@@ -190,6 +206,34 @@ TEST_P(BundleBounds, EndsOnTheBox) {
     }
     check(spheres, from_eye, Coherence::common_origin);
     check(spheres, parallel, Coherence::common_direction);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 9 / 10);
+}
+
+/// bundle_across: the same from one eye, where most rays are much shorter than one of them.
+TEST_P(BundleBounds, RaysOfManyLengths) {
+  CaseRandom random(78);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 100; ++i)
+      spheres.push_back({vec_cast<float>(random.direction() * random.uniform(0, 1)),
+                         static_cast<float>(random.decade(-3, -1.5)), 0});
+    const Sphere& sphere = spheres[static_cast<std::size_t>(random.below(100))];
+    const Vec3d axis = Vec3d{0, 0, 1} * random.sign(), center = vec_cast<double>(sphere.center);
+    const Vec3d eye = center - axis * random.uniform(2, 5);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d off =
+          random.perpendicular(axis) * (double{sphere.radius} * random.decade(-7, -3));
+      const double scale = i == 48 ? random.decade(1, 4) : random.decade(-0.5, 0.5);
+      rays.push_back({eye, vec_cast<float>((center + off - eye) * scale)});
+      const Hit hit = reference::closest_hit(rays.back(), spheres, {});
+      const float t = static_cast<float>(hit.id < 0 ? 1 : hit.t);
+      rays.back().tmax = std::nextafter(t, random.chance(0.5) ? 2 * t : 0.0F);
+    }
+    check(spheres, rays, Coherence::common_origin);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 4);
@@ -260,8 +304,7 @@ TEST_P(BundleBounds, SpecksOfDeepLeaves) {
   EXPECT_LT(met, all);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, BundleBounds, testing::ValuesIn(all_isa_names()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Tables, BundleBounds, each_isa(), isa_name);
 
 }  // namespace
 }  // namespace boule::test

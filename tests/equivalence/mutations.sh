@@ -33,15 +33,23 @@ while read -r name value; do
 done <<'BOUNDS'
 slack 0
 slack_on_the_spot 0
+squared_floor 0
 floor 0
 limit 3e38F
 spread 0
 box 0
+box_step 0
 bundle_axis 0
 bundle_square 0
 bundle_depth 0
 bundle_double 0
+bundle_twice 0
+bundle_side 1
+bundle_side_parallel 0.9F
 bundle_shift_slope 0
+bundle_end 0
+bundle_width 100
+bundle_across 1e9F
 bundle_far 1e38F
 BOUNDS
 exit $((survivors != 0))

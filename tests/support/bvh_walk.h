@@ -20,14 +20,18 @@ struct Walk {
   int depth = 0;
   std::size_t leaves = 0, in_leaves = 0;
 
-  bool holds(const BvhNode& node, std::size_t k, const Sphere& s) const {
+  /// Whether a box's range holds that of a sphere. Below 2^-126, where floats are 2^-149 apart, it
+  /// may be half a step too narrow (filter_bounds.h).
+  static bool holds(float low, float high, float center, double r) {
+    const double least = double{center} - r, most = double{center} + r;
+    const auto lost = [](double x) { return std::fabs(x) < 0x1p-126 ? 0x1p-149 : 0; };
+    return double{low} < least + lost(least) && most - lost(most) < double{high};
+  }
+  static bool holds(const BvhNode& node, std::size_t k, const Sphere& s) {
     const double r = std::fabs(double{s.radius});
-    return double{node.min_x[k]} < double{s.center.x} - r &&
-           double{s.center.x} + r < double{node.max_x[k]} &&
-           double{node.min_y[k]} < double{s.center.y} - r &&
-           double{s.center.y} + r < double{node.max_y[k]} &&
-           double{node.min_z[k]} < double{s.center.z} - r &&
-           double{s.center.z} + r < double{node.max_z[k]};
+    return holds(node.min_x[k], node.max_x[k], s.center.x, r) &&
+           holds(node.min_y[k], node.max_y[k], s.center.y, r) &&
+           holds(node.min_z[k], node.max_z[k], s.center.z, r);
   }
   /// Visits node `index`; returns the slots below it.
   std::vector<std::int32_t> below(std::size_t index, int level) {
