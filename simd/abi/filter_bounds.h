@@ -57,7 +57,9 @@ inline constexpr float limit = 1e18f;
 inline constexpr double spread = 12;
 
 /// Boxes of a tree. Against rays: a coordinate x - o, less the floor, is rounded twice, 1 / unit is
-/// 2 u off and the product is rounded, 5 u of t together, and u of the t that it is compared with.
+/// 2 u off (5 u below 2^-126) and the product is rounded, 5 u (8 u) of t together, and u of the t
+/// that it is compared with. Below 2^-128 1 / unit is infinite: within `limit` such a component
+/// leads 2^-66 aside at most, and the floor pays; rays from beyond it enter every box.
 /// Against a bundle's sides, of the corner's distance: x - O, n and three sums, 1.25 (1 + 1 + 3) u;
 /// a v that it is compared with may be 16 u off (below). Where an origin is no float, it is u |o|
 /// <= u |x| + u |x - o| off: a box has 3 u |x| for that (below), and what is left are 1 u of t, or
@@ -87,7 +89,7 @@ inline constexpr double box_step = 0x1p-22;
 ///
 /// Errors, with D the greatest |d - d0|_1 / d.W, at most 1 (or the greatest |o - O|_1):
 ///   d - d0  rounded: u, U rounded to float: u, the dot product: 3 u            5 u D d.W
-///   d.W     = |d0| + (d - d0).W <= 2 d.W and rounded likewise                   9 u d.W
+///   d.W     = |d0| + (d - d0).W, |d0| <= 2 d.W, and rounded likewise            9 u d.W
 ///   a, b    both, the quotient (a product with 1 / d.W): 2 u                   16 u D
 ///   e1, e2  X: u |X|, a: 16 u D Z, Z: u |a| Z, the product: u |a| Z, the sum: u |e1|; where it
 ///           matters |X| <= |a| Z + |e1|, |a| <= D and |e1| <= 1.07 r
@@ -122,9 +124,10 @@ inline constexpr double box_step = 0x1p-22;
 ///
 /// Rays with a common end, O, are seen from there, backwards: with d, not d - d0, so that D is
 /// |d|_1 / d.W, at most 2: a and b are then 7 u D off. Their lines miss O by what rounding d to
-/// float has cost, at most `shift`, and by bundle_end of |O|_1, lost when the end was found in
-/// double: that times |h|_1 <= 1.5 is what delta, E1, the sides that boxes are tested with, and the
-/// ray's own end in v grow by.
+/// float has cost, at most `shift`, and by bundle_end of |O|_1 + |d|: lost when the end was found
+/// in double, and by the double solver itself, which sees the sphere from the ray's origin. That
+/// times |h|_1 <= 1.5 is what delta, E1, the sides that boxes are tested with, and the ray's own
+/// end in v grow by.
 ///
 /// A box in (a, b), for the grid of a bundle's rays, is two quotients, 2 u, and moved by
 /// bundle_axis u D, rounded: 3 u D that matter, and 16 u D for a ray's a, of 24 u D.

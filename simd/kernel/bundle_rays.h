@@ -164,7 +164,7 @@ inline constexpr float farthest_end = 0x1p-10F;
 /// What load_bundle() finds out about all its rays, W at a time.
 struct BundleSums {
   RealMask belongs = Real(0.0F) <= Real(0.0F);
-  Real across{0.0F}, squared{0.0F}, c_low{0.0F}, c_high{0.0F}, shift{0.0F};
+  Real across{0.0F}, squared{0.0F}, c_low{0.0F}, c_high{0.0F}, shift{0.0F}, scale{0.0F};
 
   template <Common common>
   BOULE_INLINE void add(const Projected& ray) {
@@ -176,6 +176,7 @@ struct BundleSums {
               (Real(1 / filter::limit) < ray.scale) & (ray.shift <= ray.scale * Real(farthest_end));
     across = filter_max(across, ray.across);
     shift = filter_max(shift, ray.shift);
+    if constexpr (common == Common::end) scale = filter_max(scale, ray.scale);
     if constexpr (common != Common::direction) {
       squared = filter_max(squared, filter_fma(ray.a, ray.a, ray.b * ray.b));
     } else {
@@ -246,7 +247,8 @@ BOULE_NOINLINE bool load_bundle(const Source& source, BundleRays& bundle) {
   bundle.c_low = least_lane(sums.c_low);
   bundle.c_high = greatest_lane(sums.c_high);
   const Vec3d& o = bundle.frame.org;
-  const double lost = __builtin_fabs(o.x) + __builtin_fabs(o.y) + __builtin_fabs(o.z);
+  const double lost = __builtin_fabs(o.x) + __builtin_fabs(o.y) + __builtin_fabs(o.z) +
+                      double{greatest_lane(sums.scale)};
   bundle.shift =
       common != Common::end
           ? 0.0F

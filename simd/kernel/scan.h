@@ -17,7 +17,7 @@ struct ClosestHit {
   Wide t, id;    ///< the nearest hit that is solved
   Wide pending;  ///< slot of a sphere that is hit for certain, nearer for certain, or -1
   Real
-      nearest;  ///< lower bound of t |dir| of the pending hit, else that of the solved one, or tmax
+      nearest;  ///< lower bound of t |dir| of the pending hit, else the solved one's, or tmax |dir|
   Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)

@@ -10,12 +10,13 @@ namespace boule::BOULE_KERNEL_ISA {
 /// Rays as box tests see them.
 struct BoxRays {
   Vec3<Real> org, inverse;  ///< 1 / unit direction
-  Real from;                ///< nothing is live below this t |dir|
+  Real from;                ///< nothing is live below this t |dir|; NaN: every box is entered
 
   BOULE_INLINE explicit BoxRays(const FilterRays& rays)
       : org(rays.org),
         inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
-        from(rays.dead_below) {}
+        // Far beyond the filter's range a component that underflows still leads somewhere.
+        from(select(rays.unit.x <= rays.unit.x, rays.dead_below, rays.unit.x)) {}
 };
 
 /// Boxes in lanes: one for a packet, or several for a ray.

@@ -143,6 +143,33 @@ TEST_P(BundleBounds, EndsFarFromTheWorldsOrigin) {
   EXPECT_LT(met, all * 3 / 4);
 }
 
+/// bundle_end: rays from far away, and no farther from their end than a sphere next to it: the
+/// double solver, which decides, does not know better where they pass it.
+TEST_P(BundleBounds, EndsFarFromTheRaysOrigins) {
+  CaseRandom random(79);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double away = random.decade(-7, 1), far = away * random.decade(11, 13);
+    const Vec3d back = random.direction();
+    const double r = away * random.decade(-4, -0.8);
+    const Sphere sphere{vec_cast<float>(back * away), static_cast<float>(r), 0};
+    const Vec3d center = vec_cast<double>(sphere.center);
+    const double distance = length(center);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i) {
+      const Vec3d towards = center * (1 / distance), side = random.perpendicular(towards);
+      const double sine = double{sphere.radius} / distance * near_rim(random, -5, -1);
+      const Vec3f dir =
+          vec_cast<float>((towards * std::sqrt(1 - sine * sine) + side * sine) * -far);
+      rays.push_back({vec_cast<double>(dir) * -1.0, dir});
+      rays.back().tmax = 1;
+    }
+    check({sphere}, rays, Coherence::common_end);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met, all / 4);
+  EXPECT_LT(met, all * 3 / 4);
+}
+
 /// bundle_depth: rays that end where they meet a sphere, or next to it; parallel ones may begin far
 /// from each other.
 TEST_P(BundleBounds, EndsOnTheSurface) {

@@ -212,6 +212,29 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
   }
 }
 
+/// From 2^100 away: what components too small for floats lead to is far beside the axis.
+TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
+  std::vector<Sphere> spheres;
+  std::vector<Ray> rays;
+  for (int i = 0; i < 100; ++i) {
+    const double y = std::ldexp(8 * i + 1, -40);
+    const Vec3d center{std::ldexp(i - 50, -30), y, 0};
+    spheres.push_back({vec_cast<float>(center), 0x1p-41F, 0});
+    rays.push_back({{-0x1p100, 0, 0}, vec_cast<float>(Vec3d{0x1p20, y * 0x1p-80, 0})});
+    rays.back().tmax = 0x1p81F;
+  }
+  const Geometry geometry(spheres, {}, Structure::bvh);
+  for (const Form form : {Form::packet, Form::single}) {
+    const auto hits =
+        run_closest(*kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], spheres, {});
+      ASSERT_GE(expected.id, 0);
+      ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
+    }
+  }
+}
+
 /// The CPU time, in clock ticks, of rays along z, tilted a little, through a large tree; the least
 /// of three.
 std::clock_t time_of(const KernelTable& kernels, const Geometry& geometry, Form form, float tilt) {
