@@ -5,6 +5,7 @@
 #include "bench/book_solvers.h"
 #include "core/math/ray.h"
 #include "core/scene/primitive.h"
+#include "simd/abi/geometry.h"
 #include "simd/build/aligned_array.h"
 
 namespace boule::bench {
@@ -20,7 +21,7 @@ class BookArrays {
     data_ = {center_[0].data(), center_[1].data(), center_[2].data(), radius_.data(),
              spheres,           org_[0].data(),    org_[1].data(),    org_[2].data(),
              dir_[0].data(),    dir_[1].data(),    dir_[2].data(),    rays,
-             t_.data()};
+             t_.data(),         nullptr,           nullptr,           0};
   }
 
   void set(std::size_t i, const Sphere& sphere) {
@@ -31,6 +32,13 @@ class BookArrays {
   void set(std::size_t i, const Ray& ray) {
     set(org_, i, vec_cast<float>(ray.org));
     set(dir_, i, ray.dir);
+  }
+
+  /// What is to be traversed; made with Structure::bvh, it must outlive this.
+  void set(const GeometryView& tree) {
+    data_.nodes = tree.bvh.size > 0 ? tree.bvh.nodes : nullptr;
+    data_.blocks = tree.spheres.blocks;
+    data_.apart = tree.spheres.scanned / bvh_leaf_size;
   }
 
   [[nodiscard]] const BookData& data() const { return data_; }
@@ -45,5 +53,15 @@ class BookArrays {
   AlignedArray<float> center_[3], radius_, org_[3], dir_[3], t_;
   BookData data_;
 };
+
+/// Rays first .. first + size - 1; `first` a multiple of max_width.
+inline BookData part_of(BookData data, std::size_t first, std::size_t size) {
+  for (const float** row :
+       {&data.org_x, &data.org_y, &data.org_z, &data.dir_x, &data.dir_y, &data.dir_z})
+    *row += first;
+  data.t += first;
+  data.rays = size;
+  return data;
+}
 
 }  // namespace boule::bench

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "bench/book_tree.h"
 #include "bench/vectors.h"
 #include "core/base/platform.h"
 
@@ -51,14 +52,6 @@ BOULE_INLINE V power(const Apart<V>& f, V r) {
       f.z, f.z, negated_multiply_add(f.y, f.y, negated_multiply_add(f.x, f.x, r * r)));
 }
 
-template <class V>
-BOULE_INLINE V least(V a, V b) {
-  return pick(a < b, a, b);
-}
-template <class V>
-BOULE_INLINE V most(V a, V b) {
-  return pick(a < b, b, a);
-}
 template <class V>
 BOULE_INLINE V with_sign_of(V magnitude, V sign) {
   return pick(sign < all<V>(0.0F), -magnitude, magnitude);
@@ -230,9 +223,75 @@ void pairs(const BookData& data) {
   }
 }
 
+/// As many rays as a register has floats, in one part or, where the solver is in double, in two,
+/// and the nearest t of each so far.
+template <class Solver>
+struct Packet {
+  using V = typename Solver::V;
+  static constexpr int parts = lanes_of<Floats> / lanes_of<V>;
+  Line<V> line[parts];
+  V best[parts];
+
+  BOULE_INLINE Packet(const BookData& data, std::size_t ray) {
+    for (int part = 0; part < parts; ++part) {
+      line[part] = get_line<V>(data, ray + static_cast<std::size_t>(part * lanes_of<V>));
+      best[part] = all<V>(std::numeric_limits<float>::infinity());
+    }
+  }
+  BOULE_INLINE void put_best(float* t) const {
+    for (int part = 0; part < parts; ++part) put(t + part * lanes_of<V>, best[part]);
+  }
+  [[nodiscard]] BOULE_INLINE Floats limit() const {
+    alignas(64) float t[lanes_of<Floats>];
+    put_best(t);
+    return get<Floats>(t);
+  }
+  BOULE_INLINE void meet(const SphereBlock& block, std::size_t size) {
+    for (std::size_t k = 0; k < size; ++k) {
+      const Ball<V> ball = {all<V>(block.center_x[k]), all<V>(block.center_y[k]),
+                            all<V>(block.center_z[k]), all<V>(block.radius[k])};
+      for (int part = 0; part < parts; ++part) {
+        if (none(Solver::discriminant(line[part], ball) >= all<V>(0.0F))) continue;
+        best[part] = nearer(Solver::roots(line[part], ball), best[part]);
+      }
+    }
+  }
+};
+
+template <class Solver>
+BOULE_INLINE void walk(const BookData& data, const BoxRays& boxes, Packet<Solver>& packet) {
+  const SphereBlock* const leaves = data.blocks + data.apart;
+  Floats limit = packet.limit();
+  float farthest = most_lane(limit);
+  VisitStack stack;
+  boxes.push_children(data.nodes[0], limit, stack);
+  while (stack.count > 0) {
+    const Visit visit = stack.visits[--stack.count];
+    if (farthest < visit.near) continue;
+    if (visit.leaf_size == 0) {
+      boxes.push_children(data.nodes[visit.child], limit, stack);
+      continue;
+    }
+    packet.meet(leaves[visit.child], visit.leaf_size);
+    limit = packet.limit();
+    farthest = most_lane(limit);
+  }
+}
+
+template <class Solver>
+void traverse(const BookData& data) {
+  const float extent = data.nodes == nullptr ? 0 : extent_of(data.nodes[0]);
+  for (std::size_t ray = 0; ray < data.rays; ray += lanes_of<Floats>) {
+    Packet<Solver> packet(data, ray);
+    for (std::size_t k = 0; k < data.apart; ++k) packet.meet(data.blocks[k], bvh_leaf_size);
+    if (data.nodes != nullptr) walk(data, BoxRays(data, ray, extent), packet);
+    packet.put_best(data.t + ray);
+  }
+}
+
 template <class Solver>
 constexpr BookSolver solver(const char* name) {
-  return {name, nearest<Solver>, pairs<Solver>};
+  return {name, nearest<Solver>, pairs<Solver>, traverse<Solver>};
 }
 
 constexpr BookSolver all_solvers[] = {

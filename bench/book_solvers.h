@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "simd/abi/bvh.h"
 #include "simd/abi/isa.h"
 
 namespace boule::bench {
@@ -15,6 +16,11 @@ struct BookData {
   const float *org_x, *org_y, *org_z, *dir_x, *dir_y, *dir_z;
   std::size_t rays;
   float* t;  ///< out: nearest t > 0, or infinity
+
+  /// A tree over spheres, for `traverse` alone; leaf k is block apart + k.
+  const BvhNode* nodes;  ///< the root first; or nullptr
+  const SphereBlock* blocks;
+  std::size_t apart;  ///< blocks in front that are in no leaf: to be scanned
 };
 
 /// A way of solving |o + t d - c| = r that is in books and programs, W rays at a time, as fast as
@@ -22,8 +28,9 @@ struct BookData {
 /// roots outside the hot loop. What each computes stands in book_solvers.cpp.
 struct BookSolver {
   const char* name;
-  void (*nearest)(const BookData&);  ///< every ray against all spheres
-  void (*pairs)(const BookData&);    ///< ray i against sphere i
+  void (*nearest)(const BookData&);   ///< every ray against all spheres
+  void (*pairs)(const BookData&);     ///< ray i against sphere i
+  void (*traverse)(const BookData&);  ///< every ray against the spheres of the tree
 };
 
 /// Those of an ISA: none where this program or this CPU has no such kernels. Which, and in which

@@ -128,4 +128,34 @@ V negated_multiply_add(V a, V b, V c) {
   return multiply_add(-a, b, c);
 }
 
+/// a < b ? a : b and a < b ? b : a.
+template <class V>
+V least(V a, V b) {
+  return pick(a < b, a, b);
+}
+template <class V>
+V most(V a, V b) {
+  return pick(a < b, b, a);
+}
+
+/// The least and the greatest of the lanes, none of them NaN.
+#ifdef BOULE_KERNEL_SCALAR
+inline float least_lane(float x) { return x; }
+inline float most_lane(float x) { return x; }
+#else
+inline Floats other_lanes(Floats x, int step) {
+  FloatMask lane;
+  for (int i = 0; i < lanes_of<Floats>; ++i) lane[i] = i ^ step;
+  return __builtin_shuffle(x, lane);
+}
+inline float least_lane(Floats x) {
+  for (int step = lanes_of<Floats> / 2; step > 0; step /= 2) x = least(x, other_lanes(x, step));
+  return x[0];
+}
+inline float most_lane(Floats x) {
+  for (int step = lanes_of<Floats> / 2; step > 0; step /= 2) x = most(x, other_lanes(x, step));
+  return x[0];
+}
+#endif
+
 }  // namespace boule::bench::BOULE_KERNEL_ISA
