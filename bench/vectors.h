@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -143,18 +145,27 @@ V most(V a, V b) {
 inline float least_lane(float x) { return x; }
 inline float most_lane(float x) { return x; }
 #else
-inline Floats other_lanes(Floats x, int step) {
-  FloatMask lane;
-  for (int i = 0; i < lanes_of<Floats>; ++i) lane[i] = i ^ step;
-  return __builtin_shuffle(x, lane);
+template <std::size_t step, std::size_t... lane>
+Floats lanes_apart(Floats x, std::index_sequence<lane...>) {
+  return __builtin_shufflevector(x, x, (lane ^ step)...);
 }
-inline float least_lane(Floats x) {
-  for (int step = lanes_of<Floats> / 2; step > 0; step /= 2) x = least(x, other_lanes(x, step));
-  return x[0];
+template <std::size_t step = lanes_of<Floats> / 2>
+float least_lane(Floats x) {
+  if constexpr (step == 0) {
+    return x[0];
+  } else {
+    const auto lanes = std::make_index_sequence<lanes_of<Floats> >{};
+    return least_lane<step / 2>(least(x, lanes_apart<step>(x, lanes)));
+  }
 }
-inline float most_lane(Floats x) {
-  for (int step = lanes_of<Floats> / 2; step > 0; step /= 2) x = most(x, other_lanes(x, step));
-  return x[0];
+template <std::size_t step = lanes_of<Floats> / 2>
+float most_lane(Floats x) {
+  if constexpr (step == 0) {
+    return x[0];
+  } else {
+    const auto lanes = std::make_index_sequence<lanes_of<Floats> >{};
+    return most_lane<step / 2>(most(x, lanes_apart<step>(x, lanes)));
+  }
 }
 #endif
 
