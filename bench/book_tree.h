@@ -10,7 +10,8 @@
 #include "simd/abi/bvh.h"
 
 /// What any solver of textbooks needs to find its way in a tree: boxes against as many rays as a
-/// register has floats, and a stack.
+/// register has floats, and a stack. For solvers in double, too: with boxes in double they are a
+/// third slower. Faces chosen by the signs of a packet's directions would gain 3 to 10 %.
 namespace boule::bench::BOULE_KERNEL_ISA {
 
 /// The greatest coordinate of any box, without its sign.
