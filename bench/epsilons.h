@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/epsilon_scenes.h"
+#include "render/image/image.h"
+
+namespace boule::bench {
+
+/// What one remedy against false shadows does to the points that a camera sees. All remedies get
+/// the same hits, normals and N.L; what differs is the shadow ray. The truth is the tests' tracer
+/// in long double; points that it is unsure of are left out.
+struct EpsilonFigure {
+  std::string experiment, remedy;
+  double x = 0;
+  std::size_t points = 0;         ///< judged
+  std::size_t undecided = 0;      ///< left out on the way to them
+  std::size_t wrong_hits = 0;     ///< the first hit is not the truth's: left out too
+  std::size_t lit = 0;            ///< in truth
+  std::size_t false_shadows = 0;  ///< in truth lit
+  std::size_t leaks = 0;          ///< in truth in shadow
+};
+
+/// The floats' (float_remedies.h), then "ours": the renderer's surface.h and kernels.
+std::vector<std::string> epsilon_remedies();
+
+/// Every remedy on `points` random points of a scene (fewer if it is hard to find them).
+std::vector<EpsilonFigure> epsilon_figures(const EpsilonScene& scene, std::size_t points,
+                                           std::uint64_t seed);
+
+/// The same over all of epsilon_scenes(), scene by scene.
+std::vector<EpsilonFigure> run_epsilon_experiment(std::size_t points_per_figure,
+                                                  std::uint64_t seed);
+
+/// A scene under one remedy, linear grey, a sample a pixel; and the same with false shadows in red
+/// and leaks in blue.
+struct EpsilonPicture {
+  std::string remedy;
+  Image plain, marked;
+  std::size_t false_shadows = 0, leaks = 0;
+};
+
+/// One for each of epsilon_remedies().
+std::vector<EpsilonPicture> draw_epsilon_pictures(const EpsilonScene& scene, int width, int height);
+
+}  // namespace boule::bench
