@@ -1,6 +1,7 @@
 #include "bench/hard_errors.h"
 
 #include <limits>
+#include <utility>
 
 #include "bench/book_arrays.h"
 #include "simd/build/geometry_builder.h"
@@ -12,7 +13,6 @@ namespace {
 
 using test::HardCase;
 
-/// Pairs: ray i is aimed at sphere i % spheres.
 struct Pairs {
   HardCase all;
   std::vector<std::optional<test::OracleHit>> truth;
@@ -22,10 +22,9 @@ struct Pairs {
   }
 };
 
-Pairs make_pairs(const test::HardCaseSpec& spec, std::size_t rays) {
-  constexpr std::size_t rays_per_sphere = 64;
-  Pairs pairs{make_hard_case(spec, (rays + rays_per_sphere - 1) / rays_per_sphere, rays), {}};
-  for (std::size_t i = 0; i < rays; ++i) {
+Pairs judged_pairs(HardCase all) {
+  Pairs pairs{std::move(all), {}};
+  for (std::size_t i = 0; i < pairs.all.rays.size(); ++i) {
     Ray& ray = pairs.all.rays[i];
     ray.tmin = 0;  // textbooks' solvers know no other bounds
     ray.tmax = std::numeric_limits<float>::infinity();
@@ -70,8 +69,9 @@ std::vector<test::HardCaseSpec> sphere_cases() {
   return specs;
 }
 
-std::vector<HardErrors> hard_errors(const test::HardCaseSpec& spec, std::size_t rays, Isa isa) {
-  const Pairs pairs = make_pairs(spec, rays);
+std::vector<HardErrors> errors_of(HardCase all, Isa isa) {
+  const Pairs pairs = judged_pairs(std::move(all));
+  const std::size_t rays = pairs.all.rays.size();
   const KernelTable& kernels = *select_kernels(isa_name(isa)).value();
   std::vector<HardErrors> rows;
   rows.push_back(judge("robust", pairs, solve(pairs, kernels, Solver::robust)));
@@ -87,6 +87,11 @@ std::vector<HardErrors> hard_errors(const test::HardCaseSpec& spec, std::size_t 
     rows.push_back(judge(solver.name, pairs, std::vector<double>(t, t + rays)));
   }
   return rows;
+}
+
+std::vector<HardErrors> hard_errors(const test::HardCaseSpec& spec, std::size_t rays, Isa isa) {
+  constexpr std::size_t rays_per_sphere = 64;
+  return errors_of(make_hard_case(spec, (rays + rays_per_sphere - 1) / rays_per_sphere, rays), isa);
 }
 
 }  // namespace boule::bench

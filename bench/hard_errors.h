@@ -19,8 +19,12 @@ struct HardErrors {
 /// Rows that every contender can be asked: spheres, float origins, finite inputs, t > 0.
 std::vector<test::HardCaseSpec> sphere_cases();
 
-/// Every contender on `rays` pairs of a case, judged by 1400 bits: our solvers first, then those of
-/// textbooks, as the ISA has them.
+/// Every contender on pairs of a ray and the sphere that it is aimed at, ray i at sphere i %
+/// spheres, judged by 1400 bits: our solvers first, then those of textbooks, as the ISA has them.
+/// Origins are floats.
+std::vector<HardErrors> errors_of(test::HardCase pairs, Isa isa);
+
+/// The same on `rays` pairs of a case.
 std::vector<HardErrors> hard_errors(const test::HardCaseSpec& spec, std::size_t rays, Isa isa);
 
 }  // namespace boule::bench

@@ -50,13 +50,12 @@ void for_each_stream(std::size_t rays, const auto& part) {
     part(first, std::min(stream_size, rays - first));
 }
 
-void run_kernel(Arena& arena, const KernelTable& kernels, Solver solver, HitBuffer& answers) {
+void run_kernel(Arena& arena, const KernelTable& kernels, const Query& query, HitBuffer& answers) {
   const GeometryView geometry = arena.geometry.view();
   const RayStream rays = arena.rays.view();
   const HitStream hits = answers.view();
   for_each_stream(rays.size, [&](std::size_t first, std::size_t size) {
-    kernels.closest_hit(geometry, part_of(rays, first, size),
-                        {solver, Form::packet, Coherence::none},
+    kernels.closest_hit(geometry, part_of(rays, first, size), query,
                         {hits.t + first, hits.id + first, size});
   });
 }
@@ -75,16 +74,22 @@ struct Contender {
   std::vector<double> mrays_per_s;
 };
 
+const std::pair<const char*, Query> ours[] = {
+    {"bundle", {Solver::robust, Form::automatic, Coherence::common_origin}},
+    {"robust", {Solver::robust, Form::packet, Coherence::none}},
+    {"fast", {Solver::fast, Form::packet, Coherence::none}},
+};
+
 std::vector<Contender> make_contenders(Arena& arena) {
   std::vector<Contender> all;
   for (const IsaInfo& info : list_isas()) {
     if (!info.supported) continue;
     const KernelTable* const kernels = select_kernels(info.name).value();
     const std::string isa(info.name);
-    for (const Solver solver : {Solver::robust, Solver::fast}) {
+    for (const auto& [name, query] : ours) {
       all.push_back({isa,
-                     solver == Solver::robust ? "robust" : "fast",
-                     [=, &arena] { run_kernel(arena, *kernels, solver, arena.hits); },
+                     name,
+                     [=, &arena] { run_kernel(arena, *kernels, query, arena.hits); },
                      [&arena](std::size_t i) { return arena.hits.get(i).t; },
                      {}});
     }
@@ -144,7 +149,7 @@ SolverSpeed summarize(Contender& contender, const Arena& arena) {
 }
 
 std::vector<SolverSpeed> measure(Arena& arena, int repetitions) {
-  run_kernel(arena, *select_kernels("auto").value(), Solver::robust, arena.truth);
+  run_kernel(arena, *select_kernels("auto").value(), ours[1].second, arena.truth);
   std::vector<Contender> contenders = make_contenders(arena);
   take_turns(contenders, 0, arena.rays.size());  // to warm up
   for (Contender& contender : contenders) contender.mrays_per_s.clear();

@@ -11,7 +11,7 @@ struct SolverSpeed {
   std::string scene;
   std::string structure;  ///< scan or bvh
   std::string isa;
-  std::string solver;  ///< robust or fast, ours as packets, or a textbook's (book_solvers.h)
+  std::string solver;  ///< ours: bundle (robust), robust or fast as packets; or a textbook's
   double mrays_per_s;  ///< median of the repetitions
   double least, most;
   std::size_t rays;

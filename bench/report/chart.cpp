@@ -1,0 +1,286 @@
+#include "bench/report/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boule::bench {
+namespace {
+
+// Pixels of the drawing's own; it is scaled to the page.
+constexpr double width = 720, height = 430;
+constexpr double left = 92, right = 16, top = 34, bottom = 68;
+constexpr double legend_line = 20, legend_column = 225;
+
+/// From values to places along one axis.
+class Scale {
+ public:
+  Scale(const Axis& axis, double begin, double end) : axis_(axis), begin_(begin), end_(end) {}
+
+  void include(double value) {
+    if (!std::isfinite(value) || (axis_.logarithmic && value < 0)) return;
+    if (axis_.logarithmic && value == 0) {
+      zero_ = true;
+      return;
+    }
+    low_ = std::min(low_, value);
+    high_ = std::max(high_, value);
+  }
+  /// Rounds the range to whole ticks.
+  void finish() {
+    if (low_ > high_) low_ = high_ = 1;
+    if (axis_.logarithmic) {
+      low_ = std::floor(std::log10(low_));
+      high_ = std::max(std::ceil(std::log10(high_)), low_ + 1);
+      if (zero_) low_ -= 1;
+      return;
+    }
+    low_ = std::min(low_, 0.0);
+    step_ = nice_step((high_ - low_) / 6);
+    high_ = std::max(std::ceil(high_ / step_), 1.0) * step_;
+  }
+
+  [[nodiscard]] bool shows(double value) const {
+    return std::isfinite(value) && !(axis_.logarithmic && value < 0);
+  }
+  [[nodiscard]] double place(double value) const {
+    if (axis_.logarithmic) value = value == 0 ? low_ : std::log10(value);
+    return begin_ + (value - low_) / (high_ - low_) * (end_ - begin_);
+  }
+
+  struct Tick {
+    double place;
+    std::string label;
+  };
+  [[nodiscard]] std::vector<Tick> ticks() const {
+    std::vector<Tick> all;
+    const double step = axis_.logarithmic ? std::ceil((high_ - low_) / 9) : step_;
+    for (double at = low_; at <= high_ + step / 2; at += step) {
+      const bool zero = axis_.logarithmic && zero_ && at == low_;
+      const double value = axis_.logarithmic ? std::pow(10, at) : at;
+      all.push_back(
+          {begin_ + (at - low_) / (high_ - low_) * (end_ - begin_), zero ? "0" : label(value)});
+    }
+    return all;
+  }
+
+ private:
+  static double nice_step(double least) {
+    const double power = std::pow(10, std::floor(std::log10(std::max(least, 1e-300))));
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (least <= factor * power) return factor * power;
+    }
+    return 10 * power;
+  }
+  static std::string label(double value) {
+    const double size = std::fabs(value);
+    if (size != 0 && (size >= 1e5 || size < 1e-3)) {
+      const int power = static_cast<int>(std::lround(std::log10(size)));
+      return fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", power);
+    }
+    return fmt::format("{:.6g}", value);
+  }
+
+  Axis axis_;
+  double begin_, end_;
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_, step_ = 1;
+  bool zero_ = false;
+};
+
+std::string marker(double x, double y, const Look& look, const std::string& tip) {
+  const std::string attributes =
+      fmt::format("class=\"m c{}\"{}", look.color % 10,
+                  tip.empty() ? "" : fmt::format(" tabindex=\"0\" data-tip=\"{}\"", escaped(tip)));
+  switch (look.shape % 5) {
+    case 0:
+      return fmt::format("<circle {} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>", attributes, x, y);
+    case 1:
+      return fmt::format("<rect {} x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\"/>",
+                         attributes, x - 4.5, y - 4.5);
+    case 2:
+      return fmt::format("<path {} d=\"M{:.1f} {:.1f}l5.5 9.5h-11z\"/>", attributes, x, y - 6);
+    case 3:
+      return fmt::format("<path {} d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>", attributes, x, y - 6);
+    default:
+      return fmt::format("<path {} d=\"M{:.1f} {:.1f}l5.5 -9.5h-11z\"/>", attributes, x, y + 6);
+  }
+}
+
+std::string text(double x, double y, const char* anchor, const std::string& content,
+                 const std::string& more = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor,
+                     more, content);
+}
+
+std::string open_svg(const std::string& title, double full_height) {
+  return fmt::format(
+             "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" "
+             "role=\"img\" aria-label=\"{}\">\n",
+             width, full_height, escaped(title)) +
+         text(left, 18, "start", escaped(title), " class=\"title\"") + "\n";
+}
+
+std::string axis_labels(const std::string& x, const std::string& y) {
+  const double middle = (top + height - bottom) / 2;
+  return text((left + width - right) / 2, height - 14, "middle", escaped(x)) +
+         text(18, middle, "middle", escaped(y),
+              fmt::format(" transform=\"rotate(-90 18 {})\"", middle));
+}
+
+std::string grid(const Scale& x, const Scale& y) {
+  std::string svg;
+  for (const auto& [at, label] : x.ticks()) {
+    svg += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/>", at, top, height - bottom);
+    svg += text(at, height - bottom + 28, "middle", label);
+  }
+  for (const auto& [at, label] : y.ticks()) {
+    svg += fmt::format("<path class=\"grid\" d=\"M{0} {1:.1f}H{2}\"/>", left, at, width - right);
+    svg += text(left - 8, at + 4, "end", label);
+  }
+  return svg + "\n";
+}
+
+std::string draw_series(const Series& series, const Scale& x, const Scale& y) {
+  std::string line, markers;
+  for (const ChartPoint& point : series.points) {
+    if (!x.shows(point.x) || !y.shows(point.y)) continue;
+    const double px = x.place(point.x), py = y.place(point.y);
+    line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", px, py);
+    markers += marker(px, py, series.look, point.tip);
+  }
+  if (!series.line) return markers + "\n";
+  return fmt::format("<path class=\"line c{}\" d=\"{}\"/>", series.look.color % 10, line) +
+         markers + "\n";
+}
+
+/// Below the axes, three a row.
+std::string legend_lines(const std::vector<LegendEntry>& entries) {
+  std::string svg;
+  constexpr std::size_t columns = 3;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double x = left + legend_column * static_cast<double>(i % columns) - 40;
+    const double y = height + 8 + legend_line * static_cast<double>(i / columns);
+    svg +=
+        marker(x, y, entries[i].look, "") + text(x + 12, y + 4, "start", escaped(entries[i].name));
+  }
+  return svg;
+}
+
+/// What is within the <svg>.
+std::string drawing(const Chart& chart) {
+  Scale x(chart.x, left, width - right), y(chart.y, height - bottom, top);
+  for (const Series& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      x.include(point.x);
+      y.include(point.y);
+    }
+  }
+  x.finish();
+  y.finish();
+  std::string svg = axis_labels(chart.x.label, chart.y.label) + grid(x, y);
+  for (const Series& series : chart.series) svg += draw_series(series, x, y);
+  return svg;
+}
+
+}  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string draw(const Chart& chart) {
+  return open_svg(chart.title, height) + drawing(chart) + "</svg>\n";
+}
+
+std::string draw_legend(const Chart& chart) {
+  std::string html = "<p class=\"legend\">";
+  for (const auto& [name, look] : chart.legend) {
+    html += "<span><svg class=\"chart key\" viewBox=\"-8 -8 16 16\">" + marker(0, 0, look, "") +
+            "</svg>" + escaped(name) + "</span>\n";
+  }
+  return html + "</p>\n";
+}
+
+std::string draw_alone(const Chart& chart) {
+  const double rows = std::ceil(static_cast<double>(chart.legend.size()) / 3);
+  return open_svg(chart.title, height + legend_line * rows) + "<style>" + chart_style() +
+         ".chart { background: var(--page); }</style>\n" + drawing(chart) +
+         legend_lines(chart.legend) + "</svg>\n";
+}
+
+std::string draw(const HeatMap& map) {
+  const double cell_x = (width - left - right) / static_cast<double>(map.columns.size());
+  const double cell_y = (height - top - bottom) / static_cast<double>(map.rows.size());
+  std::string svg = open_svg(map.title, height) + axis_labels(map.x_label, map.y_label);
+  for (std::size_t row = 0; row < map.rows.size(); ++row) {
+    const double y = height - bottom - cell_y * static_cast<double>(row + 1);
+    svg += text(left - 8, y + cell_y / 2 + 4, "end", escaped(map.rows[row]));
+    for (std::size_t column = 0; column < map.columns.size(); ++column) {
+      const std::size_t at = row * map.columns.size() + column;
+      svg += fmt::format(
+          "<rect class=\"{}\" style=\"--v:{:.3f}\" tabindex=\"0\" x=\"{:.1f}\" y=\"{:.1f}\" "
+          "width=\"{:.1f}\" height=\"{:.1f}\" data-tip=\"{}\"/>",
+          map.values[at] > 0 ? "cell some" : "cell", map.values[at],
+          left + cell_x * static_cast<double>(column), y, cell_x - 1, cell_y - 1,
+          escaped(map.tips[at]));
+    }
+    svg += "\n";
+  }
+  for (std::size_t column = 0; column < map.columns.size(); ++column)
+    svg += text(left + cell_x * (static_cast<double>(column) + 0.5), height - bottom + 28, "middle",
+                escaped(map.columns[column]));
+  return svg + "\n</svg>\n";
+}
+
+std::string chart_style() {
+  return R"(
+.chart { --ink: #222; --faint: #d8d8d8; --page: #fff; --hot: 213, 94, 0; --cold: #eef1f4;
+  --c0: #0072b2; --c1: #d55e00; --c2: #009e73; --c3: #cc79a7; --c4: #e69f00; --c5: #56b4e9;
+  --c6: #6b6b6b; --c7: #9a8a00; --c9: #8b4a1c; font: 12px system-ui, sans-serif; }
+@media (prefers-color-scheme: dark) {
+  .chart { --ink: #e6e6e6; --faint: #3c4043; --page: #15181b; --cold: #23282d;
+    --c0: #4aa8e0; --c1: #f07b2c; --c2: #2bc79a; --c6: #a8a8a8; --c7: #d8cc3a; --c9: #c98c5a; } }
+.chart text { fill: var(--ink); }
+.chart .title { font-weight: 600; font-size: 14px; }
+.chart .grid { stroke: var(--faint); stroke-width: 1; }
+.chart .line { stroke-width: 1.8; }
+.chart .m { stroke: var(--page); stroke-width: 1; }
+.chart .m[data-tip]:hover, .chart .m:focus { stroke: var(--ink); stroke-width: 2; outline: none; }
+.chart .cell { fill: var(--cold); }
+.chart .some { fill: rgba(var(--hot), calc(0.15 + 0.85 * var(--v))); }
+.chart .cell:hover, .chart .cell:focus { stroke: var(--ink); stroke-width: 2; outline: none; }
+.chart .c0 { fill: var(--c0); } .chart .c1 { fill: var(--c1); } .chart .c2 { fill: var(--c2); }
+.chart .c3 { fill: var(--c3); } .chart .c4 { fill: var(--c4); } .chart .c5 { fill: var(--c5); }
+.chart .c6 { fill: var(--c6); } .chart .c7 { fill: var(--c7); } .chart .c8 { fill: var(--ink); } .chart .c9 { fill: var(--c9); }
+.chart .line.c0 { stroke: var(--c0); } .chart .line.c1 { stroke: var(--c1); }
+.chart .line.c2 { stroke: var(--c2); } .chart .line.c3 { stroke: var(--c3); }
+.chart .line.c4 { stroke: var(--c4); } .chart .line.c5 { stroke: var(--c5); }
+.chart .line.c6 { stroke: var(--c6); } .chart .line.c7 { stroke: var(--c7); }
+.chart .line.c4 { stroke: var(--c4); } .chart .line.c5 { stroke: var(--c5); }
+.chart .line.c6 { stroke: var(--c6); } .chart .line.c7 { stroke: var(--c7); }
+.chart .line.c8 { stroke: var(--ink); } .chart .line.c9 { stroke: var(--c9); } .chart .line[class] { fill: none; }
+)";
+}
+
+}  // namespace boule::bench

@@ -1,0 +1,191 @@
+#include "bench/report/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace boule::bench {
+namespace {
+
+struct Named {
+  const char* key;
+  const char* name;
+  int color;
+};
+constexpr std::array solvers = {
+    Named{"bundle", "robust, bundles (ours)", 8},
+    Named{"robust", "robust, packets (ours)", 9},
+    Named{"fast", "fast, packets (ours)", 0},
+    Named{"half_b", "half-b", 1},
+    Named{"textbook", "textbook", 4},
+    Named{"stable_q", "stable q", 3},
+    Named{"kahan", "Kahan", 7},
+    Named{"closest_approach", "closest approach", 5},
+    Named{"half_b_double", "half-b, double", 2},
+    Named{"closest_approach_double", "closest approach, double", 6},
+};
+constexpr std::array isas = {"scalar", "sse42", "avx2", "avx512", "neon"};
+constexpr std::array forms = {Named{"bundle", "bundles", 8}, Named{"packet", "packets", 0},
+                              Named{"single", "single rays", 1}};
+
+const Named* find(const std::string& solver) {
+  const auto* const found =
+      std::find_if(solvers.begin(), solvers.end(), [&](const Named& n) { return solver == n.key; });
+  return found == solvers.end() ? nullptr : found;
+}
+
+int shape_of(const std::string& isa) {
+  const auto* const found =
+      std::find_if(isas.begin(), isas.end(), [&](const char* name) { return isa == name; });
+  return static_cast<int>(found - isas.begin()) % 5;
+}
+
+/// The ISAs that rows have, in their order.
+template <class Rows>
+void add_isas(const Rows& rows, std::vector<LegendEntry>& legend) {
+  for (const char* isa : isas) {
+    const bool there =
+        std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.isa == isa; });
+    if (there) legend.push_back({isa, {8, shape_of(isa)}});
+  }
+}
+
+const char* title_of(const std::string& experiment) {
+  if (experiment == "scale") return "Wrong shadows over the scene's scale";
+  if (experiment == "distance") return "Wrong shadows over the camera's distance";
+  return "Wrong shadows over the radius of the ground";
+}
+const char* axis_of(const std::string& experiment) {
+  if (experiment == "scale") return "size of a ball, in units";
+  if (experiment == "distance") return "distance of the camera, in radii of the ball";
+  return "radius of the ground sphere, in radii of the balls on it";
+}
+
+}  // namespace
+
+std::string solver_name(const std::string& solver) {
+  const Named* const found = find(solver);
+  return found == nullptr ? solver : found->name;
+}
+Look solver_look(const std::string& solver, const std::string& isa) {
+  const Named* const found = find(solver);
+  return {found == nullptr ? 6 : found->color, shape_of(isa)};
+}
+
+double ErrorSum::per_million() const {
+  return pairs == 0 ? 0 : 1e6 * static_cast<double>(wrong) / static_cast<double>(pairs);
+}
+
+ErrorSums sum_errors(const std::vector<CaseErrors>& cases) {
+  ErrorSums sums;
+  for (const CaseErrors& row : cases) {
+    ErrorSum& sum = sums[{row.isa, row.errors.contender}];
+    sum.pairs += row.errors.figures.pairs;
+    sum.wrong += row.errors.figures.wrong_decisions;
+  }
+  return sums;
+}
+
+Chart speed_chart(const Figures& figures, const std::string& scene, const std::string& structure) {
+  Chart chart{fmt::format("Speed against error, {}, {}", scene,
+                          structure == "bvh" ? "through the tree" : "every sphere tested"),
+              {"wrong hits or misses in a million hard pairs", true},
+              {"million rays per second, one thread", true},
+              {},
+              {}};
+  const ErrorSums sums = sum_errors(figures.cases);
+  std::vector<SolverSpeed> shown;
+  for (const SolverSpeed& speed : figures.speeds) {
+    const bool bundle = speed.solver == "bundle";  // whose hits are robust's, bit for bit
+    const auto sum = sums.find({speed.isa, bundle ? "robust" : speed.solver});
+    if (speed.scene != scene || speed.structure != structure || sum == sums.end()) continue;
+    shown.push_back(speed);
+    const double wrong = sum->second.per_million();
+    const std::string tip = fmt::format(
+        "{}, {}: {:.3g} Mray/s ({:.3g} to {:.3g}), {:.0f} wrong in a million",
+        solver_name(speed.solver), speed.isa, speed.mrays_per_s, speed.least, speed.most, wrong);
+    chart.series.push_back(
+        {tip, solver_look(speed.solver, speed.isa), false, {{wrong, speed.mrays_per_s, tip}}});
+  }
+  for (const Named& solver : solvers) chart.legend.push_back({solver.name, {solver.color, 0}});
+  add_isas(shown, chart.legend);
+  return chart;
+}
+
+HeatMap error_chart(Figures& figures, const std::string& solver) {
+  HeatMap map{solver_name(solver) + ": wrong hits, misses",
+              "distance of the sphere in radii, 10^x",
+              "k: aimed at r (1 +/- 2^-k)",
+              {},
+              {},
+              {},
+              {}};
+  for (int distance = ErrorMap::nearest; distance <= ErrorMap::farthest; ++distance)
+    map.columns.push_back(fmt::format("{:.1f}", distance / 2.0));
+  for (int grazing = ErrorMap::least; grazing <= ErrorMap::most; grazing += 2)
+    map.rows.push_back(std::to_string(grazing));
+  for (ErrorMap::Cell& cell : figures.map.cells) {
+    if (cell.contender != solver) continue;
+    test::HardFigures& f = cell.figures;
+    const double wrong = static_cast<double>(f.wrong_decisions) / static_cast<double>(f.pairs);
+    map.values.push_back(wrong);
+    map.tips.push_back(fmt::format(
+        "distance 10^{:.1f} radii, 2^-{}: {} of {} wrong; t off by {:.3g} ulp (p99)",
+        cell.distance / 2.0, cell.grazing, f.wrong_decisions, f.pairs, f.ulp_quantile(0.99)));
+  }
+  return map;
+}
+
+Chart epsilon_chart(const Figures& figures, const std::string& experiment) {
+  Chart chart{title_of(experiment),
+              {axis_of(experiment), true},
+              {"points judged wrongly, %", false},
+              {},
+              {}};
+  const std::vector<std::string> remedies = epsilon_remedies();
+  for (std::size_t i = 0; i < remedies.size(); ++i) {
+    const bool ours = remedies[i] == "ours";
+    const Look look{ours ? 8 : static_cast<int>(i % 8), static_cast<int>(i % 5)};
+    Series series{remedies[i], look, true, {}};
+    for (const EpsilonFigure& figure : figures.epsilons) {
+      if (figure.experiment != experiment || figure.remedy != remedies[i]) continue;
+      const double points = static_cast<double>(std::max<std::size_t>(figure.points, 1));
+      const double share = 100 * static_cast<double>(figure.false_shadows + figure.leaks) / points;
+      series.points.push_back(
+          {figure.x, share,
+           fmt::format("{}, {:.3g}: {} false shadows and {} leaks at {} points", figure.remedy,
+                       figure.x, figure.false_shadows, figure.leaks, figure.points)});
+    }
+    chart.legend.push_back({remedies[i], look});
+    chart.series.push_back(series);
+  }
+  return chart;
+}
+
+Chart growth_chart(const Figures& figures) {
+  Chart chart{"Time of a camera ray among n random spheres",
+              {"spheres", true},
+              {"nanoseconds a ray, one thread", true},
+              {},
+              {}};
+  for (const Named& form : forms) {
+    for (const char* isa : isas) {
+      Series series{fmt::format("{}, {}", form.name, isa), {form.color, shape_of(isa)}, true, {}};
+      for (const Growth& growth : figures.growth) {
+        if (growth.form != form.key || growth.isa != isa) continue;
+        series.points.push_back(
+            {static_cast<double>(growth.spheres), growth.ns,
+             fmt::format("{}, {}, {} spheres: {:.1f} ns ({:.1f} to {:.1f})", form.name, isa,
+                         growth.spheres, growth.ns, growth.least, growth.most)});
+      }
+      if (!series.points.empty()) chart.series.push_back(series);
+    }
+    chart.legend.push_back({form.name, {form.color, 0}});
+  }
+  add_isas(figures.growth, chart.legend);
+  return chart;
+}
+
+}  // namespace boule::bench

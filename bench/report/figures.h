@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/epsilons.h"
+#include "bench/hard_errors.h"
+#include "bench/report/error_map.h"
+#include "bench/report/growth.h"
+#include "bench/report/peer_rows.h"
+#include "bench/solver_speeds.h"
+
+namespace boule::bench {
+
+/// How much is measured.
+struct ReportSettings {
+  bool quick = false;
+  std::uint64_t seed = 20261121;  ///< of the epsilon experiment; the others' are in their sources
+};
+
+/// What it was measured on, and with.
+struct Provenance {
+  std::string cpu;
+  unsigned cores = 0;
+  std::string compiler, flags, commit;
+  std::string date;  ///< from SOURCE_DATE_EPOCH; empty without it
+  std::string command;
+};
+
+/// One contender's errors in one hard case.
+struct CaseErrors {
+  std::string hard_case, isa;
+  HardErrors errors;
+};
+
+/// All that the report shows.
+struct Figures {
+  ReportSettings settings;
+  Provenance provenance;
+  std::vector<SolverSpeed> speeds;
+  std::vector<CaseErrors> cases;  ///< of every ISA
+  std::string widest;             ///< the ISA of the map
+  ErrorMap map;
+  std::vector<EpsilonFigure> epsilons;
+  std::vector<EpsilonPicture> pictures;
+  std::vector<Growth> growth;
+  std::optional<PeerRows> peers;  ///< none without Embree
+};
+
+/// Runs everything; says on standard error what is being measured.
+Figures measure(const ReportSettings& settings, const std::string& command);
+
+/// All of it but the pictures' pixels, as JSON.
+std::string to_json(Figures& figures);
+
+/// The page, one file by itself.
+std::string to_html(Figures& figures);
+
+/// Its first chart by itself, as SVG.
+std::string main_chart(Figures& figures);
+
+}  // namespace boule::bench

@@ -1,0 +1,77 @@
+// Speed against error: measures, and writes one page that shows it.
+//
+//   report [--quick] -o report.html [--chart chart.svg]
+//
+// Beside the page come its figures, report.json. Exit code 1: a robust solver was wrong, or a file
+// could not be written; 2: bad arguments.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "bench/report/figures.h"
+
+namespace boule::bench {
+namespace {
+
+struct Arguments {
+  ReportSettings settings;
+  std::string page, chart;
+};
+
+/// All or nothing: under another name first.
+bool write_file(const std::filesystem::path& path, const std::string& content) {
+  const std::filesystem::path temporary = path.string() + ".temp";
+  std::ofstream file(temporary, std::ios::binary);
+  file << content;
+  file.close();
+  std::error_code failed;
+  if (file) std::filesystem::rename(temporary, path, failed);
+  if (file && !failed) return true;
+  std::filesystem::remove(temporary, failed);
+  std::fprintf(stderr, "report: cannot write '%s'\n", path.c_str());
+  return false;
+}
+
+bool robust_is_right(const Figures& figures) {
+  for (const CaseErrors& row : figures.cases) {
+    const bool ours = row.errors.contender == "robust";
+    if (ours && row.errors.figures.wrong_decisions + row.errors.figures.wrong_roots != 0) {
+      std::fprintf(stderr, "report: robust is wrong in %s on %s\n", row.hard_case.c_str(),
+                   row.isa.c_str());
+      return false;
+    }
+  }
+  return true;
+}
+
+int run(const Arguments& arguments) {
+  const std::filesystem::path page = arguments.page;
+  const std::string command =
+      std::string("report ") + (arguments.settings.quick ? "--quick " : "") + "-o report.html";
+  Figures figures = measure(arguments.settings, command);
+  std::filesystem::path json = page;
+  json.replace_extension(".json");
+  bool written = write_file(json, to_json(figures)) && write_file(page, to_html(figures));
+  if (!arguments.chart.empty())
+    written = written && write_file(arguments.chart, main_chart(figures));
+  return written && robust_is_right(figures) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures speed against error and writes one page about it.");
+  boule::bench::Arguments arguments;
+  app.add_flag("--quick", arguments.settings.quick, "Under two minutes, smaller samples");
+  app.add_option("-o,--output", arguments.page, "The page, .html; figures go beside it, .json")
+      ->required();
+  app.add_option("--chart", arguments.chart, "The first chart by itself, .svg");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return boule::bench::run(arguments);
+}

@@ -1,0 +1,91 @@
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "bench/report/commit.h"
+#include "bench/report/figures.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::bench {
+namespace {
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+/// "2026-11-22", or empty where SOURCE_DATE_EPOCH is not whole seconds.
+std::string source_date() {
+  const char* const variable = std::getenv("SOURCE_DATE_EPOCH");
+  if (variable == nullptr || *variable == '\0') return "";
+  char* end = nullptr;
+  const std::time_t seconds = std::strtoll(variable, &end, 10);
+  std::tm date{};
+  char text[32];
+  if (*end != '\0' || gmtime_r(&seconds, &date) == nullptr) return "";
+  return std::strftime(text, sizeof text, "%Y-%m-%d", &date) == 0 ? "" : text;
+}
+
+#if defined(__clang__)
+constexpr const char* compiler = __VERSION__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
+Provenance find_provenance(const std::string& command) {
+  return {cpu_model(),
+          std::thread::hardware_concurrency(),
+          compiler,
+          BOULE_BENCH_FLAGS,
+          commit_of_build(),
+          source_date(),
+          command};
+}
+
+std::vector<CaseErrors> measure_cases(std::size_t rays) {
+  std::vector<CaseErrors> cases;
+  for (const IsaInfo& info : list_isas()) {
+    if (!info.supported) continue;
+    for (const test::HardCaseSpec& spec : sphere_cases()) {
+      for (HardErrors& errors : hard_errors(spec, rays, info.isa))
+        cases.push_back({name_of(spec), std::string(info.name), std::move(errors)});
+    }
+  }
+  return cases;
+}
+
+void say(const char* what) { std::fprintf(stderr, "report: %s\n", what); }
+
+}  // namespace
+
+Figures measure(const ReportSettings& settings, const std::string& command) {
+  const bool quick = settings.quick;
+  Figures figures;
+  figures.settings = settings;
+  figures.provenance = find_provenance(command);
+  const Isa widest = select_kernels("auto").value()->isa;
+  figures.widest = isa_name(widest);
+  say("speeds");
+  const std::vector<std::string> few = {"u1000", "u10000"};
+  const std::vector<std::string> all = {"u1000", "u10000", "u100000", "flake4"};
+  figures.speeds = measure_solver_speeds(quick ? few : all, quick ? 5 : 15, quick ? 256 : 512);
+  say("hard cases");
+  figures.cases = measure_cases(quick ? 500 : 5000);
+  say("distance and grazing");
+  figures.map = map_errors(quick ? 100 : 1000, widest);
+  say("epsilons");
+  figures.epsilons = run_epsilon_experiment(quick ? 1000 : 5000, settings.seed);
+  figures.pictures = draw_epsilon_pictures(scene_on_ground(1e4), 320, 240);
+  say("growth");
+  figures.growth = measure_growth(quick ? 5 : 6, quick ? 256 : 512, quick ? 3 : 7);
+  say("Embree");
+  figures.peers = measure_peers(quick);
+  return figures;
+}
+
+}  // namespace boule::bench

@@ -1,0 +1,216 @@
+// The page: what was measured, as charts and tables, in one file without anything from elsewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "bench/report/charts.h"
+#include "bench/report/data_uri.h"
+#include "bench/report/page_parts.h"
+
+namespace boule::bench {
+namespace {
+
+std::string figure(const Chart& chart) {
+  return "<figure>" + draw(chart) + draw_legend(chart) + "</figure>\n";
+}
+
+std::string paragraph(const std::string& html) { return "<p>" + html + "</p>\n"; }
+
+/// Scenes in the order of their rows, of one structure.
+std::vector<std::string> scenes_of(const Figures& figures, const std::string& structure) {
+  std::vector<std::string> scenes;
+  for (const SolverSpeed& speed : figures.speeds) {
+    const bool seen = std::find(scenes.begin(), scenes.end(), speed.scene) != scenes.end();
+    if (speed.structure == structure && !seen) scenes.push_back(speed.scene);
+  }
+  return scenes;
+}
+
+const SolverSpeed* find_speed(const Figures& figures, const SolverSpeed& like,
+                              const std::string& solver) {
+  for (const SolverSpeed& speed : figures.speeds) {
+    if (speed.scene == like.scene && speed.structure == like.structure && speed.isa == like.isa &&
+        speed.solver == solver)
+      return &speed;
+  }
+  return nullptr;
+}
+
+std::string ratio_cell(const SolverSpeed& ours, const SolverSpeed* other) {
+  if (other == nullptr || other->mrays_per_s == 0) return "-";
+  return fmt::format("{:.2f}", ours.mrays_per_s / other->mrays_per_s);
+}
+
+/// What exactness costs: robust's speed as a ratio to float's.
+std::string cost_table(const Figures& figures) {
+  Table table({"scene", "by", "ISA", "bundles, Mray/s", "packets, Mray/s", "packets to fast",
+               "packets to half-b", "bundles to half-b", "other hits: fast", "half-b"});
+  double least = 1e9;
+  std::string where;
+  for (const SolverSpeed& speed : figures.speeds) {
+    if (speed.solver != "robust") continue;
+    const SolverSpeed* const fast = find_speed(figures, speed, "fast");
+    const SolverSpeed* const half_b = find_speed(figures, speed, "half_b");
+    const SolverSpeed* const bundle = find_speed(figures, speed, "bundle");
+    if (fast == nullptr || half_b == nullptr || bundle == nullptr) continue;
+    table.add({speed.scene, speed.structure == "bvh" ? "tree" : "scan", speed.isa,
+               fmt::format("{:.3g}", bundle->mrays_per_s), fmt::format("{:.3g}", speed.mrays_per_s),
+               ratio_cell(speed, fast), ratio_cell(speed, half_b), ratio_cell(*bundle, half_b),
+               std::to_string(fast->differ), std::to_string(half_b->differ)});
+    const double ratio = speed.mrays_per_s / fast->mrays_per_s;
+    if (ratio >= least) continue;
+    least = ratio;
+    where = fmt::format("{}, {}, {}", speed.scene, speed.structure == "bvh" ? "tree" : "scan",
+                        speed.isa);
+  }
+  return paragraph(
+             fmt::format("The worst case: robust as packets runs at <b>{:.2f}</b> of fast ({}).",
+                         least, where)) +
+         table.html();
+}
+
+/// Every hard case by solver: wrong decisions; the rest where one points at it.
+std::string case_table(Figures& figures) {
+  std::vector<std::string> names, columns = {"hard case"};
+  for (const CaseErrors& row : figures.cases) {
+    if (row.isa != figures.widest) continue;
+    const std::string& name = row.errors.contender;
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    names.push_back(name);
+    columns.push_back(solver_name(name));
+  }
+  Table table(columns);
+  std::vector<std::string> line;
+  for (CaseErrors& row : figures.cases) {
+    if (row.isa != figures.widest) continue;
+    test::HardFigures& f = row.errors.figures;
+    if (line.empty()) line.push_back(row.hard_case);
+    const bool any = f.wrong_decisions < f.hits;  // with none right there is no t to judge
+    line.push_back(any ? fmt::format("{} | {:.2g} | {:.2g}", f.wrong_decisions + f.wrong_roots,
+                                     f.ulp_quantile(0.99), f.max_residual)
+                       : fmt::format("{} | - | -", f.wrong_decisions + f.wrong_roots));
+    if (line.size() < columns.size()) continue;
+    table.add(line);
+    line.clear();
+  }
+  return table.html();
+}
+
+std::string sum_table(const Figures& figures) {
+  Table table({"solver", "ISA", "pairs", "wrong hits and misses", "in a million"});
+  for (const auto& [key, sum] : sum_errors(figures.cases))
+    table.add({solver_name(key.second), key.first, std::to_string(sum.pairs),
+               std::to_string(sum.wrong), fmt::format("{:.0f}", sum.per_million())});
+  return table.html();
+}
+
+std::string epsilon_pictures(const Figures& figures) {
+  std::string html = "<div class=\"pictures\">\n";
+  for (const EpsilonPicture& picture : figures.pictures) {
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"{3}\"><figcaption>{0}: {4} "
+        "false shadows, {5} leaks</figcaption></figure>\n",
+        escaped(picture.remedy), picture.marked.width, picture.marked.height,
+        png_uri(picture.marked), picture.false_shadows, picture.leaks);
+  }
+  return html + "</div>\n";
+}
+
+std::string peer_section(const Figures& figures) {
+  if (!figures.peers) return paragraph("This build found no Embree 3 (libembree-dev).");
+  Table table({"scene", "rays", "contender", "solver", "Mray/s", "range", "to best Embree",
+               "wrong of", "rays"});
+  for (const PeerRow& row : figures.peers->rows)
+    table.add(
+        {row.scene, row.rays, row.contender, row.solver, fmt::format("{:.3g}", row.mrays_per_s),
+         fmt::format("{:.3g} to {:.3g}", row.least, row.most), fmt::format("{:.2f}", row.ratio),
+         std::to_string(row.mismatches), std::to_string(row.count)});
+  return paragraph("Embree " + escaped(figures.peers->embree) +
+                   ", every mode of it, built-in spheres and user geometry with a hand-vectorised "
+                   "callback, on the same rays in the same process, in turns. Wrong: another hit, "
+                   "id or t than single rays on an independent tree in plain double.") +
+         table.html();
+}
+
+std::string provenance(const Figures& figures) {
+  const Provenance& p = figures.provenance;
+  Table table({"", ""});
+  table.add({"machine", fmt::format("{}, {} cores", p.cpu, p.cores)});
+  table.add({"compiler", p.compiler});
+  table.add({"flags", p.flags + ", kernels -O2, all -ffp-contract=off"});
+  table.add({"commit", p.commit});
+  table.add({"date", p.date.empty() ? "not given (SOURCE_DATE_EPOCH)" : p.date});
+  table.add({"made by", p.command});
+  table.add({"seeds", fmt::format("epsilons {}; hard cases and scenes: in their sources",
+                                  figures.settings.seed)});
+  return table.html();
+}
+
+std::string speed_section(const Figures& figures) {
+  std::string html = paragraph(
+      "Each point is one solver compiled for one instruction set. To the left is right, up is "
+      "fast. "
+      "Errors are counted against an oracle of 1400 bits on the hard cases below; speed is that of "
+      "the same code on the scene named, W rays of a camera at a time, all contenders in turns in "
+      "one process, medians of thread CPU time. Bundles are how Boule traces a camera's rays: up "
+      "to "
+      "1024 that share an origin; their hits are those of packets, bit for bit.");
+  for (const char* structure : {"scan", "bvh"}) {
+    for (const std::string& scene : scenes_of(figures, structure))
+      html += figure(speed_chart(figures, scene, structure));
+  }
+  return html;
+}
+
+std::string error_section(Figures& figures) {
+  std::string html = paragraph(
+      "A unit sphere at a growing distance, aimed at more and more closely beside its rim: half of "
+      "the rays should hit, half should miss. Instruction set: " +
+      figures.widest + ".");
+  for (const char* solver : {"robust", "fast", "closest_approach", "half_b", "half_b_double"})
+    html += "<figure>" + draw(error_chart(figures, solver)) + "</figure>\n";
+  return html;
+}
+
+std::string epsilon_section(const Figures& figures) {
+  std::string html = paragraph(
+      "What textbooks do against freckles, beside what Boule does: a ray that leaves a surface "
+      "knows it by its id and starts from a point in double. Points whose truth is beyond a long "
+      "double are left out.");
+  for (const char* experiment : {"scale", "distance", "ground"})
+    html += figure(epsilon_chart(figures, experiment));
+  return html + epsilon_pictures(figures);
+}
+
+}  // namespace
+
+std::string to_html(Figures& figures) {
+  std::string html = page_head("Boule: speed against error");
+  html += "<h1>Boule: speed against error</h1>\n" +
+          paragraph(
+              "A ray tracer for spheres and planes that gives exact hits at float speed. Every "
+              "figure on this page was measured by the run that wrote it.") +
+          provenance(figures);
+  html += section("Speed against error", speed_section(figures) + cost_table(figures));
+  html += section("Where errors live", error_section(figures));
+  html +=
+      section("The hard cases",
+              paragraph("Three columns: wrong hits, misses and roots | error of t in ulp, p99 | "
+                        "greatest distance of the hit from the surface in u max(F, r), u = "
+                        "2<sup>-24</sup>. Instruction set: " +
+                        figures.widest + ".") +
+                  case_table(figures) + sum_table(figures));
+  html += section("Shadows without an epsilon", epsilon_section(figures));
+  html += section("Growth", figure(growth_chart(figures)));
+  html += section("Embree", peer_section(figures));
+  return html + page_end();
+}
+
+std::string main_chart(Figures& figures) {
+  const std::vector<std::string> scenes = scenes_of(figures, "bvh");
+  return draw_alone(speed_chart(figures, scenes.size() > 1 ? scenes[1] : scenes.at(0), "bvh"));
+}
+
+}  // namespace boule::bench

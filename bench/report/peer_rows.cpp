@@ -1,0 +1,46 @@
+#include "bench/report/peer_rows.h"
+
+#ifdef BOULE_HAS_PEERS
+
+#include <cstdio>
+
+#include "bench/peers/embree_peer.h"
+#include "bench/peers/referee.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace boule::bench {
+
+std::optional<PeerRows> measure_peers(bool quick) {
+  RefereeSettings settings;
+  settings.scenes = quick ? std::vector<std::string>{"u1000", "flake4"} : scene_names();
+  settings.kinds = {RayKind::primary, RayKind::shadow};
+  for (const IsaInfo& info : list_isas()) {
+    if (info.supported && (info.isa == Isa::avx2 || info.isa == Isa::avx512))
+      settings.isas.emplace_back(info.name);
+  }
+  if (settings.isas.empty()) return std::nullopt;
+  settings.repetitions = quick ? 3 : 5;
+  settings.patience = 8;
+  settings.side = quick ? 512 : 1024;
+  PeerRows result{embree_version(), {}};
+  const auto report = [&](const Check& check, const std::vector<Row>& rows) {
+    std::fprintf(stderr, "  %s %s\n", check.scene.c_str(), check.rays.c_str());
+    for (const Row& row : rows)
+      result.rows.push_back({row.scene, row.rays, row.contender, row.solver, row.median, row.min,
+                             row.max, row.ratio_to_best_embree, check.count, row.mismatches});
+  };
+  if (!compare(settings, report)) return std::nullopt;
+  return result;
+}
+
+}  // namespace boule::bench
+
+#else
+
+namespace boule::bench {
+
+std::optional<PeerRows> measure_peers(bool /*quick*/) { return std::nullopt; }
+
+}  // namespace boule::bench
+
+#endif
