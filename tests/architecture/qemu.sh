@@ -7,7 +7,10 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 unset BOULE_ISA
 
-"${emulated[@]}" "$equivalence" --gtest_filter="*$isa*" >"$work/out" 2>"$work/err" ||
+# Half of the time would go into the hard cases as bundles and the sweep, whose code the others run as
+# well; and an emulator tells nothing about time.
+"${emulated[@]}" "$equivalence" \
+  --gtest_filter="*$isa*-*HardBundles*:*RejectSweep*:*RaysAlongAnAxis*" >"$work/out" 2>"$work/err" ||
   { tail -n 30 "$work/out" "$work/err"; exit 1; }
 tail -n 1 "$work/out"
 grep -qE '^\[  PASSED  \] [1-9]' "$work/out" || { echo "no test of $isa ran"; exit 1; }
