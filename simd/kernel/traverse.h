@@ -38,10 +38,8 @@ BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org
                               const Real& inverse, Real& near, Real& far) {
   const Real floor(static_cast<float>(filter::floor));
   const Real a = (low - org - floor) * inverse, b = (high - org + floor) * inverse;
-  const RealMask rising = a < b;
-  const Real enter = select(rising, a, b), leave = select(rising, b, a);
-  near = select(near < enter, enter, near);
-  far = select(leave < far, leave, far);
+  near = greater_or(lesser_or(a, b), near);
+  far = lesser_or(greater_or(b, a), far);
 }
 
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
@@ -82,15 +80,11 @@ class VisitStack {
   int count_ = 0;
 };
 
-/// The least value of the lanes that are not `out`; -inf if that is NaN.
-BOULE_INLINE float least(const Real& values, unsigned out) {
-  alignas(64) float lanes[width];
-  store(lanes, values);
-  float result = static_cast<float>(no_hit);
-  for (int lane = 0; lane < width; ++lane) {
-    if (((out >> lane) & 1U) == 0 && !(lanes[lane] >= result)) result = lanes[lane];
-  }
-  return result == result ? result : -static_cast<float>(no_hit);
+/// Where the first ray enters a box, of those that are not out; -inf if one cannot tell.
+BOULE_INLINE float first_entry(const Entry& entry) {
+  const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
+  const Real near = select(entry.near <= entry.near, entry.near, unknown);
+  return least_lane(select(entry.out, never, near));
 }
 
 /// The children of a node that some ray of a packet enters.
@@ -101,9 +95,8 @@ BOULE_INLINE void visit_children(OneForAll, const BoxRays& rays, const BvhNode& 
     const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
                     {node.max_x[k], node.max_y[k], node.max_z[k]}};
     const Entry entry = enter_boxes(rays, box, limit);
-    const unsigned out = bits(entry.out);
-    if (out != all_lanes)
-      stack.push({least(entry.near, out), node.child[k], node.leaf_size[k]}, base);
+    if (bits(entry.out) != all_lanes)
+      stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
   }
 }
 
@@ -133,15 +126,8 @@ BOULE_INLINE void visit_children(OnePerLane, const BoxRays& rays, const BvhNode&
 /// search for, the nearest. inf where that is not known.
 template <class Access>
 BOULE_INLINE float limit_of_all(const Real& limit) {
-  const float unknown = static_cast<float>(no_hit);
-  alignas(64) float lanes[width];
-  store(lanes, limit);
-  float result = lanes[0];
-  for (int lane = 0; lane < width; ++lane) {
-    if (lanes[lane] != lanes[lane]) return unknown;
-    if (Access::one_ray ? lanes[lane] < result : result < lanes[lane]) result = lanes[lane];
-  }
-  return result;
+  if (bits(limit <= limit) != all_lanes) return static_cast<float>(no_hit);
+  return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
 template <Solver solver, class Access, bool origins_exact, class Best>

@@ -93,6 +93,9 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) { return c.v - a.v * b.v; 
 /// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return a.v < b.v ? a : b; }
 BOULE_INLINE Real filter_max(Real a, Real b) { return a.v < b.v ? b : a; }
+/// a where it is smaller, where it is greater, than b; else, and beside NaN, b.
+BOULE_INLINE Real lesser_or(Real a, Real b) { return a.v < b.v ? a : b; }
+BOULE_INLINE Real greater_or(Real a, Real b) { return b.v < a.v ? a : b; }
 BOULE_INLINE float least_lane(Real a) { return a.v; }
 BOULE_INLINE float greatest_lane(Real a) { return a.v; }
 

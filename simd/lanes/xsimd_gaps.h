@@ -119,6 +119,21 @@ BOULE_INLINE Floats square_root(Floats a) { return vsqrtq_f32(a); }
 
 #endif
 
+// The smaller and the greater of two, else the second: one instruction on x86-64.
+#if defined(__AVX512F__)
+BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return _mm512_min_ps(a, b); }
+BOULE_INLINE Floats greater_or(Floats a, Floats b) { return _mm512_max_ps(a, b); }
+#elif defined(__AVX2__)
+BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return _mm256_min_ps(a, b); }
+BOULE_INLINE Floats greater_or(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+#elif defined(__SSE4_2__)
+BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return _mm_min_ps(a, b); }
+BOULE_INLINE Floats greater_or(Floats a, Floats b) { return _mm_max_ps(a, b); }
+#else
+BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
+BOULE_INLINE Floats greater_or(Floats a, Floats b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+#endif
+
 // The least and the greatest lane.
 #if defined(__SSE4_2__)
 BOULE_INLINE float least(__m128 a) {

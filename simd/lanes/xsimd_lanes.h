@@ -134,6 +134,9 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
 /// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return xsimd::min(a.v, b.v); }
 BOULE_INLINE Real filter_max(Real a, Real b) { return xsimd::max(a.v, b.v); }
+/// a where it is smaller, where it is greater, than b; else, and beside NaN, b.
+BOULE_INLINE Real lesser_or(Real a, Real b) { return gaps::lesser_or(a.v, b.v); }
+BOULE_INLINE Real greater_or(Real a, Real b) { return gaps::greater_or(a.v, b.v); }
 /// The least and the greatest lane, none of which is NaN.
 BOULE_INLINE float least_lane(Real a) { return gaps::least(a.v); }
 BOULE_INLINE float greatest_lane(Real a) { return gaps::greatest(a.v); }
