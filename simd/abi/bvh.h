@@ -21,15 +21,21 @@ struct alignas(64) SphereBlock {
   float radius[bvh_leaf_size];
 };
 
-/// The boxes of up to 8 children, rounded outward, and where the children are: a child is the leaf
-/// child[k] of leaf_size[k] spheres, or, where that is 0, the node child[k].
+/// Marks a child that is a leaf.
+inline constexpr std::uint32_t leaf_bit = 0x80000000;
+
+/// The boxes of up to 8 children, rounded outward, and where the children are: child k is the leaf
+/// place_of(child[k]), of leaf_size[k] spheres, if it has the leaf_bit, else the node child[k].
 struct alignas(64) BvhNode {
   float min_x[bvh_width], min_y[bvh_width], min_z[bvh_width];
   float max_x[bvh_width], max_y[bvh_width], max_z[bvh_width];
   std::uint32_t child[bvh_width];
-  std::uint8_t leaf_size[bvh_width];
+  std::uint8_t leaf_size[bvh_width];  ///< 0 for nodes
   std::uint8_t size;  ///< children that there are, the first ones; the others' boxes are empty
 };
+
+/// The number of a child among the leaves, or among the nodes.
+constexpr std::uint32_t place_of(std::uint32_t child) { return child & ~leaf_bit; }
 
 /// A tree over spheres; its root is nodes[0]. No nodes: no tree, everything is scanned.
 struct BvhView {

@@ -161,7 +161,7 @@ class Collapse {
       set_box(node, k, child.box);
       node.leaf_size[k] = static_cast<std::uint8_t>(child.size);
       if (child.size > 0) {
-        node.child[k] = forest_.subtrees()[at.tree].first_leaf + child.right;
+        node.child[k] = (forest_.subtrees()[at.tree].first_leaf + child.right) | leaf_bit;
       } else {
         node.child[k] = static_cast<std::uint32_t>(nodes_.size());
         add(at);

@@ -222,7 +222,8 @@ BOULE_INLINE void prefetch_child(const GeometryView& geometry, const BvhNode& no
   const bool leaf = node.leaf_size[k] != 0;
   const char* const begin =
       leaf ? reinterpret_cast<const char*>(geometry.spheres.blocks +
-                                           geometry.spheres.scanned / bvh_leaf_size + node.child[k])
+                                           geometry.spheres.scanned / bvh_leaf_size +
+                                           place_of(node.child[k]))
            : reinterpret_cast<const char*>(geometry.bvh.nodes + node.child[k]);
   static_assert(sizeof(SphereBlock) == 128 && sizeof(BvhNode) == 256);
   __builtin_prefetch(begin);
@@ -255,7 +256,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     if (visit.leaf_size != 0) {
       if (effort.leaves++ >= effort.most_leaves || hits.too_close()) return false;
       const auto first_slot = [&](const Visit& leaf) {
-        return spheres.scanned + std::size_t{leaf.child} * bvh_leaf_size;
+        return spheres.scanned + std::size_t{place_of(leaf.child)} * bvh_leaf_size;
       };
       Eights eights(spheres, first_slot(visit), visit.leaf_size);
       if (Eights::most > 1 && !stack.empty() && stack.top().leaf_size != 0) {

@@ -1,6 +1,7 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/bundle_stream.h"
+#include "simd/kernel/flight.h"
 #include "simd/kernel/packet_stream.h"
 #include "simd/kernel/primary_rays.h"
 
@@ -12,6 +13,11 @@ bool may_bundle(const GeometryView& geometry, const Query& query) {
          geometry.spheres.block_count <= most_bundle_slots / bvh_leaf_size;
 }
 
+bool may_fly(const GeometryView& geometry, const Query& query) {
+  return query.form == Form::automatic && query.solver == Solver::robust &&
+         geometry.bvh.size > 0;
+}
+
 void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
                  const HitStream& hits) {
   const PaddedStream stream(rays);
@@ -20,6 +26,8 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
     closest_hit_bundled<Common::origin>(geometry, stream, hits);
   } else if (bundled && query.coherence == Coherence::common_direction) {
     closest_hit_bundled<Common::direction>(geometry, stream, hits);
+  } else if (may_fly(geometry, query)) {
+    fly(geometry, stream, hits);
   } else if (query.solver == Solver::fast) {
     closest_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
   } else {
@@ -37,6 +45,8 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
     any_hit_bundled<Common::direction>(geometry, stream, occluded);
   } else if (bundled && query.coherence == Coherence::common_end) {
     any_hit_bundled<Common::end>(geometry, stream, occluded);
+  } else if (may_fly(geometry, query)) {
+    fly(geometry, stream, occluded);
   } else if (query.solver == Solver::fast) {
     any_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
   } else {

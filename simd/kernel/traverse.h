@@ -17,6 +17,8 @@ struct BoxRays {
         inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
         // Far beyond the filter's range a component that underflows still leads somewhere.
         from(select(rays.unit.x <= rays.unit.x, rays.dead_below, rays.unit.x)) {}
+  BOULE_INLINE BoxRays(const Vec3<Real>& origin, const Vec3<Real>& over_unit, const Real& begin)
+      : org(origin), inverse(over_unit), from(begin) {}
 };
 
 /// Boxes in lanes: one for a packet, or several for a ray.
@@ -148,7 +150,7 @@ BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geo
       visit_children(Access{}, box_rays, geometry.bvh.nodes[visit.child], reach, stack);
       continue;
     }
-    const LeafSpheres<Access> leaf(geometry.spheres, visit.child, visit.leaf_size);
+    const LeafSpheres<Access> leaf(geometry.spheres, place_of(visit.child), visit.leaf_size);
     scan_steps<solver, origins_exact, bvh_leaf_size>(rays, geometry.spheres, leaf, 0,
                                                      Access::steps(visit.leaf_size), best);
     limit = limit_of_all<Access>(best.limit());

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/base/platform.h"
 
@@ -36,6 +38,13 @@ BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) { return p[par
 BOULE_INLINE Real load_of_eights(const float* first, const float*, std::size_t part) {
   return first[part];
 }
+/// The bits of integers, not to be calculated with.
+BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
+  return std::bit_cast<float>(p[part]);
+}
+BOULE_INLINE Real load_anywhere(const float* p) { return *p; }
+BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
+BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 /// A row of four floats as columns, and back: see xsimd_lanes.h.

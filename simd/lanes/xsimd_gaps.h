@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <xsimd/xsimd.hpp>
 
 #include "core/base/platform.h"
@@ -180,6 +181,59 @@ BOULE_INLINE Floats load_of_eight(const float* p, std::size_t part) {
 }
 BOULE_INLINE Floats load_of_eights(const float* first, const float*, std::size_t part) {
   return load_of_eight(first, part);
+}
+#endif
+
+// The same, any 32 bits, from arrays of integers.
+#if defined(__AVX512F__)
+BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t) {
+  const auto* const eight = reinterpret_cast<const __m256i*>(p);
+  return _mm512_broadcast_f32x8(_mm256_castsi256_ps(_mm256_load_si256(eight)));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t) {
+  return _mm256_castsi256_ps(_mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
+}
+#elif defined(__SSE4_2__)
+BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
+  return _mm_castsi128_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p + part * 4)));
+}
+#else
+BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
+  return vreinterpretq_f32_u32(vld1q_u32(p + part * 4));
+}
+#endif
+
+// The lanes of `chosen`, one after the other, to any address; W floats are written.
+#if defined(__AVX512F__)
+BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+  _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), a));
+}
+#elif defined(__AVX2__)
+/// For every set of eight lanes their numbers, one after the other, a byte each.
+struct ChosenLanes {
+  std::uint64_t of[256];
+};
+constexpr ChosenLanes list_chosen_lanes() {
+  ChosenLanes lanes{};
+  for (unsigned chosen = 0; chosen < 256; ++chosen) {
+    unsigned count = 0;
+    for (std::uint64_t lane = 0; lane < 8; ++lane) {
+      if ((chosen >> lane & 1U) != 0) lanes.of[chosen] |= lane << (8 * count++);
+    }
+  }
+  return lanes;
+}
+inline constexpr ChosenLanes chosen_lanes = list_chosen_lanes();
+BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+  const __m128i lanes = _mm_cvtsi64_si128(static_cast<long long>(chosen_lanes.of[chosen]));
+  _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a, _mm256_cvtepu8_epi32(lanes)));
+}
+#else
+BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+  alignas(16) float lanes[Floats::size];
+  a.store_aligned(lanes);
+  for (; chosen != 0; chosen &= chosen - 1) *p++ = lanes[__builtin_ctz(chosen)];
 }
 #endif
 

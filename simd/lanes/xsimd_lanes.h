@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/base/platform.h"
 #include "simd/lanes/xsimd_gaps.h"
@@ -42,6 +43,16 @@ BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) {
 /// The same from the first of two such arrays; sixteen lanes get both.
 BOULE_INLINE Real load_of_eights(const float* first, const float* second, std::size_t part) {
   return gaps::load_of_eights(first, second, part);
+}
+/// The bits of integers, not to be calculated with.
+BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
+  return gaps::load_bits_of_eight(p, part);
+}
+/// To and from any address; of the lanes `chosen` one after the other, what comes behind is lost.
+BOULE_INLINE Real load_anywhere(const float* p) { return Floats::load_unaligned(p); }
+BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
+BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
+  gaps::store_chosen(p, a.v, chosen);
 }
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {
