@@ -72,18 +72,37 @@ class Pending {
   unsigned size_ = 0;
 };
 
+/// Between the planes of an axis: t of a plane x is x / d - (o + m) / d of the one met first, x / d
+/// - (o - m) / d of the other.
+struct Slab {
+  Real inverse, near, far;
+
+  BOULE_INLINE Slab(const Real& org, const Real& unit, const Real& extent) {
+    const Real least(0x1p-40F), size = abs(unit);
+    const RealMask tiny = size < least;
+    const Real clamped = select(tiny, least, size);
+    const Real aside = select(tiny, extent * Real(0x1p-38F), Real(static_cast<float>(filter::floor)));
+    const Real margin = filter_fma(abs(org), Real(static_cast<float>(8 * filter::u)), aside);
+    const Real positive = Real(1.0F) / clamped, zero(0.0F);
+    const RealMask down = unit < zero;
+    inverse = select(down, zero - positive, positive);
+    const Real ahead = org * inverse, slack = margin * positive;
+    near = zero - ahead - slack;
+    far = slack - ahead;
+  }
+};
+
 /// A ray's constants.
 struct FlightRay {
-  float org[3], inverse[3], h[3], unit[3];
+  float inverse[3], near[3], far[3];
+  std::uint32_t near_row[3];  ///< in the node
+  float org[3], h[3], unit[3];
   float origin_error, live_from, live_to, dead_below;
   float reach;
   std::int32_t source;
   bool inside;
 
   BOULE_INLINE static Vec3<Real> all(const float* v) { return {v[0], v[1], v[2]}; }
-  BOULE_INLINE BoxRays box_rays() const {
-    return BoxRays(all(org), all(inverse), Real(dead_below));
-  }
   BOULE_INLINE FilterRays filter_rays() const {
     FilterRays rays;
     rays.org = all(org);
@@ -100,28 +119,37 @@ struct FlightRay {
 
 /// W rays that wait for their start.
 struct Takeoffs {
-  alignas(64) float value[17][width];
+  static constexpr int values = 23;
+  alignas(64) float value[values][width];
   std::size_t first = 0, next = 0, size = 0;
 
-  BOULE_INLINE void set(const RayLanes& rays, const Real& reach) {
+  BOULE_INLINE void set(const RayLanes& rays, const Real& reach, float extent) {
     const FilterRays& f = rays.filter;
-    const BoxRays box(f);
-    const Real all[17] = {f.org.x,        f.org.y,     f.org.z,   box.inverse.x, box.inverse.y,
-                          box.inverse.z,  f.h.x,       f.h.y,     f.h.z,         f.unit.x,
-                          f.unit.y,       f.unit.z,    f.origin_error, f.live_from,
-                          f.live_to,      f.dead_below, reach};
-    for (int k = 0; k < 17; ++k) store(value[k], all[k]);
+    const Real farthest = abs(f.org.x) + abs(f.org.y) + abs(f.org.z) + Real(extent);
+    const Slab x(f.org.x, f.unit.x, farthest), y(f.org.y, f.unit.y, farthest),
+        z(f.org.z, f.unit.z, farthest);
+    const Real all[values] = {x.inverse, y.inverse,  z.inverse,   x.near,         y.near,
+                              z.near,    x.far,      y.far,       z.far,          f.org.x,
+                              f.org.y,   f.org.z,    f.h.x,       f.h.y,          f.h.z,
+                              f.unit.x,  f.unit.y,   f.unit.z,    f.origin_error, f.live_from,
+                              f.live_to, f.dead_below, reach};
+    for (int k = 0; k < values; ++k) store(value[k], all[k]);
   }
   BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {
-    for (int k = 0; k < 3; ++k) ray.org[k] = value[k][lane];
-    for (int k = 0; k < 3; ++k) ray.inverse[k] = value[3 + k][lane];
-    for (int k = 0; k < 3; ++k) ray.h[k] = value[6 + k][lane];
-    for (int k = 0; k < 3; ++k) ray.unit[k] = value[9 + k][lane];
-    ray.origin_error = value[12][lane];
-    ray.live_from = value[13][lane];
-    ray.live_to = value[14][lane];
-    ray.dead_below = value[15][lane];
-    ray.reach = value[16][lane];
+    for (int k = 0; k < 3; ++k) ray.inverse[k] = value[k][lane];
+    for (int k = 0; k < 3; ++k) ray.near[k] = value[3 + k][lane];
+    for (int k = 0; k < 3; ++k) ray.far[k] = value[6 + k][lane];
+    for (int k = 0; k < 3; ++k) {
+      ray.near_row[k] = static_cast<unsigned>(k) + (ray.inverse[k] < 0 ? 3U : 0U);
+    }
+    for (int k = 0; k < 3; ++k) ray.org[k] = value[9 + k][lane];
+    for (int k = 0; k < 3; ++k) ray.h[k] = value[12 + k][lane];
+    for (int k = 0; k < 3; ++k) ray.unit[k] = value[15 + k][lane];
+    ray.origin_error = value[18][lane];
+    ray.live_from = value[19][lane];
+    ray.live_to = value[20][lane];
+    ray.dead_below = value[21][lane];
+    ray.reach = value[22][lane];
   }
 };
 
@@ -218,7 +246,18 @@ class Airport {
       : geometry_(geometry),
         stream_(stream),
         answers_(answers),
-        queue_(stream.rays(), geometry_.spheres, answers_) {}
+        queue_(stream.rays(), geometry_.spheres, answers_) {
+    const BvhNode& root = geometry.bvh.nodes[0];
+    for (int k = 0; k < root.size; ++k) {
+      const auto grow = [&](float x) { extent_ = extent_ < x ? x : extent_; };
+      grow(-root.min_x[k]);
+      grow(-root.min_y[k]);
+      grow(-root.min_z[k]);
+      grow(root.max_x[k]);
+      grow(root.max_y[k]);
+      grow(root.max_z[k]);
+    }
+  }
 
   void run() {
     for (std::size_t k = 0; k < flights; ++k) {
@@ -230,16 +269,10 @@ class Airport {
       for (std::size_t k = 0; k < nodes; ++k) at_node[k] = nodes_[k];
       for (std::size_t k = 0; k < leaves; ++k) at_leaf[k] = leaves_[k];
       node_count_ = leaf_count_ = 0;
-      for (std::size_t k = 0; k < nodes; ++k) {
-        Flight& flight = flight_[at_node[k]];
-        visit_node(flight);
-        go_on(flight, at_node[k]);
-      }
-      for (std::size_t k = 0; k < leaves; ++k) {
-        Flight& flight = flight_[at_leaf[k]];
-        visit_leaf(flight);
-        go_on(flight, at_leaf[k]);
-      }
+      for (std::size_t k = 0; k < nodes; ++k) visit_node(flight_[at_node[k]]);
+      for (std::size_t k = 0; k < leaves; ++k) visit_leaf(flight_[at_leaf[k]]);
+      for (std::size_t k = 0; k < nodes; ++k) go_on(flight_[at_node[k]], at_node[k]);
+      for (std::size_t k = 0; k < leaves; ++k) go_on(flight_[at_leaf[k]], at_leaf[k]);
     }
     queue_.flush();
   }
@@ -263,12 +296,12 @@ class Airport {
       meet_scanned(rays, best);
       for (std::size_t lane = 0; lane < takeoffs_.size; ++lane)
         answers_[takeoffs_.first + lane] = static_cast<std::uint8_t>(best.hit >> lane & 1U);
-      takeoffs_.set(rays, best.far);
+      takeoffs_.set(rays, best.far, extent_);
     } else {
       ClosestHit best(rays);
       meet_scanned(rays, best);
       store_packet(best, answers_, takeoffs_.first, takeoffs_.size);
-      takeoffs_.set(rays, best.reach);
+      takeoffs_.set(rays, best.reach, extent_);
     }
     return true;
   }
@@ -291,7 +324,7 @@ class Airport {
       FlightRay& ray = flight.ray;
       takeoffs_.get(lane, ray);
       flight.index = static_cast<std::uint32_t>(takeoffs_.first + lane);
-      if (!(ray.unit[0] <= ray.unit[0])) {
+      if (!(ray.unit[0] <= ray.unit[0]) || ray.dead_below < 0) {
         go_alone(flight.index);
         continue;
       }
@@ -321,16 +354,21 @@ class Airport {
 
   BOULE_INLINE void visit_node(Flight& flight) {
     const BvhNode& node = geometry_.bvh.nodes[flight.child];
-    const BoxRays rays = flight.ray.box_rays();
-    const Real limit(flight.ray.reach);
+    const FlightRay& ray = flight.ray;
+    const float* const rows = node.min_x;
+    const Real more(static_cast<float>(1 + 2 * filter::box * filter::u));
+    const std::uint32_t x = ray.near_row[0], y = ray.near_row[1], z = ray.near_row[2];
     for (std::size_t part = 0; part < parts_of_eight; ++part) {
-      const auto get = [&](const float* row) { return load_of_eight(row, part); };
-      const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
-                        {get(node.max_x), get(node.max_y), get(node.max_z)}};
-      const Entry entry = enter_boxes(rays, boxes, limit);
-      const unsigned there = ((1U << node.size) - 1) >> (part * lanes);
-      const unsigned in = ~bits(entry.out) & there & part_lanes;
-      flight.pending.push(entry.near, load_bits_of_eight(node.child, part), in);
+      const auto get = [&](std::uint32_t row) { return load_of_eight(rows + row * 8, part); };
+      const auto cut = [&](std::uint32_t row, int axis, const float* moved) {
+        return filter_fma(get(row), Real(ray.inverse[axis]), Real(moved[axis]));
+      };
+      const Real near = filter_max(filter_max(cut(x, 0, ray.near), cut(y, 1, ray.near)),
+                                   filter_max(cut(z, 2, ray.near), Real(0.0F)));
+      const Real far = filter_min(filter_min(cut(3 - x, 0, ray.far), cut(5 - y, 1, ray.far)),
+                                  filter_min(cut(7 - z, 2, ray.far), Real(ray.reach)));
+      const unsigned in = bits(near <= far * more) & part_lanes;
+      flight.pending.push(near, load_bits_of_eight(node.child, part), in);
     }
     flight.pending.close();
   }
@@ -446,6 +484,7 @@ class Airport {
   const GeometryView& geometry_;
   const PaddedStream& stream_;
   Answers answers_;
+  float extent_ = 0;
   SolveQueue<Answers> queue_;
   Takeoffs takeoffs_;
   Flight flight_[flights];
