@@ -31,9 +31,7 @@ class Pending {
     size_ += static_cast<unsigned>(std::popcount(chosen));
   }
   /// To be called after pushes.
-  BOULE_INLINE void close() {
-    store_anywhere(near_ + size_, static_cast<float>(no_hit));
-  }
+  BOULE_INLINE void close() { store_anywhere(near_ + size_, static_cast<float>(no_hit)); }
   /// Takes the nearest one; false if there is none before `reach`.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
     const float slack = static_cast<float>(filter::box * filter::u);
@@ -81,7 +79,8 @@ struct Slab {
     const Real least(0x1p-40F), size = abs(unit);
     const RealMask tiny = size < least;
     const Real clamped = select(tiny, least, size);
-    const Real aside = select(tiny, extent * Real(0x1p-38F), Real(static_cast<float>(filter::floor)));
+    const Real aside =
+        select(tiny, extent * Real(0x1p-38F), Real(static_cast<float>(filter::floor)));
     const Real margin = filter_fma(abs(org), Real(static_cast<float>(8 * filter::u)), aside);
     const Real positive = Real(1.0F) / clamped, zero(0.0F);
     const RealMask down = unit < zero;
@@ -128,11 +127,10 @@ struct Takeoffs {
     const Real farthest = abs(f.org.x) + abs(f.org.y) + abs(f.org.z) + Real(extent);
     const Slab x(f.org.x, f.unit.x, farthest), y(f.org.y, f.unit.y, farthest),
         z(f.org.z, f.unit.z, farthest);
-    const Real all[values] = {x.inverse, y.inverse,  z.inverse,   x.near,         y.near,
-                              z.near,    x.far,      y.far,       z.far,          f.org.x,
-                              f.org.y,   f.org.z,    f.h.x,       f.h.y,          f.h.z,
-                              f.unit.x,  f.unit.y,   f.unit.z,    f.origin_error, f.live_from,
-                              f.live_to, f.dead_below, reach};
+    const Real all[values] = {
+        x.inverse, y.inverse, z.inverse,      x.near,      y.near,    z.near,       x.far, y.far,
+        z.far,     f.org.x,   f.org.y,        f.org.z,     f.h.x,     f.h.y,        f.h.z, f.unit.x,
+        f.unit.y,  f.unit.z,  f.origin_error, f.live_from, f.live_to, f.dead_below, reach};
     for (int k = 0; k < values; ++k) store(value[k], all[k]);
   }
   BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {

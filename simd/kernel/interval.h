@@ -16,6 +16,21 @@ struct RootBounds {
   RealMask misses;   ///< it does not
 };
 
+/// Bound of the error of b and l (filter_bounds.h) of a sphere at f.
+BOULE_INLINE Real root_spread(const FilterRays& rays, const Vec3<Real>& f, const Real& r) {
+  constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
+  return filter_fma(abs(f.x) + abs(f.y) + abs(f.z) + r, Real(unit_spread), rays.origin_error);
+}
+
+/// Less than either root: what can be said without roots. sqrt(r^2 + doubt) is no more than r + 2
+/// spread, for spread is at least 12 u r.
+BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
+                               const Real& signed_radius) {
+  const Vec3<Real> f = center - rays.org;
+  const Real r = abs(signed_radius);
+  return filter_dot(f, rays.unit) - r - Real(4.0F) * root_spread(rays, f, r);
+}
+
 BOULE_INLINE RootBounds bound_roots(const FilterRays& rays, const Vec3<Real>& center,
                                     const Real& signed_radius) {
   constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
@@ -24,8 +39,7 @@ BOULE_INLINE RootBounds bound_roots(const FilterRays& rays, const Vec3<Real>& ce
   const Vec3<Real> l{filter_fnma(b, rays.unit.x, f.x), filter_fnma(b, rays.unit.y, f.y),
                      filter_fnma(b, rays.unit.z, f.z)};
   const Real square = r * r, discriminant = square - filter_dot(l, l);
-  const Real spread =
-      filter_fma(abs(f.x) + abs(f.y) + abs(f.z) + r, Real(unit_spread), rays.origin_error);
+  const Real spread = root_spread(rays, f, r);
   const Real doubt = spread * (r + r + Real(3.0F) * spread) + Real(unit_spread) * square;
 
   RootBounds bounds;

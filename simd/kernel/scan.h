@@ -167,6 +167,8 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
     }
+    if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), 0))
+      continue;
     const RootBounds roots = bound_roots(rays.filter, spheres.center(step), spheres.radius(step));
     const Real low = lowest(roots, rays.filter);
     unsigned out = bits(dead(roots, rays.filter));
