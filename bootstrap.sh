@@ -7,12 +7,15 @@ readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev o
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 readonly test_packages=(binutils clang-format libgmock-dev libgtest-dev libmpfr-dev
   librapidcheck-dev qemu-user)
+readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
 usage() {
   cat <<'TEXT'
-usage: ./bootstrap.sh render|test
+usage: ./bootstrap.sh render|test|report
   render  install what is missing, build a release, render scenes/first_light.toml to first_light.png
   test    install what is missing, build the tests in build/test and run them
+  report  install what is missing, build the benchmarks in build/bench, measure speed against error
+          (about 10 minutes), write report.html and what the README shows of it
 TEXT
 }
 
@@ -51,11 +54,21 @@ run_tests() {
   exec ctest --test-dir build/test -LE hard -j2 --output-on-failure
 }
 
+report() {
+  install_missing "${build_packages[@]}" "${bench_packages[@]}"
+  cmake --preset release -G Ninja -B build/bench -DBOULE_BENCH=ON -DBOULE_TESTS=OFF
+  cmake --build build/bench --target report
+  SOURCE_DATE_EPOCH="$(git log -1 --format=%ct)" build/bench/bin/report -o report.html \
+    --chart bench/report/speed_against_error.svg --readme README.md
+  echo "bootstrap: the page is $PWD/report.html, its figures are report.json"
+}
+
 cd "$(dirname "${BASH_SOURCE[0]}")"
 [[ $# -eq 1 ]] || { usage >&2; exit 2; }
 case "$1" in
   render) render ;;
   test) run_tests ;;
+  report) report ;;
   -h | --help | help) usage ;;
   *) usage >&2; exit 2 ;;
 esac

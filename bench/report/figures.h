@@ -58,7 +58,14 @@ std::string to_json(Figures& figures);
 /// The page, one file by itself.
 std::string to_html(Figures& figures);
 
-/// Its first chart by itself, as SVG.
+/// The scene that stands for all where there is room for one.
+std::string main_scene(const Figures& figures);
+
+/// The text with the main tables between its marks, "report: begin" and "report: end" as comments;
+/// nothing where it has none.
+std::optional<std::string> with_tables(const std::string& readme, Figures& figures);
+
+/// The main scene's chart by itself, as SVG.
 std::string main_chart(Figures& figures);
 
 }  // namespace boule::bench

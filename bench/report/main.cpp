@@ -1,13 +1,14 @@
 // Speed against error: measures, and writes one page that shows it.
 //
-//   report [--quick] -o report.html [--chart chart.svg]
+//   report [--quick] -o report.html [--chart chart.svg] [--readme README.md]
 //
-// Beside the page come its figures, report.json. Exit code 1: a robust solver was wrong, or a file
-// could not be written; 2: bad arguments.
+// Beside the page come its figures, report.json. A README gets its tables anew. Exit code 1: a
+// robust solver was wrong, or a file could not be written; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "bench/report/figures.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 struct Arguments {
   ReportSettings settings;
-  std::string page, chart;
+  std::string page, chart, readme;
 };
 
 /// All or nothing: under another name first.
@@ -30,6 +31,15 @@ bool write_file(const std::filesystem::path& path, const std::string& content) {
   if (file && !failed) return true;
   std::filesystem::remove(temporary, failed);
   std::fprintf(stderr, "report: cannot write '%s'\n", path.c_str());
+  return false;
+}
+
+bool update_readme(const std::string& path, Figures& figures) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string old{std::istreambuf_iterator<char>(file), {}};
+  const std::optional<std::string> updated = with_tables(old, figures);
+  if (updated) return write_file(path, *updated);
+  std::fprintf(stderr, "report: '%s' has no place for tables\n", path.c_str());
   return false;
 }
 
@@ -55,6 +65,7 @@ int run(const Arguments& arguments) {
   bool written = write_file(json, to_json(figures)) && write_file(page, to_html(figures));
   if (!arguments.chart.empty())
     written = written && write_file(arguments.chart, main_chart(figures));
+  if (!arguments.readme.empty()) written = written && update_readme(arguments.readme, figures);
   return written && robust_is_right(figures) ? 0 : 1;
 }
 
@@ -68,6 +79,8 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", arguments.page, "The page, .html; figures go beside it, .json")
       ->required();
   app.add_option("--chart", arguments.chart, "The first chart by itself, .svg");
+  app.add_option("--readme", arguments.readme, "A text whose tables are brought up to date")
+      ->check(CLI::ExistingFile);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -141,7 +141,7 @@ std::string provenance(const Figures& figures) {
   table.add({"compiler", p.compiler});
   table.add({"flags", p.flags + ", kernels -O2, all -ffp-contract=off"});
   table.add({"commit", p.commit});
-  table.add({"date", p.date.empty() ? "not given (SOURCE_DATE_EPOCH)" : p.date});
+  table.add({"date", p.date.empty() ? "not given (SOURCE_DATE_EPOCH)" : p.date + " (SOURCE_DATE_EPOCH)"});
   table.add({"made by", p.command});
   table.add({"seeds", fmt::format("epsilons {}; hard cases and scenes: in their sources",
                                   figures.settings.seed)});
@@ -208,9 +208,13 @@ std::string to_html(Figures& figures) {
   return html + page_end();
 }
 
-std::string main_chart(Figures& figures) {
+std::string main_scene(const Figures& figures) {
   const std::vector<std::string> scenes = scenes_of(figures, "bvh");
-  return draw_alone(speed_chart(figures, scenes.size() > 1 ? scenes[1] : scenes.at(0), "bvh"));
+  return scenes.size() > 1 ? scenes[1] : scenes.at(0);
+}
+
+std::string main_chart(Figures& figures) {
+  return draw_alone(speed_chart(figures, main_scene(figures), "bvh"));
 }
 
 }  // namespace boule::bench
