@@ -141,7 +141,8 @@ std::string provenance(const Figures& figures) {
   table.add({"compiler", p.compiler});
   table.add({"flags", p.flags + ", kernels -O2, all -ffp-contract=off"});
   table.add({"commit", p.commit});
-  table.add({"date", p.date.empty() ? "not given (SOURCE_DATE_EPOCH)" : p.date + " (SOURCE_DATE_EPOCH)"});
+  table.add(
+      {"date", p.date.empty() ? "not given (SOURCE_DATE_EPOCH)" : p.date + " (SOURCE_DATE_EPOCH)"});
   table.add({"made by", p.command});
   table.add({"seeds", fmt::format("epsilons {}; hard cases and scenes: in their sources",
                                   figures.settings.seed)});

@@ -14,22 +14,29 @@ constexpr const char* begin_mark = "<!-- report: begin -->\n";
 constexpr const char* end_mark = "<!-- report: end -->\n";
 
 /// A solver's errors over all hard cases.
-struct WorstErrors {
+struct AllErrors {
   std::size_t pairs = 0, wrong = 0;
-  double ulp = 0;       ///< of the worst case: the 99th percentile of its hits
-  double residual = 0;  ///< the greatest
+  std::vector<double> ulps;       ///< of each case the 99th percentile of its hits
+  std::vector<double> residuals;  ///< of each case the greatest
 
   void add(test::HardFigures& figures) {
     pairs += figures.pairs;
     wrong += figures.wrong_decisions + figures.wrong_roots;
     if (figures.wrong_decisions >= figures.hits) return;  // with none right there is no t to judge
-    ulp = std::max(ulp, figures.ulp_quantile(0.99));
-    residual = std::max(residual, figures.max_residual);
+    ulps.push_back(figures.ulp_quantile(0.99));
+    residuals.push_back(figures.max_residual);
   }
 };
 
+/// "0.5 / 0.8": the median and the greatest.
+std::string middle_and_most(std::vector<double>& values) {
+  if (values.empty()) return "-";
+  std::sort(values.begin(), values.end());
+  return fmt::format("{:.2g} / {:.2g}", values[values.size() / 2], values.back());
+}
+
 std::string solver_rows(Figures& figures) {
-  std::map<std::string, WorstErrors> errors;
+  std::map<std::string, AllErrors> errors;
   for (CaseErrors& row : figures.cases) {
     if (row.isa == figures.widest) errors[row.errors.contender].add(row.errors.figures);
   }
@@ -40,12 +47,12 @@ std::string solver_rows(Figures& figures) {
       scene);
   for (const SolverSpeed& speed : figures.speeds) {
     if (speed.scene != scene || speed.structure != "bvh" || speed.isa != figures.widest) continue;
-    const WorstErrors& worst = errors[speed.solver == "bundle" ? "robust" : speed.solver];
-    if (worst.pairs == 0) continue;
-    rows += fmt::format("| {} | {:.3g} | {:.0f} | {:.2g} | {:.2g} |\n", solver_name(speed.solver),
+    AllErrors& all = errors[speed.solver == "bundle" ? "robust" : speed.solver];
+    if (all.pairs == 0) continue;
+    rows += fmt::format("| {} | {:.3g} | {:.0f} | {} | {} |\n", solver_name(speed.solver),
                         speed.mrays_per_s,
-                        1e6 * static_cast<double>(worst.wrong) / static_cast<double>(worst.pairs),
-                        worst.ulp, worst.residual);
+                        1e6 * static_cast<double>(all.wrong) / static_cast<double>(all.pairs),
+                        middle_and_most(all.ulps), middle_and_most(all.residuals));
   }
   return rows;
 }
@@ -73,9 +80,10 @@ std::string tables(Figures& figures) {
   const std::size_t pairs =
       figures.cases.empty() ? 0 : sum_errors(figures.cases).begin()->second.pairs;
   std::string text = fmt::format(
-      "Measured on {}, {}, commit {}{}, by `{}`; one thread, {}, {} hard pairs for each solver. An "
-      "error of t is the 99th percentile of the worst hard case; u = 2^-24, F the distance of the "
-      "centre.\n\n",
+      "Measured on {}, {}, commit {}{}, by `{}`; one thread, {}, {} hard pairs for each solver. "
+      "Errors of t are the 99th percentiles, distances the greatest, of the median and of the "
+      "worst "
+      "hard case; u = 2^-24, F the distance of the centre.\n\n",
       p.cpu, p.compiler, p.commit, p.date.empty() ? "" : ", " + p.date, p.command, figures.widest,
       pairs);
   text += solver_rows(figures);

@@ -66,6 +66,20 @@ inline constexpr double spread = 12;
 /// 1.25 u of the distance.
 inline constexpr double box = 24;
 
+/// Against a ray in flight a plane x is met at t = x i + c, i = 1 / d, c = -(o i) -/+ m |i|, with d
+/// one component of the unit direction. Along the axis, t d, this is wrong by
+///
+///   o i        rounded: u |o|, and c: u |o| + u m                     2 u |o|
+///   x i        rounded (not at all where it is fused): u |x|          1 u |o| + 1 u |t d|
+///   o          no float: u |o|                                        1 u |o|
+///
+/// and by 4 u of t: d and i, 3 u, and the sum. flight_margin u |o| + floor is m; `box` pays for the
+/// rest, as above. Components below flight_least are taken for flight_least, that nothing becomes
+/// infinite: within the tree t is at most sqrt(3) times the sum of |o| and the tree's extent, which
+/// we call farthest, so that the ray is flight_least farthest 2 off at most; m has 4 of it.
+inline constexpr double flight_margin = 8;
+inline constexpr float flight_least = 0x1p-40F;
+
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
 /// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than
 /// what follows. A float of the size of x has steps of at most 2^-23 |x|: box_step |x| outward are

@@ -20,11 +20,11 @@ inline constexpr std::size_t rays_per_leaf_in_place = 12;
 /// What does not fit into bundles goes as packets.
 BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
                              std::size_t begin, std::size_t end, const HitStream& hits) {
-  closest_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
+  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
 }
 BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
                              std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  any_hit_with<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
+  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
 }
 
 /// Rays of the stream as one bundle.

@@ -1,9 +1,9 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/bundle_stream.h"
-#include "simd/kernel/flight.h"
 #include "simd/kernel/packet_stream.h"
 #include "simd/kernel/primary_rays.h"
+#include "simd/kernel/scattered_stream.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -14,8 +14,8 @@ bool may_bundle(const GeometryView& geometry, const Query& query) {
 }
 
 bool may_fly(const GeometryView& geometry, const Query& query) {
-  return query.form == Form::automatic && query.solver == Solver::robust &&
-         geometry.bvh.size > 0;
+  const bool asked = query.form == Form::automatic || query.form == Form::flight;
+  return asked && query.solver == Solver::robust && geometry.bvh.size > 0;
 }
 
 void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
@@ -27,11 +27,11 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
   } else if (bundled && query.coherence == Coherence::common_direction) {
     closest_hit_bundled<Common::direction>(geometry, stream, hits);
   } else if (may_fly(geometry, query)) {
-    fly(geometry, stream, hits);
+    trace_scattered(geometry, stream, query.form, hits);
   } else if (query.solver == Solver::fast) {
-    closest_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
+    trace_groups<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
   } else {
-    closest_hit_with<Solver::robust>(geometry, stream, 0, rays.size, query.form, hits);
+    trace_groups<Solver::robust>(geometry, stream, 0, rays.size, query.form, hits);
   }
 }
 
@@ -46,11 +46,11 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   } else if (bundled && query.coherence == Coherence::common_end) {
     any_hit_bundled<Common::end>(geometry, stream, occluded);
   } else if (may_fly(geometry, query)) {
-    fly(geometry, stream, occluded);
+    trace_scattered(geometry, stream, query.form, occluded);
   } else if (query.solver == Solver::fast) {
-    any_hit_with<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
+    trace_groups<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
   } else {
-    any_hit_with<Solver::robust>(geometry, stream, 0, rays.size, query.form, occluded);
+    trace_groups<Solver::robust>(geometry, stream, 0, rays.size, query.form, occluded);
   }
 }
 

@@ -61,42 +61,47 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
   hits.id[index] = static_cast<std::int32_t>(id[nearest]);
 }
 
+/// Returns the visits of all groups.
 template <Solver solver>
-BOULE_NOINLINE void closest_hit_with(const GeometryView& geometry, const PaddedStream& stream,
-                                     std::size_t begin, std::size_t end, Form form,
-                                     const HitStream& hits) {
+BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+                                        std::size_t begin, std::size_t end, Form form,
+                                        const HitStream& hits) {
+  std::size_t visits = 0;
   for_each_group(
       stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         ClosestHit best(packet);
-        search<solver, OneForAll>(packet, geometry, best);
+        visits += search<solver, OneForAll>(packet, geometry, best);
         store_packet(best, hits, first, live);
       },
       [&](const RayLanes& ray, std::size_t index) {
         ClosestHit best(ray);
-        search<solver, OnePerLane>(ray, geometry, best);
+        visits += search<solver, OnePerLane>(ray, geometry, best);
         store_single(best, hits, index);
       });
+  return visits;
 }
 
 template <Solver solver>
-BOULE_NOINLINE void any_hit_with(const GeometryView& geometry, const PaddedStream& stream,
-                                 std::size_t begin, std::size_t end, Form form,
-                                 std::uint8_t* occluded) {
+BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+                                        std::size_t begin, std::size_t end, Form form,
+                                        std::uint8_t* occluded) {
+  std::size_t visits = 0;
   for_each_group(
       stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         AnyHit<false> best(packet);
-        search<solver, OneForAll>(packet, geometry, best);
+        visits += search<solver, OneForAll>(packet, geometry, best);
         for (std::size_t lane = 0; lane < live; ++lane) {
           occluded[first + lane] = static_cast<std::uint8_t>((best.hit >> lane) & 1U);
         }
       },
       [&](const RayLanes& ray, std::size_t index) {
         AnyHit<true> best(ray);
-        search<solver, OnePerLane>(ray, geometry, best);
+        visits += search<solver, OnePerLane>(ray, geometry, best);
         occluded[index] = best.hit != 0 ? 1 : 0;
       });
+  return visits;
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

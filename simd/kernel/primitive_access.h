@@ -142,12 +142,7 @@ struct LeafSpheres {
   /// Lanes that certainly miss, or hold no sphere.
   template <bool origins_exact>
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
-    const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u)),
-        r = radius(step);
-    const Real squared =
-        filter_fma(r * r, outward, Real(static_cast<float>(2 * filter::squared_floor)));
-    const Real grown = abs(r) * outward + Real(static_cast<float>(2 * filter::floor));
-    const RealMask misses = rejected<origins_exact>(rays, center(step), squared, grown);
+    const RealMask misses = rejected_on_the_spot<origins_exact>(rays, center(step), radius(step));
     if constexpr (Access::one_ray) {
       return misses | (Real(size) <= narrow(Access::place_of_eight(step)));
     } else {

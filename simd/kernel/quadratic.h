@@ -28,6 +28,17 @@ BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
   return filter_fma(b, b, rest) < Real(0.0F);
 }
 
+/// The same for a sphere of which nothing was computed before.
+template <bool origins_exact>
+BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Real>& center,
+                                           const Real& radius) {
+  const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u));
+  const Real squared =
+      filter_fma(radius * radius, outward, Real(static_cast<float>(2 * filter::squared_floor)));
+  const Real grown = abs(radius) * outward + Real(static_cast<float>(2 * filter::floor));
+  return rejected<origins_exact>(rays, center, squared, grown);
+}
+
 /// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.
 BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
   const Vec3<Wide> f = widen(sphere.center) - rays.org;

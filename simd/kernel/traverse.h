@@ -132,9 +132,12 @@ BOULE_INLINE float limit_of_all(const Real& limit) {
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
+/// Returns how many nodes and leaves were visited.
 template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geometry, Best& best) {
-  if (geometry.bvh.size == 0) return;
+BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
+                                          Best& best) {
+  if (geometry.bvh.size == 0) return 0;
+  std::size_t visits = 0;
   const BoxRays box_rays(rays.filter);
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
@@ -144,6 +147,7 @@ BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geo
     const float slack = static_cast<float>(filter::box * filter::u);
     const float size = visit.near < 0 ? -visit.near : visit.near;
     if (limit < visit.near - size * slack) continue;
+    ++visits;
     if (visit.leaf_size == 0) {
       // One ray: what one lane has found ends the search of all.
       const Real reach = Access::one_ray ? Real(limit) : best.limit();
@@ -155,25 +159,27 @@ BOULE_INLINE void traverse_spheres(const RayLanes& rays, const GeometryView& geo
                                                      Access::steps(visit.leaf_size), best);
     limit = limit_of_all<Access>(best.limit());
   }
+  return visits;
 }
 
 /// All spheres, wherever they are.
 template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE void search_spheres(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
+                                        Best& best) {
   scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
-  traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+  const std::size_t visits = traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
   best.settle(geometry.spheres, rays);
+  return visits;
 }
 
-/// All primitives against these rays.
+/// All primitives against these rays. Returns how many nodes and leaves were visited.
 template <Solver solver, class Access, class Best>
-BOULE_NOINLINE void search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
-  if (rays.filter.origins_exact) {
-    search_spheres<solver, Access, true>(rays, geometry, best);
-  } else {
-    search_spheres<solver, Access, false>(rays, geometry, best);
-  }
+BOULE_NOINLINE std::size_t search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  const std::size_t visits = rays.filter.origins_exact
+                                 ? search_spheres<solver, Access, true>(rays, geometry, best)
+                                 : search_spheres<solver, Access, false>(rays, geometry, best);
   scan_planes<solver, Access>(rays, geometry.planes, best);
+  return visits;
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

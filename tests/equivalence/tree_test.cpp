@@ -195,7 +195,7 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
     const Geometry geometry(scene.spheres, {});
     ASSERT_GT(geometry.view().bvh.size, 0U) << "no tree";
     std::size_t met = 0;
-    for (const Form form : {Form::packet, Form::single}) {
+    for (const Form form : {Form::packet, Form::single, Form::flight}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), scene.rays, query);
       const auto occluded = run_any(*kernels, geometry.view(), scene.rays, query);
@@ -224,7 +224,7 @@ TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
     rays.back().tmax = 0x1p81F;
   }
   const Geometry geometry(spheres, {}, Structure::bvh);
-  for (const Form form : {Form::packet, Form::single}) {
+  for (const Form form : {Form::packet, Form::single, Form::flight}) {
     const auto hits =
         run_closest(*kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -260,7 +260,7 @@ TEST_P(Tree, RaysAlongAnAxisAreNoSlower) {
   for (int i = 0; i < 200'000; ++i)
     spheres.push_back({float_point(random, {0, 0, 0}, 1), 1e-3F, 0});
   const Geometry geometry(spheres, {});
-  for (const Form form : {Form::packet, Form::single})
+  for (const Form form : {Form::packet, Form::single, Form::flight})
     EXPECT_LT(time_of(*kernels, geometry, form, 0), 20 * time_of(*kernels, geometry, form, 1e-3F))
         << "form " << static_cast<int>(form);
 }

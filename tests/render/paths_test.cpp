@@ -98,6 +98,7 @@ TEST_P(Paths, GiveTheSamePicture) {
       check(kernels_in<Form::automatic>(), "bundles");
       check(kernels_in<Form::packet>(), "packets");
       check(kernels_in<Form::single>(), "single rays");
+      check(kernels_in<Form::flight>(), "rays in flight");
     }
   }
 }

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/isa.h"
+#include "simd/kernel/flights.h"
+
+/// Streams of rays of which nothing is known: in flight, or as packets where they turn out to have
+/// much in common.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Rays that are traced either way now and then, to see which is the better one, and those that
+/// then go that way.
+inline constexpr std::size_t rays_on_trial = 32, rays_after_trial = 1984;
+/// A packet's visit takes as long as so many steps of rays in flight; measured.
+inline constexpr float steps_a_visit = 2.5F;
+
+template <class Answers>
+BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
+                                    Form form, const Answers& answers) {
+  const std::size_t size = stream.rays().size;
+  Flights<Answers> flights(geometry, stream, answers);
+  if (form == Form::flight) {
+    flights.run(0, size);
+    return;
+  }
+  std::size_t begin = 0;
+  const auto next = [&](std::size_t rays) { return size - begin < rays ? size : begin + rays; };
+  while (begin < size) {
+    const std::size_t packets_end = next(rays_on_trial);
+    const std::size_t visits = trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
+                                                            Form::automatic, answers);
+    begin = packets_end;
+    if (begin == size) return;
+    const std::size_t flights_end = next(rays_on_trial);
+    const std::size_t steps = flights.run(begin, flights_end);
+    begin = flights_end;
+    const std::size_t end = next(rays_after_trial);
+    if (static_cast<float>(visits) * steps_a_visit < static_cast<float>(steps)) {
+      trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
+    } else {
+      flights.run(begin, end);
+    }
+    begin = end;
+  }
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
