@@ -37,7 +37,7 @@ class BouleContender final : public Contender {
     const std::size_t stream_size = info().width;
     for (; first < last; first += stream_size) {
       const RayStream stream = part_of(rays, first, std::min(stream_size, last - first));
-      if (workload_.kind == RayKind::shadow) {
+      if (asks_any(workload_.kind)) {
         kernels_.any_hit(geometry_, stream, query_, memory_.occluded->data() + first);
       } else {
         const HitStream all = memory_.hits->view();
@@ -49,7 +49,7 @@ class BouleContender final : public Contender {
 
   void answer(Answers& answers) const override {
     const std::size_t size = workload_.rays->size();
-    if (workload_.kind == RayKind::shadow) {
+    if (asks_any(workload_.kind)) {
       answers.occluded.assign(memory_.occluded->data(), memory_.occluded->data() + size);
       return;
     }
@@ -72,7 +72,9 @@ Coherence coherence_of(RayKind kind) {
       return Coherence::common_origin;
     case RayKind::shadow:
       return Coherence::common_end;
+    case RayKind::mirror:
     case RayKind::diffuse:
+    case RayKind::light:
       break;
   }
   return Coherence::none;

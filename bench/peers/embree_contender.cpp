@@ -118,7 +118,7 @@ EmbreeContender::EmbreeContender(Info info, const Workload& workload, RTCScene s
       call_(call),
       coherence_(coherence),
       group_(group_of(call)),
-      fields_(workload.kind == RayKind::shadow ? ray_fields : ray_hit_fields),
+      fields_(asks_any(workload.kind) ? ray_fields : ray_hit_fields),
       memory_(memory) {}
 
 void EmbreeContender::put(std::size_t i, const Ray& ray) {
@@ -156,7 +156,7 @@ void EmbreeContender::trace(std::size_t first, std::size_t last) {
   rtcInitIntersectContext(&context);
   context.flags = coherence_;
   const std::size_t step = call_ == EmbreeCall::stream ? embree_stream_size : group_;
-  const bool any = workload_.kind == RayKind::shadow;
+  const bool any = asks_any(workload_.kind);
   for (; first < last; first += step) {
     const auto count = static_cast<unsigned>(std::min(step, last - first));
     const Call call = {scene_, &context, memory_.data() + first * fields_, count};
@@ -169,7 +169,7 @@ void EmbreeContender::answer(Answers& answers) const {
   const auto get = [&](std::size_t i, std::size_t field) {
     return memory_[place(i) + field * group_];
   };
-  if (workload_.kind == RayKind::shadow) {
+  if (asks_any(workload_.kind)) {
     answers.occluded.resize(size);
     for (std::size_t i = 0; i < size; ++i) answers.occluded[i] = get(i, tfar_field) < 0 ? 1 : 0;
     return;

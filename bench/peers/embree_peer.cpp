@@ -33,7 +33,7 @@ struct Flag {
   RTCIntersectContextFlags coherence;
 };
 
-/// Which of the two is better for shadow rays depends on the scene.
+/// Which of the two is better depends on the scene.
 std::vector<Flag> flags_for(RayKind kind) {
   const Flag coherent = {"", RTC_INTERSECT_CONTEXT_FLAG_COHERENT};
   const Flag incoherent = {"", RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT};
@@ -41,6 +41,8 @@ std::vector<Flag> flags_for(RayKind kind) {
     case RayKind::primary:
       return {coherent};
     case RayKind::shadow:
+    case RayKind::mirror:
+    case RayKind::light:
       return {coherent, {"-incoherent", incoherent.coherence}};
     case RayKind::diffuse:
       return {incoherent};

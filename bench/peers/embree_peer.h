@@ -14,7 +14,7 @@ namespace boule::bench {
 
 /// Embree on one scene, in its best form: its own spheres ("builtin") and user geometry with our
 /// callbacks ("user"), each asked for 1, 4, 8, 16 rays and for a stream ("1M") at a time. Primary
-/// rays are declared coherent, diffuse ones incoherent, shadow rays both ("-incoherent").
+/// rays are declared coherent, diffuse ones incoherent, the others both ("-incoherent").
 ///
 /// In Embree's favour: its structures of rays are filled, and tfar and the ids reset, outside the
 /// timed part; directions are of unit length, so that the callback need not divide; denormals are

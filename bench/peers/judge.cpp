@@ -35,7 +35,7 @@ bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, cons
 Judge::Judge(const Workload& workload, const DoubleTree& tree, const ParallelFor& parallel_for)
     : workload_(workload) {
   const std::size_t size = workload.rays->size();
-  const bool any = workload.kind == RayKind::shadow;
+  const bool any = asks_any(workload.kind);
   any ? truth_.occluded.resize(size) : truth_.hits.resize(size);
   parallel_for((size + chunk - 1) / chunk, [&](std::size_t task) {
     for (std::size_t i = task * chunk; i < std::min(size, (task + 1) * chunk); ++i) {
@@ -58,7 +58,7 @@ std::size_t Judge::differ_from_reference(std::size_t samples,
   parallel_for(samples, [&](std::size_t sample) {
     const std::size_t i = sample * size / samples;
     const Ray ray = workload_.rays->get(i);
-    const bool same = workload_.kind == RayKind::shadow
+    const bool same = asks_any(workload_.kind)
                           ? reference::any_hit(ray, spheres, {}) == (truth_.occluded[i] != 0)
                           : same_bits(reference::closest_hit(ray, spheres, {}), truth_.hits[i]);
     if (!same) ++differ;

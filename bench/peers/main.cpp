@@ -1,6 +1,7 @@
 // The referee: Boule against Embree, one process, the same rays, answers compared.
 //
-//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,diffuse] [--isa avx2,avx512]
+//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light] [--isa
+//   avx2,avx512]
 //               [--reps N] [--threads N] [--size N] [--json FILE]
 //
 // Exit code 1: the truth failed its test against the reference, or a robust contender of Boule's
@@ -34,13 +35,13 @@ std::vector<std::string> default_isas() {
 void add_options(CLI::App& app, Arguments& arguments) {
   RefereeSettings& settings = arguments.settings;
   settings.scenes = scene_names();
-  settings.kinds = {RayKind::primary, RayKind::shadow, RayKind::diffuse};
+  settings.kinds = ray_kinds();
   settings.isas = default_isas();
   std::map<std::string, RayKind> kinds;
   for (const RayKind kind : settings.kinds) kinds[name_of(kind)] = kind;
   app.add_option("--scenes", settings.scenes, "uN: N random spheres; flakeD: sphereflake, depth D")
       ->delimiter(',');
-  app.add_option("--rays", settings.kinds, "primary, shadow, diffuse")
+  app.add_option("--rays", settings.kinds, "primary, shadow, mirror, diffuse, light")
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(kinds));
   app.add_option("--isa", settings.isas, "Instruction sets of Boule's kernels")->delimiter(',');

@@ -43,7 +43,7 @@ std::optional<OracleVerdict> OracleJudge::judge(const Answers& answers,
     const std::size_t i = rays[k * rays.size() / verdict.judged];
     const Hit& truth = nearest(i);
     const bool right =
-        workload_.kind == RayKind::shadow
+        asks_any(workload_.kind)
             ? (answers.occluded[i] != 0) == (truth.id != no_primitive)
             : same_in_float(*workload_.scene, workload_.rays->get(i), answers.hits[i], truth);
     if (!right) ++verdict.wrong;

@@ -38,8 +38,8 @@ void expect_sound(const json& row) {
 }
 
 TEST(Peers, AnswerEveryKindOfRays) {
-  const json report = run_referee("primary,shadow,diffuse");
-  ASSERT_EQ(report["checks"].size(), 3U);
+  const json report = run_referee("primary,shadow,mirror,diffuse,light");
+  ASSERT_EQ(report["checks"].size(), 5U);
   for (const json& check : report["checks"]) {
     EXPECT_EQ(check["truth_mismatches"], 0) << check;
     EXPECT_EQ(check["sampled"], 4096) << check;
@@ -49,7 +49,7 @@ TEST(Peers, AnswerEveryKindOfRays) {
     expect_sound(row);
     contenders.insert(row["rays"].get<std::string>() + " " + row["contender"].get<std::string>());
   }
-  for (const char* rays : {"primary", "shadow", "diffuse"}) {
+  for (const char* rays : {"primary", "shadow", "mirror", "diffuse", "light"}) {
     for (const char* name : {"embree-builtin-1M", "embree-user-1", "embree-user-16"}) {
       EXPECT_THAT(contenders, testing::Contains(std::string(rays) + " " + name));
     }

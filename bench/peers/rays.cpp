@@ -28,41 +28,51 @@ Vec3d random_direction(std::uint32_t ray) {
   }
 }
 
-}  // namespace
-
-std::string name_of(RayKind kind) {
+/// Adds the ray of this kind from a surface, if there is one; `number` makes it random.
+void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std::uint32_t number,
+             std::vector<Ray>& rays) {
+  const Vec3d light = vec_cast<double>(scene.light.position);
   switch (kind) {
     case RayKind::primary:
-      return "primary";
+      break;
     case RayKind::shadow:
-      return "shadow";
+      if (faces(surface, sample_light(scene.light, surface.point).to_light))
+        rays.push_back(shadow_ray(scene.light, surface));
+      break;
+    case RayKind::mirror:
+      rays.push_back(leave(surface, Side::viewer, surface.mirrored));
+      break;
     case RayKind::diffuse:
-      return "diffuse";
+      // The normal plus a random point of the unit sphere is distributed by the cosine.
+      rays.push_back(
+          leave(surface, Side::viewer, normalize(surface.normal + random_direction(number))));
+      break;
+    case RayKind::light: {
+      const Vec3d point = light + random_direction(number) * 0.25;
+      if (faces(surface, point - surface.point)) rays.push_back(shadow_ray_to(surface, point));
+      break;
+    }
   }
-  return {};
 }
 
-RayBuffer shadow_rays(const BenchScene& scene, const RayBuffer& primary,
-                      const std::vector<Hit>& hits) {
+}  // namespace
+
+std::vector<RayKind> ray_kinds() {
+  return {RayKind::primary, RayKind::shadow, RayKind::mirror, RayKind::diffuse, RayKind::light};
+}
+
+std::string name_of(RayKind kind) {
+  constexpr const char* names[] = {"primary", "shadow", "mirror", "diffuse", "light"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+RayBuffer secondary_rays(RayKind kind, const BenchScene& scene, const RayBuffer& primary,
+                         const std::vector<Hit>& hits) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].id == no_primitive) continue;
     const Surface surface = find_surface(scene.spheres, {}, primary.get(i), hits[i]);
-    if (!faces(surface, sample_light(scene.light, surface.point).to_light)) continue;
-    rays.push_back(shadow_ray(scene.light, surface));
-  }
-  return to_buffer(rays);
-}
-
-/// The normal plus a random point of the unit sphere is distributed by the cosine.
-RayBuffer diffuse_rays(const BenchScene& scene, const RayBuffer& primary,
-                       const std::vector<Hit>& hits) {
-  std::vector<Ray> rays;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (hits[i].id == no_primitive) continue;
-    const Surface surface = find_surface(scene.spheres, {}, primary.get(i), hits[i]);
-    const Vec3d bounce = surface.normal + random_direction(static_cast<std::uint32_t>(i));
-    rays.push_back(leave(surface, Side::viewer, normalize(bounce)));
+    add_ray(kind, scene, surface, static_cast<std::uint32_t>(i), rays);
   }
   return to_buffer(rays);
 }

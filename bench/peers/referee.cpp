@@ -145,8 +145,7 @@ class Arena {
     if (kind == RayKind::primary) {
       return compare({&scene_, kind, &primary_}, primary_judge_, check);
     }
-    const auto make = kind == RayKind::shadow ? shadow_rays : diffuse_rays;
-    RayBuffer rays = make(scene_, primary_, primary_judge_.truth().hits);
+    RayBuffer rays = secondary_rays(kind, scene_, primary_, primary_judge_.truth().hits);
     const Workload workload = {&scene_, kind, &rays};
     if (rays.size() == 0) return {};
     return compare(workload, {workload, tree_, parallel_for_}, check);

@@ -66,18 +66,14 @@ inline constexpr double spread = 12;
 /// 1.25 u of the distance.
 inline constexpr double box = 24;
 
-/// Against a ray in flight a plane x is met at t = x i + c, i = 1 / d, c = -(o i) -/+ m |i|, with d
-/// one component of the unit direction. Along the axis, t d, this is wrong by
-///
-///   o i        rounded: u |o|, and c: u |o| + u m                     2 u |o|
-///   x i        rounded (not at all where it is fused): u |x|          1 u |o| + 1 u |t d|
-///   o          no float: u |o|                                        1 u |o|
-///
-/// and by 4 u of t: d and i, 3 u, and the sum. flight_margin u |o| + floor is m; `box` pays for the
-/// rest, as above. Components below flight_least are taken for flight_least, that nothing becomes
-/// infinite: within the tree t is at most sqrt(3) times the sum of |o| and the tree's extent, which
-/// we call farthest, so that the ray is flight_least farthest 2 off at most; m has 4 of it.
-inline constexpr double flight_margin = 8;
+/// Against a ray in flight a plane x is met at t = x i + c, i = 1 / d, c = -(o i), d one component
+/// of the unit direction; c comes from the exact origin by way of double. Along the axis, t d, this
+/// is u |o| off for c and, where the product is not fused, u |x|: 2 u |x| + u |t d|, of the 3 u |x|
+/// that a box has (below). And it is u of t off for d, i and the sum each: 4 u together, and u of
+/// the t that it is compared with. All 2 box u are on one side of that comparison. Components below
+/// flight_least are taken for flight_least, that nothing becomes infinite: within the tree t is at
+/// most sqrt(3) times the sum of |o| and the tree's extent, `farthest`; the ray is 2 flight_least
+/// farthest aside at most, and boxes are as good as 4 wider.
 inline constexpr float flight_least = 0x1p-40F;
 
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one

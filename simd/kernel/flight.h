@@ -76,23 +76,21 @@ class PendingVisits {
 };
 
 /// Where rays meet the planes of an axis: t = x inverse + near for the planes met first, x inverse
-/// + far for the others, moved outward by filter_bounds.h, flight_margin. `farthest`: the tree ends
-/// before this distance.
+/// + far for the others, a little outward (filter_bounds.h, flight_least). `farthest`: the tree
+/// ends before this distance.
 struct FlightSlab {
   Real inverse, near, far;
 
-  BOULE_INLINE FlightSlab(const Real& org, const Real& unit, const Real& farthest) {
+  BOULE_INLINE FlightSlab(const Wide& org, const Real& unit, const Real& farthest) {
     const Real zero(0.0F), least(filter::flight_least), size = abs(unit);
     const RealMask tiny = size < least;
-    const Real aside = select(tiny, farthest * Real(4 * filter::flight_least), zero);
-    const Real margin =
-        filter_fma(abs(org), Real(static_cast<float>(filter::flight_margin * filter::u)),
-                   aside + Real(static_cast<float>(filter::floor)));
     const Real steep = Real(1.0F) / select(tiny, least, size);
     inverse = select(unit < zero, zero - steep, steep);
-    const Real at = org * inverse, slack = margin * steep;
-    near = zero - at - slack;
-    far = slack - at;
+    const Real aside = select(tiny, farthest * Real(4 * filter::flight_least), zero);
+    const Wide at = org * widen(inverse);
+    const Wide slack = (widen(aside) + Wide(filter::floor)) * widen(steep);
+    near = narrow(Wide(0.0) - at - slack);
+    far = narrow(slack - at);
   }
 };
 

@@ -69,10 +69,12 @@ class PairQueue {
 /// W rays that are ready to start, each as FlightRay has it.
 class Departures {
  public:
-  BOULE_INLINE void set(const FilterRays& rays, const Real& reach, float extent) {
+  BOULE_INLINE void set(const RayLanes& lanes_of_rays, const Real& reach, float extent) {
+    const FilterRays& rays = lanes_of_rays.filter;
+    const Vec3<Wide>& org = lanes_of_rays.exact.org;
     const Real farthest = abs(rays.org.x) + abs(rays.org.y) + abs(rays.org.z) + Real(extent);
-    const FlightSlab x(rays.org.x, rays.unit.x, farthest), y(rays.org.y, rays.unit.y, farthest),
-        z(rays.org.z, rays.unit.z, farthest);
+    const FlightSlab x(org.x, rays.unit.x, farthest), y(org.y, rays.unit.y, farthest),
+        z(org.z, rays.unit.z, farthest);
     store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
     store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
     store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
@@ -188,12 +190,12 @@ class Flights {
       meet_scanned(rays, best);
       for (std::size_t lane = 0; lane < ready_; ++lane)
         answers_[first_ + lane] = static_cast<std::uint8_t>(best.hit >> lane & 1U);
-      departures_.set(rays.filter, best.far, extent_);
+      departures_.set(rays, best.far, extent_);
     } else {
       ClosestHit best(rays);
       meet_scanned(rays, best);
       store_packet(best, answers_, first_, ready_);
-      departures_.set(rays.filter, best.reach, extent_);
+      departures_.set(rays, best.reach, extent_);
     }
     return true;
   }

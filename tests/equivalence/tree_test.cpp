@@ -160,6 +160,24 @@ TreeScene row_of_specks() {
   return scene;
 }
 
+/// Specks beside the axes, at slopes too small for a reciprocal that stays finite.
+TreeScene nearly_along_axes() {
+  TreeScene scene{"rays nearly along an axis", {}, {}};
+  CaseRandom random(58);
+  for (int i = 0; i < 600; ++i) {
+    const double along = random.sign() * random.uniform(500, 1000);
+    const auto slope = [&] { return random.sign() * elementary::pow(2, random.uniform(-46, -38)); };
+    const double beside = slope(), above = i % 4 == 0 ? 0 : slope();
+    Vec3d dir{beside, above, 1};
+    if (i % 3 == 1) dir = {1, beside, above};
+    if (i % 3 == 2) dir = {above, 1, beside};
+    const Vec3f center = vec_cast<float>(dir * along);
+    scene.spheres.push_back({center, static_cast<float>(1000 * 0x1p-50), 0});
+    scene.rays.push_back({{0, 0, 0}, vec_cast<float>(dir * (along < 0 ? -1.0 : 1.0))});
+  }
+  return scene;
+}
+
 TreeScene beyond_the_filter() {
   TreeScene scene = cloud("rays and spheres that float cannot judge", {0, 0, 0}, 1, 0.1, 3);
   for (std::size_t i = 0; i < 20; ++i) scene.spheres[i].center.x *= 1e19F;
@@ -185,6 +203,7 @@ std::vector<TreeScene> scenes() {
           copies(),
           between_floats(),
           row_of_specks(),
+          nearly_along_axes(),
           beyond_the_filter()};
 }
 
