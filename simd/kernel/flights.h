@@ -39,13 +39,13 @@ class PairQueue {
   /// Solves what waits.
   BOULE_NOINLINE void solve() {
     if (size_ == 0) return;
-    alignas(64) double places[lanes];
+    alignas(64) float slots[lanes];
     for (std::size_t k = 0; k < lanes; ++k) {
       const std::size_t from = k < size_ ? k : 0;
       gathered_.set(k, rays_, ray_[from]);
-      places[k] = static_cast<double>(slot_[from]);
+      slots[k] = std::bit_cast<float>(slot_[from]);
     }
-    const SphereLanes spheres = gather_spheres(spheres_, load(places));
+    const SphereLanes spheres = gather_spheres(spheres_, load(slots));
     const Roots roots = solve_robust(load_exact(gathered_.view(lanes), 0), spheres);
     alignas(64) double t[lanes], id[lanes];
     store(t, roots.t);

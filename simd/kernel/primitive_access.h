@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +23,13 @@ struct OneForAll {
   /// The primitives' places in their arrays.
   BOULE_INLINE static Wide place(std::size_t step) { return static_cast<double>(step); }
   BOULE_INLINE static Wide place_of_eight(std::size_t step) { return static_cast<double>(step); }
+  /// The bits of slots, of those from `first` on.
+  BOULE_INLINE static Real slots(std::size_t first, std::size_t step) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(first + step));
+  }
+  BOULE_INLINE static Real slots_of_eight(std::size_t first, std::size_t step) {
+    return slots(first, step);
+  }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return static_cast<double>(ids[step]);
   }
@@ -48,6 +56,20 @@ struct OnePerLane {
     const Wide lane = place(step), eight(8.0);
     return select(lane < eight, lane, lane - eight);
   }
+  BOULE_INLINE static Real slots(std::size_t first, std::size_t step) {
+    alignas(64) float lanes[width];
+    for (std::size_t lane = 0; lane < width; ++lane)
+      lanes[lane] = std::bit_cast<float>(static_cast<std::uint32_t>(first + step * width + lane));
+    return load(lanes);
+  }
+  BOULE_INLINE static Real slots_of_eight(std::size_t first, std::size_t step) {
+    alignas(64) float lanes[width];
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const std::size_t slot = first + (step * width + lane) % 8;
+      lanes[lane] = std::bit_cast<float>(static_cast<std::uint32_t>(slot));
+    }
+    return load(lanes);
+  }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return load_as_wide(ids + step * width);
   }
@@ -69,13 +91,13 @@ BOULE_INLINE SlotPlace find_slot(const SphereView& s, std::size_t slot) {
   return {block.center_x + k, block.center_y + k, block.center_z + k, block.radius + k};
 }
 
-/// The sphere in slot `place` of each lane; any sphere where that is negative.
-BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Wide& place) {
-  alignas(64) double lanes[width], id[width];
-  alignas(64) float x[width], y[width], z[width], r[width];
-  store(lanes, place);
+/// The sphere of each lane's slot, which comes as bits.
+BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Real& slots) {
+  alignas(64) float slot_bits[width], x[width], y[width], z[width], r[width];
+  alignas(64) double id[width];
+  store(slot_bits, slots);
   for (int lane = 0; lane < width; ++lane) {
-    const std::size_t slot = lanes[lane] < 0 ? 0 : static_cast<std::size_t>(lanes[lane]);
+    const std::size_t slot = std::bit_cast<std::uint32_t>(slot_bits[lane]);
     const SlotPlace sphere = find_slot(s, slot);
     x[lane] = *sphere.center_x;
     y[lane] = *sphere.center_y;
@@ -101,7 +123,7 @@ struct ScannedSpheres {
   [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const {
     return Access::get(spheres.id, step);
   }
-  [[nodiscard]] BOULE_INLINE Wide slot(std::size_t step) const { return Access::place(step); }
+  [[nodiscard]] BOULE_INLINE Real slot(std::size_t step) const { return Access::slots(0, step); }
 
   /// Lanes that certainly miss.
   template <bool origins_exact>
@@ -116,13 +138,13 @@ template <class Access>
 struct LeafSpheres {
   const SphereBlock& leaf;
   const std::int32_t* ids;
-  double first_slot;
+  std::size_t first_slot;
   float size;
 
   BOULE_INLINE LeafSpheres(const SphereView& spheres, std::uint32_t index, std::uint32_t leaf_size)
       : leaf(spheres.blocks[spheres.scanned / bvh_leaf_size + index]),
         ids(spheres.id + spheres.scanned + std::size_t{index} * bvh_leaf_size),
-        first_slot(static_cast<double>(spheres.scanned + std::size_t{index} * bvh_leaf_size)),
+        first_slot(spheres.scanned + std::size_t{index} * bvh_leaf_size),
         size(static_cast<float>(leaf_size)) {}
 
   [[nodiscard]] BOULE_INLINE Vec3<Real> center(std::size_t step) const {
@@ -135,8 +157,8 @@ struct LeafSpheres {
   [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const {
     return Access::get_of_eight(ids, step);
   }
-  [[nodiscard]] BOULE_INLINE Wide slot(std::size_t step) const {
-    return Access::place_of_eight(step) + Wide(first_slot);
+  [[nodiscard]] BOULE_INLINE Real slot(std::size_t step) const {
+    return Access::slots_of_eight(first_slot, step);
   }
 
   /// Lanes that certainly miss, or hold no sphere.

@@ -15,7 +15,8 @@ namespace boule::BOULE_KERNEL_ISA {
 /// for certain which sphere is the nearest, that sphere is only `pending`; settle() solves it.
 struct ClosestHit {
   Wide t, id;    ///< the nearest hit that is solved
-  Wide pending;  ///< slot of a sphere that is hit for certain, nearer for certain, or -1
+  Real pending;  ///< bits of the slot of a sphere that is hit for certain, nearer for certain
+  RealMask is_pending;
   Real
       nearest;  ///< lower bound of t |dir| of the pending hit, else the solved one's, or tmax |dir|
   Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
@@ -23,7 +24,8 @@ struct ClosestHit {
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
       : t(no_hit),
         id(-1.0),
-        pending(-1.0),
+        pending(0.0F),
+        is_pending(Real(0.0F) < Real(0.0F)),
         nearest(rays.filter.live_to),
         reach(distance(rays.exact.tmax, rays)) {}
 
@@ -35,13 +37,14 @@ struct ClosestHit {
   /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if
   /// that is all it takes: only where float cannot tell which hit is nearer is it left to solve.
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
-                             const Wide& slot, const FilterRays& rays) {
+                             const Real& slot, const FilterRays& rays) {
     const Real high = highest(roots, rays);
     const RealMask first = high < nearest;
     out |= bits(first | (reach < low));
     reach = select(high < reach, high, reach);
     nearest = select(first, low, nearest);
-    pending = select(widen(first), slot, pending);
+    pending = select(first, slot, pending);
+    is_pending = is_pending | first;
     return out != all_lanes;
   }
   /// Whether a sphere whose roots begin at `low` could still be the nearest in a lane not `out`.
@@ -59,12 +62,11 @@ struct ClosestHit {
   }
   /// Solves the pending hits: one double solve, each lane against its own sphere.
   BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
-    const WideMask is_pending = Wide(-1.0) < pending;
-    if (!any(is_pending)) return;
+    if (bits(is_pending) == 0) return;
     const SphereLanes each = gather_spheres(spheres, pending);
     const Roots roots = solve_robust(rays.exact, each);
-    take(roots.t, each.id, roots.hit & is_pending, rays);
-    pending = Wide(-1.0);
+    take(roots.t, each.id, roots.hit & widen(is_pending), rays);
+    is_pending = nearest < nearest;
   }
   static constexpr bool done() { return false; }
   static constexpr std::size_t chunk = 1024;
@@ -89,7 +91,7 @@ struct AnyHit {
   BOULE_INLINE explicit AnyHit(const RayLanes& rays)
       : far(ClosestHit::distance(rays.exact.tmax, rays)) {}
 
-  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Wide&,
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Real&,
                              const FilterRays& rays) {
     const RealMask found = live(roots, rays);
     hit |= bits(found);
