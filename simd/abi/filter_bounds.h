@@ -74,7 +74,7 @@ inline constexpr double box = 24;
 /// flight_least are taken for flight_least, that nothing becomes infinite: within the tree t is at
 /// most sqrt(3) times the sum of |o| and the tree's extent, `farthest`; the ray is 2 flight_least
 /// farthest aside at most, and boxes are as good as 4 wider.
-inline constexpr float flight_least = 0x1p-40F;
+inline constexpr float flight_least = 0x1p-60F;
 
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
 /// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than

@@ -122,7 +122,7 @@ struct alignas(16) FlightRay {
 
 /// Spheres that may be the nearest hit: only a double solve tells.
 struct FlightCandidates {
-  static constexpr unsigned capacity = 32;
+  static constexpr unsigned capacity = 8;
   float low[capacity];  ///< lower bounds of their roots
   std::uint32_t slot[capacity];
   unsigned size = 0;

@@ -122,9 +122,10 @@ class Flights {
         extent_(extent_of(geometry.bvh.nodes[0])),
         pairs_(stream.rays(), geometry.spheres, answers) {}
 
-  /// Returns how many steps were taken.
+  /// Returns how many steps were taken, or what took as long.
   std::size_t run(std::size_t begin, std::size_t end) {
     std::size_t steps = 0;
+    extra_steps_ = 0;
     first_ = begin;
     departed_ = ready_ = 0;
     end_ = end;
@@ -133,7 +134,7 @@ class Flights {
     }
     for (; node_count_ + leaf_count_ > 0; round()) steps += node_count_ + leaf_count_;
     pairs_.solve();
-    return steps;
+    return steps + extra_steps_;
   }
 
  private:
@@ -218,6 +219,9 @@ class Flights {
       const std::size_t lane = departed_++;
       departures_.get(lane, ray);
       flight.index = static_cast<std::uint32_t>(first_ + lane);
+      if constexpr (any) {
+        if (answers_[flight.index] != 0) continue;
+      }
       const bool judged = ray.unit[0] <= ray.unit[0] && !(ray.dead_below < 0);
       if (judged && 0 <= ray.reach) break;
       if (!judged) go_alone(flight.index);
@@ -235,11 +239,11 @@ class Flights {
     const RayLanes ray = load_single(stream_.rays(), index);
     if constexpr (any) {
       AnyHit<true> best(ray);
-      search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      extra_steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
       answers_[index] = best.hit != 0 ? 1 : 0;
     } else {
       ClosestHit best(ray);
-      search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      extra_steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
       store_single(best, answers_, index);
     }
   }
@@ -311,9 +315,37 @@ class Flights {
     if (flight.candidates.size == FlightCandidates::capacity) make_room(flight);
     flight.candidates.add(low, slot);
   }
+  /// Where floats are certain of nothing, only solved hits can end the way: all at once, early.
   BOULE_NOINLINE void make_room(Flight& flight) {
-    flight.candidates.drop_beyond(flight.ray.reach);
-    if (flight.candidates.size == FlightCandidates::capacity) land(flight);
+    FlightCandidates& candidates = flight.candidates;
+    candidates.drop_beyond(flight.ray.reach);
+    if (candidates.size < FlightCandidates::capacity) return;
+    const RayLanes ray = load_single(stream_.rays(), flight.index);
+    for (unsigned first = 0; first < candidates.size; first += lanes) {
+      alignas(64) float slots[lanes];
+      for (unsigned k = 0; k < lanes; ++k) {
+        const unsigned from = first + k < candidates.size ? first + k : first;
+        slots[k] = std::bit_cast<float>(candidates.slot[from]);
+      }
+      const SphereLanes spheres = gather_spheres(geometry_.spheres, load(slots));
+      take(flight, ray, solve_robust(ray.exact, spheres), spheres.id);
+    }
+    candidates.size = 0;
+    extra_steps_ += FlightCandidates::capacity / 2;
+  }
+  /// Hits of one ray: nothing beyond them is of interest any more.
+  BOULE_INLINE void take(Flight& flight, const RayLanes& ray, const Roots& roots, const Wide& ids) {
+    alignas(64) double t[lanes], id[lanes];
+    alignas(64) float reach[lanes];
+    store(t, roots.t);
+    store(id, ids);
+    store(reach, ClosestHit::distance(roots.t, ray));
+    for (unsigned hit = bits(roots.hit); hit != 0; hit &= hit - 1) {
+      const auto k = static_cast<unsigned>(std::countr_zero(hit));
+      answer(answers_, flight.index, t[k], static_cast<std::int32_t>(id[k]));
+      if (reach[k] < flight.ray.reach) flight.ray.reach = reach[k];
+      if constexpr (any) flight.pending.clear();
+    }
   }
   /// Leaves the candidates to double.
   BOULE_INLINE void land(Flight& flight) {
@@ -334,6 +366,7 @@ class Flights {
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.
   Departures departures_;
   std::size_t first_ = 0, departed_ = 0, ready_ = 0, end_ = 0;
+  std::size_t extra_steps_ = 0;
 
   Flight flights_[most_flights];
   /// Those whose next step is a node, or a leaf; the last place is for one that is not one of them.

@@ -13,7 +13,9 @@ namespace boule::BOULE_KERNEL_ISA {
 /// Rays that are traced either way now and then, to see which is the better one, and those that
 /// then go that way.
 inline constexpr std::size_t rays_on_trial = 32, rays_after_trial = 1984;
-/// A packet's visit takes as long as so many steps of rays in flight; measured.
+/// A packet's visit takes as long as so many steps of rays in flight: with 3 automatic was seen to
+/// be within 8 % of the better way on AVX2 and AVX-512, camera rays and diffuse bounces, but for
+/// camera rays among 100,000 spheres (1.2); with 2 diffuse bounces there took 1.25.
 inline constexpr float steps_a_visit = 2.5F;
 
 template <class Answers>

@@ -204,7 +204,7 @@ BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t part)
 }
 #endif
 
-// The lanes of `chosen`, one after the other, to any address; W floats are written.
+// The lanes of `chosen`, one after the other, to any address; up to W floats are written.
 #if defined(__AVX512F__)
 BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), a));

@@ -41,6 +41,7 @@ class Bounds : public OnEachIsa {
 
 const Query packets{Solver::robust, Form::packet, Coherence::none};
 const Query singles{Solver::robust, Form::single, Coherence::none};
+const Query flights{Solver::robust, Form::flight, Coherence::none};
 
 /// squared_floor: spheres so small that the squares of their radii are a few steps of the smallest
 /// floats, met close to the rim.
@@ -58,7 +59,7 @@ TEST_P(Bounds, SpheresWhoseSquaresUnderflow) {
       rays.push_back(
           {{0, 0, 0}, vec_cast<float>(towards * std::sqrt(1 - sine * sine) + side * sine)});
     }
-    check({sphere}, rays, {packets, singles});
+    check({sphere}, rays, {packets, singles, flights});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 4);
@@ -90,7 +91,7 @@ TEST_P(Bounds, SidesOfBoxesFarFromTheWorldsOrigin) {
       rays.push_back(
           {random.chance(0.5) ? org : vec_cast<double>(rounded), vec_cast<float>(towards)});
     }
-    check(spheres, rays, {packets, singles});
+    check(spheres, rays, {packets, singles, flights});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 2);

@@ -166,13 +166,13 @@ TreeScene nearly_along_axes() {
   CaseRandom random(58);
   for (int i = 0; i < 600; ++i) {
     const double along = random.sign() * random.uniform(500, 1000);
-    const auto slope = [&] { return random.sign() * elementary::pow(2, random.uniform(-46, -38)); };
+    const auto slope = [&] { return random.sign() * elementary::pow(2, random.uniform(-66, -58)); };
     const double beside = slope(), above = i % 4 == 0 ? 0 : slope();
     Vec3d dir{beside, above, 1};
     if (i % 3 == 1) dir = {1, beside, above};
     if (i % 3 == 2) dir = {above, 1, beside};
     const Vec3f center = vec_cast<float>(dir * along);
-    scene.spheres.push_back({center, static_cast<float>(1000 * 0x1p-50), 0});
+    scene.spheres.push_back({center, static_cast<float>(1000 * 0x1p-70), 0});
     scene.rays.push_back({{0, 0, 0}, vec_cast<float>(dir * (along < 0 ? -1.0 : 1.0))});
   }
   return scene;
