@@ -1,8 +1,7 @@
 // The referee: Boule against Embree, one process, the same rays, answers compared.
 //
-//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light] [--isa
-//   avx2,avx512]
-//               [--reps N] [--threads N] [--size N] [--json FILE]
+//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light]
+//               [--isa avx2,avx512] [--reps N] [--threads N] [--size N] [--json FILE]
 //
 // Exit code 1: the truth failed its test against the reference, or a robust contender of Boule's
 // differs from it; 2: bad arguments.

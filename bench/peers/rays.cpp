@@ -31,7 +31,6 @@ Vec3d random_direction(std::uint32_t ray) {
 /// Adds the ray of this kind from a surface, if there is one; `number` makes it random.
 void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std::uint32_t number,
              std::vector<Ray>& rays) {
-  const Vec3d light = vec_cast<double>(scene.light.position);
   switch (kind) {
     case RayKind::primary:
       break;
@@ -48,7 +47,8 @@ void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std:
           leave(surface, Side::viewer, normalize(surface.normal + random_direction(number))));
       break;
     case RayKind::light: {
-      const Vec3d point = light + random_direction(number) * 0.25;
+      const Vec3d center = vec_cast<double>(scene.light.position);
+      const Vec3d point = center + random_direction(number) * 0.25;
       if (faces(surface, point - surface.point)) rays.push_back(shadow_ray_to(surface, point));
       break;
     }

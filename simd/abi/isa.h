@@ -14,8 +14,7 @@ enum class Solver { fast, robust, reference };
 /// Which side of the work is laid across the lanes: W rays against one primitive (packet), or one
 /// ray against W primitives, ray after ray (single), or sixteen in flight at a time, step by step
 /// (flight: with a tree and solver robust; else packets; rays with tmin < 0, or that floats cannot
-/// judge, go single). The answers are the same; automatic lets
-/// the kernel choose.
+/// judge, go single). The answers are the same; automatic lets the kernel choose.
 enum class Form { automatic, packet, single, flight };
 
 /// What a stream's rays have in common: a promise by the caller that lets a kernel treat them as a

@@ -217,22 +217,6 @@ BOULE_INLINE void meet_scanned(const BundleRays& rays, const DiscFactors& factor
   }
 }
 
-/// Asks for what a child's visit will read: a large tree is not in the cache.
-BOULE_INLINE void prefetch_child(const GeometryView& geometry, const BvhNode& node, int k) {
-  const bool leaf = node.leaf_size[k] != 0;
-  const char* const begin =
-      leaf ? reinterpret_cast<const char*>(geometry.spheres.blocks +
-                                           geometry.spheres.scanned / bvh_leaf_size +
-                                           place_of(node.child[k]))
-           : reinterpret_cast<const char*>(geometry.bvh.nodes + node.child[k]);
-  static_assert(sizeof(SphereBlock) == 128 && sizeof(BvhNode) == 256);
-  __builtin_prefetch(begin);
-  __builtin_prefetch(begin + 64);
-  if (leaf) return;
-  __builtin_prefetch(begin + 128);
-  __builtin_prefetch(begin + 192);
-}
-
 /// What a bundle may cost: leaves that it visits.
 struct Effort {
   std::size_t most_leaves = ~std::size_t{0};
@@ -281,7 +265,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     for (; in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);
       stack.push({near[k], node.child[k], node.leaf_size[k]}, base);
-      prefetch_child(geometry, node, k);
+      prefetch_block(block_of(geometry, node.child[k]), node.leaf_size[k] != 0);
     }
   }
   return true;

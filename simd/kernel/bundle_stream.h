@@ -18,13 +18,10 @@ inline constexpr std::size_t fewest_rays = 32;
 inline constexpr std::size_t rays_per_leaf_in_place = 12;
 
 /// What does not fit into bundles goes as packets.
+template <class Answers>
 BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
-                             std::size_t begin, std::size_t end, const HitStream& hits) {
-  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, hits);
-}
-BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
-                             std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, occluded);
+                             std::size_t begin, std::size_t end, Answers answers) {
+  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
 }
 
 /// Rays of the stream as one bundle.

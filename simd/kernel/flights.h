@@ -116,7 +116,6 @@ class Flights {
 
   Flights(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
       : geometry_(geometry),
-        leaves_(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size),
         stream_(stream),
         answers_(answers),
         extent_(extent_of(geometry.bvh.nodes[0])),
@@ -160,22 +159,12 @@ class Flights {
       return;
     }
     const bool leaf = (child & leaf_bit) != 0;
-    const void* const block = leaf ? static_cast<const void*>(leaves_ + place_of(child))
-                                   : static_cast<const void*>(geometry_.bvh.nodes + child);
-    prefetch(static_cast<const char*>(block), leaf);
-    flight.next = block;
+    flight.next = block_of(geometry_, child);
+    prefetch_block(flight.next, leaf);
     at_node_[node_count_] = &flight;
     at_leaf_[leaf_count_] = &flight;
     node_count_ += leaf ? 0 : 1;
     leaf_count_ += leaf ? 1 : 0;
-  }
-  BOULE_INLINE static void prefetch(const char* block, bool leaf) {
-    static_assert(sizeof(SphereBlock) == 128 && sizeof(BvhNode) == 256);
-    __builtin_prefetch(block);
-    __builtin_prefetch(block + 64);
-    if (leaf) return;
-    __builtin_prefetch(block + 128);
-    __builtin_prefetch(block + 192);
   }
 
   /// W rays more: what is in no tree is met at once, by all of them together.
@@ -357,7 +346,6 @@ class Flights {
   }
 
   const GeometryView& geometry_;
-  const SphereBlock* leaves_;
   const PaddedStream& stream_;
   const Answers answers_;
   float extent_;

@@ -17,8 +17,6 @@ struct BoxRays {
         inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
         // Far beyond the filter's range a component that underflows still leads somewhere.
         from(select(rays.unit.x <= rays.unit.x, rays.dead_below, rays.unit.x)) {}
-  BOULE_INLINE BoxRays(const Vec3<Real>& origin, const Vec3<Real>& over_unit, const Real& begin)
-      : org(origin), inverse(over_unit), from(begin) {}
 };
 
 /// Boxes in lanes: one for a packet, or several for a ray.
@@ -53,6 +51,23 @@ BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Re
   const Real less(static_cast<float>(1 - filter::box * filter::u));
   const Real more(static_cast<float>(1 + filter::box * filter::u));
   return {near, filter_max(far * less, far * more) < filter_min(near * less, near * more)};
+}
+
+/// The node or the leaf that a child is.
+BOULE_INLINE const void* block_of(const GeometryView& geometry, std::uint32_t child) {
+  if ((child & leaf_bit) == 0) return geometry.bvh.nodes + child;
+  return geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size + place_of(child);
+}
+
+/// Asks for what a child's visit will read: a large tree is not in the cache.
+BOULE_INLINE void prefetch_block(const void* block, bool leaf) {
+  static_assert(sizeof(SphereBlock) == 128 && sizeof(BvhNode) == 256);
+  const char* const begin = static_cast<const char*>(block);
+  __builtin_prefetch(begin);
+  __builtin_prefetch(begin + 64);
+  if (leaf) return;
+  __builtin_prefetch(begin + 128);
+  __builtin_prefetch(begin + 192);
 }
 
 /// A child to visit: where the first ray enters it.

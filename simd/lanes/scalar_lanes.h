@@ -42,7 +42,6 @@ BOULE_INLINE Real load_of_eights(const float* first, const float*, std::size_t p
 BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
   return std::bit_cast<float>(p[part]);
 }
-BOULE_INLINE Real load_anywhere(const float* p) { return *p; }
 BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }

@@ -48,8 +48,7 @@ BOULE_INLINE Real load_of_eights(const float* first, const float* second, std::s
 BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
   return gaps::load_bits_of_eight(p, part);
 }
-/// To and from any address; of the lanes `chosen` one after the other, what comes behind is lost.
-BOULE_INLINE Real load_anywhere(const float* p) { return Floats::load_unaligned(p); }
+/// To any address; of the lanes `chosen` one after the other, what comes behind is lost.
 BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
   gaps::store_chosen(p, a.v, chosen);
