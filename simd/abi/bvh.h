@@ -6,16 +6,16 @@
 namespace boule {
 
 /// Children of a node.
-inline constexpr int bvh_width = 8;
+inline constexpr int bvh_width = 16;
 
 /// Nodes on any way from the root to a leaf, guaranteed by the builder: the kernels' stack is a
 /// plain array.
 inline constexpr int bvh_max_depth = 48;
 
 /// Spheres in a leaf.
-inline constexpr std::size_t bvh_leaf_size = 8;
+inline constexpr std::size_t bvh_leaf_size = 16;
 
-/// A leaf: up to 8 spheres, the first ones; the others have the radius NaN.
+/// A leaf: up to 16 spheres, the first ones; the others have the radius NaN.
 struct alignas(64) SphereBlock {
   float center_x[bvh_leaf_size], center_y[bvh_leaf_size], center_z[bvh_leaf_size];
   float radius[bvh_leaf_size];
@@ -24,7 +24,7 @@ struct alignas(64) SphereBlock {
 /// Marks a child that is a leaf.
 inline constexpr std::uint32_t leaf_bit = 0x80000000;
 
-/// The boxes of up to 8 children, rounded outward, and where the children are: child k is the leaf
+/// The boxes of up to 16 children, rounded outward, and where the children are: child k is the leaf
 /// place_of(child[k]), of leaf_size[k] spheres, if it has the leaf_bit, else the node child[k].
 struct alignas(64) BvhNode {
   float min_x[bvh_width], min_y[bvh_width], min_z[bvh_width];

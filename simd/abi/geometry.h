@@ -7,9 +7,9 @@
 
 namespace boule {
 
-/// Spheres in slots, in the order that suits the kernels, all of them in blocks of eight. The first
-/// ones are tested against every ray and come as a structure of arrays as well, padded to
-/// max_width; leaf k is block scanned / 8 + k. Slots that hold no sphere are hit by nothing and
+/// Spheres in slots, in the order that suits the kernels, all of them in blocks of sixteen. The
+/// first ones are tested against every ray and come as a structure of arrays as well, padded to
+/// max_width; leaf k is block scanned / 16 + k. Slots that hold no sphere are hit by nothing and
 /// have a negative id.
 struct SphereView {
   const float* center_x;
@@ -21,7 +21,7 @@ struct SphereView {
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
   std::size_t scanned;        ///< slots in front that are in no leaf; with a tree whole blocks
-  const SphereBlock* blocks;  ///< block k: the slots from 8 k on
+  const SphereBlock* blocks;  ///< block k: the slots from 16 k on
   std::size_t block_count;
   const std::int32_t* id;  ///< what hits are called by, for every slot
 };

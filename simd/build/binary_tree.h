@@ -5,23 +5,24 @@
 #include <span>
 #include <vector>
 
+#include "simd/abi/bvh.h"
 #include "simd/build/build_box.h"
 
 namespace boule {
 
 /// A node of the binary tree that becomes a wide one.
 struct BinaryNode {
-  BuildBox box;          ///< rounded outward
-  std::uint32_t right;   ///< the second child; the first follows this node. Of a leaf: its number
-  std::uint32_t size;    ///< spheres of a leaf; 0: no leaf
-  std::uint8_t take[9];  ///< of j places in the wide node, the first child's; 0: it takes one
-                         ///< itself
+  BuildBox box;         ///< rounded outward
+  std::uint32_t right;  ///< the second child; the first follows this node. Of a leaf: its number
+  std::uint32_t size;   ///< spheres of a leaf; 0: no leaf
+  /// Of j places in the wide node, the first child's; 0: it takes one itself.
+  std::uint8_t take[bvh_width + 1];
 };
 
-/// What a binary node and those under it cost if it takes j places in a wide node, j = 1 .. 8: the
+/// What a binary node and those under it cost if it takes j places in a wide node, j = 1 .. 16: the
 /// sum of the areas of the wide nodes. Leaves cost the same in every tree of wide nodes, and use up
 /// places that nobody needs. More places never cost more: all are given away.
-using CollapseCosts = std::array<double, 9>;
+using CollapseCosts = std::array<double, bvh_width + 1>;
 
 /// The least costs of a node, from its children's, and the choice that gives them: dynamic
 /// programming (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through

@@ -64,7 +64,7 @@ class BundleSides {
     return result;
   }
 
-  /// Of eight boxes: where the bundle may enter them, in v, and bits of those it misses.
+  /// Of all boxes: where the bundle may enter them, in v, and bits of those it misses.
   BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
     unsigned out = 0;
     for (std::size_t part = 0; part * width < bvh_width; ++part)
@@ -94,18 +94,18 @@ class BundleSides {
     }
   }
 
-  /// Eight boxes, or W of them, as seen from O, and how far off a distance of their corners may be
+  /// W boxes as seen from O, and how far off a distance of their corners may be
   /// (filter_bounds.h).
   struct Boxes {
     Real rows[6];
     Real slack;
   };
   BOULE_INLINE Boxes boxes_of(const BvhNode& node, std::size_t part) const {
-    Boxes boxes = {
-        {load_of_eight(node.min_x, part) - org_.x, load_of_eight(node.min_y, part) - org_.y,
-         load_of_eight(node.min_z, part) - org_.z, load_of_eight(node.max_x, part) - org_.x,
-         load_of_eight(node.max_y, part) - org_.y, load_of_eight(node.max_z, part) - org_.z},
-        Real(0.0F)};
+    const std::size_t at = part * width;
+    Boxes boxes = {{load(node.min_x + at) - org_.x, load(node.min_y + at) - org_.y,
+                    load(node.min_z + at) - org_.z, load(node.max_x + at) - org_.x,
+                    load(node.max_y + at) - org_.y, load(node.max_z + at) - org_.z},
+                   Real(0.0F)};
     const Real(&rows)[6] = boxes.rows;
     const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
                       filter_max(abs(rows[1]), abs(rows[4])) +
@@ -171,7 +171,7 @@ class BundleSides {
 /// Some spheres against the bundle.
 template <Common common, class Hits>
 BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
-                               const Eights& spheres, Hits& hits) {
+                               const BlockSpheres& spheres, Hits& hits) {
   Discs discs;
   place_discs<common, Hits::seek>(rays, factors, spheres, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1)
@@ -208,12 +208,9 @@ BOULE_INLINE void meet_scanned(const BundleRays& rays, const DiscFactors& factor
     const std::size_t rest = spheres.scanned - first;
     return static_cast<unsigned>(rest < bvh_leaf_size ? rest : bvh_leaf_size);
   };
-  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += Eights::size) {
-    Eights eights(spheres, first, count_from(first));
-    const std::size_t second = first + bvh_leaf_size;
-    if (Eights::most > 1 && second < spheres.scanned)
-      eights.add(spheres, second, count_from(second));
-    meet_spheres<common>(rays, factors, eights, hits);
+  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += bvh_leaf_size) {
+    const BlockSpheres block(spheres, first, count_from(first));
+    meet_spheres<common>(rays, factors, block, hits);
   }
 }
 
@@ -239,16 +236,10 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     if (hits.limit() < visit.near) continue;
     if (visit.leaf_size != 0) {
       if (effort.leaves++ >= effort.most_leaves || hits.too_close()) return false;
-      const auto first_slot = [&](const Visit& leaf) {
-        return spheres.scanned + std::size_t{place_of(leaf.child)} * bvh_leaf_size;
-      };
-      Eights eights(spheres, first_slot(visit), visit.leaf_size);
-      if (Eights::most > 1 && !stack.empty() && stack.top().leaf_size != 0) {
-        const Visit next = stack.pop();
-        ++effort.leaves;
-        eights.add(spheres, first_slot(next), next.leaf_size);
-      }
-      meet_spheres<common>(rays, factors, eights, hits);
+      const std::size_t first =
+          spheres.scanned + std::size_t{place_of(visit.child)} * bvh_leaf_size;
+      const BlockSpheres leaf(spheres, first, visit.leaf_size);
+      meet_spheres<common>(rays, factors, leaf, hits);
       continue;
     }
     const BvhNode& node = geometry.bvh.nodes[visit.child];

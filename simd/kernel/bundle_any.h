@@ -54,7 +54,7 @@ class BundleAny {
 
   /// Spheres against the rays that their discs are in the way of, one by one. False, and nothing
   /// done, if those are not few.
-  BOULE_INLINE bool meet_few(const Discs& discs, const Eights& spheres) {
+  BOULE_INLINE bool meet_few(const Discs& discs, const BlockSpheres& spheres) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
     if (count_bits(groups) > few_.groups) return false;
     int rays[few_among_many.rays + group_size], count = 0;
@@ -205,7 +205,7 @@ class BundleAny {
   }
 
   /// Simple spheres against one ray; true if it meets one.
-  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const Eights& spheres) {
+  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const BlockSpheres& spheres) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
     for (int at = 0; at < Discs::size; at += width) {
@@ -222,7 +222,7 @@ class BundleAny {
 
   /// One ray and those of W spheres from place `at` on that it may hit, and that it does; true if
   /// so.
-  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const Eights& spheres,
+  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const BlockSpheres& spheres,
                            int at) {
     const int p = ray / width, lane = ray % width;
     const unsigned bit = 1U << lane;
@@ -277,8 +277,8 @@ class BundleAny {
   struct Few {
     int groups, rays;
   };
-  static constexpr Few few_at_first = Eights::most == 1 ? Few{6, 24} : Few{8, 32};
-  static constexpr Few few_among_many = Eights::most == 1 ? Few{10, 48} : Few{12, 64};
+  static constexpr Few few_at_first = width < 16 ? Few{6, 24} : Few{8, 32};
+  static constexpr Few few_among_many = width < 16 ? Few{10, 48} : Few{12, 64};
 
   const Source& source_;
   const SphereView& spheres_;

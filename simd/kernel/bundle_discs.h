@@ -5,64 +5,43 @@
 #include "simd/kernel/bundle_rays.h"
 #include "simd/kernel/primitive_access.h"
 
-/// Spheres as a bundle sees them, eight at a time, or two leaves: each a disc around (X, Y) at the
-/// depth Z.
+/// Spheres as a bundle sees them, a block at a time: each a disc around (X, Y) at the depth Z.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Up to eight spheres that are neighbours, and as many others where there are lanes for them.
-class Eights {
+/// Up to 16 spheres of one block, the first ones.
+class BlockSpheres {
  public:
-  static constexpr int eight = bvh_leaf_size;
-  static constexpr int most = width < 2 * eight ? 1 : 2;
-  static constexpr int size = most * eight;
+  static constexpr int size = bvh_leaf_size;
 
-  /// `count` spheres from slot `first` on, a multiple of 8.
-  BOULE_INLINE Eights(const SphereView& spheres, std::size_t first, unsigned count) {
-    for (int i = 0; i < most; ++i) set(i, spheres, first, i == 0 ? count : 0);
-  }
-  /// The others.
-  BOULE_INLINE void add(const SphereView& spheres, std::size_t first, unsigned count) {
-    set(most - 1, spheres, first, count);
-  }
+  /// `count` spheres from slot `first` on, a multiple of 16.
+  BOULE_INLINE BlockSpheres(const SphereView& spheres, std::size_t first, unsigned count)
+      : block_(spheres.blocks[first / bvh_leaf_size]),
+        first_(static_cast<std::uint32_t>(first)),
+        count_(count) {}
 
   /// The places that spheres are in: bits.
-  [[nodiscard]] BOULE_INLINE unsigned there() const {
-    unsigned result = 0;
-    for (int i = 0; i < most; ++i) result |= ((1U << count_[i]) - 1) << i * eight;
-    return result;
-  }
+  [[nodiscard]] BOULE_INLINE unsigned there() const { return (1U << count_) - 1; }
   [[nodiscard]] BOULE_INLINE std::uint32_t slot(int place) const {
-    return first_[most == 1 ? 0 : place / eight] + static_cast<std::uint32_t>(place % eight);
+    return first_ + static_cast<std::uint32_t>(place);
   }
   /// Of W places, the part `part` of them.
   BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
-    return {load(&SlotPlace::center_x, part), load(&SlotPlace::center_y, part),
-            load(&SlotPlace::center_z, part)};
+    const std::size_t at = part * width;
+    return {load(block_.center_x + at), load(block_.center_y + at), load(block_.center_z + at)};
   }
-  BOULE_INLINE Real radii(std::size_t part) const { return load(&SlotPlace::radius, part); }
+  BOULE_INLINE Real radii(std::size_t part) const { return load(block_.radius + part * width); }
   /// Before this part there is a sphere in every part, and none from it on.
-  [[nodiscard]] BOULE_INLINE std::size_t parts() const {
-    return most == 1 ? (count_[0] + width - 1) / width : 1;
-  }
+  [[nodiscard]] BOULE_INLINE std::size_t parts() const { return (count_ + width - 1) / width; }
 
  private:
-  BOULE_INLINE void set(int i, const SphereView& spheres, std::size_t first, unsigned count) {
-    spheres_[i] = find_slot(spheres, first);
-    first_[i] = static_cast<std::uint32_t>(first);
-    count_[i] = count;
-  }
-  BOULE_INLINE Real load(const float* SlotPlace::*row, std::size_t part) const {
-    return load_of_eights(spheres_[0].*row, spheres_[most - 1].*row, part);
-  }
-
-  SlotPlace spheres_[most];
-  std::uint32_t first_[most];
-  unsigned count_[most];
+  const SphereBlock& block_;
+  std::uint32_t first_;
+  unsigned count_;
 };
 
 /// Their discs.
 struct Discs {
-  static constexpr int size = Eights::size;
+  static constexpr int size = BlockSpheres::size;
   alignas(64) float x[size], y[size], z[size];
   alignas(64) float radius[size], delta[size];
   alignas(64) float squared[size];  ///< R2
@@ -121,7 +100,7 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
 /// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
 template <Common common, Seek seek>
 BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
-                             const Eights& spheres, std::size_t part, const Real& limit,
+                             const BlockSpheres& spheres, std::size_t part, const Real& limit,
                              Discs& discs) {
   const BundleFrame& frame = rays.frame;
   const Vec3<Wide> f = widen(spheres.centers(part)) - wide_all(frame.org);
@@ -159,7 +138,7 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
 /// Finds those that matter.
 template <Common common, Seek seek>
 BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
-                              const Eights& spheres, float limit, Discs& discs) {
+                              const BlockSpheres& spheres, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
   for (std::size_t part = 0; part < spheres.parts(); ++part)
     place_part<common, seek>(rays, factors, spheres, part, limit, discs);

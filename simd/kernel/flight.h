@@ -10,69 +10,81 @@
 /// state lies in memory, so that other rays can take theirs (flights.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Arrays of eight come in so many parts, of so many lanes each that count.
-inline constexpr std::size_t parts_of_eight = width < 8 ? 8 / lanes : 1;
-inline constexpr unsigned part_lanes = width < 8 ? all_lanes : 0xffU;
-
 /// Nodes and leaves that a ray is still to visit, as an unsorted array: the nearest is looked for
 /// when it is wanted.
 class PendingVisits {
  public:
-  BOULE_INLINE void clear() { size_ = 0; }
-  /// Adds the children of some lanes; `near`: lower bounds of where they are entered.
-  BOULE_INLINE void push(const Real& near, const Real& child, unsigned chosen) {
-    const std::size_t size = size_;
-    store_chosen(near_ + size, near, chosen);
-    store_chosen(child_ + size, child, chosen);
-    size_ = static_cast<std::uint32_t>(size) + static_cast<std::uint32_t>(std::popcount(chosen));
+  PendingVisits() {
+    for (std::size_t at = 0; at < capacity; at += lanes)
+      store(near_ + at, Real(static_cast<float>(no_hit)));
   }
-  /// To be called when all parts are pushed: what follows the last one is never the nearest.
-  BOULE_INLINE void close() { store_anywhere(near_ + size_, static_cast<float>(no_hit)); }
+
+  BOULE_INLINE void clear() {
+    for (std::size_t at = 0; at < size_; at += lanes)
+      store(near_ + at, Real(static_cast<float>(no_hit)));
+    size_ = 0;
+  }
+  /// Adds the children of some lanes; `near`: lower bounds of where they are entered.
+  BOULE_INLINE void push(const Real& near, const Real& child, RealMask chosen) {
+    const unsigned in = bits(chosen);
+    store_chosen(near_ + size_, near, chosen, Real(static_cast<float>(no_hit)));
+    store_chosen(child_ + size_, child, in);
+    size_ += static_cast<std::size_t>(std::popcount(in));
+  }
 
   /// Takes the nearest; false if nothing is left that is entered before `reach`.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
-    std::size_t size = size_;
-    while (size > 0) {
-      const bool sorted = size <= most_sorted;
-      const std::size_t place = sorted ? nearest(size) : size - 1;
-      const float near = near_[place];
-      child = std::bit_cast<std::uint32_t>(child_[place]);
-      --size;
-      near_[place] = near_[size];
-      child_[place] = child_[size];
-      near_[size] = static_cast<float>(no_hit);
-      if (!(reach < near)) {
-        size_ = static_cast<std::uint32_t>(size);
-        return true;
-      }
-      if (sorted) break;
+    const std::size_t place = size_ <= most_sorted ? nearest() : size_ - 1;
+    const float near = near_[place];
+    if (static_cast<int>(size_ == 0) | static_cast<int>(reach < near)) {
+      clear();
+      return false;
     }
-    size_ = 0;
-    return false;
+    child = std::bit_cast<std::uint32_t>(child_[place]);
+    --size_;
+    near_[place] = near_[size_];
+    child_[place] = child_[size_];
+    near_[size_] = static_cast<float>(no_hit);
+    return true;
   }
 
  private:
-  BOULE_INLINE std::size_t nearest(std::size_t size) const {
-    Real least = load(near_);
-    for (std::size_t first = lanes; first < size; first += lanes)
-      least = filter_min(least, load(near_ + first));
+  /// Entries that are looked at in one go.
+  static constexpr std::size_t step = 16;
+
+  BOULE_INLINE std::size_t nearest() const {
+    Real least = least_of(0);
+    for (std::size_t first = step; first < size_; first += step)
+      least = filter_min(least, least_of(first));
     const Real nearest(least_lane(least));
     std::size_t first = 0;
-    unsigned equal = bits(load(near_) <= nearest);
-    for (; equal == 0; equal = bits(load(near_ + first) <= nearest)) first += lanes;
+    unsigned equal = equal_to(nearest, 0);
+    while (equal == 0) equal = equal_to(nearest, first += step);
     return first + static_cast<std::size_t>(std::countr_zero(equal));
+  }
+  BOULE_INLINE Real least_of(std::size_t first) const {
+    Real least = load(near_ + first);
+    for (std::size_t at = lanes; at < step; at += lanes)
+      least = filter_min(least, load(near_ + first + at));
+    return least;
+  }
+  BOULE_INLINE unsigned equal_to(const Real& near, std::size_t first) const {
+    unsigned equal = 0;
+    for (std::size_t at = 0; at < step; at += lanes)
+      equal |= bits(load(near_ + first + at) <= near) << at;
+    return equal;
   }
 
   /// Of more than these the last one is taken, whatever it is: a way down the tree then bounds what
   /// can be added.
   static constexpr std::size_t most_sorted = 48;
   static constexpr std::size_t most = most_sorted + bvh_max_depth * (bvh_width - 1) + 1;
-  /// What a push and close() write beyond it.
-  static constexpr std::size_t capacity = (most + bvh_width + 2 * lanes + 15) / 16 * 16;
+  /// A push writes W.
+  static constexpr std::size_t capacity = (most + lanes + step - 1) / step * step;
 
-  alignas(64) float near_[capacity];
+  alignas(64) float near_[capacity];  ///< inf behind the last
   alignas(64) float child_[capacity];
-  std::uint32_t size_ = 0;
+  std::size_t size_ = 0;
 };
 
 /// Where rays meet the planes of an axis: t = x inverse + near for the planes met first, x inverse
@@ -94,60 +106,68 @@ struct FlightSlab {
   }
 };
 
-/// What one ray's steps need, in rows of four floats.
+/// What one ray's steps need, in rows of four floats. It does not look behind its origin.
 struct alignas(16) FlightRay {
-  static constexpr int rows = 6;
+  static constexpr std::size_t rows = 5;
   float inverse[3], reach;  ///< reach: upper bound of t |dir| of what is of interest
   float near[3], live_from;
   float far[3], live_to;
   float org[3], origin_error;
-  float h[3], unused;
-  float unit[3], dead_below;
+  float unit[3], unused;
 
   BOULE_INLINE static Vec3<Real> all(const float* v) { return {v[0], v[1], v[2]}; }
-  /// In every lane.
+  /// In every lane; without what only a reject needs.
   [[nodiscard]] BOULE_INLINE FilterRays filter() const {
     FilterRays rays;
     rays.org = all(org);
-    rays.h = all(h);
     rays.unit = all(unit);
     rays.origin_error = origin_error;
-    rays.origins_exact = false;
     rays.live_from = live_from;
     rays.live_to = live_to;
-    rays.dead_below = dead_below;
+    rays.dead_below = 0.0F;
     return rays;
   }
 };
 
 /// Spheres that may be the nearest hit: only a double solve tells.
 struct FlightCandidates {
-  static constexpr unsigned capacity = 8;
-  float low[capacity];  ///< lower bounds of their roots
-  std::uint32_t slot[capacity];
+  /// More are too many, but those of one more leaf find room.
+  static constexpr unsigned most = 8;
+  static constexpr unsigned capacity = 32;
+
+  alignas(64) float low[capacity];   ///< lower bounds of their roots
+  alignas(64) float slot[capacity];  ///< bits
   unsigned size = 0;
 
-  BOULE_INLINE void add(float lower, std::uint32_t which) {
-    low[size] = lower;
-    slot[size++] = which;
+  /// The spheres in some lanes.
+  BOULE_INLINE void add(const Real& lower, const Real& slots, unsigned chosen) {
+    store_chosen(low + size, lower, chosen);
+    store_chosen(slot + size, slots, chosen);
+    size += static_cast<unsigned>(std::popcount(chosen));
+  }
+  /// Of W of them from `first` on those that do not begin beyond `reach`, bit by bit.
+  [[nodiscard]] BOULE_INLINE unsigned before(float reach, unsigned first) const {
+    const unsigned left = size - first;
+    const unsigned there = left < lanes ? (1U << left) - 1 : all_lanes;
+    return bits(load(low + first) <= Real(reach)) & there;
   }
   /// Forgets those that begin beyond `reach`.
   BOULE_INLINE void drop_beyond(float reach) {
-    unsigned kept = 0;
-    for (unsigned k = 0; k < size; ++k) {
-      low[kept] = low[k];
-      slot[kept] = slot[k];
-      kept += reach < low[k] ? 0 : 1;
+    const unsigned count = size;
+    size = 0;
+    for (unsigned k = 0; k < count; ++k) {
+      low[size] = low[k];
+      slot[size] = slot[k];
+      size += reach < low[k] ? 0 : 1;
     }
-    size = kept;
   }
 };
 
 /// A ray in flight.
 struct Flight {
   FlightRay ray;
-  std::uint32_t near_at[3],
-      far_at[3];  ///< the rows of a node's planes met first, and of the others
+  std::uint32_t near_at[3];  ///< the rows of a node's planes that are met first
+  std::uint32_t far_at[3];   ///< and of the others
   std::int32_t source;
   bool inside;
   std::uint32_t index;  ///< in the stream
@@ -157,11 +177,14 @@ struct Flight {
 
   /// Chooses the rows by the signs of `ray.inverse`.
   BOULE_INLINE void choose_rows() {
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t down = std::bit_cast<std::uint32_t>(ray.inverse[axis]) >> 31;
-      near_at[axis] = (axis + 3 * down) * bvh_width;
-      far_at[axis] = (axis + 3 - 3 * down) * bvh_width;
-    }
+    choose_row(0);
+    choose_row(1);
+    choose_row(2);
+  }
+  BOULE_INLINE void choose_row(std::uint32_t axis) {
+    const std::uint32_t down = std::bit_cast<std::uint32_t>(ray.inverse[axis]) >> 31;
+    near_at[axis] = (axis + 3 * down) * bvh_width;
+    far_at[axis] = (axis + 3 - 3 * down) * bvh_width;
   }
 
   /// A step: the children that the ray enters become pending.
@@ -170,10 +193,9 @@ struct Flight {
     static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
     const auto* const rows = reinterpret_cast<const float*>(&node);
     const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
-    for (std::size_t part = 0; part < parts_of_eight; ++part) {
-      const auto meet = [&](const std::uint32_t* at, const float* moved, int axis) {
-        return filter_fma(load_of_eight(rows + at[axis], part), Real(ray.inverse[axis]),
-                          Real(moved[axis]));
+    for (std::size_t at = 0; at < bvh_width; at += lanes) {
+      const auto meet = [&](const std::uint32_t* row, const float* moved, int axis) {
+        return filter_fma(load(rows + row[axis] + at), Real(ray.inverse[axis]), Real(moved[axis]));
       };
       const auto near_of = [&](int axis) { return meet(near_at, ray.near, axis); };
       const auto far_of = [&](int axis) { return meet(far_at, ray.far, axis); };
@@ -181,9 +203,8 @@ struct Flight {
           filter_max(filter_max(near_of(0), near_of(1)), filter_max(near_of(2), Real(0.0F))) * less;
       const Real far =
           filter_min(filter_min(far_of(0), far_of(1)), filter_min(far_of(2), Real(ray.reach)));
-      pending.push(near, load_bits_of_eight(node.child, part), bits(near <= far) & part_lanes);
+      pending.push(near, load_bits(node.child + at), near <= far);
     }
-    pending.close();
   }
 };
 

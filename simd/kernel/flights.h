@@ -31,38 +31,52 @@ class PairQueue {
   PairQueue(const RayStream& rays, const SphereView& spheres, const Answers& answers)
       : rays_(rays), spheres_(spheres), answers_(answers) {}
 
-  BOULE_INLINE void add(std::uint32_t ray, std::uint32_t slot) {
-    ray_[size_] = ray;
-    slot_[size_++] = slot;
-    if (size_ == lanes) solve();
+  /// Those of a ray's candidates that do not begin beyond `reach`.
+  BOULE_INLINE void add(std::uint32_t ray, const FlightCandidates& candidates, float reach) {
+    for (unsigned first = 0; first < candidates.size; first += lanes) {
+      const unsigned chosen = candidates.before(reach, first);
+      store_chosen(slot_ + size_, load(candidates.slot + first), chosen);
+      store_anywhere(ray_ + size_, Real(std::bit_cast<float>(ray)));
+      size_ += static_cast<std::size_t>(std::popcount(chosen));
+      if (size_ < lanes) continue;
+      solve(lanes);
+      size_ -= lanes;
+      store(slot_, load(slot_ + lanes));
+      store(ray_, load(ray_ + lanes));
+    }
   }
   /// Solves what waits.
-  BOULE_NOINLINE void solve() {
-    if (size_ == 0) return;
-    alignas(64) float slots[lanes];
+  BOULE_INLINE void finish() {
+    if (size_ > 0) solve(size_);
+    size_ = 0;
+  }
+
+ private:
+  /// Solves the first `count` pairs, at most W.
+  BOULE_NOINLINE void solve(std::size_t count) {
     for (std::size_t k = 0; k < lanes; ++k) {
-      const std::size_t from = k < size_ ? k : 0;
-      gathered_.set(k, rays_, ray_[from]);
-      slots[k] = std::bit_cast<float>(slot_[from]);
+      const std::size_t from = k < count ? k : 0;
+      gathered_.set(k, rays_, std::bit_cast<std::uint32_t>(ray_[from]));
+      slot_[k] = slot_[from];
     }
-    const SphereLanes spheres = gather_spheres(spheres_, load(slots));
+    const SphereLanes spheres = gather_spheres(spheres_, load(slot_));
     const Roots roots = solve_robust(load_exact(gathered_.view(lanes), 0), spheres);
     alignas(64) double t[lanes], id[lanes];
     store(t, roots.t);
     store(id, spheres.id);
     const unsigned hit = bits(roots.hit);
-    for (std::size_t k = 0; k < size_; ++k) {
-      if ((hit >> k & 1U) != 0) answer(answers_, ray_[k], t[k], static_cast<std::int32_t>(id[k]));
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((hit >> k & 1U) == 0) continue;
+      answer(answers_, std::bit_cast<std::uint32_t>(ray_[k]), t[k],
+             static_cast<std::int32_t>(id[k]));
     }
-    size_ = 0;
   }
 
- private:
   const RayStream& rays_;
   const SphereView& spheres_;
   const Answers answers_;
   GatheredRays<lanes> gathered_;
-  std::uint32_t ray_[lanes], slot_[lanes];
+  alignas(64) float ray_[2 * lanes], slot_[2 * lanes];  ///< bits
   std::size_t size_ = 0;
 };
 
@@ -79,17 +93,34 @@ class Departures {
     store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
     store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
     store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
-    store_rows(row_[4][0], {rays.h.x, rays.h.y, rays.h.z, rays.h.z});
-    store_rows(row_[5][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.dead_below});
+    store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
+    const Real zero(0.0F);
+    judged_ = bits((rays.unit.x <= rays.unit.x) & (zero <= rays.dead_below));
+    open_ = bits(zero <= reach);
   }
   BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {
-    constexpr std::size_t size = sizeof row_[0][0];
-    static_assert(sizeof(FlightRay) == FlightRay::rows * size);
-    for (std::size_t row = 0; row < FlightRay::rows; ++row)
-      __builtin_memcpy(reinterpret_cast<char*>(&ray) + row * size, row_[row][lane], size);
+    static_assert(sizeof(FlightRay) == FlightRay::rows * sizeof row_[0][0]);
+    get_row<0>(lane, ray);
+    get_row<1>(lane, ray);
+    get_row<2>(lane, ray);
+    get_row<3>(lane, ray);
+    get_row<4>(lane, ray);
   }
+  /// Whether floats can judge a ray, which does not look behind its origin.
+  [[nodiscard]] BOULE_INLINE bool judged(std::size_t lane) const {
+    return (judged_ >> lane & 1U) != 0;
+  }
+  /// Whether there is anything to be found.
+  [[nodiscard]] BOULE_INLINE bool open(std::size_t lane) const { return (open_ >> lane & 1U) != 0; }
 
  private:
+  template <std::size_t row>
+  BOULE_INLINE void get_row(std::size_t lane, FlightRay& ray) const {
+    constexpr std::size_t size = sizeof row_[row][0];
+    __builtin_memcpy(reinterpret_cast<char*>(&ray) + row * size, row_[row][lane], size);
+  }
+
+  unsigned judged_ = 0, open_ = 0;
   alignas(64) float row_[FlightRay::rows][lanes][4];
 };
 
@@ -98,9 +129,9 @@ BOULE_INLINE float extent_of(const BvhNode& root) {
   const float* const rows[] = {root.min_x, root.min_y, root.min_z,
                                root.max_x, root.max_y, root.max_z};
   Real extent(0.0F);
-  for (std::size_t part = 0; part < parts_of_eight; ++part) {
+  for (std::size_t at = 0; at < bvh_width; at += lanes) {
     for (const float* row : rows) {
-      const Real size = abs(load_of_eight(row, part));
+      const Real size = abs(load(row + at));
       extent = filter_max(extent, select(size < Real(static_cast<float>(no_hit)), size, extent));
     }
   }
@@ -112,13 +143,16 @@ BOULE_INLINE float extent_of(const BvhNode& root) {
 template <class Answers>
 class Flights {
  public:
-  static constexpr bool any = !std::is_same_v<Answers, HitStream>;
+  static constexpr bool seeks_any = !std::is_same_v<Answers, HitStream>;
 
   Flights(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
       : geometry_(geometry),
         stream_(stream),
         answers_(answers),
         extent_(extent_of(geometry.bvh.nodes[0])),
+        blocks_{reinterpret_cast<const char*>(geometry.bvh.nodes),
+                reinterpret_cast<const char*>(geometry.spheres.blocks +
+                                              geometry.spheres.scanned / bvh_leaf_size)},
         pairs_(stream.rays(), geometry.spheres, answers) {}
 
   /// Returns how many steps were taken, or what took as long.
@@ -129,42 +163,52 @@ class Flights {
     departed_ = ready_ = 0;
     end_ = end;
     for (Flight& flight : flights_) {
-      if (depart(flight)) at_node_[node_count_++] = &flight;
+      if (!depart(flight)) break;
+      flying_[count_++] = at_node_[node_count_++] = &flight;
     }
-    for (; node_count_ + leaf_count_ > 0; round()) steps += node_count_ + leaf_count_;
-    pairs_.solve();
+    for (; count_ > 0; round()) steps += count_;
+    pairs_.finish();
     return steps + extra_steps_;
   }
 
  private:
   BOULE_INLINE void round() {
-    Flight* moved[most_flights];
-    const std::size_t nodes = node_count_, count = nodes + leaf_count_;
-    for (std::size_t k = 0; k < nodes; ++k) moved[k] = at_node_[k];
-    for (std::size_t k = nodes; k < count; ++k) moved[k] = at_leaf_[k - nodes];
-    node_count_ = leaf_count_ = 0;
-    for (std::size_t k = 0; k < nodes; ++k) moved[k]->visit_node();
-    for (std::size_t k = nodes; k < count; ++k) visit_leaf(*moved[k]);
+    for (std::size_t k = 0; k < node_count_; ++k) at_node_[k]->visit_node();
+    for (std::size_t k = 0; k < leaf_count_; ++k) visit_leaf(*at_leaf_[k]);
     // Only now: what was just stored in pieces cannot be loaded as a whole at once.
-    for (std::size_t k = 0; k < count; ++k) go_on(*moved[k]);
+    node_count_ = leaf_count_ = 0;
+    for (std::size_t k = 0; k < count_;) {
+      if (go_on(*flying_[k])) {
+        ++k;
+      } else {
+        flying_[k] = flying_[--count_];
+      }
+    }
   }
 
-  /// Finds a flight's next step; a ray that has none makes room for another.
-  BOULE_INLINE void go_on(Flight& flight) {
+  /// Finds a flight's next step; a ray that has none makes room for another. False if there is
+  /// none.
+  BOULE_INLINE bool go_on(Flight& flight) {
     std::uint32_t child = 0;
     if (!flight.pending.pop(flight.ray.reach, child)) {
-      land(flight);
-      if (!depart(flight)) return;
+      pairs_.add(flight.index, flight.candidates, flight.ray.reach);
+      if (!depart(flight)) return false;
       at_node_[node_count_++] = &flight;
-      return;
+      return true;
     }
-    const bool leaf = (child & leaf_bit) != 0;
-    flight.next = block_of(geometry_, child);
-    prefetch_block(flight.next, leaf);
+    // No branch: whether it is a leaf cannot be foretold.
+    const std::size_t leaf = child >> 31;
+    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
+    const char* const block = blocks_[leaf] + (std::size_t{place_of(child)} << (9 - leaf));
+    const char* const second = block + (256 - 256 * leaf);
+    prefetch_lines(block);
+    prefetch_lines(second);
+    flight.next = block;
     at_node_[node_count_] = &flight;
     at_leaf_[leaf_count_] = &flight;
-    node_count_ += leaf ? 0 : 1;
-    leaf_count_ += leaf ? 1 : 0;
+    node_count_ += 1 - leaf;
+    leaf_count_ += leaf;
+    return true;
   }
 
   /// W rays more: what is in no tree is met at once, by all of them together.
@@ -175,7 +219,7 @@ class Flights {
     ready_ = stream_.live(first_);
     const PacketPlace place = stream_.packet(first_);
     const RayLanes rays = load_packet(*place.rays, place.first);
-    if constexpr (any) {
+    if constexpr (seeks_any) {
       AnyHit<false> best(rays);
       meet_scanned(rays, best);
       for (std::size_t lane = 0; lane < ready_; ++lane)
@@ -202,31 +246,31 @@ class Flights {
 
   /// Starts the next ray that has somewhere to go; false if there is none.
   BOULE_INLINE bool depart(Flight& flight) {
-    FlightRay& ray = flight.ray;
     for (;;) {
       if (departed_ == ready_ && !prepare()) return false;
       const std::size_t lane = departed_++;
-      departures_.get(lane, ray);
       flight.index = static_cast<std::uint32_t>(first_ + lane);
-      if constexpr (any) {
+      if constexpr (seeks_any) {
         if (answers_[flight.index] != 0) continue;
       }
-      const bool judged = ray.unit[0] <= ray.unit[0] && !(ray.dead_below < 0);
-      if (judged && 0 <= ray.reach) break;
-      if (!judged) go_alone(flight.index);
+      if (!departures_.judged(lane)) {
+        go_alone(flight.index);
+      } else if (departures_.open(lane)) {
+        departures_.get(lane, flight.ray);
+        break;
+      }
     }
     flight.choose_rows();
     flight.source = stream_.rays().source[flight.index];
     flight.inside = stream_.rays().inside[flight.index] != 0;
     flight.next = geometry_.bvh.nodes;
-    flight.pending.clear();
     flight.candidates.size = 0;
     return true;
   }
   /// A ray that floats cannot judge, or that looks behind its origin.
   BOULE_NOINLINE void go_alone(std::size_t index) {
     const RayLanes ray = load_single(stream_.rays(), index);
-    if constexpr (any) {
+    if constexpr (seeks_any) {
       AnyHit<true> best(ray);
       extra_steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
       answers_[index] = best.hit != 0 ? 1 : 0;
@@ -237,90 +281,63 @@ class Flights {
     }
   }
 
+  /// A step: the spheres of a leaf that may be hit become candidates.
   BOULE_INLINE void visit_leaf(Flight& flight) {
     const auto& leaf = *static_cast<const SphereBlock*>(flight.next);
+    const auto slot = static_cast<std::uint32_t>(&leaf - geometry_.spheres.blocks) *
+                      static_cast<std::uint32_t>(bvh_leaf_size);
     const FilterRays rays = flight.ray.filter();
-    for (std::size_t part = 0; part < parts_of_eight; ++part) {
-      const auto get = [&](const float* row) { return load_of_eight(row, part); };
-      const Vec3<Real> center{get(leaf.center_x), get(leaf.center_y), get(leaf.center_z)};
-      const Real r = get(leaf.radius);
-      const RealMask misses = rejected_on_the_spot<false>(rays, center, r);
-      unsigned in = bits(~misses & (r <= r)) & part_lanes;  // where there is no sphere r is NaN
-      if (in == 0) continue;
-      const auto first = static_cast<std::uint32_t>(
-          static_cast<std::size_t>(&leaf - geometry_.spheres.blocks) * bvh_leaf_size +
-          part * lanes);
-      if (flight.source >= 0) in = without_source(flight, first, in);
-      if (in != 0) meet(flight, rays, {center, r, first, in});
+    const Real reach(flight.ray.reach), none(static_cast<float>(no_hit));
+    Real least = reach;
+    for (std::uint32_t at = 0; at < bvh_leaf_size; at += lanes) {
+      const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
+                              load(leaf.center_z + at)};
+      const Approach approach = find_approach(rays, center, load(leaf.radius + at));
+      const RootBounds roots = bound_roots(approach);
+      const Real low = lowest(roots, rays);
+      // Where there is no sphere all this is NaN. Else, of rays that floats can judge, nothing is.
+      RealMask in = (Real(0.0F) <= approach.discriminant + approach.doubt) &
+                    (rays.dead_below <= roots.second_high) & (low <= reach);
+      if (flight.source >= 0) in = in & ~source_in(flight, slot + at);
+      if constexpr (seeks_any) {
+        if (any(in & live(roots, rays))) {
+          answers_[flight.index] = 1;
+          flight.pending.clear();
+          flight.candidates.size = 0;
+          return;
+        }
+      } else {
+        least = filter_min(least, select(in, highest(roots, rays), none));
+      }
+      flight.candidates.add(low, count_from(slot + at), bits(in));
     }
+    if constexpr (!seeks_any) flight.ray.reach = least_lane(least);
+    if (flight.candidates.size > FlightCandidates::most) make_room(flight);
   }
-  /// The sphere that a ray leaves is met again only from the inside, and only double tells where.
-  BOULE_INLINE unsigned without_source(Flight& flight, std::uint32_t first, unsigned in) {
-    for (unsigned rest = in; rest != 0; rest &= rest - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      if (geometry_.spheres.id[first + lane] != flight.source) continue;
-      if (flight.inside) add_candidate(flight, -static_cast<float>(no_hit), first + lane);
-      return in & ~(1U << lane);
+  /// The lane of the sphere that a ray leaves: it is met again only from the inside, and only
+  /// double tells where.
+  BOULE_INLINE RealMask source_in(Flight& flight, std::uint32_t slot) {
+    const RealMask source = equal(geometry_.spheres.id + slot, flight.source);
+    if (flight.inside && any(source)) {
+      flight.candidates.add(Real(-static_cast<float>(no_hit)), count_from(slot), bits(source));
     }
-    return in;
+    return source;
   }
 
-  /// Spheres in lanes: slots first .. first + W - 1, of which `in` may be met.
-  struct Survivors {
-    Vec3<Real> center;
-    Real radius;
-    std::uint32_t first;
-    unsigned in;
-  };
-  BOULE_INLINE void meet(Flight& flight, const FilterRays& rays, const Survivors& spheres) {
-    const RootBounds roots = bound_roots(rays, spheres.center, spheres.radius);
-    const Real low = lowest(roots, rays);
-    unsigned in = spheres.in & ~bits(dead(roots, rays) | (Real(flight.ray.reach) < low));
-    if (in == 0) return;
-    alignas(64) float value[width];
-    if constexpr (any) {
-      if ((bits(live(roots, rays)) & in) != 0) {
-        answers_[flight.index] = 1;
-        flight.pending.clear();
-        flight.candidates.size = 0;
-        return;
-      }
-    } else {
-      store(value, highest(roots, rays));
-      for (unsigned rest = in; rest != 0; rest &= rest - 1) {
-        const float high = value[std::countr_zero(rest)];
-        if (high < flight.ray.reach) flight.ray.reach = high;
-      }
-    }
-    store(value, low);
-    for (; in != 0; in &= in - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(in));
-      if (!(flight.ray.reach < value[lane]))
-        add_candidate(flight, value[lane], spheres.first + lane);
-    }
-  }
-
-  BOULE_INLINE void add_candidate(Flight& flight, float low, std::uint32_t slot) {
-    if (flight.candidates.size == FlightCandidates::capacity) make_room(flight);
-    flight.candidates.add(low, slot);
-  }
   /// Where floats are certain of nothing, only solved hits can end the way: all at once, early.
   BOULE_NOINLINE void make_room(Flight& flight) {
     FlightCandidates& candidates = flight.candidates;
     candidates.drop_beyond(flight.ray.reach);
-    if (candidates.size < FlightCandidates::capacity) return;
+    if (candidates.size <= FlightCandidates::most) return;
     const RayLanes ray = load_single(stream_.rays(), flight.index);
     for (unsigned first = 0; first < candidates.size; first += lanes) {
-      alignas(64) float slots[lanes];
-      for (unsigned k = 0; k < lanes; ++k) {
-        const unsigned from = first + k < candidates.size ? first + k : first;
-        slots[k] = std::bit_cast<float>(candidates.slot[from]);
-      }
-      const SphereLanes spheres = gather_spheres(geometry_.spheres, load(slots));
+      for (unsigned k = candidates.size; k < first + lanes; ++k)
+        candidates.slot[k] = candidates.slot[first];
+      const SphereLanes spheres = gather_spheres(geometry_.spheres, load(candidates.slot + first));
       take(flight, ray, solve_robust(ray.exact, spheres), spheres.id);
     }
+    extra_steps_ += candidates.size / 2;
     candidates.size = 0;
-    extra_steps_ += FlightCandidates::capacity / 2;
   }
   /// Hits of one ray: nothing beyond them is of interest any more.
   BOULE_INLINE void take(Flight& flight, const RayLanes& ray, const Roots& roots, const Wide& ids) {
@@ -333,22 +350,14 @@ class Flights {
       const auto k = static_cast<unsigned>(std::countr_zero(hit));
       answer(answers_, flight.index, t[k], static_cast<std::int32_t>(id[k]));
       if (reach[k] < flight.ray.reach) flight.ray.reach = reach[k];
-      if constexpr (any) flight.pending.clear();
+      if constexpr (seeks_any) flight.pending.clear();
     }
   }
-  /// Leaves the candidates to double.
-  BOULE_INLINE void land(Flight& flight) {
-    FlightCandidates& candidates = flight.candidates;
-    for (unsigned k = 0; k < candidates.size; ++k) {
-      if (!(flight.ray.reach < candidates.low[k])) pairs_.add(flight.index, candidates.slot[k]);
-    }
-    candidates.size = 0;
-  }
-
   const GeometryView& geometry_;
   const PaddedStream& stream_;
   const Answers answers_;
   float extent_;
+  const char* blocks_[2];  ///< the first node, and the first leaf
   PairQueue<Answers> pairs_;
 
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.
@@ -357,6 +366,8 @@ class Flights {
   std::size_t extra_steps_ = 0;
 
   Flight flights_[most_flights];
+  Flight* flying_[most_flights];
+  std::size_t count_ = 0;
   /// Those whose next step is a node, or a leaf; the last place is for one that is not one of them.
   Flight *at_node_[most_flights + 1], *at_leaf_[most_flights + 1];
   std::size_t node_count_ = 0, leaf_count_ = 0;

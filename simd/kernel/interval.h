@@ -31,17 +31,28 @@ BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
   return filter_dot(f, rays.unit) - r - Real(4.0F) * root_spread(rays, f, r);
 }
 
-BOULE_INLINE RootBounds bound_roots(const FilterRays& rays, const Vec3<Real>& center,
+/// How lines and spheres lie to each other: what their roots follow from.
+struct Approach {
+  Real along;         ///< b, where the line is nearest to the centre
+  Real discriminant;  ///< of the roots; off by less than `doubt`
+  Real spread;        ///< bound of the error of b and l
+  Real doubt;
+};
+
+BOULE_INLINE Approach find_approach(const FilterRays& rays, const Vec3<Real>& center,
                                     const Real& signed_radius) {
   constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
   const Vec3<Real> f = center - rays.org;
   const Real b = filter_dot(f, rays.unit), r = abs(signed_radius);
   const Vec3<Real> l{filter_fnma(b, rays.unit.x, f.x), filter_fnma(b, rays.unit.y, f.y),
                      filter_fnma(b, rays.unit.z, f.z)};
-  const Real square = r * r, discriminant = square - filter_dot(l, l);
-  const Real spread = root_spread(rays, f, r);
+  const Real square = r * r, spread = root_spread(rays, f, r);
   const Real doubt = spread * (r + r + Real(3.0F) * spread) + Real(unit_spread) * square;
+  return {b, square - filter_dot(l, l), spread, doubt};
+}
 
+BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
+  const auto& [b, discriminant, spread, doubt] = approach;
   RootBounds bounds;
   const Real largest(std::numeric_limits<float>::max());
   bounds.certain = doubt < discriminant;

@@ -17,23 +17,13 @@ struct OneForAll {
   static constexpr bool one_ray = false;
   static std::size_t steps(std::size_t size) { return size; }
   BOULE_INLINE static Real get(const float* values, std::size_t step) { return values[step]; }
-  BOULE_INLINE static Real get_of_eight(const float* values, std::size_t step) {
-    return values[step];
-  }
   /// The primitives' places in their arrays.
   BOULE_INLINE static Wide place(std::size_t step) { return static_cast<double>(step); }
-  BOULE_INLINE static Wide place_of_eight(std::size_t step) { return static_cast<double>(step); }
   /// The bits of slots, of those from `first` on.
   BOULE_INLINE static Real slots(std::size_t first, std::size_t step) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(first + step));
   }
-  BOULE_INLINE static Real slots_of_eight(std::size_t first, std::size_t step) {
-    return slots(first, step);
-  }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
-    return static_cast<double>(ids[step]);
-  }
-  BOULE_INLINE static Wide get_of_eight(const std::int32_t* ids, std::size_t step) {
     return static_cast<double>(ids[step]);
   }
 };
@@ -45,42 +35,18 @@ struct OnePerLane {
   BOULE_INLINE static Real get(const float* values, std::size_t step) {
     return load(values + step * width);
   }
-  /// Of arrays of eight: where there are more lanes, the eight come twice.
-  BOULE_INLINE static Real get_of_eight(const float* values, std::size_t step) {
-    return load_of_eight(values, step);
-  }
   BOULE_INLINE static Wide place(std::size_t step) {
     return lane_numbers() + Wide(static_cast<double>(step * width));
   }
-  BOULE_INLINE static Wide place_of_eight(std::size_t step) {
-    const Wide lane = place(step), eight(8.0);
-    return select(lane < eight, lane, lane - eight);
-  }
   BOULE_INLINE static Real slots(std::size_t first, std::size_t step) {
-    alignas(64) float lanes[width];
-    for (std::size_t lane = 0; lane < width; ++lane)
-      lanes[lane] = std::bit_cast<float>(static_cast<std::uint32_t>(first + step * width + lane));
-    return load(lanes);
-  }
-  BOULE_INLINE static Real slots_of_eight(std::size_t first, std::size_t step) {
-    alignas(64) float lanes[width];
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      const std::size_t slot = first + (step * width + lane) % 8;
-      lanes[lane] = std::bit_cast<float>(static_cast<std::uint32_t>(slot));
-    }
-    return load(lanes);
+    return count_from(static_cast<std::uint32_t>(first + step * width));
   }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return load_as_wide(ids + step * width);
   }
-  BOULE_INLINE static Wide get_of_eight(const std::int32_t* ids, std::size_t step) {
-    alignas(64) double lanes[width];
-    for (std::size_t lane = 0; lane < width; ++lane) lanes[lane] = ids[(step * width + lane) % 8];
-    return load(lanes);
-  }
 };
 
-/// Where a slot's sphere is, and the other seven from a multiple of 8 on.
+/// Where a slot's sphere is, and the others of its block behind it.
 struct SlotPlace {
   const float *center_x, *center_y, *center_z, *radius;
 };
@@ -148,17 +114,15 @@ struct LeafSpheres {
         size(static_cast<float>(leaf_size)) {}
 
   [[nodiscard]] BOULE_INLINE Vec3<Real> center(std::size_t step) const {
-    return {Access::get_of_eight(leaf.center_x, step), Access::get_of_eight(leaf.center_y, step),
-            Access::get_of_eight(leaf.center_z, step)};
+    return {Access::get(leaf.center_x, step), Access::get(leaf.center_y, step),
+            Access::get(leaf.center_z, step)};
   }
   [[nodiscard]] BOULE_INLINE Real radius(std::size_t step) const {
-    return Access::get_of_eight(leaf.radius, step);
+    return Access::get(leaf.radius, step);
   }
-  [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const {
-    return Access::get_of_eight(ids, step);
-  }
+  [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const { return Access::get(ids, step); }
   [[nodiscard]] BOULE_INLINE Real slot(std::size_t step) const {
-    return Access::slots_of_eight(first_slot, step);
+    return Access::slots(first_slot, step);
   }
 
   /// Lanes that certainly miss, or hold no sphere.
@@ -166,7 +130,7 @@ struct LeafSpheres {
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
     const RealMask misses = rejected_on_the_spot<origins_exact>(rays, center(step), radius(step));
     if constexpr (Access::one_ray) {
-      return misses | (Real(size) <= narrow(Access::place_of_eight(step)));
+      return misses | (Real(size) <= narrow(Access::place(step)));
     } else {
       return misses;
     }

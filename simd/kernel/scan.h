@@ -171,7 +171,8 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     }
     if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), 0))
       continue;
-    const RootBounds roots = bound_roots(rays.filter, spheres.center(step), spheres.radius(step));
+    const RootBounds roots =
+        bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
     const Real low = lowest(roots, rays.filter);
     unsigned out = bits(dead(roots, rays.filter));
     if (best.consider(roots, low, out, spheres.slot(step), rays.filter)) {

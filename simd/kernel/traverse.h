@@ -59,15 +59,20 @@ BOULE_INLINE const void* block_of(const GeometryView& geometry, std::uint32_t ch
   return geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size + place_of(child);
 }
 
-/// Asks for what a child's visit will read: a large tree is not in the cache.
-BOULE_INLINE void prefetch_block(const void* block, bool leaf) {
-  static_assert(sizeof(SphereBlock) == 128 && sizeof(BvhNode) == 256);
-  const char* const begin = static_cast<const char*>(block);
+/// Asks for 256 bytes.
+BOULE_INLINE void prefetch_lines(const char* begin) {
   __builtin_prefetch(begin);
   __builtin_prefetch(begin + 64);
-  if (leaf) return;
   __builtin_prefetch(begin + 128);
   __builtin_prefetch(begin + 192);
+}
+
+/// Asks for what a child's visit will read: a large tree is not in the cache.
+BOULE_INLINE void prefetch_block(const void* block, bool leaf) {
+  static_assert(sizeof(SphereBlock) == 256 && sizeof(BvhNode) == 512);
+  const char* const begin = static_cast<const char*>(block);
+  prefetch_lines(begin);
+  if (!leaf) prefetch_lines(begin + 256);
 }
 
 /// A child to visit: where the first ray enters it.
@@ -82,7 +87,6 @@ class VisitStack {
  public:
   [[nodiscard]] bool empty() const { return count_ == 0; }
   Visit pop() { return visits_[--count_]; }
-  [[nodiscard]] const Visit& top() const { return visits_[count_ - 1]; }
   /// Keeps what one node adds sorted; `base` is the count before its first child.
   void push(const Visit& visit, int base) {
     int place = count_++;
@@ -123,7 +127,7 @@ BOULE_INLINE void visit_children(OnePerLane, const BoxRays& rays, const BvhNode&
   const int base = stack.count();
   for (int first = 0; first < node.size; first += width) {
     const auto step = static_cast<std::size_t>(first / width);
-    const auto get = [&](const float* row) { return OnePerLane::get_of_eight(row, step); };
+    const auto get = [&](const float* row) { return OnePerLane::get(row, step); };
     const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
                       {get(node.max_x), get(node.max_y), get(node.max_z)}};
     const Entry entry = enter_boxes(rays, boxes, limit);

@@ -33,17 +33,16 @@ struct Wide {
 
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
-/// Lanes from an array of eight, the part `part` of it.
-BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) { return p[part]; }
-BOULE_INLINE Real load_of_eights(const float* first, const float*, std::size_t part) {
-  return first[part];
-}
 /// The bits of integers, not to be calculated with.
-BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
-  return std::bit_cast<float>(p[part]);
-}
+BOULE_INLINE Real load_bits(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
+BOULE_INLINE Real count_from(std::uint32_t first) { return std::bit_cast<float>(first); }
+/// Lanes in which integers are equal to one.
+BOULE_INLINE RealMask equal(const std::int32_t* p, std::int32_t value) { return {*p == value}; }
 BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
+BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
+  *p = chosen.m ? a.v : rest.v;
+}
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 /// A row of four floats as columns, and back: see xsimd_lanes.h.

@@ -167,50 +167,75 @@ BOULE_INLINE float least(Floats a) { return vminvq_f32(a); }
 BOULE_INLINE float greatest(Floats a) { return vmaxvq_f32(a); }
 #endif
 
+// Any 32 bits, from arrays of integers.
 #if defined(__AVX512F__)
-BOULE_INLINE Floats load_of_eight(const float* p, std::size_t) {
-  return _mm512_broadcast_f32x8(_mm256_load_ps(p));
-}
-BOULE_INLINE Floats load_of_eights(const float* first, const float* second, std::size_t) {
-  const Floats low = _mm512_castps256_ps512(_mm256_load_ps(first));
-  return _mm512_insertf32x8(low, _mm256_load_ps(second), 1);
-}
-#else
-BOULE_INLINE Floats load_of_eight(const float* p, std::size_t part) {
-  return Floats::load_aligned(p + part * Floats::size);
-}
-BOULE_INLINE Floats load_of_eights(const float* first, const float*, std::size_t part) {
-  return load_of_eight(first, part);
-}
-#endif
-
-// The same, any 32 bits, from arrays of integers.
-#if defined(__AVX512F__)
-BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t) {
-  const auto* const eight = reinterpret_cast<const __m256i*>(p);
-  return _mm512_broadcast_f32x8(_mm256_castsi256_ps(_mm256_load_si256(eight)));
+BOULE_INLINE Floats load_bits(const std::uint32_t* p) {
+  return _mm512_castsi512_ps(_mm512_load_si512(p));
 }
 #elif defined(__AVX2__)
-BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t) {
+BOULE_INLINE Floats load_bits(const std::uint32_t* p) {
   return _mm256_castsi256_ps(_mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
 }
 #elif defined(__SSE4_2__)
-BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
-  return _mm_castsi128_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p + part * 4)));
+BOULE_INLINE Floats load_bits(const std::uint32_t* p) {
+  return _mm_castsi128_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
 }
 #else
-BOULE_INLINE Floats load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
-  return vreinterpretq_f32_u32(vld1q_u32(p + part * 4));
+BOULE_INLINE Floats load_bits(const std::uint32_t* p) {
+  return vreinterpretq_f32_u32(vld1q_u32(p));
 }
 #endif
 
-// The lanes of `chosen`, one after the other, to any address; up to W floats are written.
+// `first`, first + 1, ... as bits; and the lanes in which integers are equal to one.
+#if defined(__AVX512F__)
+BOULE_INLINE Floats count_from(std::uint32_t first) {
+  const __m512i steps = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  return _mm512_castsi512_ps(_mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), steps));
+}
+BOULE_INLINE FloatMask equal(const std::int32_t* p, std::int32_t value) {
+  return _mm512_cmpeq_epi32_mask(_mm512_load_si512(p), _mm512_set1_epi32(value));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Floats count_from(std::uint32_t first) {
+  const __m256i steps = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), steps));
+}
+BOULE_INLINE FloatMask equal(const std::int32_t* p, std::int32_t value) {
+  const __m256i numbers = _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
+  return _mm256_castsi256_ps(_mm256_cmpeq_epi32(numbers, _mm256_set1_epi32(value)));
+}
+#elif defined(__SSE4_2__)
+BOULE_INLINE Floats count_from(std::uint32_t first) {
+  const __m128i steps = _mm_setr_epi32(0, 1, 2, 3);
+  return _mm_castsi128_ps(_mm_add_epi32(_mm_set1_epi32(static_cast<int>(first)), steps));
+}
+BOULE_INLINE FloatMask equal(const std::int32_t* p, std::int32_t value) {
+  const __m128i numbers = _mm_load_si128(reinterpret_cast<const __m128i*>(p));
+  return _mm_castsi128_ps(_mm_cmpeq_epi32(numbers, _mm_set1_epi32(value)));
+}
+#else
+BOULE_INLINE Floats count_from(std::uint32_t first) {
+  constexpr std::uint32_t steps[4] = {0, 1, 2, 3};
+  return vreinterpretq_f32_u32(vaddq_u32(vdupq_n_u32(first), vld1q_u32(steps)));
+}
+BOULE_INLINE FloatMask equal(const std::int32_t* p, std::int32_t value) {
+  return vceqq_s32(vld1q_s32(p), vdupq_n_s32(value));
+}
+#endif
+
+// The lanes of `chosen`, one after the other, to any address; W floats are written: behind them
+// anything, or lanes of `rest`, the same in all.
 #if defined(__AVX512F__)
 BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), a));
 }
-#elif defined(__AVX2__)
-/// For every set of eight lanes their numbers, one after the other, a byte each.
+BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest) {
+  _mm512_storeu_ps(p, _mm512_mask_compress_ps(rest, chosen, a));
+}
+#else
+#if defined(__AVX2__)
+/// For every set of eight lanes their numbers, one after the other, and then the others', a byte
+/// each.
 struct ChosenLanes {
   std::uint64_t of[256];
 };
@@ -218,8 +243,10 @@ constexpr ChosenLanes list_chosen_lanes() {
   ChosenLanes lanes{};
   for (unsigned chosen = 0; chosen < 256; ++chosen) {
     unsigned count = 0;
-    for (std::uint64_t lane = 0; lane < 8; ++lane) {
-      if ((chosen >> lane & 1U) != 0) lanes.of[chosen] |= lane << (8 * count++);
+    for (const unsigned set : {chosen, ~chosen}) {
+      for (std::uint64_t lane = 0; lane < 8; ++lane) {
+        if ((set >> lane & 1U) != 0) lanes.of[chosen] |= lane << (8 * count++);
+      }
     }
   }
   return lanes;
@@ -233,7 +260,13 @@ BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
 BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
   alignas(16) float lanes[Floats::size];
   a.store_aligned(lanes);
-  for (; chosen != 0; chosen &= chosen - 1) *p++ = lanes[__builtin_ctz(chosen)];
+  for (const unsigned set : {chosen, ~chosen & ((1U << Floats::size) - 1)}) {
+    for (unsigned left = set; left != 0; left &= left - 1) *p++ = lanes[__builtin_ctz(left)];
+  }
+}
+#endif
+BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest) {
+  store_chosen(p, xsimd::select(chosen, a, rest), bits(chosen));
 }
 #endif
 

@@ -36,22 +36,22 @@ BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
 }
-/// W lanes from an array of eight, the part `part` of it; sixteen lanes get it twice.
-BOULE_INLINE Real load_of_eight(const float* p, std::size_t part) {
-  return gaps::load_of_eight(p, part);
-}
-/// The same from the first of two such arrays; sixteen lanes get both.
-BOULE_INLINE Real load_of_eights(const float* first, const float* second, std::size_t part) {
-  return gaps::load_of_eights(first, second, part);
-}
 /// The bits of integers, not to be calculated with.
-BOULE_INLINE Real load_bits_of_eight(const std::uint32_t* p, std::size_t part) {
-  return gaps::load_bits_of_eight(p, part);
+BOULE_INLINE Real load_bits(const std::uint32_t* p) { return gaps::load_bits(p); }
+/// The bits of first, first + 1, ..
+BOULE_INLINE Real count_from(std::uint32_t first) { return gaps::count_from(first); }
+/// Lanes in which integers are equal to one.
+BOULE_INLINE RealMask equal(const std::int32_t* p, std::int32_t value) {
+  return {gaps::equal(p, value)};
 }
-/// To any address; of the lanes `chosen` one after the other, what comes behind is lost.
+/// To any address: all lanes; those `chosen` one after the other, behind them anything, or `rest`,
+/// the same in every lane.
 BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
   gaps::store_chosen(p, a.v, chosen);
+}
+BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
+  gaps::store_chosen(p, a.v, chosen.m, rest.v);
 }
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {

@@ -111,7 +111,7 @@ TEST(BvhBuilder, HostileSetsFillTheirLeaves) {
     const Bvh bvh = build_bvh(hostile.spheres);
     const Walk walk = check(bvh, hostile.spheres);
     EXPECT_EQ(bvh.scanned, 0U);
-    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 6.5);
+    EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 13);
     EXPECT_LE(walk.depth, 16);
     EXPECT_LT(bvh.nodes.size(), walk.leaves / 2);
   }

@@ -47,7 +47,7 @@ TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
 
 TEST(GeometryBuilder, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
   std::vector<Sphere> spheres;
-  for (int i = 0; i < 77; ++i) {
+  for (int i = 0; i < 155; ++i) {
     const auto x = static_cast<float>(i);
     spheres.push_back({{x, 2 * x, -x}, 0.5F + x, 0});
   }
@@ -70,7 +70,7 @@ TEST(GeometryBuilder, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
   }
   std::sort(found.begin(), found.end());
   ASSERT_EQ(found.size(), spheres.size());
-  for (int i = 0; i < 77; ++i) EXPECT_EQ(found[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 155; ++i) EXPECT_EQ(found[static_cast<std::size_t>(i)], i);
 }
 
 TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {

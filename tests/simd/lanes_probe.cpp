@@ -30,10 +30,12 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
   store(out.lane_numbers, lane_numbers());
-  for (std::size_t part = 0; part * width < 8; ++part) {
-    store(out.eight + part * width, load_of_eight(in.a, part));
-    store(out.eights + part * width, load_of_eights(in.a, in.b, part));
-  }
+  store(out.counted, count_from(77));
+  store_chosen(out.chosen + 1, a, bits(a < b));
+  store_chosen(out.chosen_or + 1, a, a < b, Real(-1.0F));
+  alignas(64) std::int32_t integers[width];
+  for (int i = 0; i < width; ++i) integers[i] = i % 3;
+  out.equal_integers = bits(equal(integers, 2));
   store_rows(out.rows, {a, b, c, a + b});
   const float* rows[width];
   for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);

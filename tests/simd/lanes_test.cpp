@@ -174,13 +174,24 @@ TEST_P(Lanes, RowsAndColumns) {
   });
 }
 
-TEST_P(Lanes, OfArraysOfEight) {
+TEST_P(Lanes, Integers) {
+  for_all_lanes([](const LaneInputs&, const LaneOutputs& out, int i) {
+    ASSERT_EQ(std::bit_cast<std::int32_t>(out.counted[i]), 77 + i);
+    ASSERT_EQ(bit(out.equal_integers, i), i % 3 == 2);
+  });
+}
+
+TEST_P(Lanes, ChosenOneAfterTheOther) {
   for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
     if (i > 0) return;  // all at once
-    for (int k = 0; k < std::max(out.width, 8); ++k) {
-      ASSERT_TRUE(same(out.eight[k], in.a[k % 8]));
-      ASSERT_TRUE(same(out.eights[k], k < 8 ? in.a[k] : in.b[k - 8]));
+    int next = 1;
+    for (int k = 0; k < out.width; ++k) {
+      if (!(in.a[k] < in.b[k])) continue;
+      ASSERT_TRUE(same(out.chosen[next], in.a[k]));
+      ASSERT_TRUE(same(out.chosen_or[next], in.a[k]));
+      ++next;
     }
+    for (; next <= out.width; ++next) ASSERT_EQ(out.chosen_or[next], -1);
   });
 }
 
