@@ -41,6 +41,7 @@ constexpr std::uint32_t place_of(std::uint32_t child) { return child & ~leaf_bit
 struct BvhView {
   const BvhNode* nodes;
   std::size_t size;
+  float extent;  ///< the greatest coordinate of any box, without its sign
 };
 
 }  // namespace boule

@@ -48,33 +48,40 @@ inline constexpr float limit = 1e18f;
 ///   l          f: u F, b: 5 u F + E, unit: u F, the product: u F, the difference: u F
 ///                                                               |error of l| <= 9 u F + E
 ///
-/// spread = 12 u (F1 + r) + E, F1 = |fx| + |fy| + |fz|, bounds both, the 2 u (F + r) that is lost
-/// when the ends of the intervals are added up, and the u (F + r) by which a t |dir| that they are
-/// compared with, itself no more than F + r where that matters, is rounded. A hit has |l| <= r, so
-/// its discriminant r^2 - l.l is wrong by at most 2 r spread + spread^2 (from l) + 8 u (r +
-/// spread)^2 (from squares and sums):
-///   doubt = spread (2 r + 3 spread) + 12 u r^2.
-inline constexpr double spread = 12;
+/// spread = 12 u (F + r) + E bounds both, the 2 u (F + r) that is lost when the ends of the
+/// intervals are added up, and the u (F + r) by which a t |dir| that they are compared with, itself
+/// no more than F + r where that matters, is rounded. A hit has |l| <= r, so its discriminant r^2 -
+/// l.l is wrong by at most 2 r spread + spread^2 (from l) + 8 u (r + spread)^2 (from squares and
+/// sums):
+///   doubt = spread (2 r + 3 spread) + 14 u r^2.
+/// F is not known, but a hit, and what is no hit but could be taken for one, has |l| <= r + 9 u F +
+/// E, so that F <= |b| + 5 u F + E + |l| is at most (|b| + r + 2 E) (1 + 14 u). Needed is then 12 u
+/// (|b| + 2 r) + E (1 + 24 u); spread = 14 u (|b| + 2 r) + E (1 + 48 u) is shipped. What lies
+/// farther from the line has a greater F and so a greater error, but misses by far more than that.
+inline constexpr double spread = 14;
 
-/// Boxes of a tree. Against rays: a coordinate x - o, less the floor, is rounded twice, 1 / unit is
-/// 2 u off (5 u below 2^-126) and the product is rounded, 5 u (8 u) of t together, and u of the t
-/// that it is compared with. Below 2^-128 1 / unit is infinite: within `limit` such a component
-/// leads 2^-66 aside at most, and the floor pays; rays from beyond it enter every box.
-/// Against a bundle's sides, of the corner's distance: x - O, n and three sums, 1.25 (1 + 1 + 3) u;
-/// a v that it is compared with may be 16 u off (below). Where an origin is no float, it is u |o|
-/// <= u |x| + u |x - o| off: a box has 3 u |x| for that (below), and what is left are 1 u of t, or
-/// 1.25 u of the distance.
+/// Boxes of a tree. Against a bundle's sides, of the corner's distance: x - O, n and three sums,
+/// 1.25 (1 + 1 + 3) u; a v that it is compared with may be 16 u off (below). Where an origin is no
+/// float, it is u |o| <= u |x| + u |x - o| off: a box has 3 u |x| for that (below), and what is
+/// left is 1.25 u of the distance.
 inline constexpr double box = 24;
 
-/// Against a ray in flight a plane x is met at t = x i + c, i = 1 / d, c = -(o i), d one component
-/// of the unit direction; c comes from the exact origin by way of double. Along the axis, t d, this
-/// is u |o| off for c and, where the product is not fused, u |x|: 2 u |x| + u |t d|, of the 3 u |x|
-/// that a box has (below). And it is u of t off for d, i and the sum each: 4 u together, and u of
-/// the t that it is compared with. All 2 box u are on one side of that comparison. Components below
-/// flight_least are taken for flight_least, that nothing becomes infinite: within the tree t is at
-/// most sqrt(3) times the sum of |o| and the tree's extent, `farthest`; the ray is 2 flight_least
-/// farthest aside at most, and boxes are as good as 4 wider.
-inline constexpr float flight_least = 0x1p-60F;
+/// Against a ray a plane x is met at t = x i + c, i = 1 / d, c = -(o i), d one component of the
+/// unit direction; c comes from the exact origin by way of double. Along the axis, t d, this is u
+/// |o| off for c and, where the product is not fused, u |x|: 2 u |x| + u |t d|, of the 3 u |x| that
+/// a box has (below). And it is u of t off for d, i and the sum each: 4 u together, and u of the t
+/// that it is compared with. All 2 box u are on one side of that comparison. Components below
+/// slab_least are taken for slab_least, that nothing becomes infinite: within the tree t is at most
+/// sqrt(3) times the sum of |o| and the tree's extent, `farthest`; the ray is 2 slab_least farthest
+/// aside at most, and boxes are as good as 4 wider. A ray that floats cannot judge (`limit`) enters
+/// every box.
+inline constexpr float slab_least = 0x1p-60F;
+
+/// Against a beam, all rays of a packet: i is the least, or the greatest, of theirs, and c comes
+/// from the origin that is the last, or the first, rounded to float, which is one u |o| more: 2 u
+/// |o| + u |x| <= 3 u |x| + 2 u |t d|, as above. A sphere's box is x = c -/+ r, r grown by beam u r
+/// and by beam u times the tree's extent, of which the difference may lose u, and 3 u are needed.
+inline constexpr double beam = 16;
 
 /// A box holds its sphere grown to r (1 + box_step), whatever was rounded, and is at least one
 /// float step wider on each side: x = c - r (1 + box_step) is rounded in double, by far less than
@@ -164,7 +171,7 @@ inline constexpr float bundle_far = 1e15F;
 
 /// Seen: with these values the equivalence tests fail (tests/equivalence/mutations.sh, and by hand
 /// on AVX2), with those in brackets they do not: slack 4 (7), slack_on_the_spot 0 (4),
-/// squared_floor 0 (1e-44), floor 1e-24 (1e-21), limit 3e38, flight_least 0, spread 0 (1), box 0
+/// squared_floor 0 (1e-44), floor 1e-24 (1e-21), limit 3e38, slab_least 0, spread 0 (1), box 0
 /// (2), box_step 2^-24 (2^-23), bundle_axis 0 (3), bundle_square 3 (6), bundle_depth 0 (5),
 /// bundle_double 0 (2^-50), bundle_twice 0, bundle_side 1, bundle_side_parallel 0.9,
 /// bundle_shift_slope 0, bundle_end 0, bundle_width 100, bundle_across 1e9, bundle_far 1e38.

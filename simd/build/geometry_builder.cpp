@@ -1,5 +1,6 @@
 #include "simd/build/geometry_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -26,6 +27,19 @@ bool wants_tree(std::size_t spheres, Structure structure) {
   return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
 }
 
+/// The greatest coordinate of any box of a tree, without its sign.
+float extent_of(const std::vector<BvhNode>& nodes) {
+  float extent = 0;
+  if (nodes.empty()) return extent;
+  const BvhNode& root = nodes.front();
+  const float* const rows[] = {root.min_x, root.min_y, root.min_z,
+                               root.max_x, root.max_y, root.max_z};
+  for (const float* row : rows) {
+    for (int k = 0; k < root.size; ++k) extent = std::max(extent, std::fabs(row[k]));
+  }
+  return extent;
+}
+
 }  // namespace
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
@@ -36,6 +50,7 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
     : nodes_(std::move(bvh.nodes)),
+      extent_(extent_of(nodes_)),
       sphere_count_(spheres.size()),
       scanned_(bvh.scanned),
       block_count_((bvh.slots.size() + bvh_leaf_size - 1) / bvh_leaf_size),
@@ -113,7 +128,7 @@ GeometryView Geometry::view() const {
                  point_z_.data(),  normal_x_.data(),
                  normal_y_.data(), normal_z_.data(),
                  plane_count_,     static_cast<std::int32_t>(sphere_count_)};
-  view.bvh = {nodes_.data(), nodes_.size()};
+  view.bvh = {nodes_.data(), nodes_.size(), extent_};
   return view;
 }
 

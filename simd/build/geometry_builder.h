@@ -33,6 +33,7 @@ class Geometry {
   void set_plane(std::size_t i, const Plane& plane);
 
   std::vector<BvhNode> nodes_;
+  float extent_;
   std::size_t sphere_count_, scanned_, block_count_, plane_count_;
   AlignedArray<std::int32_t> id_;
   AlignedArray<SphereBlock> blocks_;

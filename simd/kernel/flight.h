@@ -5,16 +5,41 @@
 #include <cstdint>
 
 #include "simd/kernel/packet_stream.h"
+#include "simd/kernel/slabs.h"
 
 /// One ray on its own way through the tree, in steps: a node or a leaf each. Between two steps its
 /// state lies in memory, so that other rays can take theirs (flights.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Nodes and leaves that a ray is still to visit, as an unsorted array: the nearest is looked for
-/// when it is wanted.
-class PendingVisits {
+/// Nodes and leaves that a ray is still to visit, where any hit will do: the last come first.
+class PendingStack {
  public:
-  PendingVisits() {
+  BOULE_INLINE void clear() { size_ = 0; }
+  /// Adds the children of some lanes.
+  BOULE_INLINE void push(const Real&, const Real& child, RealMask chosen) {
+    const unsigned in = bits(chosen);
+    store_chosen(child_ + size_, child, in);
+    size_ += static_cast<std::size_t>(std::popcount(in));
+  }
+  /// Takes the last; false if nothing is left.
+  BOULE_INLINE bool pop(float, std::uint32_t& child) {
+    if (size_ == 0) return false;
+    child = std::bit_cast<std::uint32_t>(child_[--size_]);
+    return true;
+  }
+
+ private:
+  /// A push writes W.
+  static constexpr std::size_t capacity = bvh_max_depth * (bvh_width - 1) + 1 + lanes;
+  float child_[capacity];
+  std::size_t size_ = 0;
+};
+
+/// The same where the nearest hit is wanted, as an unsorted array: the nearest comes first, and is
+/// looked for when it is.
+class PendingNearest {
+ public:
+  PendingNearest() {
     for (std::size_t at = 0; at < capacity; at += lanes)
       store(near_ + at, Real(static_cast<float>(no_hit)));
   }
@@ -32,7 +57,7 @@ class PendingVisits {
     size_ += static_cast<std::size_t>(std::popcount(in));
   }
 
-  /// Takes the nearest; false if nothing is left that is entered before `reach`.
+  /// Takes the nearest; false, and nothing is left, if none is entered before `reach`.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
     const std::size_t place = size_ <= most_sorted ? nearest() : size_ - 1;
     const float near = near_[place];
@@ -85,25 +110,6 @@ class PendingVisits {
   alignas(64) float near_[capacity];  ///< inf behind the last
   alignas(64) float child_[capacity];
   std::size_t size_ = 0;
-};
-
-/// Where rays meet the planes of an axis: t = x inverse + near for the planes met first, x inverse
-/// + far for the others, a little outward (filter_bounds.h, flight_least). `farthest`: the tree
-/// ends before this distance.
-struct FlightSlab {
-  Real inverse, near, far;
-
-  BOULE_INLINE FlightSlab(const Wide& org, const Real& unit, const Real& farthest) {
-    const Real zero(0.0F), least(filter::flight_least), size = abs(unit);
-    const RealMask tiny = size < least;
-    const Real steep = Real(1.0F) / select(tiny, least, size);
-    inverse = select(unit < zero, zero - steep, steep);
-    const Real aside = select(tiny, farthest * Real(4 * filter::flight_least), zero);
-    const Wide at = org * widen(inverse);
-    const Wide slack = (widen(aside) + Wide(filter::floor)) * widen(steep);
-    near = narrow(Wide(0.0) - at - slack);
-    far = narrow(slack - at);
-  }
 };
 
 /// What one ray's steps need, in rows of four floats. It does not look behind its origin.
@@ -164,6 +170,7 @@ struct FlightCandidates {
 };
 
 /// A ray in flight.
+template <class PendingVisits>
 struct Flight {
   FlightRay ray;
   std::uint32_t near_at[3];  ///< the rows of a node's planes that are met first

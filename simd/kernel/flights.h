@@ -33,17 +33,20 @@ class PairQueue {
 
   /// Those of a ray's candidates that do not begin beyond `reach`.
   BOULE_INLINE void add(std::uint32_t ray, const FlightCandidates& candidates, float reach) {
-    for (unsigned first = 0; first < candidates.size; first += lanes) {
+    unsigned first = 0;
+    do {  // once, for nearly every ray
       const unsigned chosen = candidates.before(reach, first);
       store_chosen(slot_ + size_, load(candidates.slot + first), chosen);
       store_anywhere(ray_ + size_, Real(std::bit_cast<float>(ray)));
       size_ += static_cast<std::size_t>(std::popcount(chosen));
-      if (size_ < lanes) continue;
-      solve(lanes);
-      size_ -= lanes;
-      store(slot_, load(slot_ + lanes));
-      store(ray_, load(ray_ + lanes));
-    }
+      if (size_ >= lanes) {
+        solve(lanes);
+        size_ -= lanes;
+        store(slot_, load(slot_ + lanes));
+        store(ray_, load(ray_ + lanes));
+      }
+      first += lanes;
+    } while (first < candidates.size);
   }
   /// Solves what waits.
   BOULE_INLINE void finish() {
@@ -85,10 +88,7 @@ class Departures {
  public:
   BOULE_INLINE void set(const RayLanes& lanes_of_rays, const Real& reach, float extent) {
     const FilterRays& rays = lanes_of_rays.filter;
-    const Vec3<Wide>& org = lanes_of_rays.exact.org;
-    const Real farthest = abs(rays.org.x) + abs(rays.org.y) + abs(rays.org.z) + Real(extent);
-    const FlightSlab x(org.x, rays.unit.x, farthest), y(org.y, rays.unit.y, farthest),
-        z(org.z, rays.unit.z, farthest);
+    const auto [x, y, z] = slabs_of(lanes_of_rays, extent);
     store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
     store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
     store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
@@ -124,32 +124,19 @@ class Departures {
   alignas(64) float row_[FlightRay::rows][lanes][4];
 };
 
-/// The farthest that a tree goes from the world's origin along an axis.
-BOULE_INLINE float extent_of(const BvhNode& root) {
-  const float* const rows[] = {root.min_x, root.min_y, root.min_z,
-                               root.max_x, root.max_y, root.max_z};
-  Real extent(0.0F);
-  for (std::size_t at = 0; at < bvh_width; at += lanes) {
-    for (const float* row : rows) {
-      const Real size = abs(load(row + at));
-      extent = filter_max(extent, select(size < Real(static_cast<float>(no_hit)), size, extent));
-    }
-  }
-  return greatest_lane(extent);
-}
-
 /// Rays begin .. end - 1 of a stream, begin a multiple of W. Answers: HitStream for nearest hits,
 /// std::uint8_t* for any.
 template <class Answers>
 class Flights {
  public:
   static constexpr bool seeks_any = !std::is_same_v<Answers, HitStream>;
+  using Flight =
+      boule::BOULE_KERNEL_ISA::Flight<std::conditional_t<seeks_any, PendingStack, PendingNearest>>;
 
   Flights(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
       : geometry_(geometry),
         stream_(stream),
         answers_(answers),
-        extent_(extent_of(geometry.bvh.nodes[0])),
         blocks_{reinterpret_cast<const char*>(geometry.bvh.nodes),
                 reinterpret_cast<const char*>(geometry.spheres.blocks +
                                               geometry.spheres.scanned / bvh_leaf_size)},
@@ -200,12 +187,10 @@ class Flights {
     const std::size_t leaf = child >> 31;
     static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
     const char* const block = blocks_[leaf] + (std::size_t{place_of(child)} << (9 - leaf));
-    const char* const second = block + (256 - 256 * leaf);
     prefetch_lines(block);
-    prefetch_lines(second);
+    prefetch_lines(block + (256 - 256 * leaf));
     flight.next = block;
-    at_node_[node_count_] = &flight;
-    at_leaf_[leaf_count_] = &flight;
+    at_node_[node_count_] = at_leaf_[leaf_count_] = &flight;
     node_count_ += 1 - leaf;
     leaf_count_ += leaf;
     return true;
@@ -224,12 +209,12 @@ class Flights {
       meet_scanned(rays, best);
       for (std::size_t lane = 0; lane < ready_; ++lane)
         answers_[first_ + lane] = static_cast<std::uint8_t>(best.hit >> lane & 1U);
-      departures_.set(rays, best.far, extent_);
+      departures_.set(rays, best.far, geometry_.bvh.extent);
     } else {
       ClosestHit best(rays);
       meet_scanned(rays, best);
       store_packet(best, answers_, first_, ready_);
-      departures_.set(rays, best.reach, extent_);
+      departures_.set(rays, best.reach, geometry_.bvh.extent);
     }
     return true;
   }
@@ -263,8 +248,8 @@ class Flights {
     flight.choose_rows();
     flight.source = stream_.rays().source[flight.index];
     flight.inside = stream_.rays().inside[flight.index] != 0;
-    flight.next = geometry_.bvh.nodes;
     flight.candidates.size = 0;
+    flight.next = geometry_.bvh.nodes;
     return true;
   }
   /// A ray that floats cannot judge, or that looks behind its origin.
@@ -356,7 +341,6 @@ class Flights {
   const GeometryView& geometry_;
   const PaddedStream& stream_;
   const Answers answers_;
-  float extent_;
   const char* blocks_[2];  ///< the first node, and the first leaf
   PairQueue<Answers> pairs_;
 

@@ -16,19 +16,18 @@ struct RootBounds {
   RealMask misses;   ///< it does not
 };
 
-/// Bound of the error of b and l (filter_bounds.h) of a sphere at f.
-BOULE_INLINE Real root_spread(const FilterRays& rays, const Vec3<Real>& f, const Real& r) {
+/// Bound of the error of b and l (filter_bounds.h) of a sphere that may be hit.
+BOULE_INLINE Real root_spread(const FilterRays& rays, const Real& b, const Real& r) {
   constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
-  return filter_fma(abs(f.x) + abs(f.y) + abs(f.z) + r, Real(unit_spread), rays.origin_error);
+  return filter_fma(abs(b) + (r + r), Real(unit_spread), rays.origin_error);
 }
 
 /// Less than either root: what can be said without roots. sqrt(r^2 + doubt) is no more than r + 2
-/// spread, for spread is at least 12 u r.
+/// spread, for spread is at least 14 u r.
 BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& signed_radius) {
-  const Vec3<Real> f = center - rays.org;
-  const Real r = abs(signed_radius);
-  return filter_dot(f, rays.unit) - r - Real(4.0F) * root_spread(rays, f, r);
+  const Real b = filter_dot(center - rays.org, rays.unit), r = abs(signed_radius);
+  return b - r - Real(4.0F) * root_spread(rays, b, r);
 }
 
 /// How lines and spheres lie to each other: what their roots follow from.
@@ -46,9 +45,11 @@ BOULE_INLINE Approach find_approach(const FilterRays& rays, const Vec3<Real>& ce
   const Real b = filter_dot(f, rays.unit), r = abs(signed_radius);
   const Vec3<Real> l{filter_fnma(b, rays.unit.x, f.x), filter_fnma(b, rays.unit.y, f.y),
                      filter_fnma(b, rays.unit.z, f.z)};
-  const Real square = r * r, spread = root_spread(rays, f, r);
-  const Real doubt = spread * (r + r + Real(3.0F) * spread) + Real(unit_spread) * square;
-  return {b, square - filter_dot(l, l), spread, doubt};
+  const Real square = r * r, spread = root_spread(rays, b, r);
+  const Real discriminant =
+      filter_fnma(l.z, l.z, filter_fnma(l.y, l.y, filter_fnma(l.x, l.x, square)));
+  const Real width_doubt = spread * filter_fma(spread, Real(3.0F), r + r);
+  return {b, discriminant, spread, filter_fma(square, Real(unit_spread), width_doubt)};
 }
 
 BOULE_INLINE RootBounds bound_roots(const Approach& approach) {

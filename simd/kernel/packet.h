@@ -66,7 +66,7 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   out.org = narrow(rays.org);
   const Wide error = sum_abs(rays.org - widen(out.org));
   out.origins_exact = !any(Wide(0.0) < error);
-  out.origin_error = narrow(error * Wide(1 + filter::slack * filter::u) + Wide(filter::floor));
+  out.origin_error = narrow(error * Wide(1 + 2 * filter::slack * filter::u) + Wide(filter::floor));
   out.length = sqrt(rays.a);
   const Wide inverse_length = out.length * rays.inverse_a;
   out.inverse_length = narrow(inverse_length);

@@ -116,6 +116,11 @@ template <std::size_t capacity>
 struct Survivors {
   std::uint32_t offset[capacity + 4];  ///< from the chunk's first step
   std::size_t count = 0;
+
+  BOULE_INLINE void append(std::uint32_t step, RealMask out) {
+    offset[count] = step;
+    count += all(out) ? 0 : 1;
+  }
 };
 
 /// The hot loop: 4 steps a branch, so that the common case is one test of four masks.
@@ -126,8 +131,7 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres,
     return spheres.template out<origins_exact>(rays, step);
   };
   const auto append = [&](std::size_t step, RealMask out) {
-    survivors.offset[survivors.count] = static_cast<std::uint32_t>(step - begin);
-    survivors.count += all(out) ? 0 : 1;
+    survivors.append(static_cast<std::uint32_t>(step - begin), out);
   };
   std::size_t step = begin;
   for (; step + 4 <= end; step += 4) {
@@ -197,12 +201,11 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
   }
 }
 
-/// The spheres of steps begin .. end, at most `capacity`; `all` of which they are a part.
-template <Solver solver, bool origins_exact, std::size_t capacity, class Spheres, class Best>
-BOULE_INLINE void scan_steps(const RayLanes& rays, const SphereView& all, const Spheres& spheres,
-                             std::size_t begin, std::size_t end, Best& best) {
-  Survivors<capacity> survivors;
-  list_survivors<origins_exact>(rays.filter, spheres, begin, end, survivors);
+/// What is left of the spheres from step `begin` on; `all` of which they are a part.
+template <Solver solver, class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void meet_survivors(const RayLanes& rays, const SphereView& all,
+                                 const Spheres& spheres, std::size_t begin,
+                                 const Survivors<capacity>& survivors, Best& best) {
   if constexpr (solver == Solver::robust) {
     solve_survivors(rays, all, spheres, begin, survivors, best);
   } else {
@@ -219,8 +222,10 @@ BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, 
   const std::size_t steps = Access::steps(spheres.scanned);
   for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
     const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
-    scan_steps<solver, origins_exact, Best::chunk>(rays, spheres, ScannedSpheres<Access>{spheres},
-                                                   begin, end, best);
+    const ScannedSpheres<Access> scanned{spheres};
+    Survivors<Best::chunk> survivors;
+    list_survivors<origins_exact>(rays.filter, scanned, begin, end, survivors);
+    meet_survivors<solver>(rays, spheres, scanned, begin, survivors, best);
   }
 }
 

@@ -13,10 +13,12 @@ namespace boule::BOULE_KERNEL_ISA {
 /// Rays that are traced either way now and then, to see which is the better one, and those that
 /// then go that way.
 inline constexpr std::size_t rays_on_trial = 32, rays_after_trial = 1984;
-/// A packet's visit takes as long as so many steps of rays in flight: with 3 automatic was seen to
-/// be within 8 % of the better way on AVX2 and AVX-512, camera rays and diffuse bounces, but for
-/// camera rays among 100,000 spheres (1.2); with 2 diffuse bounces there took 1.25.
-inline constexpr float steps_a_visit = 2.5F;
+/// A packet's visit takes as long as so many steps of rays in flight. Measured, scenes of 1,000 to
+/// 600,000 spheres, 8 and 16 lanes: nearest hits of bounced rays 3.1 to 3.9, and 4.5 to 5.3; any
+/// hit 3.1 to 5.2, and 4.7 to 8, the more the larger the scene and the clearer the choice.
+template <bool any>
+inline constexpr float steps_a_visit = any ? (width < 16 ? 4.0F : 6.0F)
+                                           : (width < 16 ? 3.25F : 5.0F);
 
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
@@ -39,7 +41,8 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     const std::size_t steps = flights.run(begin, flights_end);
     begin = flights_end;
     const std::size_t end = next(rays_after_trial);
-    if (static_cast<float>(visits) * steps_a_visit < static_cast<float>(steps)) {
+    if (static_cast<float>(visits) * steps_a_visit<Flights<Answers>::seeks_any> <
+        static_cast<float>(steps)) {
       trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
     } else {
       flights.run(begin, end);

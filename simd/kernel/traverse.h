@@ -1,57 +1,17 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
 #include "simd/abi/bvh.h"
+#include "simd/kernel/beam.h"
 #include "simd/kernel/scan.h"
+#include "simd/kernel/slabs.h"
 
 /// Spheres in a tree. Boxes are filters like the reject: what they turn away is missed for certain,
 /// whatever order they are visited in, so the answer is the scan's.
 namespace boule::BOULE_KERNEL_ISA {
-
-/// Rays as box tests see them.
-struct BoxRays {
-  Vec3<Real> org, inverse;  ///< 1 / unit direction
-  Real from;                ///< nothing is live below this t |dir|; NaN: every box is entered
-
-  BOULE_INLINE explicit BoxRays(const FilterRays& rays)
-      : org(rays.org),
-        inverse{Real(1.0F) / rays.unit.x, Real(1.0F) / rays.unit.y, Real(1.0F) / rays.unit.z},
-        // Far beyond the filter's range a component that underflows still leads somewhere.
-        from(select(rays.unit.x <= rays.unit.x, rays.dead_below, rays.unit.x)) {}
-};
-
-/// Boxes in lanes: one for a packet, or several for a ray.
-struct Boxes {
-  Vec3<Real> min, max;
-};
-
-/// Where rays enter boxes, and the lanes in which they certainly do not before `limit`.
-///
-/// By filter_bounds.h, filter::box on either side. NaN (a ray that the filter cannot judge) passes
-/// every comparison.
-struct Entry {
-  Real near;
-  RealMask out;
-};
-
-/// One axis: [near, far] cut to the slab's.
-BOULE_INLINE void cut_to_slab(const Real& low, const Real& high, const Real& org,
-                              const Real& inverse, Real& near, Real& far) {
-  const Real floor(static_cast<float>(filter::floor));
-  const Real a = (low - org - floor) * inverse, b = (high - org + floor) * inverse;
-  near = greater_or(lesser_or(a, b), near);
-  far = lesser_or(greater_or(b, a), far);
-}
-
-BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
-  Real near = rays.from, far = limit;
-  cut_to_slab(boxes.min.x, boxes.max.x, rays.org.x, rays.inverse.x, near, far);
-  cut_to_slab(boxes.min.y, boxes.max.y, rays.org.y, rays.inverse.y, near, far);
-  cut_to_slab(boxes.min.z, boxes.max.z, rays.org.z, rays.inverse.z, near, far);
-  // By products: beside a slab, and along it, near is infinite and has to stay so.
-  const Real less(static_cast<float>(1 - filter::box * filter::u));
-  const Real more(static_cast<float>(1 + filter::box * filter::u));
-  return {near, filter_max(far * less, far * more) < filter_min(near * less, near * more)};
-}
 
 /// The node or the leaf that a child is.
 BOULE_INLINE const void* block_of(const GeometryView& geometry, std::uint32_t child) {
@@ -108,40 +68,84 @@ BOULE_INLINE float first_entry(const Entry& entry) {
   return least_lane(select(entry.out, never, near));
 }
 
-/// The children of a node that some ray of a packet enters.
-BOULE_INLINE void visit_children(OneForAll, const BoxRays& rays, const BvhNode& node,
-                                 const Real& limit, VisitStack& stack) {
-  const int base = stack.count();
-  for (int k = 0; k < node.size; ++k) {
-    const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
-                    {node.max_x[k], node.max_y[k], node.max_z[k]}};
-    const Entry entry = enter_boxes(rays, box, limit);
-    if (bits(entry.out) != all_lanes)
-      stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
-  }
-}
+/// A packet on its way through a tree.
+class PacketWalk {
+ public:
+  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
 
-/// The children of a node that one ray, the same in every lane, enters.
-BOULE_INLINE void visit_children(OnePerLane, const BoxRays& rays, const BvhNode& node,
-                                 const Real& limit, VisitStack& stack) {
-  const int base = stack.count();
-  for (int first = 0; first < node.size; first += width) {
-    const auto step = static_cast<std::size_t>(first / width);
-    const auto get = [&](const float* row) { return OnePerLane::get(row, step); };
-    const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
-                      {get(node.max_x), get(node.max_y), get(node.max_z)}};
-    const Entry entry = enter_boxes(rays, boxes, limit);
-    const unsigned out = bits(entry.out);
-    alignas(64) float near[width];
-    store(near, entry.near);
-    for (int lane = 0; lane < width && first + lane < node.size; ++lane) {
-      if (((out >> lane) & 1U) != 0) continue;
-      const int k = first + lane;
-      const float at = near[lane] == near[lane] ? near[lane] : -static_cast<float>(no_hit);
-      stack.push({at, node.child[k], node.leaf_size[k]}, base);
+  /// The children of a node that some ray enters. `farthest`: the farthest limit.
+  BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float farthest,
+                                   VisitStack& stack) const {
+    const int base = stack.count();
+    unsigned in = (1U << node.size) - 1;
+    if (beam_.is_beam()) in &= beam_.enter(node, farthest);
+    for (; in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
+                      {node.max_x[k], node.max_y[k], node.max_z[k]}};
+      const Entry entry = enter_boxes(box_rays_, box, limit);
+      if (bits(entry.out) != all_lanes)
+        stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
     }
   }
-}
+
+  /// The spheres of a leaf that float does not rule out for every ray.
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
+                                   float farthest, Survivors<bvh_leaf_size>& survivors) const {
+    if (!beam_.is_beam()) {
+      boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, size, survivors);
+      return;
+    }
+    unsigned in = beam_.meet(leaf.leaf, farthest) & ((1U << size) - 1);
+    for (; in != 0; in &= in - 1) {
+      const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
+      survivors.append(step, leaf.template out<origins_exact>(rays_, step));
+    }
+  }
+
+ private:
+  const FilterRays& rays_;
+  BoxRays box_rays_;
+  Beam beam_;
+};
+
+/// One ray, the same in every lane.
+class SingleWalk {
+ public:
+  BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter), box_rays_(rays, extent) {}
+
+  BOULE_INLINE void visit_children(const BvhNode& node, const Real&, float limit,
+                                   VisitStack& stack) const {
+    const int base = stack.count();
+    for (int first = 0; first < node.size; first += width) {
+      const auto get = [&](const float* row) { return load(row + first); };
+      const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
+                        {get(node.max_x), get(node.max_y), get(node.max_z)}};
+      const Entry entry = enter_boxes(box_rays_, boxes, Real(limit));
+      alignas(64) float near[width];
+      store(near, entry.near);
+      const unsigned there = (1U << (node.size - first < width ? node.size - first : width)) - 1;
+      for (unsigned in = there & ~bits(entry.out); in != 0; in &= in - 1) {
+        const int lane = std::countr_zero(in), k = first + lane;
+        const float at = near[lane] == near[lane] ? near[lane] : -static_cast<float>(no_hit);
+        stack.push({at, node.child[k], node.leaf_size[k]}, base);
+      }
+    }
+  }
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, std::uint32_t size, float,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, OnePerLane::steps(size),
+                                                           survivors);
+  }
+
+ private:
+  const FilterRays& rays_;
+  BoxRays box_rays_;
+};
 
 /// Nothing beyond this is of interest: of W rays the farthest limit, of one ray, which all lanes
 /// search for, the nearest. inf where that is not known.
@@ -157,7 +161,7 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
                                           Best& best) {
   if (geometry.bvh.size == 0) return 0;
   std::size_t visits = 0;
-  const BoxRays box_rays(rays.filter);
+  const std::conditional_t<Access::one_ray, SingleWalk, PacketWalk> walk(rays, geometry.bvh.extent);
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
   float limit = limit_of_all<Access>(best.limit());
@@ -168,14 +172,13 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
     if (limit < visit.near - size * slack) continue;
     ++visits;
     if (visit.leaf_size == 0) {
-      // One ray: what one lane has found ends the search of all.
-      const Real reach = Access::one_ray ? Real(limit) : best.limit();
-      visit_children(Access{}, box_rays, geometry.bvh.nodes[visit.child], reach, stack);
+      walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
       continue;
     }
     const LeafSpheres<Access> leaf(geometry.spheres, place_of(visit.child), visit.leaf_size);
-    scan_steps<solver, origins_exact, bvh_leaf_size>(rays, geometry.spheres, leaf, 0,
-                                                     Access::steps(visit.leaf_size), best);
+    Survivors<bvh_leaf_size> survivors;
+    walk.template list_survivors<origins_exact>(leaf, visit.leaf_size, limit, survivors);
+    meet_survivors<solver>(rays, geometry.spheres, leaf, 0, survivors, best);
     limit = limit_of_all<Access>(best.limit());
   }
   return visits;

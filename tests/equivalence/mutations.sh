@@ -36,7 +36,8 @@ slack_on_the_spot 0
 squared_floor 0
 floor 0
 limit 3e38F
-flight_least 0
+slab_least 0
+beam 0
 spread 0
 box 0
 box_step 0

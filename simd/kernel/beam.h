@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+
+#include "simd/kernel/primitive_access.h"
+#include "simd/kernel/slabs.h"
+
+/// All rays of a packet as one, by intervals: what the beam misses all of them miss. Sixteen boxes,
+/// or spheres, are turned away for the price of one that is tested against each ray.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Along an axis that all rays go up, or down: they meet its planes at t >= x near_inverse + near,
+/// where that is not behind them, and at t <= x far_inverse + far.
+struct BeamSlab {
+  float near_inverse, near, far_inverse, far;
+  bool down;
+
+  /// False where rays go either way, or nearly along the planes.
+  BOULE_INLINE bool set(const Slab& slab, const Real& org, const Real& unit) {
+    const unsigned ups = bits(Real(least) <= unit), downs = bits(unit <= Real(-least));
+    down = downs != 0;
+    near_inverse = near = far_inverse = 0;
+    far = static_cast<float>(no_hit);
+    if (ups != all_lanes && downs != all_lanes) return false;
+    const Real steep = abs(slab.inverse), towards = down ? Real(0.0F) - org : org;
+    const float slow = least_lane(steep), fast = greatest_lane(steep);
+    const double last = greatest_lane(towards), first = least_lane(towards);
+    near_inverse = down ? -slow : slow;
+    far_inverse = down ? -fast : fast;
+    near = static_cast<float>(-(last + filter::floor) * double{slow});
+    far = static_cast<float>((filter::floor - first) * double{fast});
+    return true;
+  }
+  BOULE_INLINE void cut(const Real& low, const Real& high, Real& begin, Real& end) const {
+    begin = filter_max(filter_fma(down ? high : low, Real(near_inverse), Real(near)), begin);
+    end = filter_min(filter_fma(down ? low : high, Real(far_inverse), Real(far)), end);
+  }
+
+  static constexpr float least = 0x1p-20F;
+};
+
+class Beam {
+ public:
+  BOULE_INLINE Beam(const BoxRays& rays, const FilterRays& filter, float extent) {
+    unsigned axes = 0;
+    axes += x_.set(rays.slabs.x, filter.org.x, filter.unit.x) ? 1 : 0;
+    axes += y_.set(rays.slabs.y, filter.org.y, filter.unit.y) ? 1 : 0;
+    axes += z_.set(rays.slabs.z, filter.org.z, filter.unit.z) ? 1 : 0;
+    // Two make a beam of it. And no ray looks behind its origin.
+    is_beam_ = axes >= 2 && all(Real(0.0F) <= rays.from);
+    slack_ = extent * static_cast<float>(filter::beam * filter::u) +
+             static_cast<float>(2 * filter::floor);
+  }
+  /// Whether anything can be said of these rays together.
+  [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
+
+  /// The children of a node, bit by bit, that may be entered before `limit`.
+  [[nodiscard]] BOULE_INLINE unsigned enter(const BvhNode& node, float limit) const {
+    unsigned in = 0;
+    for (std::size_t at = 0; at < bvh_width; at += width) {
+      Real begin(0.0F), end(limit);
+      x_.cut(load(node.min_x + at), load(node.max_x + at), begin, end);
+      y_.cut(load(node.min_y + at), load(node.max_y + at), begin, end);
+      z_.cut(load(node.min_z + at), load(node.max_z + at), begin, end);
+      in |= bits(~is_empty(begin, end)) << at;
+    }
+    return in;
+  }
+  /// The spheres of a leaf that may be met before `limit`, by the boxes around them.
+  [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf, float limit) const {
+    const Real outward(static_cast<float>(1 + filter::beam * filter::u)), slack(slack_);
+    unsigned in = 0;
+    for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
+      const Real r = filter_fma(abs(load(leaf.radius + at)), outward, slack);
+      Real begin(0.0F), end(limit);
+      const auto cut = [&](const BeamSlab& slab, const float* center) {
+        slab.cut(load(center + at) - r, load(center + at) + r, begin, end);
+      };
+      cut(x_, leaf.center_x);
+      cut(y_, leaf.center_y);
+      cut(z_, leaf.center_z);
+      in |= bits(~is_empty(begin, end)) << at;
+    }
+    return in;
+  }
+
+ private:
+  BeamSlab x_, y_, z_;
+  float slack_;
+  bool is_beam_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA
