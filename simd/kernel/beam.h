@@ -48,11 +48,24 @@ class Beam {
     axes += z_.set(rays.slabs.z, filter.org.z, filter.unit.z) ? 1 : 0;
     // Two make a beam of it. And no ray looks behind its origin.
     is_beam_ = axes >= 2 && all(Real(0.0F) <= rays.from);
+    is_straight_ = axes == 3;
     slack_ = extent * static_cast<float>(filter::beam * filter::u) +
              static_cast<float>(2 * filter::floor);
   }
   /// Whether anything can be said of these rays together.
   [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
+  /// Whether they all go up, or down, along each axis.
+  [[nodiscard]] BOULE_INLINE bool is_straight() const { return is_straight_; }
+  /// The rows of a node's planes that they then meet first, and of the others.
+  struct Rows {
+    const float *first_x, *first_y, *first_z;
+    const float *last_x, *last_y, *last_z;
+  };
+  [[nodiscard]] BOULE_INLINE Rows rows_of(const BvhNode& node) const {
+    return {x_.down ? node.max_x : node.min_x, y_.down ? node.max_y : node.min_y,
+            z_.down ? node.max_z : node.min_z, x_.down ? node.min_x : node.max_x,
+            y_.down ? node.min_y : node.max_y, z_.down ? node.min_z : node.max_z};
+  }
 
   /// The children of a node, bit by bit, that may be entered before `limit`.
   [[nodiscard]] BOULE_INLINE unsigned enter(const BvhNode& node, float limit) const {
@@ -87,7 +100,7 @@ class Beam {
  private:
   BeamSlab x_, y_, z_;
   float slack_;
-  bool is_beam_;
+  bool is_beam_, is_straight_;
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -56,6 +56,10 @@ BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
   return {narrow(v.x), narrow(v.y), narrow(v.z)};
 }
 
+BOULE_INLINE RealMask narrow(const WideMask& m) {
+  return Real(0.0F) < narrow(select(m, Wide(1.0), Wide(0.0)));
+}
+
 /// a.b for filters, fused where the ISA can.
 BOULE_INLINE Real filter_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return filter_fma(a.z, b.z, filter_fma(a.y, b.y, a.x * b.x));

@@ -69,6 +69,7 @@ struct ClosestHit {
     is_pending = nearest < nearest;
   }
   static constexpr bool done() { return false; }
+  static constexpr bool ordered = true;  ///< what is nearer had better come first
   static constexpr std::size_t chunk = 1024;
 
  private:
@@ -108,6 +109,7 @@ struct AnyHit {
   }
   static void settle(const SphereView&, const RayLanes&) {}
   [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
+  static constexpr bool ordered = false;
   static constexpr std::size_t chunk = 64;
 };
 
@@ -168,17 +170,26 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
                                   Candidates<capacity>& candidates, Best& best) {
   for (std::size_t k = 0; k < survivors.count; ++k) {
     const std::size_t step = begin + survivors.offset[k];
-    if (rays.exact.has_source && any(rays.exact.source == spheres.id(step))) {
-      // Leaving this very sphere: only the solver knows what that means.
-      candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
-      continue;
+    WideMask own = Wide(0.0) < Wide(0.0);  // rays that leave this very sphere
+    if (rays.exact.has_source) {
+      own = rays.exact.source == spheres.id(step);
+      if (any(own & rays.exact.inside)) {  // only the solver knows where it is met again
+        candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
+        continue;
+      }
     }
     if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), 0))
       continue;
-    const RootBounds roots =
+    RootBounds roots =
         bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
-    const Real low = lowest(roots, rays.filter);
-    unsigned out = bits(dead(roots, rays.filter));
+    Real low = lowest(roots, rays.filter);
+    const unsigned leaving = bits(own);
+    if (leaving != 0) {  // from the outside it is never met again
+      const RealMask leaves = narrow(own);
+      roots.certain = roots.certain & ~leaves;
+      low = select(leaves, Real(static_cast<float>(no_hit)), low);
+    }
+    unsigned out = bits(dead(roots, rays.filter)) | leaving;
     if (best.consider(roots, low, out, spheres.slot(step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);
     }

@@ -14,11 +14,11 @@ namespace boule::BOULE_KERNEL_ISA {
 /// then go that way.
 inline constexpr std::size_t rays_on_trial = 32, rays_after_trial = 1984;
 /// A packet's visit takes as long as so many steps of rays in flight. Measured, scenes of 1,000 to
-/// 600,000 spheres, 8 and 16 lanes: nearest hits of bounced rays 3.1 to 3.9, and 4.5 to 5.3; any
-/// hit 3.1 to 5.2, and 4.7 to 8, the more the larger the scene and the clearer the choice.
+/// 600,000 spheres, 8 and 16 lanes: nearest hits of bounced rays 2.9 to 3.6, and 4.3 to 5; any hit
+/// 3 to 5, and 4 to 8, the more the larger the scene and the clearer the choice.
 template <bool any>
-inline constexpr float steps_a_visit = any ? (width < 16 ? 4.0F : 6.0F)
-                                           : (width < 16 ? 3.25F : 5.0F);
+inline constexpr float steps_a_visit = any ? (width < 16 ? 3.8F : 5.5F)
+                                           : (width < 16 ? 3.0F : 4.6F);
 
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,

@@ -24,12 +24,15 @@ struct Slab {
     far = narrow(slack - at);
   }
 
-  /// [near, far] cut to what lies between two planes. NaN, of a ray that the filter cannot judge,
-  /// cuts nothing.
+  /// [begin, end] cut to what lies between the plane that is met first and the other one. NaN, of a
+  /// ray that the filter cannot judge, cuts nothing.
+  BOULE_INLINE void cut_ordered(const Real& first, const Real& last, Real& begin, Real& end) const {
+    begin = greater_or(filter_fma(first, inverse, near), begin);
+    end = lesser_or(filter_fma(last, inverse, far), end);
+  }
   BOULE_INLINE void cut(const Real& low, const Real& high, Real& begin, Real& end) const {
     const RealMask down = inverse < Real(0.0F);
-    begin = greater_or(filter_fma(select(down, high, low), inverse, near), begin);
-    end = lesser_or(filter_fma(select(down, low, high), inverse, far), end);
+    cut_ordered(select(down, high, low), select(down, low, high), begin, end);
   }
 };
 
@@ -70,6 +73,17 @@ struct Entry {
 BOULE_INLINE RealMask is_empty(const Real& begin, const Real& end) {
   const Real slack(static_cast<float>(2 * filter::box * filter::u));
   return end < filter_fnma(abs(begin), slack, begin);
+}
+
+/// For rays that all go up, or down, along each axis: `first` and `last` are the planes that they
+/// meet first, and the others.
+BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
+                                 const Vec3<Real>& last, const Real& limit) {
+  Real near = rays.from, far = limit;
+  rays.slabs.x.cut_ordered(first.x, last.x, near, far);
+  rays.slabs.y.cut_ordered(first.y, last.y, near, far);
+  rays.slabs.z.cut_ordered(first.z, last.z, near, far);
+  return {near, is_empty(near, far)};
 }
 
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {

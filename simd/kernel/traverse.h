@@ -54,6 +54,8 @@ class VisitStack {
       visits_[place] = visits_[place - 1];
     visits_[place] = visit;
   }
+  /// Where any order will do.
+  void push(const Visit& visit) { visits_[count_++] = visit; }
   [[nodiscard]] int count() const { return count_; }
 
  private:
@@ -68,7 +70,8 @@ BOULE_INLINE float first_entry(const Entry& entry) {
   return least_lane(select(entry.out, never, near));
 }
 
-/// A packet on its way through a tree.
+/// A packet on its way through a tree; `ordered`: the nearest child comes first.
+template <bool ordered>
 class PacketWalk {
  public:
   BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
@@ -80,13 +83,22 @@ class PacketWalk {
     const int base = stack.count();
     unsigned in = (1U << node.size) - 1;
     if (beam_.is_beam()) in &= beam_.enter(node, farthest);
-    for (; in != 0; in &= in - 1) {
-      const int k = std::countr_zero(in);
-      const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
-                      {node.max_x[k], node.max_y[k], node.max_z[k]}};
-      const Entry entry = enter_boxes(box_rays_, box, limit);
-      if (bits(entry.out) != all_lanes)
-        stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
+    if (beam_.is_straight()) {
+      const Beam::Rows rows = beam_.rows_of(node);
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        visit(node, k,
+              enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
+                            {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit),
+              base, stack);
+      }
+    } else {
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
+                        {node.max_x[k], node.max_y[k], node.max_z[k]}};
+        visit(node, k, enter_boxes(box_rays_, box, limit), base, stack);
+      }
     }
   }
 
@@ -106,6 +118,16 @@ class PacketWalk {
   }
 
  private:
+  BOULE_INLINE static void visit(const BvhNode& node, int k, const Entry& entry, int base,
+                                 VisitStack& stack) {
+    if (bits(entry.out) == all_lanes) return;
+    if constexpr (ordered) {
+      stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
+    } else {
+      stack.push({-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]});
+    }
+  }
+
   const FilterRays& rays_;
   BoxRays box_rays_;
   Beam beam_;
@@ -161,7 +183,8 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
                                           Best& best) {
   if (geometry.bvh.size == 0) return 0;
   std::size_t visits = 0;
-  const std::conditional_t<Access::one_ray, SingleWalk, PacketWalk> walk(rays, geometry.bvh.extent);
+  const std::conditional_t<Access::one_ray, SingleWalk, PacketWalk<Best::ordered>> walk(
+      rays, geometry.bvh.extent);
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
   float limit = limit_of_all<Access>(best.limit());
