@@ -15,7 +15,7 @@ struct Bvh {
   std::vector<BvhNode> nodes;        ///< the root first; none: the spheres are to be scanned
   std::vector<std::int32_t> slots;   ///< sphere of each slot, or -1; those of leaf k: SphereView
   std::size_t scanned = 0;           ///< slots in front that are in no leaf
-  AlignedArray<SphereBlock> blocks;  ///< eight slots each; only leaves are filled
+  AlignedArray<SphereBlock> blocks;  ///< sixteen slots each; only leaves are filled
 };
 
 /// Builds a tree of 8-wide nodes: binary splits by the surface area heuristic (split.h), collapsed

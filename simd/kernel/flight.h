@@ -40,7 +40,7 @@ class PendingStack {
 class PendingNearest {
  public:
   PendingNearest() {
-    for (std::size_t at = 0; at < capacity; at += lanes)
+    for (std::size_t at = 0; at < most_sorted; at += lanes)
       store(near_ + at, Real(static_cast<float>(no_hit)));
   }
 
@@ -59,6 +59,7 @@ class PendingNearest {
 
   /// Takes the nearest; false, and nothing is left, if none is entered before `reach`.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
+    while (size_ > most_sorted && reach < near_[size_ - 1]) --size_;
     const std::size_t place = size_ <= most_sorted ? nearest() : size_ - 1;
     const float near = near_[place];
     if (static_cast<int>(size_ == 0) | static_cast<int>(reach < near)) {
@@ -107,7 +108,7 @@ class PendingNearest {
   /// A push writes W.
   static constexpr std::size_t capacity = (most + lanes + step - 1) / step * step;
 
-  alignas(64) float near_[capacity];  ///< inf behind the last
+  alignas(64) float near_[capacity];  ///< inf behind the last, as far as it is looked at
   alignas(64) float child_[capacity];
   std::size_t size_ = 0;
 };

@@ -231,6 +231,32 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
   }
 }
 
+/// Rays enter nearly every box of a deep tree: more is waiting than a ray in flight keeps in order.
+TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
+  CaseRandom random(59);
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < 80'000; ++i) {
+    const auto radius = static_cast<float>(random.uniform(0.2, 0.4));
+    spheres.push_back({float_point(random, {0, 0, 0}, 1), radius, 0});
+  }
+  std::vector<Ray> rays;
+  for (int i = 0; i < 48; ++i) {
+    const Vec3d from = random.direction() * (i % 3 == 0 ? 0.5 : 2.5);
+    const Vec3d to = vec_cast<double>(float_point(random, {0, 0, 0}, 1));
+    rays.push_back({from, vec_cast<float>(to - from)});
+  }
+  const Geometry geometry(spheres, {});
+  for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    const auto hits =
+        run_closest(*kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], spheres, {});
+      ASSERT_GE(expected.id, 0);
+      ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
+    }
+  }
+}
+
 /// From 2^100 away: what components too small for floats lead to is far beside the axis.
 TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
   std::vector<Sphere> spheres;
