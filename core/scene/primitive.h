@@ -28,6 +28,15 @@ struct Plane {
   std::uint32_t material = 0;
 };
 
+/// True if a sphere by itself has no Problem. Short and inline: there may be millions.
+inline bool is_valid(const Sphere& sphere) {
+  const auto& [x, y, z] = sphere.center;
+  const float radius = sphere.radius;
+  // x - x is 0, or NaN where x is not finite: one comparison for four numbers.
+  const float zero = (x - x) + (y - y) + (z - z) + (radius - radius);
+  return zero == 0 && radius > 0;
+}
+
 /// The first Problem of a sphere or plane by itself (finite numbers, radius > 0, normal != 0).
 std::optional<Problem> find_problem(const Sphere& sphere);
 std::optional<Problem> find_problem(const Plane& plane);

@@ -106,16 +106,17 @@ Status located(const std::string& place, const std::optional<Problem>& problem) 
   return Diagnostic{problem->message, place + "." + problem->field, {}, 0, 0};
 }
 
+bool is_valid(const Plane& plane) { return !find_problem(plane); }
+
 template <class Primitive>
 Status check_primitives(const char* name, const std::vector<Primitive>& primitives,
                         const Scene& scene) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    // The path's text is only made for the one that is wrong: there may be millions.
-    const auto place = [&] { return std::string(name) + "[" + std::to_string(i) + "]"; };
-    if (auto problem = find_problem(primitives[i])) return located(place(), problem);
-    if (primitives[i].material >= scene.materials.size()) {
-      return Diagnostic{"names no material of the scene", place() + ".material", {}, 0, 0};
-    }
+    const bool has_material = primitives[i].material < scene.materials.size();
+    if (is_valid(primitives[i]) && has_material) continue;
+    const std::string place = std::string(name) + "[" + std::to_string(i) + "]";
+    if (auto problem = find_problem(primitives[i])) return located(place, problem);
+    return Diagnostic{"names no material of the scene", place + ".material", {}, 0, 0};
   }
   return std::nullopt;
 }
@@ -137,10 +138,7 @@ Status check_range(const char* key, int value, int low, int high) {
 }
 
 std::optional<Problem> find_problem(const Sphere& sphere) {
-  // The checker words its messages beforehand; there may be millions of good spheres.
-  const bool is_good =
-      is_finite(sphere.center) && std::isfinite(sphere.radius) && sphere.radius > 0;
-  if (is_good) return std::nullopt;
+  if (is_valid(sphere)) return std::nullopt;  // the checker words its messages beforehand
   return Checker{}.finite("center", sphere.center).positive("radius", sphere.radius).problem();
 }
 
@@ -179,7 +177,7 @@ std::optional<Problem> find_problem(const Background& background) {
       .problem();
 }
 
-Status validate(const Scene& scene) {
+Status validate_all_but_primitives(const Scene& scene) {
   if (auto bad = check_settings(scene)) return bad;
   if (scene.camera) {
     if (auto bad = located("camera", find_problem(*scene.camera))) return bad;
@@ -199,6 +197,11 @@ Status validate(const Scene& scene) {
   if (scene.spheres.size() + scene.planes.size() > max_primitives) {
     return Diagnostic{"a scene has at most 2147483647 primitives", "sphere", {}, 0, 0};
   }
+  return std::nullopt;
+}
+
+Status validate(const Scene& scene) {
+  if (auto bad = validate_all_but_primitives(scene)) return bad;
   if (auto bad = check_primitives("sphere", scene.spheres, scene)) return bad;
   return check_primitives("plane", scene.planes, scene);
 }

@@ -55,6 +55,10 @@ struct Scene {
 /// made in memory calls this first; the readers return only scenes that pass.
 Status validate(const Scene& scene);
 
+/// As validate(), for readers that have checked each sphere and plane when they read it, and given
+/// it a material that there is: not once more, there may be millions. Their number is checked.
+Status validate_all_but_primitives(const Scene& scene);
+
 /// Nothing, or a Diagnostic with this key that says which whole numbers would do: low to high, or
 /// low and above where `high` is max_count.
 Status check_range(const char* key, int value, int low, int high);

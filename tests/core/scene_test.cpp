@@ -259,6 +259,33 @@ TEST(Validate, NamesTheFirstOfSeveral) {
   EXPECT_EQ(validate(scene)->key, "sphere[0].radius");
 }
 
+/// The short cut for millions of spheres is true for the same ones as what it stands for.
+TEST(FindProblem, ValidSpheresAreThoseWithFiniteNumbersAndARadius) {
+  constexpr float max = std::numeric_limits<float>::max();
+  const float numbers[] = {0, -0.0f, 1, -1, 0x1p-149f, max, -max, inf, -inf, nan, -nan};
+  for (const float x : numbers) {
+    for (const float y : numbers) {
+      for (const float r : numbers) {
+        const bool is_good = std::isfinite(x) && std::isfinite(y) && std::isfinite(r) && r > 0;
+        for (const Vec3f& center : {Vec3f{x, y, 1}, Vec3f{1, x, y}, Vec3f{y, 1, x}}) {
+          const Sphere sphere{center, r, 0};
+          EXPECT_EQ(is_valid(sphere), is_good) << x << " " << y << " " << r;
+          EXPECT_EQ(find_problem(sphere).has_value(), !is_good) << x << " " << y << " " << r;
+        }
+      }
+    }
+  }
+}
+
+TEST(Validate, LeavesPrimitivesToReadersThatHaveCheckedThem) {
+  Scene scene = full_scene();
+  scene.spheres[1].radius = 0;
+  scene.planes[0].normal = {0, 0, 0};
+  EXPECT_FALSE(validate_all_but_primitives(scene));
+  scene.image.spp = 0;
+  EXPECT_EQ(validate_all_but_primitives(scene)->key, "image.spp");
+}
+
 TEST(FindProblem, SpeaksOfOneThingByItself) {
   EXPECT_FALSE(find_problem(Sphere{}));
   EXPECT_FALSE(find_problem(Plane{}));
