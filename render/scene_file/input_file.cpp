@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "render/scene_file/huge_pages.h"
+
 namespace boule {
 namespace {
 
@@ -96,12 +98,22 @@ Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
 }
 
 Result<std::string> read_text(const std::string& path) {
+  // A block is cleared and then read: both in the cache, where the whole text would not fit.
+  constexpr std::size_t block_size = std::size_t{1} << 18;
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  std::string text(static_cast<std::size_t>(file.value().size()), '\0');
-  const auto got = file.value().read(text.data(), text.size());
-  if (!got) return got.error();
-  text.resize(got.value());
+  const auto size = static_cast<std::size_t>(file.value().size());
+  std::string text;
+  text.reserve(size);
+  prefer_huge_pages(text.data(), size);
+  for (bool at_end = false; !at_end;) {
+    const std::size_t done = text.size();
+    text.resize(std::min(size, done + block_size));
+    const auto got = file.value().read(text.data() + done, text.size() - done);
+    if (!got) return got.error();
+    at_end = got.value() < block_size;
+    text.resize(done + got.value());
+  }
   if (auto binary = refuse_binary(path, text)) return *binary;
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
   return text;

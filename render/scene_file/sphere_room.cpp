@@ -1,0 +1,19 @@
+#include "render/scene_file/sphere_room.h"
+
+#include <algorithm>
+
+#include "render/scene_file/huge_pages.h"
+
+namespace boule {
+
+void make_room(std::vector<Sphere>& spheres, std::size_t more) {
+  const std::size_t needed = spheres.size() + more;
+  if (needed <= spheres.capacity()) return;
+  std::vector<Sphere> roomy;
+  roomy.reserve(std::max(needed, spheres.capacity() + spheres.capacity() / 2));
+  prefer_huge_pages(roomy.data(), roomy.capacity() * sizeof(Sphere));
+  roomy.assign(spheres.begin(), spheres.end());
+  spheres.swap(roomy);
+}
+
+}  // namespace boule
