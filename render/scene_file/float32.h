@@ -1,18 +1,29 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace boule {
 
+/// True for a finite number that is not too large for a float. NaN and Inf are not.
+inline bool fits_float32(double value) {
+  // Halfway between FLT_MAX and 2^128: from here on, rounding to nearest would give Inf.
+  constexpr double too_large = 0x1.ffffffp127;
+  return std::fabs(value) < too_large;
+}
+
 /// The one rounding of a number from a file: to the nearest float. Nothing where a finite number
 /// is too large for one; an underflow becomes denormal or 0; NaN and Inf stay what they are.
 inline std::optional<float> to_float32(double value) {
-  // Halfway between FLT_MAX and 2^128: from here on, rounding to nearest would give Inf.
-  constexpr double too_large = 0x1.ffffffp127;
-  if (!std::isfinite(value)) return static_cast<float>(value);
-  if (std::fabs(value) >= too_large) return std::nullopt;
+  if (std::isfinite(value) && !fits_float32(value)) return std::nullopt;
   return static_cast<float>(value);
 }
+
+/// The same where nobody asks what is wrong: NaN for what is too large.
+inline float float32_or_nan(double value) {
+  return fits_float32(value) ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
+}
+inline float float32_or_nan(float value) { return value; }
 
 }  // namespace boule

@@ -7,6 +7,7 @@
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/npy_header.h"
 #include "render/scene_file/npy_rows.h"
+#include "render/scene_file/sphere_room.h"
 
 namespace boule {
 namespace {
@@ -44,40 +45,96 @@ Result<RowLayout> check_layout(const NpyHeader& header, bool has_radius, std::ui
   return layout;
 }
 
-/// One number of 4 or 8 bytes.
-double decode(const unsigned char* bytes, std::size_t width) {
-  return width == 8 ? npy_float64(bytes) : double{npy_float32(bytes)};
+/// Decodes the rows of one file.
+class RowDecoder {
+ public:
+  RowDecoder(const RowLayout& layout, const NpySpheres& request)
+      : layout_(layout), request_(request) {}
+
+  /// Appends the spheres of `count` rows, the first of which is row `first` of the file: nothing,
+  /// or what is wrong with the first bad one.
+  Status append(const unsigned char* rows, std::uint64_t first, std::size_t count,
+                std::vector<Sphere>& spheres) const {
+    const bool all_valid = layout_.width == sizeof(float)
+                               ? append_all<float>(rows, count, spheres)
+                               : append_all<double>(rows, count, spheres);
+    return all_valid ? std::nullopt : explain(rows, first, count);
+  }
+
+ private:
+  template <class Number>
+  bool append_all(const unsigned char* rows, std::size_t count,
+                  std::vector<Sphere>& spheres) const {
+    return layout_.columns == 4 ? append_all<Number, 4>(rows, count, spheres)
+                                : append_all<Number, 3>(rows, count, spheres);
+  }
+  template <class Number, std::size_t columns>
+  bool append_all(const unsigned char* rows, std::size_t count, std::vector<Sphere>& spheres) const;
+  Status explain(const unsigned char* rows, std::uint64_t first, std::size_t count) const;
+  std::optional<std::string> find_problem_in(const unsigned char* row) const;
+
+  const RowLayout& layout_;
+  const NpySpheres& request_;
+};
+
+/// Appends rows of one kind; true if all are valid. What is wrong is found out when something is.
+template <class Number, std::size_t columns>
+bool RowDecoder::append_all(const unsigned char* rows, std::size_t count,
+                            std::vector<Sphere>& spheres) const {
+  const float common_radius = request_.radius.value_or(0);
+  const std::uint32_t material = request_.material;
+  bool all_valid = true;
+  for (std::size_t row = 0; row < count; ++row, rows += columns * sizeof(Number)) {
+    float numbers[4] = {0, 0, 0, common_radius};
+    for (std::size_t i = 0; i < columns; ++i) {
+      numbers[i] = float32_or_nan(npy_number<Number>(rows + i * sizeof(Number)));
+    }
+    const Sphere sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3], material};
+    all_valid &= is_valid(sphere);
+    spheres.push_back(sphere);
+  }
+  return all_valid;
 }
 
-/// The sphere of one row, or what is wrong with it.
-Result<Sphere> decode_row(const unsigned char* row, const RowLayout& layout,
-                          const NpySpheres& request) {
+/// The refusal of the first bad one among these rows.
+Status RowDecoder::explain(const unsigned char* rows, std::uint64_t first,
+                           std::size_t count) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const auto problem = find_problem_in(rows + i * layout_.bytes())) {
+      return refusal("row " + std::to_string(first + i) + ": " + *problem);
+    }
+  }
+  return std::nullopt;
+}
+
+/// What is wrong with the sphere of one row, in words.
+std::optional<std::string> RowDecoder::find_problem_in(const unsigned char* row) const {
   constexpr const char* names[] = {"center x", "center y", "center z", "radius"};
-  float numbers[4] = {0, 0, 0, request.radius.value_or(0)};
-  for (std::size_t i = 0; i < layout.columns; ++i) {
-    const auto number = to_float32(decode(row + i * layout.width, layout.width));
-    if (!number) return refusal(std::string(names[i]) + " is too large for a 32-bit float");
+  float numbers[4] = {0, 0, 0, request_.radius.value_or(0)};
+  for (std::size_t i = 0; i < layout_.columns; ++i) {
+    const unsigned char* bytes = row + i * layout_.width;
+    const auto number = to_float32(layout_.width == 8 ? npy_number<double>(bytes)
+                                                      : double{npy_number<float>(bytes)});
+    if (!number) return std::string(names[i]) + " is too large for a 32-bit float";
     numbers[i] = *number;
   }
-  const Sphere sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3], request.material};
-  if (auto problem = find_problem(sphere)) return refusal(problem->field + " " + problem->message);
-  return sphere;
+  const auto problem = find_problem(Sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3]});
+  if (!problem) return std::nullopt;
+  return problem->field + " " + problem->message;
 }
 
 Status append_rows(InputFile& file, const RowLayout& layout, const NpySpheres& request,
                    std::vector<Sphere>& spheres) {
   constexpr std::size_t rows_per_block = 4096;
   std::vector<unsigned char> block(rows_per_block * layout.bytes());
-  spheres.reserve(spheres.size() + static_cast<std::size_t>(layout.rows));
+  make_room(spheres, static_cast<std::size_t>(layout.rows));
+  const RowDecoder decoder(layout, request);
   for (std::uint64_t row = 0; row < layout.rows;) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(rows_per_block, layout.rows - row));
-    if (auto bad = read_npy_rows(file, block.data(), count * layout.bytes())) return *bad;
-    for (std::size_t i = 0; i < count; ++i, ++row) {
-      const auto sphere = decode_row(block.data() + i * layout.bytes(), layout, request);
-      if (!sphere) return refusal("row " + std::to_string(row) + ": " + sphere.error().message);
-      spheres.push_back(sphere.value());
-    }
+    if (auto bad = read_npy_rows(file, block.data(), count * layout.bytes())) return bad;
+    if (auto bad = decoder.append(block.data(), row, count, spheres)) return bad;
+    row += count;
   }
   return std::nullopt;
 }

@@ -1,18 +1,9 @@
 #include "render/scene_file/npy_rows.h"
 
-#include <bit>
-
 namespace boule {
 namespace {
 
 Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
-
-/// `width` bytes, the lowest first.
-std::uint64_t decode(const unsigned char* bytes, std::size_t width) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = width; i-- > 0;) bits = bits << 8 | bytes[i];
-  return bits;
-}
 
 }  // namespace
 
@@ -42,11 +33,5 @@ Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes) {
   if (got.value() < bytes) return refusal("became shorter while it was read");
   return std::nullopt;
 }
-
-float npy_float32(const unsigned char* bytes) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(decode(bytes, 4)));
-}
-
-double npy_float64(const unsigned char* bytes) { return std::bit_cast<double>(decode(bytes, 8)); }
 
 }  // namespace boule

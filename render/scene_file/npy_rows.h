@@ -1,8 +1,10 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "core/base/error.h"
 #include "render/scene_file/input_file.h"
@@ -26,8 +28,15 @@ Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uin
 /// Reads the next `bytes` bytes of rows; that there are less now is an error.
 Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes);
 
-/// One little-endian number, whatever the machine's own order.
-float npy_float32(const unsigned char* bytes);
-double npy_float64(const unsigned char* bytes);
+/// One little-endian float or double, whatever the machine's own order. Compilers make one load of
+/// it where that order is the same.
+template <class Number>
+inline Number npy_number(const unsigned char* bytes) {
+  using Bits = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
+  static_assert(sizeof(Number) == sizeof(Bits));
+  Bits bits = 0;
+  for (std::size_t i = 0; i < sizeof bits; ++i) bits |= Bits{bytes[i]} << (8 * i);
+  return std::bit_cast<Number>(bits);
+}
 
 }  // namespace boule

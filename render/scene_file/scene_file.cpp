@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 #include <string_view>
 
 #include "render/scene_file/input_file.h"
@@ -34,10 +35,13 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
 }  // namespace
 
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
+  const Diagnostic too_large{"needs more memory than there is", "", path, 0, 0};
   try {
     return load(path, options);
   } catch (const std::bad_alloc&) {
-    return Diagnostic{"needs more memory than there is", "", path, 0, 0};
+    return too_large;
+  } catch (const std::length_error&) {  // more spheres than a vector can have
+    return too_large;
   }
 }
 

@@ -152,7 +152,7 @@ std::uint32_t TomlReader::default_material() {
 /// What no single table shows: the settings, `ambient` and the sum of all.
 void TomlReader::validate_whole() {
   if (error_.status()) return;
-  const auto bad = validate(scene_);
+  const auto bad = validate_all_but_primitives(scene_);
   if (!bad) return;
   const std::string section = bad->key.substr(0, bad->key.find('.'));
   const std::string field = bad->key.substr(std::min(section.size() + 1, bad->key.size()));

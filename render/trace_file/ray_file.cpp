@@ -35,7 +35,7 @@ Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
 
 Ray decode_row(const unsigned char* row) {
   float x[columns];
-  for (std::size_t i = 0; i < columns; ++i) x[i] = npy_float32(row + i * sizeof(float));
+  for (std::size_t i = 0; i < columns; ++i) x[i] = npy_number<float>(row + i * sizeof(float));
   Ray ray{vec_cast<double>(Vec3f{x[0], x[1], x[2]}), {x[4], x[5], x[6]}};
   ray.tmin = x[3];
   ray.tmax = x[7];
