@@ -12,7 +12,8 @@
 namespace boule {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+/// Space, '\t', '\v', '\f' or '\r' (and '\n', which no line has within).
+bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::size_t skip_blanks(std::string_view line, std::size_t at) {
   while (at < line.size() && is_blank(line[at])) ++at;
@@ -83,6 +84,18 @@ bool NffCursor::take_number_word(const char* key, const char* expected, std::str
 }
 
 bool NffCursor::take(const char* key, float& out) {
+  const std::size_t start = skip_blanks(line_, at_);
+  const char* const line_end = line_.data() + line_.size();
+  double number = 0;
+  const auto [end, code] = std::from_chars(line_.data() + start, line_end, number);
+  const bool is_word = end == line_end || is_blank(*end);
+  if (code != std::errc{} || !is_word || !fits_float32(number)) return take_unusual(key, out);
+  at_ = static_cast<std::size_t>(end - line_.data());
+  out = static_cast<float>(number);
+  return true;
+}
+
+bool NffCursor::take_unusual(const char* key, float& out) {
   std::string_view word;
   if (!take_number_word(key, "a number", word)) return false;
   double number = 0;
@@ -117,8 +130,8 @@ bool NffCursor::take(const char* key, int& out) {
 }
 
 bool NffCursor::take_line_end(const char* key) {
+  if (at_line_end()) return true;
   const std::string_view word = take_word();
-  if (word.empty()) return true;
   return report(word, key, "expected the end of the line, got " + quote(std::string(word)));
 }
 

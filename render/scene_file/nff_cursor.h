@@ -42,6 +42,8 @@ class NffCursor {
   [[nodiscard]] TextPlace end_place() const { return place_of(at_); }
 
  private:
+  /// take() of what is not simply a number between blanks: a '+', an underflow, or an error.
+  bool take_unusual(const char* key, float& out);
   bool take_number_word(const char* key, const char* expected, std::string_view& word);
   bool report(std::string_view word, const char* key, std::string message);
   [[nodiscard]] TextPlace place_of(std::size_t offset) const;

@@ -8,6 +8,7 @@
 #include "render/scene_file/nff_cursor.h"
 #include "render/scene_file/nff_polygon.h"
 #include "render/scene_file/nff_view.h"
+#include "render/scene_file/sphere_room.h"
 
 namespace boule {
 namespace {
@@ -152,8 +153,9 @@ void NffReader::read_sphere() {
   const bool is_complete = line_.take("s.center", sphere.center) &&
                            line_.take("s.radius", sphere.radius) && line_.take_line_end("s");
   if (!is_complete) return;
-  check(find_problem(sphere), sphere_words);
+  if (!is_valid(sphere)) check(find_problem(sphere), sphere_words);
   sphere.material = material();
+  if (scene_.spheres.size() == scene_.spheres.capacity()) make_room(scene_.spheres, 1);
   scene_.spheres.push_back(sphere);
 }
 
@@ -212,7 +214,8 @@ void NffReader::finish() {
     std::get<PointLight>(scene_.lights[i]).intensity = gray(static_cast<float>(share));
   }
   if (error_.status()) return;
-  if (const auto bad = validate(scene_)) error_.report({}, bad->key, bad->message);
+  if (const auto bad = validate_all_but_primitives(scene_))
+    error_.report({}, bad->key, bad->message);
 }
 
 }  // namespace
