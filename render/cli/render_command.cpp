@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
@@ -70,8 +71,8 @@ class Rendering {
   ExitCode run();
 
  private:
-  /// Loads and prepares the scene, and lets go of what was loaded: it may be as large as all the
-  /// rest.
+  /// Loads the scene and hands it over to be prepared: nothing stays of what was loaded, it may be
+  /// as large as all the rest.
   ExitCode prepare(std::optional<Renderer>& renderer);
   ExitCode render(Renderer& renderer);
   ExitCode write(const Image& image, ImageFileOptions options);
@@ -95,16 +96,16 @@ ExitCode Rendering::run() {
 }
 
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
-  const auto loaded = load_scene(command_.scene, {command_.polygons});
+  auto loaded = load_scene(command_.scene, {command_.polygons});
   if (!loaded) return report(loaded.error(), invalid_input);
-  const Scene& scene = loaded.value().scene;
+  Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);
   options.progress = [this](const Progress& progress) { report_.progress(progress); };
-  auto created = Renderer::create(scene, options);
+  auto created = Renderer::create(std::move(scene), options);
   if (!created) return report_refusal(created.error(), command_);
   renderer = std::move(created).value();
   return done;

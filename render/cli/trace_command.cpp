@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
@@ -62,7 +63,7 @@ class Tracing {
 
 ExitCode Tracing::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
-  const auto loaded = load_scene(command_.scene);
+  auto loaded = load_scene(command_.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
   auto rays = RayFile::open(command_.rays);
   if (!rays) return report(rays.error(), invalid_input);
@@ -76,7 +77,7 @@ ExitCode Tracing::run() {
   options.progress = [this, all = rays.value().size()](const Progress& progress) {
     show_progress(progress, all);
   };
-  auto tracer = Tracer::create(loaded.value().scene, options);
+  auto tracer = Tracer::create(std::move(loaded.value().scene), options);
   if (!tracer) return report(tracer.error(), failed);
   report_.prepared(tracer.value().statistics());
   return write(rays.value(), tracer.value());

@@ -1,5 +1,7 @@
 #include "render/prepare/prepared_scene.h"
 
+#include <utility>
+
 #include "render/prepare/default_view.h"
 #include "simd/build/camera_builder.h"
 
@@ -22,8 +24,7 @@ Coherence primary_coherence(const Camera& camera) {
 
 }  // namespace
 
-Result<PreparedScene> prepare(const Scene& scene, int width, int height,
-                              const ParallelFor& parallel_for) {
+Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for) {
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
   if (!scene.camera) {
@@ -37,17 +38,16 @@ Result<PreparedScene> prepare(const Scene& scene, int width, int height,
     }
     notes.emplace_back("no camera in the scene: framed on the objects");
   }
-  std::vector<Light> lights = scene.lights;
   if (lacks_light(scene)) {
-    lights.emplace_back(light_at_eye(camera));
+    scene.lights.emplace_back(light_at_eye(camera));
     notes.emplace_back("no light in the scene: one white point light at the eye");
   }
   return PreparedScene{
       .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
-      .spheres = scene.spheres,
-      .planes = scene.planes,
+      .spheres = std::move(scene.spheres),  // the geometry above has read them: in this order
+      .planes = std::move(scene.planes),
       .materials = flatten_all(scene),
-      .lights = std::move(lights),
+      .lights = std::move(scene.lights),
       .background = scene.background,
       .camera = camera,
       .camera_view = build_camera(camera, width, height),

@@ -37,7 +37,8 @@ struct PreparedScene {
 
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
 /// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.
-Result<PreparedScene> prepare(const Scene& scene, int width, int height,
+/// Spheres and planes are kept, not copied: move a scene here that is not needed any more.
+Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

@@ -28,6 +28,16 @@ Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const Kern
       workers_(scheduler_.workers()) {}
 
 Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& options) {
+  return create_from(scene, options);
+}
+
+Result<Renderer> Renderer::create(Scene&& scene, const RenderOptions& options) {
+  return create_from(std::move(scene), options);
+}
+
+/// A Scene is copied, if at all, within the try.
+template <class AnyScene>
+Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
   const FloatEnvironment environment;
   const Stopwatch watch;
   if (auto bad = validate(scene)) return *bad;
@@ -37,8 +47,8 @@ Result<Renderer> Renderer::create(const Scene& scene, const RenderOptions& optio
   const bool reference = options.solver == Solver::reference;
   try {
     Scheduler scheduler(options.threads);
-    Result<PreparedScene> prepared =
-        prepare(scene, options.width, options.height, scheduler.parallel_for());
+    Result<PreparedScene> prepared = prepare(std::forward<AnyScene>(scene), options.width,
+                                             options.height, scheduler.parallel_for());
     if (!prepared) return prepared.error();
     RenderOptions fitted = options;
     fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());

@@ -30,6 +30,8 @@ class Renderer {
   /// Prepares the scene, which is not needed any more afterwards. An error if scene or options are
   /// invalid, the ISA is not to be had, or the memory does not suffice.
   static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
+  /// The same without a copy of the spheres and planes.
+  static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
   /// The whole picture, or its crop: a film of its own, one pass, the image.
   Result<Image> render();
@@ -54,6 +56,8 @@ class Renderer {
   [[nodiscard]] RenderStatistics statistics() const;
 
  private:
+  template <class AnyScene>
+  static Result<Renderer> create_from(AnyScene&& scene, const RenderOptions& options);
   Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels);
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] RayCounts count_rays() const;

@@ -32,11 +32,11 @@ struct Tracer::Worker {
   }
 };
 
-Tracer::Tracer(const Scene& scene, const TraceOptions& options, const KernelTable& kernels)
+Tracer::Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
-      spheres_(scene.spheres),
-      planes_(scene.planes),
+      spheres_(std::move(scene.spheres)),
+      planes_(std::move(scene.planes)),
       geometry_(spheres_, planes_, Structure::automatic, Scheduler(options.threads).parallel_for()),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -46,6 +46,16 @@ Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 Tracer::~Tracer() = default;
 
 Result<Tracer> Tracer::create(const Scene& scene, const TraceOptions& options) {
+  return create_from(scene, options);
+}
+
+Result<Tracer> Tracer::create(Scene&& scene, const TraceOptions& options) {
+  return create_from(std::move(scene), options);
+}
+
+/// A Scene is copied, if at all, within the try.
+template <class AnyScene>
+Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
   const FloatEnvironment environment;
   const Stopwatch watch;
   if (auto bad = validate(scene)) return *bad;
@@ -53,7 +63,8 @@ Result<Tracer> Tracer::create(const Scene& scene, const TraceOptions& options) {
   if (!selected) return selected.error();
   const bool reference = options.solver == Solver::reference;
   try {
-    Tracer tracer(scene, options, reference ? reference_kernels() : *selected.value());
+    Tracer tracer(std::forward<AnyScene>(scene), options,
+                  reference ? reference_kernels() : *selected.value());
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
   } catch (const std::bad_alloc&) {

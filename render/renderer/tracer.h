@@ -46,6 +46,8 @@ class Tracer {
   /// Prepares the objects; the scene is not needed any more afterwards. An error if the scene is
   /// invalid, the ISA is not to be had, or the memory does not suffice.
   static Result<Tracer> create(const Scene& scene, const TraceOptions& options = {});
+  /// The same without a copy of the spheres and planes.
+  static Result<Tracer> create(Scene&& scene, const TraceOptions& options = {});
   Tracer(Tracer&& other) noexcept;
   Tracer& operator=(Tracer&& other) noexcept;
   ~Tracer();
@@ -65,7 +67,9 @@ class Tracer {
   struct Worker;
   using Body = std::function<void(Worker& worker, std::size_t first)>;
 
-  Tracer(const Scene& scene, const TraceOptions& options, const KernelTable& kernels);
+  template <class AnyScene>
+  static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
+  Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels);
   Status run(std::span<const Ray> rays, std::size_t results, const Body& body);
   Status run_blocks(std::span<const Ray> rays, const Body& body);
   Worker& worker(unsigned index);

@@ -303,6 +303,19 @@ TEST(Tracer, NoRaysAreNoHits) {
   EXPECT_EQ(tracer.statistics().rays, 0u);
 }
 
+TEST(Tracer, TakesASceneThatIsHandedOver) {
+  const Scene scene = cloud_and_planes();
+  Tracer copying = make_tracer(scene);
+  Tracer keeping = Tracer::create(Scene(scene)).value();
+  const std::vector<Ray> rays = {{{0, 0, 9}, {0, 0, -1}}, {{0.5, 9, 0}, {0, -1, 0}}};
+  const auto expected = closest(copying, rays), hits = closest(keeping, rays);
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    EXPECT_EQ(hits[k].t, expected[k].t);
+    EXPECT_EQ(hits[k].id, expected[k].id);
+    EXPECT_EQ(hits[k].normal, expected[k].normal);
+  }
+}
+
 TEST(Tracer, RefusesWhatIsInvalid) {
   Scene scene = cloud_and_planes();
   TraceOptions options;
