@@ -2,15 +2,21 @@
 //
 //   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light]
 //               [--isa avx2,avx512] [--reps N] [--threads N] [--size N] [--json FILE]
+//   bench_peers --frames [--scenes flake4,flake5] [--isa avx2,avx512] [--reps N] [--size N]
+//               [--pictures FOLDER] [--json FILE]
+//
+// --frames: whole pictures by Boule's program, Tachyon and POV-Ray instead.
 //
 // Exit code 1: the truth failed its test against the reference, or a robust contender of Boule's
-// differs from it; 2: bad arguments.
+// differs from it, or a program failed or made another picture than Boule; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <map>
 
+#include "bench/peers/frame_report.h"
+#include "bench/peers/frame_scene.h"
 #include "bench/peers/report.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -20,6 +26,8 @@ namespace {
 struct Arguments {
   RefereeSettings settings;
   std::string json;
+  bool whole_frames = false;
+  FrameSettings frames;
 };
 
 std::vector<std::string> default_isas() {
@@ -57,10 +65,29 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--json", arguments.json, "File to write the figures to");
 }
 
+/// --frames has defaults of its own where the two comparisons share an option.
+void add_frame_options(CLI::App& app, Arguments& arguments) {
+  CLI::Option* const frames =
+      app.add_flag("--frames", arguments.whole_frames,
+                   "Whole frames: Boule's program against Tachyon's and POV-Ray's");
+  app.add_option("--pictures", arguments.frames.pictures, "Folder to keep the frames' pictures in")
+      ->needs(frames);
+  for (const char* name : {"--rays", "--threads"}) frames->excludes(app.get_option(name));
+  app.final_callback([&app, &arguments] {
+    FrameSettings& settings = arguments.frames;
+    if (app.count("--scenes") > 0) settings.scenes = arguments.settings.scenes;
+    if (app.count("--reps") > 0) settings.repetitions = arguments.settings.repetitions;
+    settings.isas = arguments.settings.isas;
+    settings.side = arguments.settings.side;
+  });
+}
+
 /// What this machine lacks, or the first name that cannot be had.
-Status find_problem(const RefereeSettings& settings) {
-  if (!select_kernels("avx2")) return Diagnostic{"Embree's callbacks need AVX2", {}, {}, 0, 0};
-  for (const std::string& isa : settings.isas) {
+Status find_problem(const Arguments& arguments) {
+  if (!arguments.whole_frames && !select_kernels("avx2")) {
+    return Diagnostic{"Embree's callbacks need AVX2", {}, {}, 0, 0};
+  }
+  for (const std::string& isa : arguments.settings.isas) {
     const auto kernels = select_kernels(isa);
     if (!kernels) return kernels.error();
   }
@@ -79,8 +106,27 @@ bool all_right(const Results& results) {
          std::all_of(results.rows.begin(), results.rows.end(), right);
 }
 
+int run_frames(const Arguments& arguments) {
+  const FrameSettings& settings = arguments.frames;
+  for (const std::string& scene : settings.scenes) {
+    if (const auto made = make_flake(scene); !made) return fail(made.error(), 2);
+  }
+  const Machine machine = this_machine();
+  print_frame_machine(machine, settings);
+  const Result<FrameResults> results = compare_frames(settings, print_frames);
+  if (!results) return fail(results.error(), 1);
+  const FrameResults& found = results.value();
+  if (!arguments.json.empty()) {
+    const Status failed = write_frames_json(arguments.json, machine, settings, found);
+    if (failed) return fail(*failed, 1);
+  }
+  const auto alike = [](const FrameRow& row) { return row.alike(); };
+  return std::all_of(found.rows.begin(), found.rows.end(), alike) ? 0 : 1;
+}
+
 int run(const Arguments& arguments) {
-  if (const Status problem = find_problem(arguments.settings)) return fail(*problem, 2);
+  if (const Status problem = find_problem(arguments)) return fail(*problem, 2);
+  if (arguments.whole_frames) return run_frames(arguments);
   const Machine machine = this_machine();
   print_machine(machine, arguments.settings);
   const Result<Results> results = compare(arguments.settings, print_workload);
@@ -99,6 +145,7 @@ int main(int argc, char** argv) {
   CLI::App app("Compares Boule with Embree: the same rays, one process, answers checked.");
   boule::bench::Arguments arguments;
   boule::bench::add_options(app, arguments);
+  boule::bench::add_frame_options(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -57,11 +58,51 @@ TEST(Peers, AnswerEveryKindOfRays) {
   EXPECT_FALSE(report["machine"]["cpu"].get<std::string>().empty());
 }
 
+/// Every program that is installed makes the same picture, and all of them are timed.
+TEST(Peers, MakeTheSameFrames) {
+  const TempDir folder;
+  const std::string file = (folder.path() / "frames.json").string();
+  const ProgramRun run =
+      run_program(BOULE_BENCH_PEERS,
+                  {{"--frames", "--scenes", "flake1", "--isa", "avx2", "--reps", "1", "--size",
+                    "128", "--json", file, "--pictures", (folder.path() / "kept").string()},
+                   {}});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  std::ifstream stream(file);
+  const json report = json::parse(stream);
+  ASSERT_EQ(report["frames"].size(), 4U);
+  for (const json& row : report["frames"]) {
+    const std::string program = row["program"];
+    if (row.contains("missing")) {
+      EXPECT_THAT(run.out, testing::HasSubstr(program + " "));
+      continue;
+    }
+    EXPECT_EQ(row.contains("difference"), program != "boule-avx2") << row;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "kept" / ("flake1-" + program + ".ppm")));
+  }
+  ASSERT_EQ(report["scaling"].size(), 1U);
+  EXPECT_EQ(report["scaling"][0]["program"], "boule-avx2");
+}
+
+TEST(Peers, SayWhoIsNotInstalled) {
+  const TempDir empty;
+  const ProgramRun run = run_program(BOULE_BENCH_PEERS, {{"--frames", "--scenes", "flake0", "--isa",
+                                                          "avx2", "--reps", "1", "--size", "16"},
+                                                         {"PATH=" + empty.path().string()}});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, testing::HasSubstr("not installed: no program povray"));
+  EXPECT_THAT(run.out, testing::HasSubstr("not installed: no program tachyon"));
+}
+
 TEST(Peers, RefuseWhatTheyDoNotKnow) {
   for (const char* option : {"--scenes=cornell", "--rays=tertiary", "--isa=avx1024", "--reps=0"}) {
     const ProgramRun run = run_program(BOULE_BENCH_PEERS, {{option, "--size", "8"}, {}});
     EXPECT_EQ(run.exit_code, 2) << option;
     EXPECT_FALSE(run.err.empty()) << option;
+  }
+  for (const char* option : {"--scenes=u1000", "--rays=primary", "--isa=avx1024"}) {
+    const ProgramRun run = run_program(BOULE_BENCH_PEERS, {{"--frames", option}, {}});
+    EXPECT_EQ(run.exit_code, 2) << option;
   }
 }
 
