@@ -15,12 +15,19 @@ float mean(double sum, std::int32_t samples) {
 
 Image Film::to_image() const {
   Image image(rect_.width(), rect_.height());
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    const Pixel& p = pixels_[i];
-    if (p.samples == 0) continue;
-    image.pixels[i] = {mean(p.r, p.samples), mean(p.g, p.samples), mean(p.b, p.samples)};
-  }
+  copy_to(image, rect_);
   return image;
+}
+
+void Film::copy_to(Image& image, const PixelRect& rect) const {
+  const Pixel* pixel = pixels_.data();
+  for (int y = rect_.y0; y < rect_.y1; ++y) {
+    Color* out = &image.at(rect_.x0 - rect.x0, y - rect.y0);
+    for (int x = rect_.x0; x < rect_.x1; ++x, ++pixel, ++out) {
+      const auto& [r, g, b, samples] = *pixel;
+      *out = samples == 0 ? Color{} : Color{mean(r, samples), mean(g, samples), mean(b, samples)};
+    }
+  }
 }
 
 }  // namespace boule

@@ -18,6 +18,13 @@ class Film {
   explicit Film(const PixelRect& rect)
       : rect_(rect), pixels_(static_cast<std::size_t>(rect.area())) {}
 
+  /// Begins afresh with other pixels, in the same memory where that suffices. Throws
+  /// std::bad_alloc.
+  void restart(const PixelRect& rect) {
+    rect_ = rect;
+    pixels_.assign(static_cast<std::size_t>(rect.area()), {});
+  }
+
   [[nodiscard]] const PixelRect& rect() const { return rect_; }
 
   /// Adds a finite sample to pixel (x, y) of the frame.
@@ -35,6 +42,9 @@ class Film {
   /// The mean of each pixel's samples, black where there is none, clamped to the largest float.
   /// Throws std::bad_alloc.
   [[nodiscard]] Image to_image() const;
+
+  /// The same into a picture of the frame's pixels in `rect`, which holds this film's.
+  void copy_to(Image& image, const PixelRect& rect) const;
 
   /// Bytes a film of so many pixels takes.
   static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(Pixel); }

@@ -25,6 +25,13 @@ bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
   return trace(film);
 }
 
+bool BlockWorker::render(const PixelRect& block, int until, Image& image, const PixelRect& rect) {
+  block_film_.restart(block);
+  const bool whole = render(block, until, block_film_);
+  block_film_.copy_to(image, rect);
+  return whole;
+}
+
 /// Traces the samples gathered so far into the film.
 bool BlockWorker::trace(Film& film) {
   const std::size_t count = pixels_.size();

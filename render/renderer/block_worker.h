@@ -33,6 +33,10 @@ class BlockWorker {
   /// are in the film then, but not all. Throws std::bad_alloc.
   bool render(const PixelRect& block, int until, Film& film);
 
+  /// The same from the first sample on, straight into a picture of the frame's pixels in `rect`: a
+  /// film of the block alone stays in the cache.
+  bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
+
   /// All rays traced by this worker.
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
 
@@ -48,6 +52,7 @@ class BlockWorker {
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;
+  Film block_film_{PixelRect{0, 0, 1, 1}};
 };
 
 }  // namespace boule

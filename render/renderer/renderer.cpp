@@ -64,9 +64,13 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
 Result<Image> Renderer::render() {
   const FloatEnvironment environment;
   try {
-    Film film(rect());
-    if (auto bad = render_pass(film, options_.spp)) return *bad;
-    return film.to_image();
+    const PixelRect whole = rect();
+    Image image(whole.width(), whole.height());
+    const auto task = [&](BlockWorker& worker, const PixelRect& block) {
+      return worker.render(block, options_.spp, image, whole);
+    };
+    if (auto bad = run_blocks(task)) return *bad;
+    return image;
   } catch (const std::bad_alloc&) {
     return failure("out of memory for the picture");
   }
@@ -78,13 +82,13 @@ Status Renderer::render_pass(Film& film, int until) {
     return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
                    std::to_string(until));
   }
-  const Stopwatch watch;
-  const Status status = run_blocks(film, until);
-  render_seconds_ += watch.seconds();
-  return status;
+  return run_blocks([&](BlockWorker& worker, const PixelRect& block) {
+    return worker.render(block, until, film);
+  });
 }
 
-Status Renderer::run_blocks(Film& film, int until) {
+Status Renderer::run_blocks(const BlockTask& task) {
+  const Stopwatch watch;
   const std::uint64_t rays_before = count_rays().total();
   std::atomic<std::uint64_t> rays{0};
   std::atomic<std::size_t> done{0};
@@ -96,12 +100,14 @@ Status Renderer::run_blocks(Film& film, int until) {
     if (!workers_[worker]) workers_[worker] = make_worker();
     BlockWorker& mine = *workers_[worker];
     const std::uint64_t before = mine.counts().total();
-    if (!mine.render(blocks_[block], until, film)) return;
+    if (!task(mine, blocks_[block])) return;
     rays += mine.counts().total() - before;
     ++done;
     if (worker == 0) report();
   };
-  if (auto bad = scheduler_.run(blocks_.size(), body, options_.cancel)) return bad;
+  const Status status = scheduler_.run(blocks_.size(), body, options_.cancel);
+  render_seconds_ += watch.seconds();
+  if (status) return status;
   if (done != blocks_.size()) return failure("rendering was cancelled");
   rays = count_rays().total() - rays_before;
   report();

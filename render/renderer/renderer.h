@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ class Renderer {
   /// The same without a copy of the spheres and planes.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
-  /// The whole picture, or its crop: a film of its own, one pass, the image.
+  /// The whole picture, or its crop, in one pass: what a film has after render_pass(), without the
+  /// memory of one.
   Result<Image> render();
 
   /// One pass: brings every pixel of the film to `until` samples, 1 .. spp; those that have as many
@@ -61,7 +63,9 @@ class Renderer {
   Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels);
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] RayCounts count_rays() const;
-  Status run_blocks(Film& film, int until);
+  /// Renders a block; false if it was cancelled.
+  using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
+  Status run_blocks(const BlockTask& task);
   Status find_views(ViewChannels& channels);
 
   RenderOptions options_;
