@@ -1,7 +1,10 @@
 #include "render/integrators/whitted.h"
 
+#include <bit>
+
 #include "render/shading/background.h"
 #include "render/shading/bsdf.h"
+#include "render/shading/lights.h"
 
 namespace boule {
 
@@ -29,23 +32,32 @@ bool Whitted::cancelled() const {
 }
 
 void Whitted::shade(const PathStream& stream, Coherence coherence) {
+  make_room(stream.rays->size());
   find_points(stream, coherence);
   for (const Light& light : scene_.lights) add_light(light);
   for (std::size_t k = 0; k < stream.rays->size(); ++k) wavefront_.add(k, radiance_[k]);
-  if (stream.depth == settings_.max_depth) return;
-  for (const Point& point : points_) {
-    if (scatters(*point.material)) continue_from(point);
-  }
+  for (const Point& point : points_) continue_from(point);
+}
+
+/// Makes room for what comes of so many rays. By powers of two: as blocks fill up one more than the
+/// other, memory must not be taken for each.
+void Whitted::make_room(std::size_t rays) {
+  const std::size_t room = std::bit_ceil(rays);
+  hits_.resize(room);
+  occluded_.resize(room);
+  points_.reserve(room);
+  if (radiance_.size() < room) radiance_.resize(room);
+  illumination_.start(rays);
 }
 
 /// Finds what each ray hits, and the radiance that needs no light: background, emission, ambient.
 void Whitted::find_points(const PathStream& stream, Coherence coherence) {
   const std::size_t count = stream.rays->size();
+  const bool last = stream.depth == settings_.max_depth;
   hits_.resize(count);
   const Query query{settings_.solver, Form::automatic, coherence};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
   points_.clear();
-  radiance_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Hit hit = hits_.get(k);
     const Ray ray = stream.rays->get(k);
@@ -55,34 +67,23 @@ void Whitted::find_points(const PathStream& stream, Coherence coherence) {
     }
     const FlatMaterial& material = scene_.material_of(hit.id);
     radiance_[k] = material.constant;
-    points_.push_back({static_cast<std::uint32_t>(k), &material, find_surface(scene_, ray, hit)});
+    const bool lit = takes_direct_light(material), goes_on = !last && scatters(material);
+    if (!lit && !goes_on) continue;
+    const Surface surface = find_surface(scene_, ray, hit);
+    const auto index = static_cast<std::uint32_t>(k);
+    if (lit) illumination_.add_point(index, material, surface);
+    if (goes_on) points_.push_back({index, &material, surface});
   }
 }
 
 /// Adds one light to the radiance of the points it reaches: one stream of shadow rays.
 void Whitted::add_light(const Light& light) {
-  shadow_rays_.resize(points_.size());
-  arrivals_.clear();
-  for (const Point& point : points_) {
-    if (!takes_direct_light(*point.material)) continue;
-    const LightSample sample = sample_light(light, point.surface.point);
-    if (!faces(point.surface, sample.to_light)) continue;
-    shadow_rays_.set(arrivals_.size(), shadow_ray(light, point.surface));
-    arrivals_.push_back({&point, sample});
-  }
-  if (arrivals_.empty()) return;
-  shadow_rays_.resize(arrivals_.size());
-  occluded_.resize(arrivals_.size());
-  shadow_ += arrivals_.size();
+  const RayStream rays = illumination_.aim(light);
+  if (rays.size == 0) return;
+  shadow_ += rays.size;
   const Query query{settings_.solver, Form::automatic, shadow_coherence(light)};
-  kernels_.any_hit(geometry_, shadow_rays_.view(), query, occluded_.data());
-  for (std::size_t k = 0; k < arrivals_.size(); ++k) {
-    if (occluded_[k] != 0) continue;
-    const auto& [point, arriving] = arrivals_[k];
-    Color& radiance = radiance_[point->ray];
-    radiance = radiance + direct_light(*point->material, point->surface, arriving.to_light,
-                                       arriving.intensity);
-  }
+  kernels_.any_hit(geometry_, rays, query, occluded_.data());
+  illumination_.add_unblocked(light, occluded_.data(), radiance_.data());
 }
 
 /// Reflection before refraction: the order is part of the picture's bits.

@@ -6,7 +6,7 @@
 #include "render/integrators/integrator.h"
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
-#include "render/shading/lights.h"
+#include "render/shading/illumination.h"
 #include "render/shading/surface.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/build/aligned_array.h"
@@ -27,19 +27,15 @@ class Whitted final : public Integrator {
   }
 
  private:
-  /// A ray of the current stream that hit something.
+  /// A ray of the current stream that goes on from what it hit.
   struct Point {
     std::uint32_t ray;
     const FlatMaterial* material;
     Surface surface;
   };
-  /// Light that arrives at a point unless its shadow ray is blocked.
-  struct Arrival {
-    const Point* point;
-    LightSample light;
-  };
 
   void shade(const PathStream& stream, Coherence coherence);
+  void make_room(std::size_t rays);
   void find_points(const PathStream& stream, Coherence coherence);
   void add_light(const Light& light);
   void continue_from(const Point& point);
@@ -56,8 +52,7 @@ class Whitted final : public Integrator {
   HitBuffer hits_;
   std::vector<Point> points_;
   std::vector<Color> radiance_;  ///< by ray
-  RayBuffer shadow_rays_;
-  std::vector<Arrival> arrivals_;  ///< by shadow ray
+  Illumination illumination_;
   AlignedArray<std::uint8_t> occluded_;
 };
 

@@ -24,19 +24,8 @@ double power(double base, double exponent) {
 
 }  // namespace
 
-Color direct_light(const FlatMaterial& material, const Surface& surface, const Vec3d& to_light,
-                   const Color& intensity) {
-  const double n_dot_l = dot(surface.normal, to_light);
-  Color sum = material.diffuse * intensity * static_cast<float>(n_dot_l);
-  if (material.highlight > 0) {
-    // Not above 1, or a great exponent makes infinity of a rounding error.
-    const double r_dot_l = std::min(dot(surface.mirrored, to_light), 1.0);
-    if (r_dot_l > 0) {
-      const double glare = material.highlight * power(r_dot_l, material.shininess);
-      sum = sum + intensity * static_cast<float>(glare);
-    }
-  }
-  return sum;
+float highlight(const FlatMaterial& material, double r_dot_l) {
+  return static_cast<float>(material.highlight * power(r_dot_l, material.shininess));
 }
 
 Scatter scatter(const FlatMaterial& material, const Surface& surface) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/math/color.h"
 #include "render/prepare/flat_material.h"
 #include "render/shading/surface.h"
@@ -19,10 +21,24 @@ inline bool faces(const Surface& surface, const Vec3d& to_light) {
   return dot(surface.normal, to_light) > 0;
 }
 
+/// The highlight's Ks (r.l)^shininess for r.l > 0.
+float highlight(const FlatMaterial& material, double r_dot_l);
+
 /// What light of `intensity` from the unit direction `to_light`, which the surface faces, adds if
 /// nothing is in between: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980).
-Color direct_light(const FlatMaterial& material, const Surface& surface, const Vec3d& to_light,
-                   const Color& intensity);
+inline Color direct_light(const FlatMaterial& material, double n_dot_l, const Vec3d& to_light,
+                          const Vec3d& mirrored, const Color& intensity) {
+  const Color sum = material.diffuse * intensity * static_cast<float>(n_dot_l);
+  if (!(material.highlight > 0)) return sum;
+  // Not above 1, or a great exponent makes infinity of a rounding error.
+  const double r_dot_l = std::min(dot(mirrored, to_light), 1.0);
+  return r_dot_l > 0 ? sum + intensity * highlight(material, r_dot_l) : sum;
+}
+inline Color direct_light(const FlatMaterial& material, const Surface& surface,
+                          const Vec3d& to_light, const Color& intensity) {
+  return direct_light(material, dot(surface.normal, to_light), to_light, surface.mirrored,
+                      intensity);
+}
 
 /// The weights of the reflected and the refracted ray (Whitted 1980), shared by Fresnel's
 /// equations where the material is a dielectric. At total internal reflection all that would go

@@ -6,14 +6,11 @@ namespace boule {
 namespace {
 
 LightSample sample(const PointLight& light, const Vec3d& point) {
-  const Vec3d way = vec_cast<double>(light.position) - point;
-  const Vec3d to_light = normalize(way);
-  if (light.falloff == Falloff::none) return {to_light, light.intensity};
-  return {to_light, light.intensity * static_cast<float>(1 / dot(way, way))};
+  return {normalize(vec_cast<double>(light.position) - point), intensity_at(light, point)};
 }
 
-LightSample sample(const DirectionalLight& light, const Vec3d&) {
-  return {normalize(-vec_cast<double>(light.direction)), light.intensity};
+LightSample sample(const DirectionalLight& light, const Vec3d& point) {
+  return {normalize(-vec_cast<double>(light.direction)), intensity_at(light, point)};
 }
 
 Ray shadow(const PointLight& light, const Surface& surface) {

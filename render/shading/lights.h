@@ -15,6 +15,14 @@ struct LightSample {
 /// The light as `point` sees it, if nothing is in between.
 LightSample sample_light(const Light& light, const Vec3d& point);
 
+/// The intensity with its falloff over the distance.
+inline Color intensity_at(const PointLight& light, const Vec3d& point) {
+  if (light.falloff == Falloff::none) return light.intensity;
+  const Vec3d way = vec_cast<double>(light.position) - point;
+  return light.intensity * static_cast<float>(1 / dot(way, way));
+}
+inline Color intensity_at(const DirectionalLight& light, const Vec3d&) { return light.intensity; }
+
 /// The ray that decides whether anything is: from the surface to the light.
 Ray shadow_ray(const Light& light, const Surface& surface);
 

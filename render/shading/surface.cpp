@@ -51,9 +51,9 @@ Vec3d moved_point(const Surface& surface, Side side) {
 }
 
 /// Marks the ray as leaving the surface: the solver then leaves out the root it starts from.
-Ray from_surface(Ray ray, const Surface& surface, Side side) {
-  ray.source = surface.id;
-  ray.inside = surface.sphere && surface.inner == (side == Side::viewer);
+Ray from_surface(Ray ray, const Departure& departure) {
+  ray.source = departure.source;
+  ray.inside = departure.inside;
   return ray;
 }
 
@@ -77,16 +77,24 @@ Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> pla
   return surface;
 }
 
+Departure depart(const Surface& surface, Side side) {
+  return {moved_point(surface, side), surface.id,
+          surface.sphere && surface.inner == (side == Side::viewer)};
+}
+
 Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
-  return from_surface({moved_point(surface, side), vec_cast<float>(direction)}, surface, side);
+  const Departure departure = depart(surface, side);
+  return from_surface({departure.org, vec_cast<float>(direction)}, departure);
 }
 
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light) {
-  return from_surface(segment(moved_point(surface, Side::viewer), light), surface, Side::viewer);
+  const Departure departure = depart(surface, Side::viewer);
+  return from_surface(segment(departure.org, light), departure);
 }
 
 Ray shadow_ray_along(const Surface& surface, const Vec3f& direction) {
-  return from_surface({moved_point(surface, Side::viewer), direction}, surface, Side::viewer);
+  const Departure departure = depart(surface, Side::viewer);
+  return from_surface({departure.org, direction}, departure);
 }
 
 }  // namespace boule

@@ -35,6 +35,15 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
   return find_surface(scene.spheres, scene.planes, ray, hit);
 }
 
+/// Where a ray starts that leaves the surface, and what tells the solver so.
+struct Departure {
+  Vec3d org;            ///< the surface's point, moved off it
+  std::int32_t source;  ///< the primitive
+  bool inside;          ///< see Ray
+};
+
+Departure depart(const Surface& surface, Side side);
+
 /// A ray that leaves the surface along `direction`, rounded to float once.
 Ray leave(const Surface& surface, Side side, const Vec3d& direction);
 
