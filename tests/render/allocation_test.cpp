@@ -7,6 +7,7 @@
 
 #include "core/reference.h"
 #include "render/integrators/whitted.h"
+#include "render/renderer/renderer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/test_scenes.h"
 
@@ -77,6 +78,84 @@ TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
     return allocations - start;
   };
   EXPECT_EQ(allocated_at_depth(10000), allocated_at_depth(100));
+}
+
+/// Allocations of the first and of the second render() of one renderer.
+struct RenderAllocations {
+  long first, second;
+};
+
+RenderAllocations count_render(const Scene& scene, const RenderOptions& options) {
+  auto renderer = Renderer::create(scene, options);
+  EXPECT_TRUE(renderer.ok());
+  const auto counted_render = [&] {
+    const long start = allocations;
+    const auto image = renderer.value().render();
+    EXPECT_TRUE(image.ok());
+    return allocations - start;
+  };
+  const long first = counted_render();
+  return {first, counted_render()};
+}
+
+RenderOptions small_blocks(int width, int height, int spp, unsigned threads) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.spp = spp;
+  options.tile = 8;
+  options.threads = threads;
+  return options;
+}
+
+/// What one worker takes for good: its buffers, each of them again at most once per power of two of
+/// the rays in a stream, however many blocks it renders.
+constexpr long most_per_worker = 400;
+
+/// A second picture takes its own memory, two closures, and what starting threads takes.
+TEST(Allocation, DoesNotGrowWithTheBlocksOfAPicture) {
+  for (const Scene& scene : {mixed_scene(32, 32), glass_cloud(32, 32)}) {
+    for (const int side : {32, 128, 512}) {  // 16, 256, 4096 blocks
+      for (const int spp : {1, 5}) {
+        const auto [first, second] = count_render(scene, small_blocks(side, side, spp, 1));
+        EXPECT_LE(first, most_per_worker) << side << " pixels, " << spp << " spp";
+        EXPECT_EQ(second, 3) << side << " pixels, " << spp << " spp";
+      }
+    }
+  }
+}
+
+/// Which worker meets the fullest block is chance, so each may take its memory in either picture.
+TEST(Allocation, GrowsWithThreadsAtMost) {
+  for (const unsigned threads : {2U, 4U}) {
+    for (const int side : {128, 512}) {
+      const auto [first, second] =
+          count_render(mixed_scene(32, 32), small_blocks(side, side, 2, threads));
+      EXPECT_LE(first + second, static_cast<long>(threads) * most_per_worker) << side << " pixels";
+    }
+  }
+}
+
+/// 64 blocks, each with 16 pixels more than the one before where two rays go on from a hit: streams
+/// grow by packets, past the camera's.
+TEST(Allocation, DoesNotGrowAsBlocksFillUp) {
+  constexpr int tile = 32, blocks = 64, width = tile * blocks;
+  Scene scene = empty_scene(width, tile);
+  const Vec3f middle{width / 2, tile / 2, 0};
+  scene.camera = OrthographicCamera{{middle + Vec3f{0, 0, 10}, middle, {0, 1, 0}}, tile};
+  const auto material = add_material(scene, Phong{gray(1), 0, 0.5F, 0.5F, 0, 0.5F, 1});
+  for (int block = 0; block < blocks; ++block) {
+    for (int i = 0; i < 16 * block; ++i) {
+      const auto x = static_cast<float>(tile * block + i % tile), y = static_cast<float>(i / tile);
+      scene.spheres.push_back({{x + 0.5F, y + 0.5F, 0}, 0.25F, material});
+    }
+  }
+  RenderOptions options = small_blocks(width, tile, 1, 1);
+  options.tile = tile;
+  options.order = PixelOrder::rows;
+  const auto [first, second] = count_render(scene, options);
+  EXPECT_LE(first, most_per_worker);
+  EXPECT_EQ(second, 3);
 }
 
 }  // namespace
