@@ -26,9 +26,10 @@ struct FrameProgram {
   std::string binary;  ///< "tachyon", by PATH
   std::string path;    ///< of the binary; empty: not installed
   bool ours = false;
-  Curve curve = Curve::linear;  ///< of its pictures
-  Tolerance tolerance{};        ///< of its pictures towards Boule's
-  Color habit{};                ///< see compare_pictures
+  std::string extension = ".ppm";  ///< of its pictures, which are not packed
+  Curve curve = Curve::linear;     ///< of its pictures
+  Tolerance tolerance{};           ///< of its pictures towards Boule's
+  Color habit{};                   ///< see compare_pictures
   /// The command for a picture of `side` pixels a side on so many threads.
   std::function<std::vector<std::string>(int side, unsigned threads, const std::string& picture)>
       command;

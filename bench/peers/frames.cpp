@@ -42,7 +42,7 @@ class Run {
 
   [[nodiscard]] const FrameProgram& program() const { return program_; }
   [[nodiscard]] bool installed() const { return !program_.path.empty(); }
-  [[nodiscard]] path picture() const { return folder_ / (program_.name + ".ppm"); }
+  [[nodiscard]] path picture() const { return folder_ / (program_.name + program_.extension); }
 
   /// One repetition more.
   Status repeat(int side) {
@@ -77,7 +77,8 @@ class Run {
  private:
   Status time(int side, unsigned threads, Times& times) {
     const bool is_frame = side != start_up_side && threads == 1;
-    const path picture = is_frame ? this->picture() : folder_ / "thrown_away.ppm";
+    const path picture =
+        is_frame ? this->picture() : folder_ / ("thrown_away" + program_.extension);
     const auto taken = run_child(program_.command(side, threads, picture.string()),
                                  (folder_ / (program_.name + ".log")).string());
     if (!taken) return taken.error();

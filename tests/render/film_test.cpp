@@ -22,6 +22,24 @@ TEST(Film, HoldsTheMeanOfASamplesInFrameCoordinates) {
   EXPECT_EQ(film.samples(10, 20), 0);
 }
 
+TEST(Film, CopiesItsPixelsToTheirPlaceInAPicture) {
+  Film film({0, 0, 9, 9});
+  film.add(3, 3, gray(7));
+  film.restart({11, 21, 13, 22});
+  EXPECT_EQ(film.samples(11, 21), 0);
+  film.add(12, 21, gray(3));
+  film.add(12, 21, gray(4));
+  Image image(4, 2);
+  for (Color& pixel : image.pixels) pixel = gray(1);
+  film.copy_to(image, {10, 20, 14, 22});
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const float expected = y == 1 && x == 1 ? 0.0f : y == 1 && x == 2 ? 3.5f : 1.0f;
+      EXPECT_EQ(image.at(x, y), gray(expected)) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(Film, SumsOfTheLargestFloatsStayFinite) {
   constexpr float largest = std::numeric_limits<float>::max();
   Film film({0, 0, 1, 1});
