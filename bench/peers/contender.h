@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/bench_scenes.h"
-#include "bench/peers/rays.h"
+#include "bench/ray_kinds.h"
 #include "core/math/ray.h"
 #include "simd/abi/stream.h"
 #include "simd/build/stream_buffer.h"

@@ -30,6 +30,10 @@ constexpr std::array isas = {"scalar", "sse42", "avx2", "avx512", "neon"};
 constexpr std::array forms = {Named{"bundle", "bundles", 8}, Named{"packet", "packets", 0},
                               Named{"single", "single rays", 1}};
 
+constexpr std::array secondary_kinds = {
+    Named{"shadow", "shadow rays to a point", 8}, Named{"light", "shadow rays to a ball", 0},
+    Named{"mirror", "mirrored", 1}, Named{"diffuse", "diffuse bounces", 4}};
+
 const Named* find(const std::string& solver) {
   const auto* const found =
       std::find_if(solvers.begin(), solvers.end(), [&](const Named& n) { return solver == n.key; });
@@ -61,6 +65,26 @@ const char* axis_of(const std::string& experiment) {
   if (experiment == "scale") return "size of a ball, in units";
   if (experiment == "distance") return "distance of the camera, in radii of the ball";
   return "radius of the ground sphere, in radii of the balls on it";
+}
+
+/// A line for each of `lines` and each ISA; key_of(growth) tells to which it belongs.
+template <class Lines, class KeyOf>
+void add_growth(const Figures& figures, const Lines& lines, const KeyOf& key_of, Chart& chart) {
+  for (const Named& line : lines) {
+    for (const char* isa : isas) {
+      Series series{fmt::format("{}, {}", line.name, isa), {line.color, shape_of(isa)}, true, {}};
+      for (const Growth& growth : figures.growth) {
+        if (key_of(growth) != line.key || growth.isa != isa) continue;
+        series.points.push_back(
+            {static_cast<double>(growth.spheres), growth.ns,
+             fmt::format("{}, {}, {} spheres: {:.1f} ns ({:.1f} to {:.1f})", line.name, isa,
+                         growth.spheres, growth.ns, growth.least, growth.most)});
+      }
+      if (!series.points.empty()) chart.series.push_back(series);
+    }
+    chart.legend.push_back({line.name, {line.color, 0}});
+  }
+  add_isas(figures.growth, chart.legend);
 }
 
 }  // namespace
@@ -170,21 +194,21 @@ Chart growth_chart(const Figures& figures) {
               {"nanoseconds a ray, one thread", true},
               {},
               {}};
-  for (const Named& form : forms) {
-    for (const char* isa : isas) {
-      Series series{fmt::format("{}, {}", form.name, isa), {form.color, shape_of(isa)}, true, {}};
-      for (const Growth& growth : figures.growth) {
-        if (growth.form != form.key || growth.isa != isa) continue;
-        series.points.push_back(
-            {static_cast<double>(growth.spheres), growth.ns,
-             fmt::format("{}, {}, {} spheres: {:.1f} ns ({:.1f} to {:.1f})", form.name, isa,
-                         growth.spheres, growth.ns, growth.least, growth.most)});
-      }
-      if (!series.points.empty()) chart.series.push_back(series);
-    }
-    chart.legend.push_back({form.name, {form.color, 0}});
-  }
-  add_isas(figures.growth, chart.legend);
+  const auto form_of = [](const Growth& growth) {
+    return growth.rays == "primary" ? growth.form : std::string();
+  };
+  add_growth(figures, forms, form_of, chart);
+  return chart;
+}
+
+Chart secondary_chart(const Figures& figures) {
+  Chart chart{"Time of a secondary ray among n random spheres",
+              {"spheres", true},
+              {"nanoseconds a ray, one thread", true},
+              {},
+              {}};
+  add_growth(
+      figures, secondary_kinds, [](const Growth& growth) { return growth.rays; }, chart);
   return chart;
 }
 

@@ -29,6 +29,9 @@ Chart epsilon_chart(const Figures& figures, const std::string& experiment);
 /// Time of a ray over the number of spheres.
 Chart growth_chart(const Figures& figures);
 
+/// The same of rays that leave what the camera sees, by kind.
+Chart secondary_chart(const Figures& figures);
+
 /// How solvers are called and drawn.
 std::string solver_name(const std::string& solver);
 Look solver_look(const std::string& solver, const std::string& isa);

@@ -6,6 +6,7 @@
 
 #include "bench/bench_scenes.h"
 #include "bench/camera_rays.h"
+#include "bench/ray_kinds.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -19,16 +20,23 @@ struct Way {
   std::vector<double> seconds;
 };
 
-std::vector<Way> all_ways() {
+std::vector<Way> all_ways(RayKind kind) {
   std::vector<Way> ways;
   for (const IsaInfo& info : list_isas()) {
     if (!info.supported || info.isa == Isa::scalar) continue;
     const KernelTable* const kernels = select_kernels(info.name).value();
-    const std::string isa(info.name);
-    ways.push_back(
-        {kernels, isa, "bundle", {Solver::robust, Form::automatic, Coherence::common_origin}, {}});
-    ways.push_back({kernels, isa, "packet", {Solver::robust, Form::packet, Coherence::none}, {}});
-    ways.push_back({kernels, isa, "single", {Solver::robust, Form::single, Coherence::none}, {}});
+    const auto add = [&](const char* form, const Query& query) {
+      ways.push_back({kernels, std::string(info.name), form, query, {}});
+    };
+    if (kind == RayKind::primary) {
+      add("bundle", {Solver::robust, Form::automatic, Coherence::common_origin});
+      add("packet", {Solver::robust, Form::packet, Coherence::none});
+      add("single", {Solver::robust, Form::single, Coherence::none});
+    } else {
+      const bool meet = kind == RayKind::shadow;
+      add("automatic",
+          {Solver::robust, Form::automatic, meet ? Coherence::common_end : Coherence::none});
+    }
   }
   return ways;
 }
@@ -39,17 +47,55 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void trace(Way& way, const Geometry& geometry, RayBuffer& rays, HitBuffer& hits) {
+/// Room for all answers.
+struct Answers {
+  explicit Answers(std::size_t rays) : hits(rays), occluded(rays) {}
+  HitBuffer hits;
+  std::vector<std::uint8_t> occluded;
+};
+
+void trace(Way& way, const Geometry& geometry, RayKind kind, RayBuffer& rays, Answers& answers) {
   constexpr std::size_t block = 16384;
   const RayStream all = rays.view();
-  const HitStream out = hits.view();
+  const HitStream out = answers.hits.view();
   const double begin = thread_seconds();
   for (std::size_t first = 0; first < rays.size(); first += block) {
     const std::size_t size = std::min(block, rays.size() - first);
-    way.kernels->closest_hit(geometry.view(), part_of(all, first, size), way.query,
-                             {out.t + first, out.id + first, size});
+    const RayStream part = part_of(all, first, size);
+    if (asks_any(kind)) {
+      way.kernels->any_hit(geometry.view(), part, way.query, answers.occluded.data() + first);
+    } else {
+      way.kernels->closest_hit(geometry.view(), part, way.query,
+                               {out.t + first, out.id + first, size});
+    }
   }
   way.seconds.push_back(thread_seconds() - begin);
+}
+
+void measure_kind(const BenchScene& scene, const Geometry& geometry, RayKind kind, RayBuffer& rays,
+                  int repetitions, std::vector<Growth>& growth) {
+  Answers answers(rays.size());
+  std::vector<Way> ways = all_ways(kind);
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    for (Way& way : ways) trace(way, geometry, kind, rays, answers);
+  }
+  for (Way& way : ways) {
+    std::sort(way.seconds.begin(), way.seconds.end());
+    const double ns = 1e9 / static_cast<double>(rays.size());
+    growth.push_back({scene.spheres.size(), name_of(kind), way.isa, way.form,
+                      ns * way.seconds[way.seconds.size() / 2], ns * way.seconds.front(),
+                      ns * way.seconds.back()});
+  }
+}
+
+std::vector<Hit> first_hits(const Geometry& geometry, RayBuffer& rays) {
+  HitBuffer hits(rays.size());
+  const KernelTable& kernels = *select_kernels("auto").value();
+  kernels.closest_hit(geometry.view(), rays.view(),
+                      {Solver::robust, Form::automatic, Coherence::common_origin}, hits.view());
+  std::vector<Hit> all;
+  for (std::size_t i = 0; i < rays.size(); ++i) all.push_back(hits.get(i));
+  return all;
 }
 
 }  // namespace
@@ -61,17 +107,13 @@ std::vector<Growth> measure_growth(int most_decades, int side, int repetitions) 
     spheres *= 10;
     const BenchScene scene = make_scene("u" + std::to_string(spheres)).value();
     const Geometry geometry(scene.spheres, {});
-    RayBuffer rays = primary_rays(scene, side);
-    HitBuffer hits(rays.size());
-    std::vector<Way> ways = all_ways();
-    for (int repetition = 0; repetition < repetitions; ++repetition) {
-      for (Way& way : ways) trace(way, geometry, rays, hits);
-    }
-    for (Way& way : ways) {
-      std::sort(way.seconds.begin(), way.seconds.end());
-      const double ns = 1e9 / static_cast<double>(rays.size());
-      growth.push_back({spheres, way.isa, way.form, ns * way.seconds[way.seconds.size() / 2],
-                        ns * way.seconds.front(), ns * way.seconds.back()});
+    RayBuffer camera = primary_rays(scene, side);
+    measure_kind(scene, geometry, RayKind::primary, camera, repetitions, growth);
+    const std::vector<Hit> hits = first_hits(geometry, camera);
+    for (const RayKind kind : ray_kinds()) {
+      if (kind == RayKind::primary) continue;
+      RayBuffer rays = secondary_rays(kind, scene, camera, hits);
+      measure_kind(scene, geometry, kind, rays, repetitions, growth);
     }
   }
   return growth;

@@ -56,7 +56,7 @@ Json to_json(const EpsilonFigure& e) {
 }
 
 Json to_json(const Growth& g) {
-  return {{"spheres", g.spheres}, {"isa", g.isa},   {"form", g.form},
+  return {{"spheres", g.spheres}, {"rays", g.rays}, {"isa", g.isa}, {"form", g.form},
           {"ns_per_ray", g.ns},   {"min", g.least}, {"max", g.most}};
 }
 

@@ -204,7 +204,7 @@ std::string to_html(Figures& figures) {
                         figures.widest + ".") +
                   case_table(figures) + sum_table(figures));
   html += section("Shadows without an epsilon", epsilon_section(figures));
-  html += section("Growth", figure(growth_chart(figures)));
+  html += section("Growth", figure(growth_chart(figures)) + figure(secondary_chart(figures)));
   html += section("Embree", peer_section(figures));
   return html + page_end();
 }

@@ -1,4 +1,4 @@
-#include "bench/peers/rays.h"
+#include "bench/ray_kinds.h"
 
 #include <cmath>
 
