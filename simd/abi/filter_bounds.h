@@ -172,7 +172,7 @@ inline constexpr float bundle_far = 1e15F;
 /// Seen: with these values the equivalence tests fail (tests/equivalence/mutations.sh, and by hand
 /// on AVX2), with those in brackets they do not: slack 4 (7), slack_on_the_spot 0 (4),
 /// squared_floor 0 (1e-44), floor 1e-24 (1e-21), limit 3e38, slab_least 0, spread 0 (1), box 0
-/// (2), box_step 2^-24 (2^-23), bundle_axis 0 (3), bundle_square 3 (6), bundle_depth 0 (5),
+/// (2), beam 0, box_step 2^-24 (2^-23), bundle_axis 0 (3), bundle_square 3 (6), bundle_depth 0 (5),
 /// bundle_double 0 (2^-50), bundle_twice 0, bundle_side 1, bundle_side_parallel 0.9,
 /// bundle_shift_slope 0, bundle_end 0, bundle_width 100, bundle_across 1e9, bundle_far 1e38.
 

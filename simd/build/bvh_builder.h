@@ -18,7 +18,7 @@ struct Bvh {
   AlignedArray<SphereBlock> blocks;  ///< sixteen slots each; only leaves are filled
 };
 
-/// Builds a tree of 8-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
+/// Builds a tree of 16-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
 /// to the least sum of areas (binary_tree.h). Nodes and leaves lie in depth-first order. The bits
 /// do not depend on `parallel_for`. Kept apart, to be scanned: spheres beyond filter::limit or not
 /// finite, and up to 16 whose box is a good part of the box of all, or of all that remain when

@@ -11,8 +11,9 @@
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Rays that are traced either way now and then, to see which is the better one, and those that
-/// then go that way.
-inline constexpr std::size_t rays_on_trial = 32, rays_after_trial = 1984;
+/// then go that way: at first, and at most, for they double while trials, which cost time, agree.
+inline constexpr std::size_t rays_on_trial = 32;
+inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
 /// A packet's visit takes as long as so many steps of rays in flight. Measured, scenes of 1,000 to
 /// 600,000 spheres, 8 and 16 lanes: nearest hits of bounced rays 2.9 to 3.6, and 4.3 to 5; any hit
 /// 3 to 5, and 4 to 8, the more the larger the scene and the clearer the choice.
@@ -29,7 +30,8 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     flights.run(0, size);
     return;
   }
-  std::size_t begin = 0;
+  std::size_t begin = 0, rays_that_way = rays_after_trial / 2;
+  bool was_packets = false;
   const auto next = [&](std::size_t rays) { return size - begin < rays ? size : begin + rays; };
   while (begin < size) {
     const std::size_t packets_end = next(rays_on_trial);
@@ -40,9 +42,14 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     const std::size_t flights_end = next(rays_on_trial);
     const std::size_t steps = flights.run(begin, flights_end);
     begin = flights_end;
-    const std::size_t end = next(rays_after_trial);
-    if (static_cast<float>(visits) * steps_a_visit<Flights<Answers>::seeks_any> <
-        static_cast<float>(steps)) {
+    const bool packets = static_cast<float>(visits) * steps_a_visit<Flights<Answers>::seeks_any> <
+                         static_cast<float>(steps);
+    rays_that_way = packets != was_packets             ? rays_after_trial
+                    : rays_that_way < most_after_trial ? 2 * rays_that_way
+                                                       : most_after_trial;
+    was_packets = packets;
+    const std::size_t end = next(rays_that_way);
+    if (packets) {
       trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
     } else {
       flights.run(begin, end);
