@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/median.h"
 #include "bench/uniform_spheres.h"
 #include "core/base/parallel.h"
 #include "simd/build/geometry_builder.h"
@@ -61,11 +62,6 @@ double embree_seconds(RTCDevice device, std::vector<float>& points) {
   const double time = seconds([&] { rtcCommitScene(scene); });
   rtcReleaseScene(scene);
   return time;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 void compare(std::size_t n, unsigned threads) {

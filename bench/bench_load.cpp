@@ -6,8 +6,6 @@
 // The files are made in the temporary folder, the same for the same number of spheres. A repetition
 // goes through all rows; the clock is the process's own CPU time, the system's work for it
 // included.
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -25,37 +23,13 @@
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/scene_file.h"
+#include "tests/support/temp_dir.h"
 
 namespace boule::bench {
 namespace {
 
 constexpr int repetitions = 5;
 constexpr std::size_t spheres_per_fill = 1000;
-
-/// A folder that is gone at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "boule-load-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::exit(1);
-    path_ = name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  /// Writes a file; its path.
-  [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Spheres about the origin with radii of their own, so that numbers differ in sign and length.
 std::vector<Sphere> cloud(std::size_t n) {
@@ -166,9 +140,16 @@ class LoadBench {
                      }});
   }
 
+  /// Writes a file; its path.
+  [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path path = folder_.path() / name;
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path.string();
+  }
+
   void add_nff(const std::string& digits, int count) {
     const std::string name = "nff " + digits, text = nff_text(spheres_, count);
-    const std::string path = folder_.write("cloud" + std::to_string(count) + ".nff", text);
+    const std::string path = write("cloud" + std::to_string(count) + ".nff", text);
     add_read(name, path, text.size());
     rows_.push_back({name + ": read_text", text.size(), [this, path, bytes = text.size()] {
                        const auto read = read_text(path);
@@ -183,11 +164,11 @@ class LoadBench {
 
   void add_npy(const std::string& kind, const std::string& bytes, bool has_radii) {
     const std::string name = "npy " + kind, stem = "cloud" + std::to_string(rows_.size());
-    const NpySpheres request{folder_.write(stem + ".npy", bytes),
+    const NpySpheres request{write(stem + ".npy", bytes),
                              has_radii ? std::nullopt : std::optional<float>(1)};
     const std::string scene =
-        folder_.write(stem + ".toml", "schema = 1\n[[spheres]]\nfile = \"" + stem + ".npy\"\n" +
-                                          (has_radii ? "" : "radius = 1\n"));
+        write(stem + ".toml", "schema = 1\n[[spheres]]\nfile = \"" + stem + ".npy\"\n" +
+                                  (has_radii ? "" : "radius = 1\n"));
     add_read(name, request.path, bytes.size());
     rows_.push_back({name + ": append_spheres", bytes.size(), [request] {
                        std::vector<Sphere> spheres;
@@ -196,7 +177,7 @@ class LoadBench {
     add_load(name, scene, bytes.size());
   }
 
-  Folder folder_;
+  test::TempDir folder_;
   std::vector<Sphere> spheres_;
   std::vector<Row> rows_;
 };

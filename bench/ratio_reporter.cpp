@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bench/median.h"
+
 namespace boule::bench {
-namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-}  // namespace
 
 void RatioReporter::compare(const std::string& experiment, const std::string& contender) {
   pairs_.push_back({experiment, contender});

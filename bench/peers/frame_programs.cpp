@@ -2,23 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "bench/peers/child_process.h"
 #include "bench/peers/frame_scene.h"
+#include "bench/peers/text_file.h"
 
 namespace boule::bench {
 namespace {
 
 using std::filesystem::path;
-
-Status write_text(const path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (stream) return std::nullopt;
-  return Diagnostic{"cannot write " + quote(file.string(), 200), {}, {}, 0, 0};
-}
 
 std::string square(int side, const char* form) { return fmt::format(fmt::runtime(form), side); }
 

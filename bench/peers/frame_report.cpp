@@ -1,10 +1,10 @@
 #include "bench/peers/frame_report.h"
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "bench/peers/frame_programs.h"
+#include "bench/peers/text_file.h"
 
 namespace boule::bench {
 namespace {
@@ -101,11 +101,7 @@ Status write_frames_json(const std::string& path, const Machine& machine,
                          {"clock", "CPU time of the process, less that of 8x8 pixels"}}},
                        {"frames", list(results.rows)},
                        {"scaling", list(results.scaling)}};
-  std::ofstream file(path);
-  file << report.dump(2) << '\n';
-  file.close();
-  if (!file) return Diagnostic{"cannot write " + quote(path, 200), {}, {}, 0, 0};
-  return std::nullopt;
+  return write_text(path, report.dump(2) + '\n');
 }
 
 }  // namespace boule::bench

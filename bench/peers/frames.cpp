@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "bench/median.h"
 #include "bench/peers/child_process.h"
 #include "bench/peers/frame_programs.h"
 #include "bench/peers/frame_scene.h"
@@ -20,12 +21,6 @@ constexpr int start_up_side = 8;
 struct Times {
   std::vector<double> cpu, wall;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The whole times less the median of the start-ups.
 Spread less(std::vector<double> whole, const std::vector<double>& start_ups) {

@@ -1,8 +1,9 @@
 #include "bench/peers/report.h"
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "bench/peers/text_file.h"
 
 namespace boule::bench {
 namespace {
@@ -102,11 +103,7 @@ Status write_json(const std::string& path, const Machine& machine, const Referee
                        {"settings", to_json(settings)},
                        {"checks", list(results.checks)},
                        {"rows", list(results.rows)}};
-  std::ofstream file(path);
-  file << report.dump(2) << '\n';
-  file.close();
-  if (!file) return Diagnostic{"cannot write " + quote(path, 200), {}, {}, 0, 0};
-  return std::nullopt;
+  return write_text(path, report.dump(2) + '\n');
 }
 
 }  // namespace boule::bench

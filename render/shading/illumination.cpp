@@ -18,27 +18,6 @@ struct Directions {
   double x[batch], y[batch], z[batch], cosine[batch];
 };
 
-/// The unit vector from `point` to the light, as sample_light() has it.
-struct ToPoint {
-  Vec3d position;
-  explicit ToPoint(const PointLight& light) : position(vec_cast<double>(light.position)) {}
-  [[nodiscard]] Vec3d from(const Vec3d& point) const { return normalize(position - point); }
-  [[nodiscard]] Vec3f shadow_dir(const Vec3d& org) const { return segment(org, position).dir; }
-  [[nodiscard]] float shadow_tmax() const { return segment({}, {}).tmax; }
-};
-struct Along {
-  Vec3d to_light;
-  Vec3f dir;
-  explicit Along(const DirectionalLight& light)
-      : to_light(normalize(-vec_cast<double>(light.direction))), dir(-light.direction) {}
-  [[nodiscard]] Vec3d from(const Vec3d&) const { return to_light; }
-  [[nodiscard]] Vec3f shadow_dir(const Vec3d&) const { return dir; }
-  [[nodiscard]] float shadow_tmax() const { return Ray{}.tmax; }
-};
-
-ToPoint aim_of(const PointLight& light) { return ToPoint(light); }
-Along aim_of(const DirectionalLight& light) { return Along(light); }
-
 }  // namespace
 
 void Illumination::Vectors::resize(std::size_t size) {
@@ -74,10 +53,9 @@ void Illumination::add_point(std::uint32_t ray, const FlatMaterial& material,
   ++size_;
 }
 
+/// The light by value: nothing that is stored can change it.
 template <class AnyLight>
-std::size_t Illumination::aim_at(const AnyLight& light) {
-  const auto aim = aim_of(light);
-  const RayStream rays = shadow_rays_.view();
+std::size_t Illumination::aim_at(AnyLight light) {
   const double* const px = points_.x.data();
   const double* const py = points_.y.data();
   const double* const pz = points_.z.data();
@@ -90,7 +68,7 @@ std::size_t Illumination::aim_at(const AnyLight& light) {
     Directions to;
     for (std::size_t k = 0; k < count; ++k) {  // GCC makes packets of it
       const std::size_t i = first + k;
-      const Vec3d to_light = aim.from({px[i], py[i], pz[i]});
+      const Vec3d to_light = direction_to(light, {px[i], py[i], pz[i]});
       to.x[k] = to_light.x;
       to.y[k] = to_light.y;
       to.z[k] = to_light.z;
@@ -99,19 +77,10 @@ std::size_t Illumination::aim_at(const AnyLight& light) {
     for (std::size_t k = 0; k < count; ++k) {
       // Written in any case, kept where the point faces the light: no branch to foretell.
       const std::size_t i = first + k;
-      const Vec3d org = orgs_.get(i);
-      const Vec3f dir = aim.shadow_dir(org);
+      const Origin& origin = origins_[i];
+      const Departure departure{orgs_.get(i), origin.source, origin.inside};
       arrivals_[aimed] = {{to.x[k], to.y[k], to.z[k]}, to.cosine[k], i};
-      rays.org_x[aimed] = org.x;
-      rays.org_y[aimed] = org.y;
-      rays.org_z[aimed] = org.z;
-      rays.dir_x[aimed] = dir.x;
-      rays.dir_y[aimed] = dir.y;
-      rays.dir_z[aimed] = dir.z;
-      rays.tmin[aimed] = 0;
-      rays.tmax[aimed] = aim.shadow_tmax();
-      rays.source[aimed] = origins_[i].source;
-      rays.inside[aimed] = origins_[i].inside ? 1 : 0;
+      shadow_rays_.set(aimed, from_surface(way_to(light, departure.org), departure));
       aimed += to.cosine[k] > 0 ? 1 : 0;
     }
   }

@@ -53,7 +53,7 @@ class Illumination {
   };
 
   template <class AnyLight>
-  std::size_t aim_at(const AnyLight& light);
+  std::size_t aim_at(AnyLight light);
   template <class AnyLight>
   void add_light(const AnyLight& light, const std::uint8_t* blocked, Color* radiance) const;
 

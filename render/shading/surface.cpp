@@ -50,13 +50,6 @@ Vec3d moved_point(const Surface& surface, Side side) {
   return surface.point + n * (side == Side::viewer ? distance : -distance);
 }
 
-/// Marks the ray as leaving the surface: the solver then leaves out the root it starts from.
-Ray from_surface(Ray ray, const Departure& departure) {
-  ray.source = departure.source;
-  ray.inside = departure.inside;
-  return ray;
-}
-
 }  // namespace
 
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
@@ -90,11 +83,6 @@ Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light) {
   const Departure departure = depart(surface, Side::viewer);
   return from_surface(segment(departure.org, light), departure);
-}
-
-Ray shadow_ray_along(const Surface& surface, const Vec3f& direction) {
-  const Departure departure = depart(surface, Side::viewer);
-  return from_surface({departure.org, direction}, departure);
 }
 
 }  // namespace boule

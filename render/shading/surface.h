@@ -44,13 +44,17 @@ struct Departure {
 
 Departure depart(const Surface& surface, Side side);
 
+/// Marks a ray as leaving the surface: the solver then leaves out the root it starts from.
+inline Ray from_surface(Ray ray, const Departure& departure) {
+  ray.source = departure.source;
+  ray.inside = departure.inside;
+  return ray;
+}
+
 /// A ray that leaves the surface along `direction`, rounded to float once.
 Ray leave(const Surface& surface, Side side, const Vec3d& direction);
 
 /// A ray from the surface's viewer side that ends just before `light`.
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light);
-
-/// A ray from the surface's viewer side without end, for light from infinitely far.
-Ray shadow_ray_along(const Surface& surface, const Vec3f& direction);
 
 }  // namespace boule

@@ -231,6 +231,20 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
   }
 }
 
+/// Rays that all hit something hit what the scalar path says.
+void expect_hits_in_all_forms(const KernelTable& kernels, const Geometry& geometry,
+                              const std::vector<Ray>& rays, const std::vector<Sphere>& spheres) {
+  for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    const auto hits =
+        run_closest(kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = reference::closest_hit(rays[i], spheres, {});
+      ASSERT_GE(expected.id, 0);
+      ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
+    }
+  }
+}
+
 /// Rays enter nearly every box of a deep tree: more is waiting than a ray in flight keeps in order.
 TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
   CaseRandom random(59);
@@ -246,15 +260,7 @@ TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
     rays.push_back({from, vec_cast<float>(to - from)});
   }
   const Geometry geometry(spheres, {});
-  for (const Form form : {Form::packet, Form::single, Form::flight}) {
-    const auto hits =
-        run_closest(*kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Hit expected = reference::closest_hit(rays[i], spheres, {});
-      ASSERT_GE(expected.id, 0);
-      ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
-    }
-  }
+  expect_hits_in_all_forms(*kernels, geometry, rays, spheres);
 }
 
 /// From 2^100 away: what components too small for floats lead to is far beside the axis.
@@ -269,15 +275,7 @@ TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
     rays.back().tmax = 0x1p81F;
   }
   const Geometry geometry(spheres, {}, Structure::bvh);
-  for (const Form form : {Form::packet, Form::single, Form::flight}) {
-    const auto hits =
-        run_closest(*kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Hit expected = reference::closest_hit(rays[i], spheres, {});
-      ASSERT_GE(expected.id, 0);
-      ASSERT_TRUE(same_bits(hits[i], expected)) << "ray " << i;
-    }
-  }
+  expect_hits_in_all_forms(*kernels, geometry, rays, spheres);
 }
 
 /// The CPU time, in clock ticks, of rays along z, tilted a little, through a large tree; the least
