@@ -227,6 +227,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
   if (geometry.bvh.size == 0) return true;
   const BundleSides<common> sides(rays);
   const SphereView& spheres = geometry.spheres;
+  const TreeBlocks blocks(geometry);
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
   RayGrid grid;
@@ -256,7 +257,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     for (; in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);
       stack.push({near[k], node.child[k], node.leaf_size[k]}, base);
-      prefetch_block(block_of(geometry, node.child[k]), node.leaf_size[k] != 0);
+      blocks.fetch(node.child[k]);
     }
   }
   return true;

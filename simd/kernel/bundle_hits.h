@@ -114,21 +114,19 @@ BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const float* slots) {
   alignas(64) float x[width], y[width], z[width], r[width];
   for (int lane = 0; lane < width; ++lane) {
     const std::uint32_t slot = slot_of(slots[lane]);
-    const SlotPlace place = find_slot(s, slot == no_slot ? 0 : slot);
-    x[lane] = *place.center_x;
-    y[lane] = *place.center_y;
-    z[lane] = *place.center_z;
-    r[lane] = *place.radius;
+    const SlotSphere sphere = get_slot(s, slot == no_slot ? 0 : slot);
+    x[lane] = sphere.x;
+    y[lane] = sphere.y;
+    z[lane] = sphere.z;
+    r[lane] = sphere.radius;
   }
   return {{load(x), load(y), load(z)}, load(r), Wide(-1.0)};
 }
 
 /// The sphere in one slot, for every lane.
 BOULE_INLINE SphereLanes broadcast_slot(const SphereView& s, std::uint32_t slot) {
-  const SlotPlace place = find_slot(s, slot);
-  return {{*place.center_x, *place.center_y, *place.center_z},
-          *place.radius,
-          static_cast<double>(s.id[slot])};
+  const SlotSphere sphere = get_slot(s, slot);
+  return {{sphere.x, sphere.y, sphere.z}, sphere.radius, static_cast<double>(s.id[slot])};
 }
 
 /// The first root of spheres that are simple and hit for certain: what solve_robust() gives, less

@@ -137,9 +137,7 @@ class Flights {
       : geometry_(geometry),
         stream_(stream),
         answers_(answers),
-        blocks_{reinterpret_cast<const char*>(geometry.bvh.nodes),
-                reinterpret_cast<const char*>(geometry.spheres.blocks +
-                                              geometry.spheres.scanned / bvh_leaf_size)},
+        blocks_(geometry),
         pairs_(stream.rays(), geometry.spheres, answers) {}
 
   /// Returns how many steps were taken, or what took as long.
@@ -183,13 +181,8 @@ class Flights {
       at_node_[node_count_++] = &flight;
       return true;
     }
-    // No branch: whether it is a leaf cannot be foretold.
-    const std::size_t leaf = child >> 31;
-    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
-    const char* const block = blocks_[leaf] + (std::size_t{place_of(child)} << (9 - leaf));
-    prefetch_lines(block);
-    prefetch_lines(block + (256 - 256 * leaf));
-    flight.next = block;
+    flight.next = blocks_.fetch(child);
+    const std::size_t leaf = child >> 31;  // no branch here, either
     at_node_[node_count_] = at_leaf_[leaf_count_] = &flight;
     node_count_ += 1 - leaf;
     leaf_count_ += leaf;
@@ -338,10 +331,11 @@ class Flights {
       if constexpr (seeks_any) flight.pending.clear();
     }
   }
+
   const GeometryView& geometry_;
   const PaddedStream& stream_;
   const Answers answers_;
-  const char* blocks_[2];  ///< the first node, and the first leaf
+  TreeBlocks blocks_;
   PairQueue<Answers> pairs_;
 
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.

@@ -46,15 +46,15 @@ struct OnePerLane {
   }
 };
 
-/// Where a slot's sphere is, and the others of its block behind it.
-struct SlotPlace {
-  const float *center_x, *center_y, *center_z, *radius;
+/// The sphere in a slot.
+struct SlotSphere {
+  float x, y, z, radius;
 };
 
-BOULE_INLINE SlotPlace find_slot(const SphereView& s, std::size_t slot) {
+BOULE_INLINE SlotSphere get_slot(const SphereView& s, std::size_t slot) {
   const SphereBlock& block = s.blocks[slot / bvh_leaf_size];
   const std::size_t k = slot % bvh_leaf_size;
-  return {block.center_x + k, block.center_y + k, block.center_z + k, block.radius + k};
+  return {block.center_x[k], block.center_y[k], block.center_z[k], block.radius[k]};
 }
 
 /// The sphere of each lane's slot, which comes as bits.
@@ -64,11 +64,11 @@ BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Real& slots) 
   store(slot_bits, slots);
   for (int lane = 0; lane < width; ++lane) {
     const std::size_t slot = std::bit_cast<std::uint32_t>(slot_bits[lane]);
-    const SlotPlace sphere = find_slot(s, slot);
-    x[lane] = *sphere.center_x;
-    y[lane] = *sphere.center_y;
-    z[lane] = *sphere.center_z;
-    r[lane] = *sphere.radius;
+    const SlotSphere sphere = get_slot(s, slot);
+    x[lane] = sphere.x;
+    y[lane] = sphere.y;
+    z[lane] = sphere.z;
+    r[lane] = sphere.radius;
     id[lane] = s.id[slot];
   }
   return {{load(x), load(y), load(z)}, load(r), load(id)};

@@ -26,13 +26,9 @@ struct Slab {
 
   /// [begin, end] cut to what lies between the plane that is met first and the other one. NaN, of a
   /// ray that the filter cannot judge, cuts nothing.
-  BOULE_INLINE void cut_ordered(const Real& first, const Real& last, Real& begin, Real& end) const {
+  BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
     begin = greater_or(filter_fma(first, inverse, near), begin);
     end = lesser_or(filter_fma(last, inverse, far), end);
-  }
-  BOULE_INLINE void cut(const Real& low, const Real& high, Real& begin, Real& end) const {
-    const RealMask down = inverse < Real(0.0F);
-    cut_ordered(select(down, high, low), select(down, low, high), begin, end);
   }
 };
 
@@ -80,18 +76,20 @@ BOULE_INLINE RealMask is_empty(const Real& begin, const Real& end) {
 BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
                                  const Vec3<Real>& last, const Real& limit) {
   Real near = rays.from, far = limit;
-  rays.slabs.x.cut_ordered(first.x, last.x, near, far);
-  rays.slabs.y.cut_ordered(first.y, last.y, near, far);
-  rays.slabs.z.cut_ordered(first.z, last.z, near, far);
+  rays.slabs.x.cut(first.x, last.x, near, far);
+  rays.slabs.y.cut(first.y, last.y, near, far);
+  rays.slabs.z.cut(first.z, last.z, near, far);
   return {near, is_empty(near, far)};
 }
 
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
-  Real near = rays.from, far = limit;
-  rays.slabs.x.cut(boxes.min.x, boxes.max.x, near, far);
-  rays.slabs.y.cut(boxes.min.y, boxes.max.y, near, far);
-  rays.slabs.z.cut(boxes.min.z, boxes.max.z, near, far);
-  return {near, is_empty(near, far)};
+  const Real zero(0.0F);
+  const RealMask x = rays.slabs.x.inverse < zero, y = rays.slabs.y.inverse < zero,
+                 z = rays.slabs.z.inverse < zero;
+  const auto& [min, max] = boxes;
+  return enter_ordered(
+      rays, {select(x, max.x, min.x), select(y, max.y, min.y), select(z, max.z, min.z)},
+      {select(x, min.x, max.x), select(y, min.y, max.y), select(z, min.z, max.z)}, limit);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

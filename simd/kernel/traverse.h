@@ -13,27 +13,37 @@
 /// whatever order they are visited in, so the answer is the scan's.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The node or the leaf that a child is.
-BOULE_INLINE const void* block_of(const GeometryView& geometry, std::uint32_t child) {
-  if ((child & leaf_bit) == 0) return geometry.bvh.nodes + child;
-  return geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size + place_of(child);
-}
+/// Where the nodes and leaves of a tree are. No branch: whether a child is a leaf cannot be
+/// foretold.
+class TreeBlocks {
+ public:
+  BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
+      : first_{reinterpret_cast<const char*>(geometry.bvh.nodes),
+               reinterpret_cast<const char*>(geometry.spheres.blocks +
+                                             geometry.spheres.scanned / bvh_leaf_size)} {}
 
-/// Asks for 256 bytes.
-BOULE_INLINE void prefetch_lines(const char* begin) {
-  __builtin_prefetch(begin);
-  __builtin_prefetch(begin + 64);
-  __builtin_prefetch(begin + 128);
-  __builtin_prefetch(begin + 192);
-}
+  /// The node or the leaf that a child is. Asks for what its visit will read: a large tree is not
+  /// in the cache.
+  BOULE_INLINE const void* fetch(std::uint32_t child) const {
+    const std::size_t leaf = child >> 31;
+    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
+    const char* const block = first_[leaf] + (std::size_t{place_of(child)} << (9 - leaf));
+    prefetch(block);
+    prefetch(block + (256 - 256 * leaf));
+    return block;
+  }
 
-/// Asks for what a child's visit will read: a large tree is not in the cache.
-BOULE_INLINE void prefetch_block(const void* block, bool leaf) {
-  static_assert(sizeof(SphereBlock) == 256 && sizeof(BvhNode) == 512);
-  const char* const begin = static_cast<const char*>(block);
-  prefetch_lines(begin);
-  if (!leaf) prefetch_lines(begin + 256);
-}
+ private:
+  /// 256 bytes.
+  BOULE_INLINE static void prefetch(const char* begin) {
+    __builtin_prefetch(begin);
+    __builtin_prefetch(begin + 64);
+    __builtin_prefetch(begin + 128);
+    __builtin_prefetch(begin + 192);
+  }
+
+  const char* first_[2];  ///< the first node, and the first leaf
+};
 
 /// A child to visit: where the first ray enters it.
 struct Visit {
