@@ -10,4 +10,7 @@ enum ExitCode : int {
   invalid_input = 3,  ///< the scene or a data file
 };
 
+/// The exit status of what signal n ended.
+constexpr ExitCode interrupted_by(int signal) { return static_cast<ExitCode>(128 + signal); }
+
 }  // namespace boule::cli

@@ -1,9 +1,11 @@
 #include "render/cli/interrupt.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <climits>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 
@@ -13,6 +15,9 @@ namespace {
 std::atomic<int> pending_signal{0};
 std::atomic<bool> writing{false};
 std::atomic<bool> removing{false};
+std::atomic<bool> catching{false};
+std::atomic<int> caught_signal{0};
+std::atomic<bool> stop{false};
 std::atomic<const char*> end_of_line{"nothing written"};
 std::atomic<bool> line_open{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
@@ -52,11 +57,29 @@ void print_end(int signal) {
 }
 
 void handle(int signal) {
-  if (writing) {
+  int none = 0;
+  if (catching && caught_signal.compare_exchange_strong(none, signal)) {
+    stop = true;
+  } else if (writing) {
     pending_signal = signal;
   } else {
     leave(signal);
   }
+}
+
+void handle_alarm(int) { stop = true; }
+
+/// SIGALRM after so many seconds, 0: never.
+void set_alarm(double seconds) {
+  constexpr double longest = 1e9;  // what every time_t holds
+  const double whole = std::floor(std::min(seconds, longest));
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  const double rest = std::min(seconds, longest) - whole;
+  timer.it_value.tv_usec = static_cast<suseconds_t>(rest * 1e6);
+  if (seconds > 0 && whole == 0)
+    timer.it_value.tv_usec = std::max<suseconds_t>(timer.it_value.tv_usec, 1);
+  setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 }  // namespace
@@ -89,6 +112,27 @@ RemovalGuard::~RemovalGuard() {
   writing = true;
   removing = false;
 }
+
+StopGuard::StopGuard(std::optional<double> time_limit, OnSignal on_signal) {
+  stop = false;
+  caught_signal = 0;
+  catching = on_signal == OnSignal::stop;
+  if (!time_limit) return;
+  struct sigaction action {};
+  action.sa_handler = handle_alarm;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGALRM, &action, nullptr);
+  set_alarm(*time_limit);
+}
+StopGuard::~StopGuard() {
+  set_alarm(0);
+  catching = false;
+}
+const std::atomic<bool>& StopGuard::flag() { return stop; }
+int StopGuard::caught() { return caught_signal; }
+const char* StopGuard::caught_name() { return name_of(caught_signal); }
+
+void leave_as_caught() { leave(caught_signal); }
 
 void set_written(const char* end) { end_of_line = end; }
 void set_line_open(bool open) { line_open = open; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <optional>
 #include <string>
 
 namespace boule::cli {
@@ -31,6 +33,32 @@ class RemovalGuard {
   RemovalGuard(const RemovalGuard&) = delete;
   RemovalGuard& operator=(const RemovalGuard&) = delete;
 };
+
+/// Whether a signal ends the program, or only what it does.
+enum class OnSignal { leave, stop };
+
+/// While it lives, the end of a time limit raises a flag that rendering watches; with
+/// OnSignal::stop so does the first signal, so that what there is can still be written: the next
+/// one is treated as if there were no StopGuard. One at a time.
+class StopGuard {
+ public:
+  /// `time_limit` is in seconds from now, above 0.
+  StopGuard(std::optional<double> time_limit, OnSignal on_signal);
+  ~StopGuard();
+  StopGuard(const StopGuard&) = delete;
+  StopGuard& operator=(const StopGuard&) = delete;
+
+  /// What rendering watches; lowered when a StopGuard begins.
+  static const std::atomic<bool>& flag();
+
+  /// The signal that was caught since then, or 0.
+  static int caught();
+  /// "SIGINT", if that was it.
+  static const char* caught_name();
+};
+
+/// Ends the program as the handler would have at the signal that a StopGuard caught.
+[[noreturn]] void leave_as_caught();
 
 /// Says that the output is in place: from now on "nothing written" would be wrong. `end` is what
 /// the line says instead, a literal such as "the picture had been written".

@@ -1,5 +1,6 @@
 #include "render/cli/option_values.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -65,6 +66,23 @@ std::optional<ViewSelection> parse_views(const std::string& text) {
     *view = true;
   }
   return views;
+}
+
+std::optional<double> parse_duration(const std::string& text) {
+  struct Unit {
+    const char* name;
+    double seconds;
+  };
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
+  if (!number) return std::nullopt;
+  for (const auto& [name, seconds] :
+       {Unit{"", 1}, Unit{"ms", 1e-3}, Unit{"s", 1}, Unit{"m", 60}, Unit{"h", 3600}}) {
+    if (text.substr(digits) != name) continue;
+    const double duration = *number * seconds;
+    return duration > 0 && duration <= 1e9 ? std::optional(duration) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 std::optional<StatsTarget> parse_stats(const std::string& text) {

@@ -27,6 +27,9 @@ std::optional<PixelRect> parse_crop(const std::string& text);
 /// Some of "depth,normal,position,id,albedo", each once, at least one.
 std::optional<ViewSelection> parse_views(const std::string& text);
 
+/// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
+std::optional<double> parse_duration(const std::string& text);
+
 /// "text", "json" or "json:FILE", FILE not empty.
 std::optional<StatsTarget> parse_stats(const std::string& text);
 

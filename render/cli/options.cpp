@@ -59,8 +59,8 @@ template <class T>
 Choice(const char*, T) -> Choice<T>;
 
 /// An option that takes one of a few names.
-template <class T, std::size_t n>
-void add_choice(CLI::App& app, const std::string& name, T& target,
+template <class Target, class T, std::size_t n>
+void add_choice(CLI::App& app, const std::string& name, Target& target,
                 const std::array<Choice<T>, n>& choices, const std::string& help) {
   std::string names;
   for (const Choice<T>& choice : choices)
@@ -139,7 +139,14 @@ void add_block_options(CLI::App& app, RenderCommand& command) {
              std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
                         Choice{"progressive", PixelOrder::progressive},
                         Choice{"frameless", PixelOrder::frameless}},
-             "Order of the pixels; never shows in the picture (tiles)");
+             "Order of the pixels; never shows in a finished picture (tiles; with --partial: "
+             "progressive)");
+  add_parsed(
+      app, "--time-limit", command.time_limit, parse_duration,
+      "a time above 0 in ms, s, m or h, such as 90s", "TIME",
+      "Stop rendering after so long, such as 90s, 500ms, 5m; loading and writing not counted");
+  app.add_flag("--partial", command.partial,
+               "Stopped by --time-limit or the first signal: write the picture as far as it is");
 }
 
 /// What is traced, and where the hits go.

@@ -52,8 +52,10 @@ struct RenderCommand : RunOptions {
   std::optional<PixelRect> crop;
   ViewSelection views;
   std::uint64_t seed = 0;
-  int tile = 0;  ///< what fits
-  PixelOrder order = PixelOrder::tiles;
+  int tile = 0;                      ///< what fits
+  std::optional<PixelOrder> order;   ///< tiles, or progressive for a partial picture
+  std::optional<double> time_limit;  ///< seconds of rendering
+  bool partial = false;              ///< ended early: write what there is
   Compression compression = Compression::zip;
   float exposure_stops = 0;
   PolygonPolicy polygons = PolygonPolicy::plane;

@@ -2,21 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "render/cli/camera_matrices.h"
 #include "render/cli/stats.h"
 
 namespace boule::cli {
 
-Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash) {
+double PartialSamples::percent() const {
+  return std::floor(static_cast<double>(done) / static_cast<double>(all) * 1000) / 10;
+}
+
+Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
+                        const std::optional<PartialSamples>& partial) {
   const RenderOptions& options = renderer.options();
   const CameraMatrices matrices =
       camera_matrices(renderer.scene().camera, options.width, options.height);
-  return {{"worldtocamera", matrices.world_to_camera},
-          {"worldtoscreen", matrices.world_to_screen},
-          {"samplesPerPixel", options.spp},
-          {"boule:solver", solver_name(options.solver)},
-          {"boule:seed", std::to_string(options.seed)},
-          {"boule:scene_hash", fmt::format("{:016x}", scene_hash)}};
+  Metadata header = {{"worldtocamera", matrices.world_to_camera},
+                     {"worldtoscreen", matrices.world_to_screen},
+                     {"samplesPerPixel", options.spp},
+                     {"boule:solver", solver_name(options.solver)},
+                     {"boule:seed", std::to_string(options.seed)},
+                     {"boule:scene_hash", fmt::format("{:016x}", scene_hash)}};
+  if (partial) {
+    header.emplace_back("ImageDescription",
+                        fmt::format("partial: {} of {} samples", partial->done, partial->all));
+  }
+  return header;
 }
 
 }  // namespace boule::cli

@@ -9,6 +9,7 @@
 #include "render/cli/picture_header.h"
 #include "render/cli/run_report.h"
 #include "render/cli/source_date.h"
+#include "render/frame/partial_picture.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/image_format.h"
 #include "render/renderer/renderer.h"
@@ -48,7 +49,9 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.views = command.views;
   options.seed = command.seed;
   options.tile = command.tile;
-  options.order = command.order;
+  options.order =
+      command.order.value_or(command.partial ? PixelOrder::progressive : PixelOrder::tiles);
+  if (command.partial || command.time_limit) options.cancel = &StopGuard::flag();
   options.threads = command.threads;
   options.isa = command.isa;
   options.solver = command.solver;
@@ -75,8 +78,11 @@ class Rendering {
   /// as large as all the rest.
   ExitCode prepare(std::optional<Renderer>& renderer);
   ExitCode render(Renderer& renderer);
+  Result<Image> make_image(Renderer& renderer);
+  ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
+  void tell_end(const Renderer& renderer, const Image& image) const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
   const RenderCommand& command_;
@@ -84,6 +90,7 @@ class Rendering {
   Stopwatch watch_;
   Stats stats_;
   std::uint64_t scene_hash_ = 0;
+  std::optional<PartialSamples> partial_;  ///< none: the picture is finished
 };
 
 ExitCode Rendering::run() {
@@ -113,18 +120,48 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 
 ExitCode Rendering::render(Renderer& renderer) {
   report_.prepared(renderer.statistics());
-  report_.start_progress();
-  const auto image = renderer.render();
-  report_.end_progress();
-  if (!image) return report(image.error(), failed);
-  ImageFileOptions options = file_options(renderer);
-  if (command_.views.any()) {
+  const StopGuard guard(command_.time_limit, command_.partial ? OnSignal::stop : OnSignal::leave);
+  std::vector<ImageChannel> channels;
+  if (command_.views.any()) {  // first: a picture that is stopped has them too
     auto views = renderer.render_views();
-    if (!views) return report(views.error(), failed);
-    options.channels = std::move(views).value();
+    if (!views) return explain(views.error());
+    channels = std::move(views).value();
   }
+  report_.start_progress();
+  const auto image = make_image(renderer);
+  report_.end_progress();
+  if (!image) return explain(image.error());
+  ImageFileOptions options = file_options(renderer);
+  options.channels = std::move(channels);
   const ExitCode written = write(image.value(), options);
-  return written == done ? finish(renderer, image.value()) : written;
+  const ExitCode end = written == done ? finish(renderer, image.value()) : written;
+  return end == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : end;
+}
+
+/// The finished picture, or what there is when it is stopped and that was asked for.
+Result<Image> Rendering::make_image(Renderer& renderer) {
+  if (!command_.partial) return renderer.render();
+  Film film(renderer.rect());
+  const Status status = renderer.render_live(film);
+  if (!status) return film.to_image();
+  const PartialSamples samples{
+      film.total_samples(),
+      renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
+  if (!StopGuard::flag() || samples.done == 0) return *status;
+  partial_ = samples;
+  return partial_picture(film, renderer.options().order);
+}
+
+/// The line and exit code of a picture that could not be made: where it was stopped the library
+/// knows only that, not why.
+ExitCode Rendering::explain(const Diagnostic& error) const {
+  if (StopGuard::caught() != 0) leave_as_caught();
+  if (!StopGuard::flag()) return report(error, failed);
+  const std::string limit = fmt::format("the time limit of {} s came ", *command_.time_limit);
+  const char* const end = command_.partial
+                              ? "before the first sample, nothing written"
+                              : "first, nothing written; --partial writes what there is";
+  return report({limit + end, {}, {}, 0, 0}, failed);
 }
 
 ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
@@ -136,7 +173,7 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
     file.crop = {options.width, options.height, options.crop->x0, options.crop->y0};
   }
   file.date_time = source_date().value();  // check() has seen it
-  file.metadata = picture_header(renderer, scene_hash_);
+  file.metadata = picture_header(renderer, scene_hash_, partial_);
   file.threads = static_cast<int>(renderer.statistics().threads);
   return file;
 }
@@ -170,10 +207,24 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   stats_.picture = {{image.width, image.height}, spp, rendering.rays};
   stats_.total_seconds = watch_.seconds();
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
-  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
-                           command_.output, image.width, image.height, spp, stats_.work_seconds,
-                           mrays_per_s(stats_), stats_.isa, counted(stats_.threads, "thread")));
+  tell_end(renderer, image);
   return report_.finish(stats_);
+}
+
+void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
+  const std::string cause = StopGuard::caught() != 0
+                                ? fmt::format("interrupted ({})", StopGuard::caught_name())
+                                : std::string("stopped by the time limit");
+  if (partial_) {  // in any case: the exit code of a time limit does not tell it
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its samples, {}", command_.output,
+                           partial_->percent(), cause));
+    return;
+  }
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
+                           command_.output, image.width, image.height, renderer.options().spp,
+                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
+                           counted(stats_.threads, "thread")));
+  if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
 }
 
 }  // namespace

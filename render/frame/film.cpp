@@ -13,6 +13,12 @@ float mean(double sum, std::int32_t samples) {
 
 }  // namespace
 
+std::uint64_t Film::total_samples() const {
+  std::uint64_t total = 0;
+  for (const Pixel& pixel : pixels_) total += static_cast<std::uint64_t>(pixel.samples);
+  return total;
+}
+
 Image Film::to_image() const {
   Image image(rect_.width(), rect_.height());
   copy_to(image, rect_);

@@ -39,6 +39,9 @@ class Film {
   /// Samples that pixel (x, y) of the frame has.
   [[nodiscard]] int samples(int x, int y) const { return pixels_[index(x, y)].samples; }
 
+  /// Samples that all pixels have together.
+  [[nodiscard]] std::uint64_t total_samples() const;
+
   /// The mean of each pixel's samples, black where there is none, clamped to the largest float.
   /// Throws std::bad_alloc.
   [[nodiscard]] Image to_image() const;

@@ -9,12 +9,15 @@ BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> in
   pixels_.reserve(setup.stream_size);
 }
 
-bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
+/// Brings the pixels (x, y) of the frame with wanted(x, y) to `until` samples.
+template <class Wanted>
+bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
+                                const Wanted& wanted) {
   pixels_.clear();
   samples_.resize(setup_.stream_size);
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
-    if (x >= block.x1 || y >= block.y1) continue;
+    if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
       const RasterPoint place = setup_.sampler.position(x, y, sample);
       samples_.set(pixels_.size(), place.x, place.y);
@@ -23,6 +26,15 @@ bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
     }
   }
   return trace(film);
+}
+
+bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
+  return render_wanted(block, until, film, [](int, int) { return true; });
+}
+
+bool BlockWorker::render(const PixelRect& block, const LivePass& pass, Film& film) {
+  return render_wanted(block, pass.until, film,
+                       [&pick = pass.pick](int x, int y) { return pick.takes(x, y); });
 }
 
 bool BlockWorker::render(const PixelRect& block, int until, Image& image, const PixelRect& rect) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/frame/film.h"
+#include "render/frame/live_passes.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/sampler.h"
 #include "render/integrators/integrator.h"
@@ -33,8 +34,11 @@ class BlockWorker {
   /// are in the film then, but not all. Throws std::bad_alloc.
   bool render(const PixelRect& block, int until, Film& film);
 
-  /// The same from the first sample on, straight into a picture of the frame's pixels in `rect`: a
-  /// film of the block alone stays in the cache.
+  /// One pass over a block of a picture in the making: only the pixels that it picks.
+  bool render(const PixelRect& block, const LivePass& pass, Film& film);
+
+  /// The same from the first sample on, all pixels, straight into a picture of the frame's pixels
+  /// in `rect`: a film of the block alone stays in the cache.
   bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
 
   /// All rays traced by this worker.
@@ -44,6 +48,8 @@ class BlockWorker {
   struct Pixel {
     int x, y;
   };
+  template <class Wanted>
+  bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
   bool trace(Film& film);
 
   const BlockSetup& setup_;

@@ -1,6 +1,5 @@
 #include "render/renderer/render_options.h"
 
-#include "render/frame/film.h"
 #include "render/frame/memory.h"
 #include "render/image/image.h"
 #include "simd/abi/stream.h"
@@ -47,7 +46,6 @@ PixelRect rendered_rect(const RenderOptions& options) {
 
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres) {
   if (options.tile != 0) return options.tile;
-  if (options.order != PixelOrder::rows && options.order != PixelOrder::tiles) return smallest_fit;
   const bool large = fitting_stream_size(spheres) > usual_fit * usual_fit;
   const std::uint64_t blocks_per_worker = large ? 8 : 16;
   const std::uint64_t area = rendered_rect(options).area();

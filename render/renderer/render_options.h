@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "render/frame/film.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/frame/progress.h"
@@ -32,6 +33,9 @@ struct RenderOptions {
   std::string isa = "auto";                       ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;      ///< rendering stops soon after it becomes true
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
+  /// Called by render_live() after each of its passes, on the thread that renders: shows what there
+  /// is, as partial_picture() makes it of the film.
+  std::function<void(const Film&)> update;
 };
 
 /// The options a scene asks for.
@@ -41,8 +45,8 @@ RenderOptions options_of(const Scene& scene);
 PixelRect rendered_rect(const RenderOptions& options);
 
 /// The side of a block, in pixels: options.tile, or, where that is 0, what suits. Large blocks
-/// bring many rays together, a light's above all; but every worker needs some, and an order that is
-/// for watching needs small ones. `spheres`: of the scene.
+/// bring many rays together, a light's above all; but every worker needs some. `spheres`: of the
+/// scene.
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres);
 
 /// The first option out of range, its key as in RenderOptions, or a picture that needs more memory

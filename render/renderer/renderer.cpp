@@ -69,7 +69,7 @@ Result<Image> Renderer::render() {
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
-    if (auto bad = run_blocks(task)) return *bad;
+    if (auto bad = run_blocks(task, {})) return *bad;
     return image;
   } catch (const std::bad_alloc&) {
     return failure("out of memory for the picture");
@@ -82,19 +82,39 @@ Status Renderer::render_pass(Film& film, int until) {
     return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
                    std::to_string(until));
   }
-  return run_blocks([&](BlockWorker& worker, const PixelRect& block) {
+  const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.render(block, until, film);
-  });
+  };
+  return run_blocks(task, {});
 }
 
-Status Renderer::run_blocks(const BlockTask& task) {
+Status Renderer::render_live(Film& film) {
+  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  const std::uint64_t rays_before = count_rays().total();
+  const LivePasses passes(options_.order, rect(), options_.spp);
+  double share = 0;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const LivePass pass = passes[i];
+    const auto task = [&](BlockWorker& worker, const PixelRect& block) {
+      return worker.render(block, pass, film);
+    };
+    const std::uint64_t rays = count_rays().total() - rays_before;
+    if (auto bad = run_blocks(task, {share, pass.share, rays})) return bad;
+    share = pass.share;
+    if (options_.update) options_.update(film);
+  }
+  return std::nullopt;
+}
+
+Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   const Stopwatch watch;
   const std::uint64_t rays_before = count_rays().total();
   std::atomic<std::uint64_t> rays{0};
   std::atomic<std::size_t> done{0};
   const auto report = [&] {
     if (!options_.progress) return;
-    options_.progress({static_cast<double>(done) / static_cast<double>(blocks_.size()), rays});
+    const double share = static_cast<double>(done) / static_cast<double>(blocks_.size());
+    options_.progress({place.begin + (place.end - place.begin) * share, place.rays + rays});
   };
   const auto body = [&](unsigned worker, std::size_t block) {
     if (!workers_[worker]) workers_[worker] = make_worker();

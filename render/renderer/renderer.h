@@ -44,6 +44,10 @@ class Renderer {
   /// keeps what was done: calling again goes on from there.
   Status render_pass(Film& film, int until);
 
+  /// The same while somebody watches: all the passes that the options' order has (LivePasses),
+  /// options.update after each. Cancelled, it is an error, and what the film has can be shown.
+  Status render_live(Film& film);
+
   /// The views that the options select, of the rays through the pixels' centres, unfiltered: as
   /// extra channels for write_image. Their rays count as primary ones. Cancelled, it is an error.
   Result<std::vector<ImageChannel>> render_views();
@@ -65,7 +69,12 @@ class Renderer {
   [[nodiscard]] RayCounts count_rays() const;
   /// Renders a block; false if it was cancelled.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
-  Status run_blocks(const BlockTask& task);
+  /// Where a pass lies in the progress that is told.
+  struct PassPlace {
+    double begin = 0, end = 1;  ///< share of all work
+    std::uint64_t rays = 0;     ///< traced before it
+  };
+  Status run_blocks(const BlockTask& task, const PassPlace& place);
   Status find_views(ViewChannels& channels);
 
   RenderOptions options_;
