@@ -21,6 +21,17 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
+/// The finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// generators", OOPSLA 2014): 64 bits to 64 others, one to one. A cheaper hash than philox().
+inline std::uint64_t mix64(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+/// 2^64 over the golden ratio: counters that go through mix64() go in steps of it.
+inline constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15u;
+
 /// 32 random bits as a double in [0, 1).
 inline double unit_interval(std::uint32_t bits) { return bits * 0x1p-32; }
 

@@ -19,11 +19,16 @@ inline constexpr int max_image_side = 65535;               ///< pixels
 inline constexpr int max_count = 2147483647;               ///< of samples, of bounces
 inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
 
+/// How a pixel is made of the samples around it: box: the mean over the pixel itself; tent: over
+/// twice its width and height, weighted less and less away from its centre, to 0.
+enum class PixelFilter { box, tent };
+
 /// The picture a scene asks for; the command line may override it.
 struct ImageSettings {
   int width = 1280;  ///< pixels, 1 .. 65535
   int height = 720;  ///< pixels, 1 .. 65535
   int spp = 1;       ///< samples per pixel, >= 1
+  PixelFilter filter = PixelFilter::box;
 };
 
 /// How a scene asks to be rendered; the command line may override it.

@@ -103,6 +103,9 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
   add_whole(app, "--spp", command.spp, 1, max_count, "Samples per pixel");
+  add_choice(app, "--filter", command.filter,
+             std::array{Choice{"box", PixelFilter::box}, Choice{"tent", PixelFilter::tent}},
+             "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
             std::numeric_limits<std::uint64_t>::max(), "Seed of the sample positions (0)");
   add_method(app);

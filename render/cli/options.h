@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "core/scene/scene.h"
 #include "render/cli/progress_bar.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
@@ -48,6 +49,7 @@ struct RunOptions {
 struct RenderCommand : RunOptions {
   std::optional<Size> size;
   std::optional<int> spp;
+  std::optional<PixelFilter> filter;
   std::optional<int> max_depth;
   std::optional<PixelRect> crop;
   ViewSelection views;

@@ -44,6 +44,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
     options.height = command.size->height;
   }
   options.spp = command.spp.value_or(options.spp);
+  options.filter = command.filter.value_or(options.filter);
   options.max_depth = command.max_depth.value_or(options.max_depth);
   options.crop = command.crop;
   options.views = command.views;

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 
+#include "core/math/sobol.h"
+#include "core/scene/scene.h"
+
 namespace boule {
 
 /// A place on the image plane, in raster coordinates: pixel (i, j) covers [i, i+1) x [j, j+1).
@@ -9,22 +12,25 @@ struct RasterPoint {
   double x, y;
 };
 
-/// Where a pixel is sampled (lecture "Sampling"): one sample at the centre, or any number n of
-/// stratified ones. The n strata lie in round(sqrt(n)) rows of as even counts as can be, each row
-/// as high as its share, so that all strata have the area 1/n. Depends on pixel, sample, n and
-/// seed only.
+/// Where a pixel is sampled (lecture "Sampling"): one sample at the centre, or any number of them
+/// spread evenly, as sobol_pair() says, whenever one stops. The filter shapes where they lie, not
+/// what they count, so a sample is of one pixel only (Ernst, Stamminger, Greiner, "Filter
+/// importance sampling", 2006): box: all over the pixel; tent: up to a pixel's width from its
+/// centre, the less likely the further. Depends on pixel, sample, seed and filter only, but for a
+/// single sample.
 class Sampler {
  public:
   /// spp: samples per pixel in all, >= 1.
-  Sampler(int spp, std::uint64_t seed);
+  Sampler(int spp, std::uint64_t seed, PixelFilter filter = PixelFilter::box)
+      : single_(spp == 1), keys_(seed), filter_(filter) {}
 
   /// The place of sample 0 <= sample < spp of pixel (x, y).
   [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
 
  private:
-  std::uint64_t seed_;
-  std::uint64_t spp_, rows_;
-  std::uint64_t stride_;  ///< coprime to spp: consecutive samples land far apart
+  bool single_;
+  PixelKeys keys_;
+  PixelFilter filter_;
 };
 
 }  // namespace boule

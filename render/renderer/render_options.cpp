@@ -36,6 +36,7 @@ RenderOptions options_of(const Scene& scene) {
   options.width = scene.image.width;
   options.height = scene.image.height;
   options.spp = scene.image.spp;
+  options.filter = scene.image.filter;
   options.max_depth = scene.render.max_depth;
   return options;
 }

@@ -21,7 +21,7 @@ Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const Kern
     : options_(options),
       scene_(std::make_unique<const PreparedScene>(std::move(scene))),
       setup_(std::make_unique<const BlockSetup>(
-          BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed),
+          BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
                      block_pixels(options.tile), fitting_stream_size(scene_->spheres.size())})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),

@@ -4,13 +4,15 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/math/random.h"
+
 namespace boule {
 namespace {
 
 /// Takes values one after the other, each in 64 bits.
 class Hasher {
  public:
-  void add(std::uint64_t word) { state_ = mix(state_ + word) + 0x9e3779b97f4a7c15u; }
+  void add(std::uint64_t word) { state_ = mix64(state_ + word) + golden_step; }
   void add(float x) { add(std::uint64_t{std::bit_cast<std::uint32_t>(x)}); }
   void add(const Vec3f& v) { add_all(v.x, v.y, v.z); }
   void add(const Color& c) { add_all(c.r, c.g, c.b); }
@@ -53,16 +55,9 @@ class Hasher {
     (add(values), ...);
   }
 
-  [[nodiscard]] std::uint64_t value() const { return mix(state_); }
+  [[nodiscard]] std::uint64_t value() const { return mix64(state_); }
 
  private:
-  /// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-  static std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-
   std::uint64_t state_ = 0;
 };
 

@@ -86,9 +86,11 @@ DirectionalLight read_directional(TomlTable& table) {
 }  // namespace
 
 ImageSettings read_image(TomlTable& table) {
+  constexpr PixelFilter filters[] = {PixelFilter::box, PixelFilter::tent};
   ImageSettings image;
   table.read("size", image.width, image.height);
   table.read("spp", image.spp);
+  image.filter = filters[table.choose("filter", {"box", "tent"})];
   table.finish();
   return image;
 }

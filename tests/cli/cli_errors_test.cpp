@@ -55,6 +55,8 @@ TEST_F(Errors, ABadOptionValueIsWrongUsage) {
       {"--spp", "+1"},
       {"--spp", "0x10"},
       {"--spp", "2147483648"},
+      {"--filter", "gauss"},
+      {"--filter", ""},
       {"--seed", "18446744073709551616"},
       {"--seed", "-1"},
       {"--seed", "x"},

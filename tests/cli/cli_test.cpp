@@ -24,10 +24,11 @@ TEST(Program, HelpGoesToStandardOutput) {
 TEST(Program, HelpOfRenderNamesEveryOption) {
   const ProgramRun run = boule_run({"render", "--help"});
   EXPECT_EQ(run.exit_code, 0);
-  for (const char* option : {"--output",   "--size",   "--spp",      "--seed",  "--max-depth",
-                             "--isa",      "--solver", "--threads",  "--tile",  "--compression",
-                             "--polygons", "--quiet",  "--crop",     "--order", "--exposure",
-                             "--method",   "--aov",    "--progress", "--stats", "--verbose"}) {
+  for (const char* option :
+       {"--output", "--size",    "--spp",      "--seed",        "--max-depth", "--isa",
+        "--solver", "--threads", "--tile",     "--compression", "--polygons",  "--quiet",
+        "--crop",   "--order",   "--exposure", "--method",      "--aov",       "--progress",
+        "--stats",  "--verbose", "--filter"}) {
     EXPECT_THAT(run.out, HasSubstr(option));
   }
 }

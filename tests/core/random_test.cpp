@@ -22,6 +22,16 @@ TEST(Philox, GivesTheKnownAnswers) {
       (Counter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
+// The first outputs of SplitMix64 seeded with 1234567 (Vigna's splitmix64.c): mix64 of a counter.
+TEST(Mix64, GivesTheKnownAnswers) {
+  std::uint64_t counter = 1234567;
+  for (const std::uint64_t expected :
+       {6457827717110365317U, 3203168211198807973U, 9817491932198370423U, 4593380528125082431U}) {
+    counter += golden_step;
+    EXPECT_EQ(mix64(counter), expected);
+  }
+}
+
 TEST(UnitInterval, CoversZeroToBelowOne) {
   EXPECT_EQ(unit_interval(0), 0);
   EXPECT_EQ(unit_interval(1), 0x1p-32);

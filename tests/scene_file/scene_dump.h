@@ -12,7 +12,8 @@ namespace boule::test {
 class SceneDump {
  public:
   explicit SceneDump(const Scene& scene) {
-    add("image", scene.image.width, scene.image.height, scene.image.spp);
+    add("image", scene.image.width, scene.image.height, scene.image.spp,
+        static_cast<int>(scene.image.filter));
     add("render", scene.render.max_depth);
     if (scene.camera) std::visit([this](const auto& any) { dump(any); }, *scene.camera);
     std::visit([this](const auto& any) { dump(any); }, scene.background);

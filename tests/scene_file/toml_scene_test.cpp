@@ -68,7 +68,7 @@ max_depth = 5
 
 TEST(TomlScene, EveryKeyOfEveryType) {
   const Scene scene = load(R"(schema = 1
-image = {size = [1, 65535], spp = 2147483647}
+image = {size = [1, 65535], spp = 2147483647, filter = "tent"}
 render.max_depth = 0
 [camera]
 type = "orthographic"
@@ -126,7 +126,7 @@ material = "a.b c"
 material = "v"
 )");
   Scene expected;
-  expected.image = {1, 65535, 2147483647};
+  expected.image = {1, 65535, 2147483647, PixelFilter::tent};
   expected.render.max_depth = 0;
   expected.camera = OrthographicCamera{{{1, 2, 3}, {4, 5, 7}, {0, 0, 1}}, 0.25f};
   expected.background = GradientBackground{{0.1f, 0.2f, 0.3f}, {1, 2, 3}, {0, 0, 2}};

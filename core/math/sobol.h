@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/random.h"
+
+namespace boule {
+
+/// Two numbers in [0, 1).
+struct UnitPair {
+  double u, v;
+};
+
+namespace detail {
+
+inline std::uint32_t reverse_bits(std::uint32_t x) {
+  x = (x << 24) | ((x & 0xff00U) << 8) | ((x >> 8) & 0xff00U) | (x >> 24);  // one instruction
+  x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
+  x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
+  return ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
+}
+
+/// Each bit flipped by a hash of the bits below it: Owen's scrambling of a fraction whose digits
+/// run from bit 0 on (Laine and Karras 2011; the constants are Vegdahl's, "Building a better LK
+/// hash", 2021, which leave less structure).
+inline std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
+  x ^= x * 0x3d20adeaU;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56U;
+  x ^= x * 0x53a22864U;
+  return x;
+}
+
+/// Pascal's triangle modulo 2 times the bits of x: digits of the second Sobol dimension, the first
+/// in bit 0. A digit is the sum of the bits whose number contains its own (Lucas).
+inline std::uint32_t pascal(std::uint32_t x) {
+  x ^= (x >> 1) & 0x55555555U;
+  x ^= (x >> 2) & 0x33333333U;
+  x ^= (x >> 4) & 0x0f0f0f0fU;
+  x ^= (x >> 8) & 0x00ff00ffU;
+  return x ^ (x >> 16);
+}
+
+}  // namespace detail
+
+/// What the numbers of a sample are for: each has a set of its own.
+enum class RandomSet : std::uint32_t { film };
+
+/// The seed of all random numbers of one pixel, 0 <= x, y: different pixels and different seeds of
+/// pictures have different ones.
+class PixelKeys {
+ public:
+  explicit PixelKeys(std::uint64_t seed) : seed_(mix64(seed)) {}
+
+  [[nodiscard]] std::uint64_t of(int x, int y) const {
+    return mix64(seed_ + (static_cast<std::uint64_t>(y) << 32) + static_cast<std::uint64_t>(x));
+  }
+
+ private:
+  std::uint64_t seed_;
+};
+
+/// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel
+/// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). The first n samples
+/// of a pixel have, for any n, in every rectangle of 2^-a by 2^-b that tiles the unit square,
+/// n 2^-(a+b) points, rounded up or down: no direction, no n and no early stop is worse off. Sets
+/// have nothing to do with each other. Same bits on every machine, in any order.
+inline UnitPair sobol_pair(std::uint64_t key, RandomSet set, std::uint32_t sample) {
+  const std::uint64_t seeds = mix64(key + static_cast<std::uint64_t>(set) * golden_step);
+  const std::uint64_t more = mix64(seeds + golden_step);
+  const auto shuffle = static_cast<std::uint32_t>(seeds);
+  const std::uint32_t index =
+      detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), shuffle));
+  const auto u = detail::scramble(index, static_cast<std::uint32_t>(seeds >> 32));
+  const auto v = detail::scramble(detail::pascal(index), static_cast<std::uint32_t>(more));
+  return {unit_interval(detail::reverse_bits(u)), unit_interval(detail::reverse_bits(v))};
+}
+
+}  // namespace boule
