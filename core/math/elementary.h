@@ -130,6 +130,32 @@ inline double pow(double x, double y) {
   return detail::exp_extended(detail::fast_two_sum(product.hi, product.lo + log.lo * y));
 }
 
+/// x^y for 0 < x <= 1 and y >= 0, for results that become floats: relative error below 2^-38 down
+/// to 2^-200, and 0 far below that. A fraction of the time of pow().
+inline double pow_for_float(double x, double y) {
+  if (x < 0x1p-1022) return y > 0 ? 0 : 1;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto mantissa = bits & 0x000fffffffffffff;
+  const std::uint64_t above_root_2 = mantissa > 0x6a09e667f3bcc ? 1 : 0;
+  const double m = std::bit_cast<double>(mantissa | (1023 - above_root_2) << 52);
+  const double exponent = static_cast<double>(static_cast<int>((bits >> 52) + above_root_2) - 1023);
+  // log m = 2 atanh(s) = 2 s (1 + z / 3 + z^2 / 5 + ..), summed as a tree (Estrin 1960).
+  const double s = (m - 1) / (m + 1), z = s * s, z2 = z * z, z4 = z2 * z2;
+  const double low = (1 + z * (1.0 / 3)) + z2 * (1.0 / 5 + z * (1.0 / 7));
+  const double high = (1.0 / 9 + z * (1.0 / 11)) + z2 * (1.0 / 13 + z * (1.0 / 15));
+  constexpr double two_log2_e = 0x1.71547652b82fep1, ln2 = 0x1.62e42fefa39efp-1;
+  const double log2 = exponent + two_log2_e * s * (low + z4 * (high + z4 * (1.0 / 17)));
+  const double result = y * log2;
+  if (!(result > -1000)) return 0;
+  const double whole = detail::round_to_integer(result), r = (result - whole) * ln2, r2 = r * r;
+  // e^r, likewise.
+  const double a = (1 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const double b = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const double c = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800 + r * (1.0 / 39916800));
+  const double r4 = r2 * r2;
+  return (a + r4 * (b + r4 * c)) * detail::power_of_two(static_cast<int>(whole));
+}
+
 /// tan(x) for 0 <= x < pi / 2, an acute angle in radians; error below 4 ulp.
 inline double tan_acute(double x) {
   // pi / 2 = pio2_hi + pio2_lo: above pi / 4 the cotangent of the complement is used.

@@ -13,7 +13,7 @@ namespace {
 double power(double base, double exponent) {
   constexpr double largest = 1024;
   const auto whole = static_cast<int>(std::min(exponent, largest));
-  if (exponent != whole) return elementary::pow(base, exponent);
+  if (exponent != whole) return elementary::pow_for_float(base, exponent);
   double result = 1;
   for (int n = whole; n > 0; n /= 2) {
     if (n % 2 == 1) result *= base;

@@ -136,6 +136,39 @@ struct alignas(16) FlightRay {
   }
 };
 
+/// What float knows of the roots that may be the hit of a ray which does not look behind its
+/// origin: of the first ones, but of the second where the origin may lie in the sphere.
+struct NextRoots {
+  RealMask in;     ///< spheres that may be hit
+  RealMask sure;   ///< roots that are live for certain, unless `high` is NaN
+  Real low, high;  ///< bounds; NaN where the line does not meet the sphere for certain
+
+  /// Not of spheres in `left_out` lanes, nor of those that begin beyond `reach`.
+  BOULE_INLINE NextRoots(const Approach& approach, const FilterRays& rays, const Real& reach,
+                         const RealMask& left_out) {
+    const auto& [b, discriminant, spread, doubt] = approach;
+    const Real most = sqrt(discriminant + doubt), least = sqrt(discriminant - doubt);
+    low = b - spread - most;
+    high = b + spread - least;
+    const Real second_high = b + spread + most;
+    // NaN, of spheres that the line misses or that are not there, is never in.
+    in = (Real(0.0F) <= second_high) & (low <= reach) & ~left_out;
+    sure = in & (rays.live_from < low);
+    const RealMask around = in & ~sure;
+    if (any(around)) turn_to_second(around, b - spread + least, second_high, rays, reach);
+  }
+
+ private:
+  BOULE_INLINE void turn_to_second(const RealMask& around, const Real& second_low,
+                                   const Real& second_high, const FilterRays& rays,
+                                   const Real& reach) {
+    low = select(around & (high < Real(0.0F)), second_low, low);
+    in = in & (low <= reach);
+    sure = sure | (around & (rays.live_from < second_low));
+    high = select(around, second_high, high);
+  }
+};
+
 /// Spheres that may be the nearest hit: only a double solve tells.
 struct FlightCandidates {
   /// More are too many, but those of one more leaf find room.

@@ -270,24 +270,19 @@ class Flights {
     for (std::uint32_t at = 0; at < bvh_leaf_size; at += lanes) {
       const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
                               load(leaf.center_z + at)};
-      const Approach approach = find_approach(rays, center, load(leaf.radius + at));
-      const RootBounds roots = bound_roots(approach);
-      const Real low = lowest(roots, rays);
-      // Where there is no sphere all this is NaN. Else, of rays that floats can judge, nothing is.
-      RealMask in = (Real(0.0F) <= approach.discriminant + approach.doubt) &
-                    (rays.dead_below <= roots.second_high) & (low <= reach);
-      if (flight.source >= 0) in = in & ~source_in(flight, slot + at);
+      const RealMask own = source_in(flight, slot + at);
+      const NextRoots roots(find_approach(rays, center, load(leaf.radius + at)), rays, reach, own);
       if constexpr (seeks_any) {
-        if (any(in & live(roots, rays))) {
+        if (any(roots.sure & (roots.high <= rays.live_to))) {
           answers_[flight.index] = 1;
           flight.pending.clear();
           flight.candidates.size = 0;
           return;
         }
       } else {
-        least = filter_min(least, select(in, highest(roots, rays), none));
+        least = lesser_or(select(roots.sure, roots.high, none), least);
       }
-      flight.candidates.add(low, count_from(slot + at), bits(in));
+      flight.candidates.add(roots.low, count_from(slot + at), bits(roots.in));
     }
     if constexpr (!seeks_any) flight.ray.reach = least_lane(least);
     if (flight.candidates.size > FlightCandidates::most) make_room(flight);

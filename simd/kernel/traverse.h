@@ -18,22 +18,28 @@ namespace boule::BOULE_KERNEL_ISA {
 class TreeBlocks {
  public:
   BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
-      : first_{reinterpret_cast<const char*>(geometry.bvh.nodes),
-               reinterpret_cast<const char*>(geometry.spheres.blocks +
-                                             geometry.spheres.scanned / bvh_leaf_size)} {}
+      : first_{as_bytes(geometry.bvh.nodes),
+               as_bytes(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size)},
+        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)} {}
 
   /// The node or the leaf that a child is. Asks for what its visit will read: a large tree is not
   /// in the cache.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
-    const std::size_t leaf = child >> 31;
+    const std::size_t leaf = child >> 31, place = place_of(child);
     static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
-    const char* const block = first_[leaf] + (std::size_t{place_of(child)} << (9 - leaf));
+    const char* const block = first_[leaf] + (place << (9 - leaf));
     prefetch(block);
     prefetch(block + (256 - 256 * leaf));
+    static_assert(bvh_leaf_size * sizeof(std::int32_t) == 64);
+    __builtin_prefetch(ids_[leaf] + (place << (9 - 3 * leaf)));
     return block;
   }
 
  private:
+  template <class T>
+  BOULE_INLINE static const char* as_bytes(const T* p) {
+    return reinterpret_cast<const char*>(p);
+  }
   /// 256 bytes.
   BOULE_INLINE static void prefetch(const char* begin) {
     __builtin_prefetch(begin);
@@ -43,6 +49,7 @@ class TreeBlocks {
   }
 
   const char* first_[2];  ///< the first node, and the first leaf
+  const char* ids_[2];    ///< the first leaf's ids; a node has none, and asks for itself once more
 };
 
 /// A child to visit: where the first ray enters it.

@@ -2,6 +2,7 @@
 
 #include <mpfr.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -58,6 +59,9 @@ const Function exp_function{
     [](Exact& result, Exact& x, Exact&) { mpfr_exp(result.get(), x.get(), MPFR_RNDN); }};
 const Function pow_function{
     "pow", [](double x, double y) { return elementary::pow(x, y); },
+    [](Exact& result, Exact& x, Exact& y) { mpfr_pow(result.get(), x.get(), y.get(), MPFR_RNDN); }};
+const Function pow_for_float_function{
+    "pow_for_float", [](double x, double y) { return elementary::pow_for_float(x, y); },
     [](Exact& result, Exact& x, Exact& y) { mpfr_pow(result.get(), x.get(), y.get(), MPFR_RNDN); }};
 const Function tan_function{
     "tan", [](double x, double) { return elementary::tan_acute(x); },
@@ -124,10 +128,20 @@ const Sweep sweeps[] = {
      }},
     {"ExpDenormalResults", exp_function, 1,
      [](std::mt19937_64& bits, double& x, double&) { x = uniform(bits, -746, -708); }},
-    {"PowHighlight", pow_function, 1,  // what shading asks for
+    {"PowHighlight", pow_for_float_function, 0x1p15,  // what shading asks for
      [](std::mt19937_64& bits, double& x, double& y) {
        x = uniform(bits, 0, 1);
-       y = uniform(bits, 0, 200);
+       y = uniform(bits, 0, 1) * std::min(200.0, -200 / std::log2(x));
+     }},
+    {"PowSharpHighlight", pow_for_float_function, 0x1p15,
+     [](std::mt19937_64& bits, double& x, double& y) {
+       x = 1 - std::exp(uniform(bits, -36, -1));
+       y = uniform(bits, 0, 1) * -200 / std::log2(x);
+     }},
+    {"PowSmallBase", pow_for_float_function, 0x1p15,
+     [](std::mt19937_64& bits, double& x, double& y) {
+       x = std::exp(uniform(bits, -708, 0));
+       y = uniform(bits, 0, 1) * -200 / std::log2(x);
      }},
     {"PowGamma", pow_function, 1,  // what tone asks for
      [](std::mt19937_64& bits, double& x, double& y) {
@@ -161,6 +175,16 @@ const Sweep sweeps[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Mpfr, ElementarySweep, testing::ValuesIn(sweeps),
                          [](const auto& sweep) { return sweep.param.name; });
+
+TEST(Elementary, PowForFloatAtTheEdges) {
+  EXPECT_EQ(elementary::pow_for_float(1, 1e38), 1);
+  EXPECT_EQ(elementary::pow_for_float(0.3, 0), 1);
+  EXPECT_EQ(elementary::pow_for_float(0x1p-1074, 0), 1);
+  EXPECT_EQ(elementary::pow_for_float(0x1p-1074, 0.5), 0);
+  EXPECT_EQ(elementary::pow_for_float(0.5, 1e38), 0);
+  EXPECT_EQ(elementary::pow_for_float(0.5, 3), 0.125);
+  EXPECT_EQ(elementary::pow_for_float(1 - 0x1p-53, 1), 1 - 0x1p-53);
+}
 
 TEST(Elementary, ExpAtTheEdges) {
   EXPECT_EQ(elementary::exp(0.0), 1);
