@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/math/geometry.h"
+#include "core/scene/instances.h"
 
 namespace boule {
 namespace {
@@ -109,16 +110,30 @@ Status located(const std::string& place, const std::optional<Problem>& problem) 
 bool is_valid(const Plane& plane) { return !find_problem(plane); }
 
 template <class Primitive>
-Status check_primitives(const char* name, const std::vector<Primitive>& primitives,
+Status check_primitives(const std::string& name, const std::vector<Primitive>& primitives,
                         const Scene& scene) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const bool has_material = primitives[i].material < scene.materials.size();
     if (is_valid(primitives[i]) && has_material) continue;
-    const std::string place = std::string(name) + "[" + std::to_string(i) + "]";
+    const std::string place = name + "[" + std::to_string(i) + "]";
     if (auto problem = find_problem(primitives[i])) return located(place, problem);
     return Diagnostic{"names no material of the scene", place + ".material", {}, 0, 0};
   }
   return std::nullopt;
+}
+
+Status check_objects(const Scene& scene) {
+  if (auto bad = check_primitives("sphere", scene.spheres, scene)) return bad;
+  if (auto bad = check_primitives("plane", scene.planes, scene)) return bad;
+  for (const Group& group : scene.groups) {
+    const std::string path = "group." + group.name + ".";
+    if (auto bad = check_primitives(path + "sphere", group.spheres, scene)) return bad;
+    if (auto bad = check_primitives(path + "plane", group.planes, scene)) return bad;
+  }
+  const auto bad = find_instance_problem(scene);
+  if (!bad) return std::nullopt;
+  const std::string path = bad->group ? "group." + scene.groups[*bad->group].name + "." : "";
+  return located(path + "instance[" + std::to_string(bad->instance) + "]", bad->problem);
 }
 
 Status check_settings(const Scene& scene) {
@@ -144,6 +159,14 @@ std::optional<Problem> find_problem(const Sphere& sphere) {
 
 std::optional<Problem> find_problem(const Plane& plane) {
   return Checker{}.finite("point", plane.point).direction("normal", plane.normal).problem();
+}
+
+std::optional<Problem> find_problem(const Instance& instance) {
+  return Checker{}
+      .finite("translate", instance.translate)
+      .finite("rotate", instance.rotate)
+      .positive("scale", instance.scale)
+      .problem();
 }
 
 std::optional<Problem> find_problem(const Camera& camera) {
@@ -202,8 +225,7 @@ Status validate_all_but_primitives(const Scene& scene) {
 
 Status validate(const Scene& scene) {
   if (auto bad = validate_all_but_primitives(scene)) return bad;
-  if (auto bad = check_primitives("sphere", scene.spheres, scene)) return bad;
-  return check_primitives("plane", scene.planes, scene);
+  return check_objects(scene);
 }
 
 }  // namespace boule

@@ -9,6 +9,7 @@
 #include "core/math/color.h"
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
+#include "core/scene/group.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
 #include "core/scene/primitive.h"
@@ -42,7 +43,8 @@ struct NamedMaterial {
 };
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
-/// Primitive ids: spheres in order, then planes in order.
+/// Primitive ids: spheres in order, then those of the instances (visit_spheres()), then planes
+/// likewise.
 struct Scene {
   ImageSettings image;
   RenderSettings render;
@@ -53,15 +55,18 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
+  std::vector<Group> groups;  ///< what instances show; by itself a group shows nothing
+  std::vector<Instance> instances;
 };
 
 /// The first thing wrong with a scene, its key a dotted path as in the scene file
-/// ("camera.fov", "sphere[3].radius", "material.red.ior"), or nothing. Whoever renders a scene
-/// made in memory calls this first; the readers return only scenes that pass.
+/// ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"), or nothing. Whoever renders
+/// a scene made in memory calls this first; the readers return only scenes that pass.
 Status validate(const Scene& scene);
 
 /// As validate(), for readers that have checked each sphere and plane when they read it, and given
 /// it a material that there is: not once more, there may be millions. Their number is checked.
+/// Instances they check by find_instance_problem().
 Status validate_all_but_primitives(const Scene& scene);
 
 /// Nothing, or a Diagnostic with this key that says which whole numbers would do: low to high, or

@@ -1,4 +1,7 @@
+#include <utility>
+
 #include "render/cli/commands.h"
+#include "render/cli/fitting_scene.h"
 #include "render/cli/messages.h"
 #include "render/cli/scene_info.h"
 
@@ -40,9 +43,9 @@ std::string as_text(const Json& info) {
 }  // namespace
 
 ExitCode run(const InfoCommand& command) {
-  const auto loaded = load_scene(command.scene);
+  auto loaded = load_fitting_scene(command.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
-  const Json info = scene_info(loaded.value(), command.scene);
+  const Json info = scene_info(std::move(loaded).value(), command.scene);
   // A file name may hold any bytes: what is not UTF-8 is replaced rather than refused.
   const auto as_json = [&] {
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

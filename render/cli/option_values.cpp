@@ -45,6 +45,14 @@ bool* find_view(ViewSelection& views, const std::string& name) {
 
 }  // namespace
 
+std::optional<FrameRange> parse_frames(const std::string& text) {
+  constexpr int last_frame = 999'999'999;
+  if (const auto one = parse_number(text, 0, last_frame)) return FrameRange{*one, *one};
+  const auto ends = split_numbers(text, '-', 2, 0, last_frame);
+  if (!ends || (*ends)[0] > (*ends)[1]) return std::nullopt;
+  return FrameRange{(*ends)[0], (*ends)[1]};
+}
+
 std::optional<Size> parse_size(const std::string& text) {
   const auto sides = split_numbers(text, 'x', 2, 1, max_image_side);
   if (!sides) return std::nullopt;

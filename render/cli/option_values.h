@@ -18,6 +18,9 @@ std::optional<Number> parse_number(const std::string& text, Number low, Number h
   return good ? std::optional(number) : std::nullopt;
 }
 
+/// "A-B" with 0 <= A <= B, or "A" alone.
+std::optional<FrameRange> parse_frames(const std::string& text);
+
 /// "1280x720", each side 1 to 65535.
 std::optional<Size> parse_size(const std::string& text);
 

@@ -113,6 +113,10 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
+  add_parsed(app, "--frames", command.frames, parse_frames, "A-B with 0 <= A <= B", "A-B",
+             "Render a series: #### in the names of scene, data and output is the frame's number");
+  app.add_flag("--skip-existing", command.skip_existing,
+               "Leave a picture alone that is there already, finished, readable, of this size");
   add_parsed(app, "--aov", command.views, parse_views,
              "some of depth,normal,position,id,albedo, each once", "NAMES",
              "More channels in an EXR picture, each pixel's centre, unfiltered: any of "

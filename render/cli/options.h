@@ -21,6 +21,11 @@ struct Size {
   int width, height;
 };
 
+/// Frames of a series, both ends among them.
+struct FrameRange {
+  int first, last;
+};
+
 /// How statistics are written: text for people, on standard error, or JSON.
 enum class StatsForm { none, text, json };
 
@@ -47,6 +52,8 @@ struct RunOptions {
 
 /// `boule render`: what is not given comes from the scene.
 struct RenderCommand : RunOptions {
+  std::optional<FrameRange> frames;
+  std::optional<int> frame;  ///< the one of them that is rendered: names have its number
   std::optional<Size> size;
   std::optional<int> spp;
   std::optional<PixelFilter> filter;
@@ -57,7 +64,8 @@ struct RenderCommand : RunOptions {
   int tile = 0;                      ///< what fits
   std::optional<PixelOrder> order;   ///< tiles, or progressive for a partial picture
   std::optional<double> time_limit;  ///< seconds of rendering
-  bool partial = false;              ///< ended early: write what there is
+  bool skip_existing = false;
+  bool partial = false;  ///< ended early: write what there is
   Compression compression = Compression::zip;
   float exposure_stops = 0;
   PolygonPolicy polygons = PolygonPolicy::plane;

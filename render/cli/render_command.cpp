@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "render/cli/commands.h"
+#include "render/cli/fitting_scene.h"
+#include "render/cli/frames.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/picture_header.h"
@@ -11,6 +13,7 @@
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/stopwatch.h"
+#include "render/image/finished_picture.h"
 #include "render/image/image_format.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
@@ -59,24 +62,33 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   return options;
 }
 
+/// report(), the frame named where there is one.
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
+  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
+  return report(error, code);
+}
+
 /// A size that the scene asks for is the scene's fault, one from the command line the caller's.
-ExitCode report_refusal(Diagnostic error, const RenderCommand& command) {
+ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
   const bool of_scene = error.key == "image.size" && !command.size;
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
-  return report(error, of_scene ? invalid_input : of_usage ? wrong_usage : failed);
+  return refuse(std::move(error), command,
+                of_scene   ? invalid_input
+                : of_usage ? wrong_usage
+                           : failed);
 }
 
 /// One run of `boule render`, step by step; each step that fails leaves its exit code.
 class Rendering {
  public:
-  explicit Rendering(const RenderCommand& command) : command_(command), report_(command) {}
+  explicit Rendering(RenderCommand command) : command_(std::move(command)), report_(command_) {}
 
   ExitCode run();
 
  private:
   /// Loads the scene and hands it over to be prepared: nothing stays of what was loaded, it may be
-  /// as large as all the rest.
+  /// as large as all the rest. No renderer and done: the picture is there already.
   ExitCode prepare(std::optional<Renderer>& renderer);
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
@@ -86,7 +98,7 @@ class Rendering {
   void tell_end(const Renderer& renderer, const Image& image) const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
-  const RenderCommand& command_;
+  const RenderCommand command_;  ///< before what refers to it
   RunReport report_;
   Stopwatch watch_;
   Stats stats_;
@@ -95,26 +107,31 @@ class Rendering {
 };
 
 ExitCode Rendering::run() {
-  if (auto bad = check(command_)) return report(*bad, wrong_usage);
+  if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
-  if (prepared != done) return prepared;
+  if (prepared != done || !renderer) return prepared;
   for (const std::string& text : renderer->notes()) report_.note("boule: note: " + text);
   return render(*renderer);
 }
 
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
-  auto loaded = load_scene(command_.scene, {command_.polygons});
-  if (!loaded) return report(loaded.error(), invalid_input);
+  auto loaded = load_fitting_scene(command_.scene, {command_.polygons, command_.frame});
+  if (!loaded) return refuse(loaded.error(), command_, invalid_input);
   Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);
+  const PixelRect rect = rendered_rect(options);
+  if (command_.skip_existing && is_finished_picture(command_.output, rect.width(), rect.height())) {
+    report_.note("boule: " + command_.output + ": is there already, skipped");
+    return done;
+  }
   options.progress = [this](const Progress& progress) { report_.progress(progress); };
   auto created = Renderer::create(std::move(scene), options);
-  if (!created) return report_refusal(created.error(), command_);
+  if (!created) return refuse_scene(created.error(), command_);
   renderer = std::move(created).value();
   return done;
 }
@@ -157,12 +174,12 @@ Result<Image> Rendering::make_image(Renderer& renderer) {
 /// knows only that, not why.
 ExitCode Rendering::explain(const Diagnostic& error) const {
   if (StopGuard::caught() != 0) leave_as_caught();
-  if (!StopGuard::flag()) return report(error, failed);
+  if (!StopGuard::flag()) return refuse(error, command_, failed);
   const std::string limit = fmt::format("the time limit of {} s came ", *command_.time_limit);
   const char* const end = command_.partial
                               ? "before the first sample, nothing written"
                               : "first, nothing written; --partial writes what there is";
-  return report({limit + end, {}, {}, 0, 0}, failed);
+  return refuse({limit + end, {}, {}, 0, 0}, command_, failed);
 }
 
 ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
@@ -195,7 +212,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   }
   exit_if_interrupted();
   stats_.write_seconds = watch.seconds();
-  return status ? report(*status, failed) : done;
+  return status ? refuse(*status, command_, failed) : done;
 }
 
 /// After the picture: the line that says so, and the statistics.
@@ -230,6 +247,15 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
 
 }  // namespace
 
-ExitCode run(const RenderCommand& command) { return Rendering(command).run(); }
+ExitCode run(const RenderCommand& command) {
+  if (!command.frames) return Rendering(command).run();
+  if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
+  for (int frame = command.frames->first; frame <= command.frames->last; ++frame) {
+    const ExitCode code = Rendering(command_of_frame(command, frame)).run();
+    if (code != done) return code;
+    set_written("earlier frames had been written, this one not");
+  }
+  return done;
+}
 
 }  // namespace boule::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "core/scene/instances.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "simd/dispatch/dispatch.h"
@@ -67,8 +68,9 @@ void RunReport::detail(const std::string& text) const {
 void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
   for (const std::string& warning : loaded.warnings) note(warning);
   const Scene& scene = loaded.scene;
+  const PrimitiveCount count = count_primitives(scene);
   detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", options_.scene,
-                     counted(scene.spheres.size(), "sphere"), counted(scene.planes.size(), "plane"),
+                     counted(count.spheres, "sphere"), counted(count.planes, "plane"),
                      counted(scene.lights.size(), "light"),
                      counted(scene.materials.size(), "material"), seconds));
 }

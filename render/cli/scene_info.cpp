@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
+#include "core/scene/instances.h"
 #include "render/prepare/default_view.h"
 #include "render/renderer/scene_hash.h"
 
@@ -148,8 +150,10 @@ void add_view(Json& json, const Scene& scene) {
 
 }  // namespace
 
-nlohmann::ordered_json scene_info(const LoadedScene& loaded, const std::string& path) {
-  const Scene& scene = loaded.scene;
+nlohmann::ordered_json scene_info(LoadedScene loaded, const std::string& path) {
+  Scene& scene = loaded.scene;
+  const std::size_t groups = scene.groups.size(), instances = scene.instances.size();
+  expand_instances(scene);
   Json json = {{"schema", 1},
                {"file", path},
                {"hash", fmt::format("{:016x}", scene_hash(scene))},
@@ -158,6 +162,8 @@ nlohmann::ordered_json scene_info(const LoadedScene& loaded, const std::string& 
                {"max_depth", scene.render.max_depth},
                {"spheres", scene.spheres.size()},
                {"planes", scene.planes.size()},
+               {"groups", groups},
+               {"instances", instances},
                {"bounds", describe_bounds(scene.spheres)}};
   add_view(json, scene);
   Json materials = Json::array();

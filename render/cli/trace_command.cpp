@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/cli/commands.h"
+#include "render/cli/fitting_scene.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/run_report.h"
@@ -63,7 +64,7 @@ class Tracing {
 
 ExitCode Tracing::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
-  auto loaded = load_scene(command_.scene);
+  auto loaded = load_fitting_scene(command_.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
   auto rays = RayFile::open(command_.rays);
   if (!rays) return report(rays.error(), invalid_input);

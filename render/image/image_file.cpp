@@ -254,6 +254,22 @@ void check_picture(const Picture& picture, const char* path, Report* report) {
   }
 }
 
+void inspect_picture(const char* path, const char* format, FoundPicture& picture, Report* report) {
+  const auto input = OIIO::ImageInput::create(format);
+  OIIO::ImageSpec found;
+  if (!input || !input->open(path, found)) {
+    return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
+  }
+  const std::string description = found.get_string_attribute("ImageDescription");
+  picture = {found.width, found.height, description.rfind("partial: ", 0) == 0};
+  std::vector<unsigned char> row(static_cast<size_t>(found.scanline_bytes(true)));
+  for (int y = found.y; y < found.y + found.height; ++y) {
+    if (!input->read_scanline(y, 0, OIIO::TypeUnknown, row.data())) {
+      return fail(report, "unreadable: " + reason_of(input->geterror()));
+    }
+  }
+}
+
 /// Runs a step so that no exception leaves the module.
 template <class Step>
 void guarded(Report* report, Step step) {
@@ -275,7 +291,11 @@ void check(const Picture* picture, const char* path, Report* report) {
   guarded(report, [&] { check_picture(*picture, path, report); });
 }
 
-constexpr Table table = {version, write, check};
+void inspect(const char* path, const char* format, FoundPicture* found, Report* report) {
+  guarded(report, [&] { inspect_picture(path, format, *found, report); });
+}
+
+constexpr Table table = {version, write, check, inspect};
 
 }  // namespace
 }  // namespace boule::image_module

@@ -8,7 +8,7 @@
 namespace boule::image_module {
 
 /// Changes with any change of this file; the loader refuses a module of another version.
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 2;
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
@@ -55,12 +55,19 @@ struct Report {
   char text[400];
 };
 
+/// What a file on the disk holds.
+struct FoundPicture {
+  int width, height;  ///< of the data window
+  bool partial;       ///< its ImageDescription begins with "partial: "
+};
+
 /// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
-/// anew and reads its header, its first and its last row.
+/// anew and reads its header, its first and its last row; `inspect` reads all of it.
 struct Table {
   std::uint32_t version;
   void (*write)(const Picture* picture, int descriptor, Report* report);
   void (*check)(const Picture* picture, const char* path, Report* report);
+  void (*inspect)(const char* path, const char* format, FoundPicture* found, Report* report);
 };
 
 }  // namespace boule::image_module

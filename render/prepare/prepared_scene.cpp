@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/scene/instances.h"
 #include "render/prepare/default_view.h"
 #include "simd/build/camera_builder.h"
 
@@ -25,6 +26,7 @@ Coherence primary_coherence(const Camera& camera) {
 }  // namespace
 
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for) {
+  expand_instances(scene);
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
   if (!scene.camera) {

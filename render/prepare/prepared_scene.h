@@ -37,6 +37,7 @@ struct PreparedScene {
 
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
 /// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.
+/// Instances become spheres and planes (expand_instances()).
 /// Spheres and planes are kept, not copied: move a scene here that is not needed any more.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for);

@@ -7,6 +7,7 @@
 #include "render/frame/float_environment.h"
 #include "render/frame/stopwatch.h"
 #include "render/integrators/whitted.h"
+#include "render/renderer/scene_memory.h"
 #include "render/renderer/view_worker.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -41,6 +42,7 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
   const FloatEnvironment environment;
   const Stopwatch watch;
   if (auto bad = validate(scene)) return *bad;
+  if (auto bad = check_scene_memory(scene)) return *bad;
   if (auto bad = validate(options)) return *bad;
   const Result<const KernelTable*> selected = select_kernels(options.isa);
   if (!selected) return selected.error();

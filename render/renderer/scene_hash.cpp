@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/math/random.h"
+#include "core/scene/instances.h"
 
 namespace boule {
 namespace {
@@ -67,8 +68,12 @@ std::uint64_t scene_hash(const Scene& scene) {
   Hasher hash;
   hash.add(std::uint64_t{scene.camera.has_value()});
   if (scene.camera) hash.add(*scene.camera);
-  hash.add_all(scene.background, scene.ambient, scene.materials, scene.lights, scene.spheres,
-               scene.planes);
+  hash.add_all(scene.background, scene.ambient, scene.materials, scene.lights);
+  const PrimitiveCount count = count_primitives(scene);
+  hash.add(count.spheres);
+  visit_spheres(scene, [&hash](const Sphere& sphere) { hash.add(sphere); });
+  hash.add(count.planes);
+  visit_planes(scene, [&hash](const Plane& plane) { hash.add(plane); });
   return hash.value();
 }
 

@@ -7,9 +7,10 @@
 namespace boule {
 
 /// 64 bits that tell scenes apart: a hash of all values that a picture of the scene depends on,
-/// camera, background, ambient light, materials, lights and objects in order. Names, image and
-/// render settings are not in it, nor is the file's wording: a scene has the same hash from TOML,
-/// from .npy and from memory, on every machine. Not cryptographic.
+/// camera, background, ambient light, materials, lights and objects in order, those of instances as
+/// if they were written out. Names, image and render settings are not in it, nor is the file's
+/// wording: a scene has the same hash from TOML, from .npy and from memory, on every machine. Not
+/// cryptographic.
 std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace boule

@@ -4,8 +4,10 @@
 #include <new>
 #include <utility>
 
+#include "core/scene/instances.h"
 #include "render/frame/float_environment.h"
 #include "render/frame/stopwatch.h"
+#include "render/renderer/scene_memory.h"
 #include "render/shading/surface.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
@@ -59,12 +61,14 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
   const FloatEnvironment environment;
   const Stopwatch watch;
   if (auto bad = validate(scene)) return *bad;
+  if (auto bad = check_scene_memory(scene)) return *bad;
   const Result<const KernelTable*> selected = select_kernels(options.isa);
   if (!selected) return selected.error();
   const bool reference = options.solver == Solver::reference;
   try {
-    Tracer tracer(std::forward<AnyScene>(scene), options,
-                  reference ? reference_kernels() : *selected.value());
+    Scene objects(std::forward<AnyScene>(scene));
+    expand_instances(objects);
+    Tracer tracer(std::move(objects), options, reference ? reference_kernels() : *selected.value());
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
   } catch (const std::bad_alloc&) {

@@ -29,7 +29,8 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
   }
   const auto text = read_text(path);
   if (!text) return text.error();
-  return is_toml ? read_toml(text.value(), path) : read_nff(text.value(), path, options.polygons);
+  return is_toml ? read_toml(text.value(), path, options.frame)
+                 : read_nff(text.value(), path, options.polygons);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ enum class PolygonPolicy { plane, skip, error };
 /// How a scene file is read.
 struct SceneFileOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
+  std::optional<int> frame{};  ///< of a series: where the camera is, and which data files are meant
 };
 
 /// A scene that passed validate(), and remarks for the user that are not errors.

@@ -37,14 +37,22 @@ const TomlValue* TomlTable::find(std::string_view key) {
   return find_member(*members_, key);
 }
 
+/// The dotted path of a key of this table.
+std::string TomlTable::path_of(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
 void TomlTable::report_at(TextPlace place, std::string_view key, std::string message) {
-  const std::string name = safe_name(key);
-  error_->report(place, path_.empty() ? name : path_ + "." + name, std::move(message));
+  error_->report(place, path_of(safe_name(key)), std::move(message));
+}
+
+TextPlace TomlTable::place_of(std::string_view key) const {
+  const TomlValue* value = find_member(*members_, key);
+  return value != nullptr ? value->place : place_;
 }
 
 void TomlTable::report(std::string_view key, std::string message) {
-  const TomlValue* value = find_member(*members_, key);
-  report_at(value != nullptr ? value->place : place_, key, std::move(message));
+  report_at(place_of(key), key, std::move(message));
 }
 
 void TomlTable::report_type(const TomlValue& value, std::string_view key,
@@ -149,7 +157,7 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const TomlValue* value = find(key);
   if (value == nullptr) return std::nullopt;
   const auto* members = std::get_if<TomlMembers>(&value->data);
-  if (members != nullptr) return TomlTable(*members, value->place, std::string(key), *error_);
+  if (members != nullptr) return TomlTable(*members, value->place, path_of(key), *error_);
   report_type(*value, key, "a table");
   return std::nullopt;
 }
@@ -158,7 +166,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   std::vector<TomlTable> list;
   const TomlValue* value = find(key);
   if (value == nullptr) return list;
-  const std::string expected = "tables, each under a header [[" + std::string(key) + "]]";
+  const std::string expected = "tables, each under a header [[" + path_of(key) + "]]";
   const auto* array = std::get_if<TomlArray>(&value->data);
   if (array == nullptr) {
     report_type(*value, key, expected);
@@ -166,12 +174,12 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   }
   for (const TomlValue& element : *array) {
     const auto* members = std::get_if<TomlMembers>(&element.data);
-    const std::string path = std::string(key) + "[" + std::to_string(list.size()) + "]";
+    const std::string name = std::string(key) + "[" + std::to_string(list.size()) + "]";
     if (members == nullptr) {
-      report_type(element, path, expected);
+      report_type(element, name, expected);
       return list;
     }
-    list.push_back(TomlTable(*members, element.place, path, *error_));
+    list.push_back(TomlTable(*members, element.place, path_of(name), *error_));
   }
   return list;
 }

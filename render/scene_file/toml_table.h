@@ -57,13 +57,15 @@ class TomlTable {
   /// Reports an error of `key`: at its value, or at the table where it is absent.
   void report(std::string_view key, std::string message);
 
-  /// Where the table begins.
+  /// Where the table begins, and where the value under `key` does (the table, if it is absent).
   [[nodiscard]] TextPlace place() const { return place_; }
+  [[nodiscard]] TextPlace place_of(std::string_view key) const;
   /// Its name in the table around it: "red" for [material.red]; else "".
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
   const TomlValue* find(std::string_view key);
+  [[nodiscard]] std::string path_of(std::string_view key) const;
   void report_at(TextPlace place, std::string_view key, std::string message);
   void report_type(const TomlValue& value, std::string_view key, const std::string& expected);
   const TomlArray* find_array(std::string_view key, std::size_t count, const char* of_what);

@@ -33,6 +33,8 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("max_depth"), 5);
   EXPECT_EQ(found.at("spheres"), 1);
   EXPECT_EQ(found.at("planes"), 1);
+  EXPECT_EQ(found.at("groups"), 0);
+  EXPECT_EQ(found.at("instances"), 0);
   EXPECT_EQ(found.at("bounds"), json::parse(R"({"min": [-1, 0, -1], "max": [1, 2, 1]})"));
   EXPECT_EQ(found.at("camera"), json::parse(R"({"type": "pinhole", "eye": [0, 1, 5],
       "look_at": [0, 0.8, 0], "up": [0, 1, 0], "fov": 45, "fov_axis": "x"})"));
@@ -48,7 +50,35 @@ TEST_F(Info, JsonTellsEverything) {
       {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8]}])"));
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 16u);
+  EXPECT_EQ(found.size(), 18u);
+}
+
+TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
+  const std::string grouped = write("grouped.toml", R"(schema = 1
+[[group.pair.sphere]]
+center = [1, 0, 0]
+[[group.pair.sphere]]
+center = [-1, 0, 0]
+[[group.pair.plane]]
+[[instance]]
+group = "pair"
+[[instance]]
+group = "pair"
+translate = [0, 5, 0]
+rotate = [0, 0, 90]
+scale = 2
+)");
+  const std::string flat = write("flat.toml", R"(schema = 1
+sphere = [{center = [1, 0, 0]}, {center = [-1, 0, 0]}, {center = [0, 7, 0], radius = 2},
+          {center = [0, 3, 0], radius = 2}]
+plane = [{}, {point = [0, 5, 0], normal = [-1, 0, 0]}]
+)");
+  const json found = info(grouped), expected = info(flat);
+  EXPECT_EQ(found.at("groups"), 1);
+  EXPECT_EQ(found.at("instances"), 2);
+  for (const char* key : {"spheres", "planes", "bounds", "hash", "camera"}) {
+    EXPECT_EQ(found.at(key), expected.at(key)) << key;
+  }
 }
 
 TEST_F(Info, EveryKindOfThingIsNamed) {

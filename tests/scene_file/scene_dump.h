@@ -27,11 +27,22 @@ class SceneDump {
     }
     for (const Sphere& s : scene.spheres) add("sphere", s.center, s.radius, s.material);
     for (const Plane& p : scene.planes) add("plane", p.point, p.normal, p.material);
+    for (const Group& g : scene.groups) {
+      add("group " + g.name);
+      for (const Sphere& s : g.spheres) add("sphere", s.center, s.radius, s.material);
+      for (const Plane& p : g.planes) add("plane", p.point, p.normal, p.material);
+      for (const Instance& i : g.instances) dump(i);
+    }
+    for (const Instance& i : scene.instances) dump(i);
   }
 
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  void dump(const Instance& i) {
+    add("instance", i.group, i.translate, i.rotate, i.scale);
+    if (i.material) add("material", *i.material);
+  }
   void dump(const PinholeCamera& c) {
     add("pinhole", c.pose.eye, c.pose.look_at, c.pose.up, c.fov, static_cast<int>(c.fov_axis));
   }

@@ -84,12 +84,26 @@ TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
   const std::string readme = read_bytes(scenes_folder() / "README.md");
   const ReadmeFolder folder;
   // A reader lists the keys it knows in its error about one that it does not.
-  for (const char* table :
-       {"[image]", "[render]", "[camera]", "[camera]\ntype='orthographic'", "[background]",
-        "[background]\ntype='gradient'", "[[light]]", "[[light]]\ntype='directional'",
-        "[material.a]", "[material.a]\ntype='plastic'", "[material.a]\ntype='metal'",
-        "[material.a]\ntype='glass'", "[material.a]\ntype='emissive'", "[material.a]\ntype='phong'",
-        "[[sphere]]", "[[spheres]]", "[[plane]]"}) {
+  for (const char* table : {"[image]",
+                            "[render]",
+                            "[camera]",
+                            "[camera]\ntype='orthographic'",
+                            "[background]",
+                            "[background]\ntype='gradient'",
+                            "[[light]]",
+                            "[[light]]\ntype='directional'",
+                            "[material.a]",
+                            "[material.a]\ntype='plastic'",
+                            "[material.a]\ntype='metal'",
+                            "[material.a]\ntype='glass'",
+                            "[material.a]\ntype='emissive'",
+                            "[material.a]\ntype='phong'",
+                            "[[sphere]]",
+                            "[[spheres]]",
+                            "[[plane]]",
+                            "[[instance]]",
+                            "[group.a]",
+                            "[[camera.key]]"}) {
     const auto loaded = folder.load("key.toml", "schema=1\n" + std::string(table) + "\nzzzzzz=1\n");
     ASSERT_FALSE(loaded.ok()) << table;
     const auto names = expected_names(loaded.error().message);

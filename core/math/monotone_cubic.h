@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace boule {
+
+/// A value at a time.
+struct TimedValue {
+  double time, value;
+};
+
+namespace detail {
+
+/// Slope between values i and i + 1.
+inline double chord(std::span<const TimedValue> values, std::size_t i) {
+  return (values[i + 1].value - values[i].value) / (values[i + 1].time - values[i].time);
+}
+
+/// Steffen's slope at value i: that of the parabola through it and its neighbours, made so small
+/// that nothing overshoots; at an end that of the chord there.
+inline double steffen_slope(std::span<const TimedValue> values, std::size_t i) {
+  if (values.size() == 1) return 0;
+  if (i == 0) return chord(values, 0);
+  if (i + 1 == values.size()) return chord(values, i - 1);
+  const double before = chord(values, i - 1), after = chord(values, i);
+  if (!(before * after > 0)) return 0;
+  const double h0 = values[i].time - values[i - 1].time, h1 = values[i + 1].time - values[i].time;
+  const double parabola = (before * h1 + after * h0) / (h0 + h1);
+  const double limit = std::min(std::fabs(before), std::fabs(after));
+  const double slope = std::min(2 * limit, std::fabs(parabola));
+  return before < 0 ? -slope : slope;
+}
+
+}  // namespace detail
+
+/// The cubic interpolation of Steffen ("A simple method for monotonic interpolation in one
+/// dimension", Astronomy and Astrophysics 239, 1990): smooth (C1), exactly the value at each time,
+/// between two values never beyond them; before the first and after the last it stays. `values` is
+/// not empty, its times grow strictly.
+inline double monotone_cubic(std::span<const TimedValue> values, double time) {
+  std::size_t i = 0;
+  while (i + 1 < values.size() && values[i + 1].time <= time) ++i;
+  const TimedValue& from = values[i];
+  if (i + 1 == values.size() || time <= from.time) return from.value;
+  const TimedValue& to = values[i + 1];
+  const double h = to.time - from.time, x = time - from.time, s = detail::chord(values, i);
+  const double begin = detail::steffen_slope(values, i);
+  const double end = detail::steffen_slope(values, i + 1);
+  const double a = (begin + end - 2 * s) / (h * h), b = (3 * s - 2 * begin - end) / h;
+  const double value = ((a * x + b) * x + begin) * x + from.value;
+  return std::clamp(value, std::min(from.value, to.value), std::max(from.value, to.value));
+}
+
+}  // namespace boule

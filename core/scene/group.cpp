@@ -1,0 +1,26 @@
+#include "core/scene/group.h"
+
+namespace boule {
+
+Similarity transform_of(const Instance& instance) {
+  Similarity transform = rotation(vec_cast<double>(instance.rotate));
+  transform.scale = static_cast<double>(instance.scale);
+  transform.shift = vec_cast<double>(instance.translate);
+  return transform;
+}
+
+Sphere place(const Sphere& sphere, const Similarity& transform,
+             std::optional<std::uint32_t> material) {
+  return {vec_cast<float>(transform.apply(vec_cast<double>(sphere.center))),
+          static_cast<float>(transform.scale * static_cast<double>(sphere.radius)),
+          material.value_or(sphere.material)};
+}
+
+Plane place(const Plane& plane, const Similarity& transform,
+            std::optional<std::uint32_t> material) {
+  return {vec_cast<float>(transform.apply(vec_cast<double>(plane.point))),
+          vec_cast<float>(transform.rotate(vec_cast<double>(plane.normal))),
+          material.value_or(plane.material)};
+}
+
+}  // namespace boule

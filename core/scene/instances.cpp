@@ -1,0 +1,222 @@
+#include "core/scene/instances.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace boule {
+namespace {
+
+using Material = std::optional<std::uint32_t>;
+
+constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
+
+/// Sums that stay where they are too large: groups multiply.
+PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
+  return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most)};
+}
+
+/// Goes through all groups, each once, inner ones first: counts what is in them, and finds those
+/// that contain themselves.
+class GroupSurvey {
+ public:
+  explicit GroupSurvey(const Scene& scene)
+      : scene_(scene), counts_(scene.groups.size()), states_(scene.groups.size(), State::unseen) {
+    for (std::size_t i = 0; i < scene.groups.size() && !problem_; ++i) visit(i);
+  }
+
+  /// What is wrong with an instance in a group.
+  [[nodiscard]] const std::optional<InstanceProblem>& problem() const { return problem_; }
+
+  /// By group, all that is inside it.
+  [[nodiscard]] const std::vector<PrimitiveCount>& counts() const { return counts_; }
+
+ private:
+  enum class State { unseen, open, done };
+
+  void visit(std::size_t group) {
+    states_[group] = State::open;
+    way_.push_back(group);
+    const Group& own = scene_.groups[group];
+    PrimitiveCount count{own.spheres.size(), own.planes.size()};
+    for (std::size_t i = 0; i < own.instances.size() && !problem_; ++i) {
+      const std::size_t inner = own.instances[i].group;
+      if (states_[inner] == State::open) {
+        report(group, i, "makes a cycle: " + way_round(inner));
+      } else if (way_.size() >= max_nesting) {
+        report(group, i, "groups are nested more than " + std::to_string(max_nesting) + " deep");
+      } else if (states_[inner] == State::unseen) {
+        visit(inner);
+      }
+      count = add(count, counts_[inner]);
+    }
+    counts_[group] = count;
+    states_[group] = State::done;
+    way_.pop_back();
+  }
+
+  /// "'a' -> 'b' -> 'a'".
+  std::string way_round(std::size_t begin) const {
+    auto at = std::find(way_.begin(), way_.end(), begin);
+    std::string text;
+    for (; at != way_.end(); ++at) text += quote(scene_.groups[*at].name) + " -> ";
+    return text + quote(scene_.groups[begin].name);
+  }
+
+  void report(std::size_t group, std::size_t instance, std::string message) {
+    problem_ = InstanceProblem{group, instance, {"group", std::move(message)}};
+  }
+
+  const Scene& scene_;
+  std::vector<PrimitiveCount> counts_;
+  std::vector<State> states_;
+  std::vector<std::size_t> way_;  ///< the groups that are open, outer ones first
+  std::optional<InstanceProblem> problem_;
+};
+
+PrimitiveCount count_with(const Scene& scene, const std::vector<PrimitiveCount>& groups) {
+  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  for (const Instance& instance : scene.instances) count = add(count, groups[instance.group]);
+  return count;
+}
+
+/// A kind of primitive: where a group has its own, and how many are inside it.
+template <class Primitive>
+struct Kind;
+template <>
+struct Kind<Sphere> {
+  static const std::vector<Sphere>& of(const Group& group) { return group.spheres; }
+  static std::uint64_t count(const PrimitiveCount& count) { return count.spheres; }
+};
+template <>
+struct Kind<Plane> {
+  static const std::vector<Plane>& of(const Group& group) { return group.planes; }
+  static std::uint64_t count(const PrimitiveCount& count) { return count.planes; }
+};
+
+/// Calls function(primitive) with all of a kind that instances show. The depth of its recursion is
+/// max_nesting at most, and it enters no group in vain.
+template <class Primitive, class Function>
+class Walk {
+ public:
+  Walk(const Scene& scene, const std::vector<PrimitiveCount>& counts, const Function& function)
+      : scene_(scene), counts_(counts), function_(function) {}
+
+  void visit(const std::vector<Instance>& instances, const Similarity& outer, Material material) {
+    for (const Instance& instance : instances) {
+      if (Kind<Primitive>::count(counts_[instance.group]) == 0) continue;
+      const Group& group = scene_.groups[instance.group];
+      const Similarity transform = compose(outer, transform_of(instance));
+      const Material inside = material ? material : instance.material;
+      for (const Primitive& one : Kind<Primitive>::of(group)) {
+        function_(place(one, transform, inside));
+      }
+      visit(group.instances, transform, inside);
+    }
+  }
+
+ private:
+  const Scene& scene_;
+  const std::vector<PrimitiveCount>& counts_;
+  const Function& function_;
+};
+
+/// All of a kind that one of the scene's instances shows, or all of them.
+template <class Primitive, class Function>
+void walk(const Scene& scene, const std::vector<PrimitiveCount>& counts,
+          const std::vector<Instance>& instances, const Function& function) {
+  Walk<Primitive, Function>(scene, counts, function).visit(instances, {}, {});
+}
+
+/// Of an instance by itself, and of what it refers to.
+std::optional<Problem> find_own_problem(const Scene& scene, const Instance& instance) {
+  if (auto problem = find_problem(instance)) return problem;
+  if (instance.group >= scene.groups.size()) {
+    return Problem{"group", "names no group of the scene"};
+  }
+  if (instance.material && *instance.material >= scene.materials.size()) {
+    return Problem{"material", "names no material of the scene"};
+  }
+  return std::nullopt;
+}
+
+std::optional<InstanceProblem> find_own_problem(const Scene& scene,
+                                                const std::vector<Instance>& instances,
+                                                std::optional<std::size_t> group) {
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (auto problem = find_own_problem(scene, instances[i])) {
+      return InstanceProblem{group, i, *problem};
+    }
+  }
+  return std::nullopt;
+}
+
+/// True if all that an instance shows stays what it is in float.
+bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& counts,
+                    const Instance& instance) {
+  bool good = true;
+  walk<Sphere>(scene, counts, {instance},
+               [&good](const Sphere& sphere) { good = good && is_valid(sphere); });
+  walk<Plane>(scene, counts, {instance},
+              [&good](const Plane& plane) { good = good && !find_problem(plane); });
+  return good;
+}
+
+}  // namespace
+
+std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.groups.size(); ++i) {
+    if (auto bad = find_own_problem(scene, scene.groups[i].instances, i)) return bad;
+  }
+  if (auto bad = find_own_problem(scene, scene.instances, {})) return bad;
+  const GroupSurvey survey(scene);
+  if (survey.problem()) return survey.problem();
+  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    count = add(count, survey.counts()[scene.instances[i].group]);
+    if (count.total() <= max_primitives) continue;
+    return InstanceProblem{
+        {}, i, {"group", "with it the scene has more than 2147483647 primitives"}};
+  }
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (stays_in_range(scene, survey.counts(), scene.instances[i])) continue;
+    return InstanceProblem{
+        {}, i, {"scale", "takes a sphere or plane of the group out of a 32-bit float's range"}};
+  }
+  return std::nullopt;
+}
+
+PrimitiveCount count_primitives(const Scene& scene) {
+  if (scene.instances.empty()) return {scene.spheres.size(), scene.planes.size()};
+  return count_with(scene, GroupSurvey(scene).counts());
+}
+
+void visit_spheres(const Scene& scene, const std::function<void(const Sphere&)>& function) {
+  for (const Sphere& sphere : scene.spheres) function(sphere);
+  if (scene.instances.empty()) return;
+  const GroupSurvey survey(scene);
+  walk<Sphere>(scene, survey.counts(), scene.instances, function);
+}
+
+void visit_planes(const Scene& scene, const std::function<void(const Plane&)>& function) {
+  for (const Plane& plane : scene.planes) function(plane);
+  if (scene.instances.empty()) return;
+  const GroupSurvey survey(scene);
+  walk<Plane>(scene, survey.counts(), scene.instances, function);
+}
+
+void expand_instances(Scene& scene) {
+  if (!scene.instances.empty()) {
+    const GroupSurvey survey(scene);
+    const PrimitiveCount count = count_with(scene, survey.counts());
+    scene.spheres.reserve(static_cast<std::size_t>(count.spheres));
+    scene.planes.reserve(static_cast<std::size_t>(count.planes));
+    walk<Sphere>(scene, survey.counts(), scene.instances,
+                 [&scene](const Sphere& sphere) { scene.spheres.push_back(sphere); });
+    walk<Plane>(scene, survey.counts(), scene.instances,
+                [&scene](const Plane& plane) { scene.planes.push_back(plane); });
+  }
+  scene.instances = {};
+  scene.groups = {};
+}
+
+}  // namespace boule

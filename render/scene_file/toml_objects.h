@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "render/scene_file/toml_table.h"
+
+namespace boule {
+
+/// The tables of a scene or a group that say what is in it, in the order of the file.
+struct ObjectTables {
+  /// A [[sphere]], or a [[spheres]] for a file of them.
+  struct Spheres {
+    TomlTable table;
+    bool is_bulk;
+  };
+  std::vector<Spheres> spheres;
+  std::vector<TomlTable> planes;
+  std::vector<TomlTable> instances;
+};
+
+/// Takes them from the table of a scene or a group; their keys become known.
+ObjectTables object_tables(TomlTable& table);
+
+/// Reads materials, and the objects of a scene and its groups: first read_materials(), then
+/// start_groups(), then the others.
+class TomlObjects {
+ public:
+  /// Scene and error must outlive it; data files are those of `frame`, if there is one.
+  TomlObjects(Scene& scene, FirstError& error, std::optional<int> frame)
+      : scene_(scene), error_(error), frame_(frame) {}
+
+  void read_materials(std::vector<TomlTable> tables);
+
+  /// Gives every group its number: instances may name groups that come later.
+  void start_groups(const std::vector<TomlTable>& tables);
+  void read_group(std::size_t group, TomlTable& table);
+  void read_scene(ObjectTables& tables);
+
+  /// Reports, at its place, what find_instance_problem() finds.
+  void check_instances();
+
+ private:
+  /// Where an instance was read.
+  struct InstanceTable {
+    std::optional<std::size_t> group;  ///< as in InstanceProblem
+    std::size_t instance;
+    TomlTable table;
+  };
+
+  void read_spheres(std::vector<ObjectTables::Spheres>& tables, std::vector<Sphere>& spheres);
+  void read_sphere(TomlTable& table, std::vector<Sphere>& spheres);
+  void read_bulk(TomlTable& table, std::vector<Sphere>& spheres);
+  void read_plane(TomlTable& table, std::vector<Plane>& planes);
+  void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
+                      std::vector<Instance>& instances);
+  std::uint32_t group_of(TomlTable& table);
+  std::uint32_t material_of(TomlTable& table);
+  std::uint32_t default_material();
+
+  Scene& scene_;
+  FirstError& error_;
+  std::optional<int> frame_;
+  std::map<std::string, std::uint32_t> material_ids_;
+  std::map<std::string, std::uint32_t> group_ids_;
+  std::optional<std::uint32_t> default_id_;
+  std::vector<InstanceTable> instance_tables_;
+};
+
+}  // namespace boule

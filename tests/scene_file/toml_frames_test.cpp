@@ -1,0 +1,122 @@
+#include "core/math/monotone_cubic.h"
+#include "render/scene_file/frame_name.h"
+#include "tests/scene_file/scene_dump.h"
+#include "tests/scene_file/scene_files.h"
+
+// Series of frames: camera keys, and names with the frame's number.
+
+namespace boule {
+namespace {
+
+using test::Refusal;
+using test::SceneFiles;
+
+constexpr const char* flight = R"(schema = 1
+[camera]
+look_at = [0, 0, 0]
+up = [0, 1, 0]
+[[camera.key]]
+frame = 10
+eye = [0.1, 0, 5]
+fov = 30
+[[camera.key]]
+frame = 20
+eye = [5, 1, 5]
+[[camera.key]]
+frame = 35
+eye = [5, 3, -2]
+fov = 60
+)";
+
+PinholeCamera camera_at(const std::string& text, std::optional<int> frame) {
+  const auto loaded = SceneFiles{}.load("scene.toml", text, {PolygonPolicy::plane, frame});
+  if (!loaded) throw std::runtime_error(format_diagnostic(loaded.error()));
+  return std::get<PinholeCamera>(*loaded.value().scene.camera);
+}
+
+TEST(CameraKeys, AreExactAtTheirFrames) {
+  EXPECT_TRUE(camera_at(flight, 10).pose.eye == (Vec3f{0.1f, 0, 5}));
+  EXPECT_TRUE(camera_at(flight, 20).pose.eye == (Vec3f{5, 1, 5}));
+  EXPECT_TRUE(camera_at(flight, 35).pose.eye == (Vec3f{5, 3, -2}));
+  EXPECT_EQ(camera_at(flight, 10).fov, 30);
+  EXPECT_EQ(camera_at(flight, 35).fov, 60);
+  EXPECT_TRUE(camera_at(flight, 12).pose.look_at == Vec3f{});
+}
+
+TEST(CameraKeys, WithoutAFrameItIsTheFirstOutsideItStays) {
+  for (const std::optional<int> frame : {std::optional<int>{}, {0}, {10}}) {
+    EXPECT_TRUE(camera_at(flight, frame).pose.eye == (Vec3f{0.1f, 0, 5}));
+  }
+  EXPECT_TRUE(camera_at(flight, 999).pose.eye == (Vec3f{5, 3, -2}));
+}
+
+TEST(CameraKeys, EachQuantityFollowsTheKeysThatNameIt) {
+  const std::vector<TimedValue> z = {{10, 5}, {20, 5}, {35, -2}}, fov = {{10, 30}, {35, 60}};
+  const std::vector<TimedValue> x = {{10, static_cast<double>(0.1f)}, {20, 5}, {35, 5}};
+  for (int frame = 8; frame < 40; ++frame) {
+    const PinholeCamera camera = camera_at(flight, frame);
+    EXPECT_EQ(camera.pose.eye.x, static_cast<float>(monotone_cubic(x, frame)));
+    EXPECT_EQ(camera.pose.eye.z, static_cast<float>(monotone_cubic(z, frame)));
+    EXPECT_EQ(camera.fov, static_cast<float>(monotone_cubic(fov, frame)));
+  }
+}
+
+TEST(FrameName, HasTheNumberWithZerosInFront) {
+  EXPECT_EQ(frame_name("ball.####.npy", 7), "ball.0007.npy");
+  EXPECT_EQ(frame_name("#/##-###", 42), "42/42-042");
+  EXPECT_EQ(frame_name("##", 12345), "12345");
+  EXPECT_EQ(frame_name("plain.npy", 3), "plain.npy");
+  EXPECT_EQ(frame_name("", 3), "");
+}
+
+TEST(FrameName, DataFilesAreThoseOfTheFrame) {
+  const SceneFiles files;
+  const std::string text = "schema = 1\n[[spheres]]\nfile = \"ball.##.npy\"\n";
+  const auto load = [&](std::optional<int> frame) {
+    return files.load("scene.toml", text, {PolygonPolicy::plane, frame});
+  };
+  EXPECT_THAT(load(5).error().message, testing::HasSubstr("'ball.05.npy'"));
+  EXPECT_THAT(load({}).error().message, testing::HasSubstr("'ball.##.npy'"));
+}
+
+class CameraKeyErrors : public testing::TestWithParam<Refusal> {};
+
+TEST_P(CameraKeyErrors, AreRefusedWithPlaceAndKey) {
+  test::expect_refused(GetParam(), "scene.toml");
+}
+
+std::string key(const std::string& text) {
+  return "schema = 1\n[camera]\nlook_at = [0, 0, 0]\n[[camera.key]]\n" + text;
+}
+
+const Refusal wrong[] = {
+    {"NoFrame", key("eye = [0, 0, 1]\n"), 4, 1, "camera.key[0].frame", "missing key 'frame'"},
+    {"FrameNegative", key("frame = -1\neye = [0, 0, 1]\n"), 5, 9, "camera.key[0].frame",
+     "0 or above"},
+    {"FrameFraction", key("frame = 1.5\neye = [0, 0, 1]\n"), 5, 9, "camera.key[0].frame",
+     "an integer"},
+    {"FrameTwice", key("frame = 1\neye = [0, 0, 1]\n[[camera.key]]\nframe = 1\nfov = 3\n"), 8, 9,
+     "camera.key[1].frame", "must be above 1"},
+    {"FrameBack", key("frame = 9\neye = [0, 0, 1]\n[[camera.key]]\nframe = 4\nfov = 3\n"), 8, 9,
+     "camera.key[1].frame", "must be above 9"},
+    {"Nothing", key("frame = 1\n"), 4, 1, "camera.key[0].eye", "'eye', 'look_at' or 'fov'"},
+    {"UnknownKey", key("frame = 1\neyes = [0, 0, 1]\n"), 6, 1, "camera.key[0].eyes",
+     "did you mean 'eye'?"},
+    {"EyeTwo", key("frame = 1\neye = [0, 0]\n"), 6, 7, "camera.key[0].eye", "got 2"},
+    {"FovType", key("frame = 1\nfov = \"a\"\n"), 6, 7, "camera.key[0].fov", "a number"},
+    {"InBoth", key("frame = 1\nlook_at = [0, 0, 1]\n"), 3, 11, "camera.look_at",
+     "stands in [[camera.key]] too"},
+    {"NoList", "schema = 1\n[camera]\nkey = 4\n", 3, 7, "camera.key", "[[camera.key]]"},
+    {"NoEye", key("frame = 1\nfov = 20\n"), 2, 1, "camera.eye", "missing key 'eye'"},
+    {"FovTooLarge", key("frame = 1\neye = [0, 0, 1]\nfov = 190\n"), 7, 7, "camera.fov",
+     "below 180"},
+    {"EyeIsLookAt", key("frame = 1\neye = [0, 0, 0]\n"), 3, 11, "camera.look_at", "differ"},
+    {"NotOfThisCamera",
+     "schema = 1\n[camera]\ntype = \"orthographic\"\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n"
+     "[[camera.key]]\nframe = 3\nfov = 20\n",
+     8, 7, "camera.fov", "unknown key 'fov'"},
+};
+INSTANTIATE_TEST_SUITE_P(Wrong, CameraKeyErrors, testing::ValuesIn(wrong), test::refusal_name);
+
+}  // namespace
+}  // namespace boule
