@@ -27,6 +27,8 @@ BEGIN {
         narrow "|^render/(image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
   layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
+  # The command line is fuzzed without its program.
+  layer("^tests/fuzz/fuzz_options", narrow "|^render/|^tests/", any)
   layer("^(tests|bench)/", narrow "|^render/(scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.

@@ -73,6 +73,7 @@ refused render/integrators/a.cpp '#include "render/renderer/renderer.h"' 'may no
 refused render/renderer/a.cpp '#include "render/scene_file/scene_file.h"' 'may not include'
 refused render/renderer/a.cpp '#include "render/cli/options.h"' 'may not include'
 refused tests/render/a.cpp '#include "render/cli/options.h"' 'may not include'
+refused tests/fuzz/fuzz_toml.cpp '#include "render/cli/options.h"' 'may not include'
 refused tests/equivalence/a.cpp '#include "simd/kernel/scan.h"' 'may not include'
 refused tests/simd/stream_test.cpp '#include "simd/lanes/lanes.h"' 'may not include'
 refused tests/simd/lanes_test.cpp '#include "simd/kernel/scan.h"' 'may not include'
@@ -115,6 +116,7 @@ accepted render/image/image_file.cpp '#include <OpenImageIO/imageio.h>'
 accepted simd/dispatch/cpu.cpp '#include <cpuid.h>'
 accepted render/cli/main.cpp 'std::exit(2);'
 accepted tests/simd/lanes_test.cpp '#include "simd/lanes/lanes.h"'
+accepted tests/fuzz/fuzz_options.cpp '#include "render/cli/options.h"'
 accepted tests/render/a.cpp '#include <thread>'
 
 ((failures == 0)) || { echo "$failures faults slipped through"; exit 1; }

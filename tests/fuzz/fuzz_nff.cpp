@@ -1,0 +1,12 @@
+// Scenes in NFF: any bytes, after one that says what becomes of polygons.
+#include "tests/fuzz/fuzz_scene.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using boule::PolygonPolicy;
+  static const boule::fuzz::InputFolder folder;
+  constexpr PolygonPolicy policies[] = {PolygonPolicy::plane, PolygonPolicy::skip,
+                                        PolygonPolicy::error};
+  if (size == 0) return 0;
+  boule::fuzz::load_bytes(folder, "scene.nff", data + 1, size - 1, {policies[data[0] % 3]});
+  return 0;
+}

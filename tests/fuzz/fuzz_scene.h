@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "render/scene_file/scene_file.h"
+#include "tests/fuzz/input_folder.h"
+
+namespace boule::fuzz {
+
+/// Loads a scene file of these bytes: it is refused with a good error, or passes validate().
+inline void load_bytes(const InputFolder& folder, const std::string& name, const std::uint8_t* data,
+                       std::size_t size, const SceneFileOptions& options) {
+  const Result<LoadedScene> loaded = load_scene(folder.write(name, data, size), options);
+  if (!loaded) {
+    require_good(loaded.error());
+    return;
+  }
+  const Status problem = validate(loaded.value().scene);
+  require(!problem, "a scene that was loaded is valid");
+  for (const std::string& warning : loaded.value().warnings)
+    require(warning.find(": warning: ") != std::string::npos, "a warning says so: " + warning);
+}
+
+}  // namespace boule::fuzz
