@@ -190,15 +190,13 @@ PrimitiveCount count_primitives(const Scene& scene) {
   return count_with(scene, GroupSurvey(scene).counts());
 }
 
-void visit_spheres(const Scene& scene, const std::function<void(const Sphere&)>& function) {
-  for (const Sphere& sphere : scene.spheres) function(sphere);
+void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function) {
   if (scene.instances.empty()) return;
   const GroupSurvey survey(scene);
   walk<Sphere>(scene, survey.counts(), scene.instances, function);
 }
 
-void visit_planes(const Scene& scene, const std::function<void(const Plane&)>& function) {
-  for (const Plane& plane : scene.planes) function(plane);
+void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function) {
   if (scene.instances.empty()) return;
   const GroupSurvey survey(scene);
   walk<Plane>(scene, survey.counts(), scene.instances, function);

@@ -35,11 +35,11 @@ struct PrimitiveCount {
 };
 PrimitiveCount count_primitives(const Scene& scene);
 
-/// Calls the functions with every sphere and every plane of a valid scene as rendered, in the order
-/// of their ids: the scene's own first, then instance by instance, in each the group's own before
-/// its instances (depth first).
-void visit_spheres(const Scene& scene, const std::function<void(const Sphere&)>& function);
-void visit_planes(const Scene& scene, const std::function<void(const Plane&)>& function);
+/// Calls the function with every sphere or plane that the instances of a valid scene show, in the
+/// order of their ids, which follow those of the scene's own: instance by instance, in each the
+/// group's own before its instances (depth first).
+void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
+void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
 
 /// Puts in place of a valid scene's instances the spheres and planes that they show; groups and
 /// instances are gone then. A scene without instances keeps its memory. Throws std::bad_alloc.

@@ -43,7 +43,7 @@ struct NamedMaterial {
 };
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
-/// Primitive ids: spheres in order, then those of the instances (visit_spheres()), then planes
+/// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
 /// likewise.
 struct Scene {
   ImageSettings image;

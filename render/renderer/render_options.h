@@ -35,7 +35,7 @@ struct RenderOptions {
   const std::atomic<bool>* cancel = nullptr;      ///< rendering stops soon after it becomes true
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
   /// Called by render_live() after each of its passes, on the thread that renders: shows what there
-  /// is, as partial_picture() makes it of the film.
+  /// is, as partial_picture() makes it of the film. What it throws reaches the caller.
   std::function<void(const Film&)> update;
 };
 

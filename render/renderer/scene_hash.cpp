@@ -1,6 +1,7 @@
 #include "render/renderer/scene_hash.h"
 
 #include <bit>
+#include <functional>
 #include <type_traits>
 #include <variant>
 
@@ -71,9 +72,11 @@ std::uint64_t scene_hash(const Scene& scene) {
   hash.add_all(scene.background, scene.ambient, scene.materials, scene.lights);
   const PrimitiveCount count = count_primitives(scene);
   hash.add(count.spheres);
-  visit_spheres(scene, [&hash](const Sphere& sphere) { hash.add(sphere); });
+  for (const Sphere& sphere : scene.spheres) hash.add(sphere);
+  visit_shown(scene, std::function([&hash](const Sphere& sphere) { hash.add(sphere); }));
   hash.add(count.planes);
-  visit_planes(scene, [&hash](const Plane& plane) { hash.add(plane); });
+  for (const Plane& plane : scene.planes) hash.add(plane);
+  visit_shown(scene, std::function([&hash](const Plane& plane) { hash.add(plane); }));
   return hash.value();
 }
 
