@@ -20,7 +20,10 @@ PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
 class GroupSurvey {
  public:
   explicit GroupSurvey(const Scene& scene)
-      : scene_(scene), counts_(scene.groups.size()), states_(scene.groups.size(), State::unseen) {
+      : scene_(scene),
+        counts_(scene.groups.size()),
+        depths_(scene.groups.size()),
+        states_(scene.groups.size(), State::unseen) {
     for (std::size_t i = 0; i < scene.groups.size() && !problem_; ++i) visit(i);
   }
 
@@ -38,20 +41,28 @@ class GroupSurvey {
     way_.push_back(group);
     const Group& own = scene_.groups[group];
     PrimitiveCount count{own.spheres.size(), own.planes.size()};
+    std::size_t depth = 1;
     for (std::size_t i = 0; i < own.instances.size() && !problem_; ++i) {
       const std::size_t inner = own.instances[i].group;
-      if (states_[inner] == State::open) {
-        report(group, i, "makes a cycle: " + way_round(inner));
-      } else if (way_.size() >= max_nesting) {
-        report(group, i, "groups are nested more than " + std::to_string(max_nesting) + " deep");
-      } else if (states_[inner] == State::unseen) {
-        visit(inner);
-      }
+      enter(group, i, inner);
       count = add(count, counts_[inner]);
+      depth = std::max(depth, depths_[inner] + 1);
     }
     counts_[group] = count;
+    depths_[group] = depth;
     states_[group] = State::done;
     way_.pop_back();
+  }
+
+  /// Visits the group of an instance if it was not yet, unless something is wrong with that: the
+  /// way there ends at max_nesting, and so does what begins there, visited earlier or not.
+  void enter(std::size_t group, std::size_t instance, std::size_t inner) {
+    if (states_[inner] == State::open) {
+      return report(group, instance, "makes a cycle: " + way_round(inner));
+    }
+    if (states_[inner] == State::unseen && way_.size() < max_nesting) visit(inner);
+    if (way_.size() < max_nesting && depths_[inner] < max_nesting) return;
+    report(group, instance, "groups are nested more than " + std::to_string(max_nesting) + " deep");
   }
 
   /// "'a' -> 'b' -> 'a'".
@@ -68,6 +79,7 @@ class GroupSurvey {
 
   const Scene& scene_;
   std::vector<PrimitiveCount> counts_;
+  std::vector<std::size_t> depths_;  ///< by group: groups inside each other, itself among them
   std::vector<State> states_;
   std::vector<std::size_t> way_;  ///< the groups that are open, outer ones first
   std::optional<InstanceProblem> problem_;

@@ -12,7 +12,7 @@
 namespace boule {
 
 /// Groups inside groups, at most so deep.
-inline constexpr int max_nesting = 256;
+inline constexpr std::size_t max_nesting = 256;
 
 /// What is wrong with one instance of a scene.
 struct InstanceProblem {

@@ -43,6 +43,7 @@ class CameraKeys {
 
   void read() {
     for (TomlTable& table : camera_.tables("key")) read(table);
+    if (frames_.empty()) camera_.report("key", "expected at least one table [[camera.key]]");
     for (const Track& track : tracks_) {
       if (track.places.empty() || !camera_.has(track.key)) continue;
       camera_.report(track.key, "stands in [[camera.key]] too, expected it in one of them");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -249,6 +250,17 @@ Scene tower(int levels, bool with_sphere) {
   return scene;
 }
 
+/// The same with the groups in opposite order.
+Scene inner_first(Scene scene) {
+  const auto last = static_cast<std::uint32_t>(scene.groups.size() - 1);
+  std::reverse(scene.groups.begin(), scene.groups.end());
+  for (Group& group : scene.groups) {
+    for (Instance& instance : group.instances) instance.group = last - instance.group;
+  }
+  for (Instance& instance : scene.instances) instance.group = last - instance.group;
+  return scene;
+}
+
 TEST(Instances, TooManyAreRefusedBeforeMemoryIsTaken) {
   EXPECT_EQ(count_primitives(tower(7, true)).spheres, 1'000'000u);
   for (const int levels : {11, 30, 250}) {
@@ -262,9 +274,18 @@ TEST(Instances, TooManyAreRefusedBeforeMemoryIsTaken) {
   EXPECT_FALSE(validate(empty));
   expand_instances(empty);
   EXPECT_TRUE(empty.spheres.empty());
-  const Status deep = validate(tower(300, false));
-  ASSERT_TRUE(deep);
-  EXPECT_NE(deep->message.find("nested more than 256 deep"), std::string::npos);
+}
+
+TEST(Instances, TooDeepANestingIsRefusedWhateverComesFirst) {
+  EXPECT_FALSE(validate(tower(256, false)));
+  EXPECT_FALSE(validate(inner_first(tower(256, false))));
+  for (const int levels : {257, 300, 20'000}) {
+    for (const Scene& scene : {tower(levels, false), inner_first(tower(levels, false))}) {
+      const Status deep = validate(scene);
+      ASSERT_TRUE(deep);
+      EXPECT_NE(deep->message.find("nested more than 256 deep"), std::string::npos);
+    }
+  }
 }
 
 }  // namespace
