@@ -44,8 +44,9 @@ inline std::uint32_t pascal(std::uint32_t x) {
 
 }  // namespace detail
 
-/// What the numbers of a sample are for: each has a set of its own.
-enum class RandomSet : std::uint32_t { film };
+/// What the numbers of a sample are for: each has a set of its own; every bounce
+/// has some, from first_bounce on.
+enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
 /// The seed of all random numbers of one pixel, 0 <= x, y: different pixels and different seeds of
 /// pictures have different ones.

@@ -24,9 +24,17 @@ struct DirectionalLight {
   Color intensity{1, 1, 1};
 };
 
-using Light = std::variant<PointLight, DirectionalLight>;
+/// Light from a sphere, the same in all directions. It is no object: rays pass through it.
+struct SphereLight {
+  Vec3f center;
+  float radius = 1;
+  Color radiance{1, 1, 1};
+};
 
-/// The first Problem of a light: anything not finite, negative intensity, a zero direction.
+using Light = std::variant<PointLight, DirectionalLight, SphereLight>;
+
+/// The first Problem of a light: anything not finite, negative intensity or
+/// radiance, a zero direction, radius <= 0.
 std::optional<Problem> find_problem(const Light& light);
 
 }  // namespace boule

@@ -100,6 +100,13 @@ struct LightProblem {
   std::optional<Problem> operator()(const DirectionalLight& l) const {
     return Checker{}.direction("direction", l.direction).color("intensity", l.intensity).problem();
   }
+  std::optional<Problem> operator()(const SphereLight& l) const {
+    return Checker{}
+        .finite("center", l.center)
+        .positive("radius", l.radius)
+        .color("radiance", l.radiance)
+        .problem();
+  }
 };
 
 Status located(const std::string& place, const std::optional<Problem>& problem) {

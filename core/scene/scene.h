@@ -32,9 +32,13 @@ struct ImageSettings {
   PixelFilter filter = PixelFilter::box;
 };
 
+/// How light is followed: whitted: direct light, mirrors and glass; path: all of it, by chance.
+enum class Method { whitted, path };
+
 /// How a scene asks to be rendered; the command line may override it.
 struct RenderSettings {
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
+  Method method = Method::whitted;
 };
 
 struct NamedMaterial {

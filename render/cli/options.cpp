@@ -74,18 +74,6 @@ void add_choice(CLI::App& app, const std::string& name, Target& target,
   add_parsed(app, name, target, parse, "one of " + names, names, help);
 }
 
-/// The method is one so far; the other's name is known, so that it gets a better answer.
-void add_method(CLI::App& app) {
-  const auto check = [](const std::string& text) {
-    if (text == "path") {
-      throw CLI::ValidationError("--method", "'path' is not available yet, expected whitted");
-    }
-    if (text != "whitted") throw refuse("--method", text, "whitted");
-  };
-  app.add_option_function<std::string>("--method", check, "How light is followed (whitted)")
-      ->type_name("whitted");
-}
-
 void add_scene(CLI::App& app, std::string& scene) {
   app.add_option("scene", scene, "Scene file, .toml or .nff")->required()->type_name("FILE");
 }
@@ -107,8 +95,10 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              std::array{Choice{"box", PixelFilter::box}, Choice{"tent", PixelFilter::tent}},
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
-            std::numeric_limits<std::uint64_t>::max(), "Seed of the sample positions (0)");
-  add_method(app);
+            std::numeric_limits<std::uint64_t>::max(), "Seed of the random numbers (0)");
+  add_choice(app, "--method", command.method,
+             std::array{Choice{"whitted", Method::whitted}, Choice{"path", Method::path}},
+             "How light is followed");
   add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",

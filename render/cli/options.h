@@ -57,6 +57,7 @@ struct RenderCommand : RunOptions {
   std::optional<Size> size;
   std::optional<int> spp;
   std::optional<PixelFilter> filter;
+  std::optional<Method> method;
   std::optional<int> max_depth;
   std::optional<PixelRect> crop;
   ViewSelection views;

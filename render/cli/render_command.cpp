@@ -48,6 +48,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   }
   options.spp = command.spp.value_or(options.spp);
   options.filter = command.filter.value_or(options.filter);
+  options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
   options.crop = command.crop;
   options.views = command.views;

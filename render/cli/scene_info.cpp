@@ -72,6 +72,13 @@ Json describe(const DirectionalLight& light) {
           {"intensity", shown(light.intensity)}};
 }
 
+Json describe(const SphereLight& light) {
+  return {{"type", "sphere"},
+          {"center", shown(light.center)},
+          {"radius", shown(light.radius)},
+          {"radiance", shown(light.radiance)}};
+}
+
 /// A material under its name.
 struct DescribeMaterial {
   std::string name;
@@ -137,7 +144,7 @@ void add_view(Json& json, const Scene& scene) {
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
   if (!scene.camera) notes.push_back("no camera in the scene: framed on the objects");
   for (const Light& light : scene.lights) lights.push_back(describe_any(light));
-  if (lacks_light(scene)) {
+  if (lacks_light(scene, scene.render.method)) {
     lights.push_back(describe(light_at_eye(camera)));
     notes.push_back("no light in the scene: one white point light at the eye");
   }
@@ -159,6 +166,7 @@ nlohmann::ordered_json scene_info(LoadedScene loaded, const std::string& path) {
                {"hash", fmt::format("{:016x}", scene_hash(scene))},
                {"size", {scene.image.width, scene.image.height}},
                {"spp", scene.image.spp},
+               {"method", scene.render.method == Method::path ? "path" : "whitted"},
                {"max_depth", scene.render.max_depth},
                {"spheres", scene.spheres.size()},
                {"planes", scene.planes.size()},

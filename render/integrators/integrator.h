@@ -25,12 +25,31 @@ struct RayCounts {
   [[nodiscard]] std::uint64_t total() const { return primary + shadow + continuation; }
 };
 
+/// How path tracing seeks the light of spheres: by rays to them, by where paths happen to go, or by
+/// both, weighted. The mean of a picture is the same, its noise is not.
+enum class LightSearch { both, lights, paths };
+
 /// How an integrator works.
 struct IntegratorSettings {
   Solver solver = Solver::robust;
-  int max_depth = 5;                          ///< bounces after the primary hit, >= 0
+  int max_depth = 5;       ///< bounces after the primary hit, >= 0
+  std::uint64_t seed = 0;  ///< of a path's random numbers
+  LightSearch light_search = LightSearch::both;
   std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
+};
+
+/// Which sample a camera ray is: what its random numbers depend on.
+struct SampleId {
+  int x, y;  ///< pixel of the frame
+  int sample;
+};
+
+/// Camera rays and what is known of them.
+struct CameraRays {
+  RayBuffer& rays;
+  Coherence coherence;
+  const SampleId* samples;  ///< one per ray; only path tracing asks for them
 };
 
 /// Turns camera rays into radiance. One integrator serves one thread: it keeps its working memory
@@ -42,9 +61,9 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// radiance[k] = what arrives along rays[k], finite and not negative, whatever the other rays
+  /// radiance[k] = what arrives along ray k, finite and not negative, whatever the other rays
   /// are. False if it was cancelled: nothing is written then. Throws std::bad_alloc.
-  virtual bool trace(RayBuffer& rays, Coherence coherence, Color* radiance) = 0;
+  virtual bool trace(const CameraRays& camera, Color* radiance) = 0;
 
   /// All rays traced by this integrator.
   [[nodiscard]] virtual RayCounts counts() const = 0;

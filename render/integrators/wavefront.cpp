@@ -9,13 +9,15 @@ void Wavefront::start(RayBuffer& camera_rays) {
   while (camera_sample_.size() < samples) {
     camera_sample_.push_back(static_cast<std::uint32_t>(camera_sample_.size()));
     camera_throughput_.push_back(gray(1));
+    camera_density_.push_back(0);
   }
   // A cancelled or failed run may have left streams behind.
   if (running_) spare_.push_back(std::move(running_));
   recycle(waiting_);
   recycle(children_);
   depth_sums_.start(samples);
-  current_ = {&camera_rays, camera_throughput_.data(), camera_sample_.data(), 0};
+  current_ = {&camera_rays, camera_throughput_.data(), camera_sample_.data(),
+              camera_density_.data(), 0};
   started_ = false;
 }
 
@@ -36,7 +38,8 @@ const PathStream* Wavefront::next() {
   running_ = std::move(waiting_.back());
   waiting_.pop_back();
   running_->rays.resize(running_->size);
-  use({&running_->rays, running_->throughput.data(), running_->sample.data(), running_->depth});
+  use({&running_->rays, running_->throughput.data(), running_->sample.data(),
+       running_->density.data(), running_->depth});
   return &current_;
 }
 
@@ -45,7 +48,7 @@ void Wavefront::use(PathStream stream) {
   sums_ = depth_sums_.at_depth(stream.depth);
 }
 
-void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight) {
+void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight, float density) {
   const Color throughput = current_.throughput[parent] * weight;
   if (is_black(throughput)) return;
   if (children_.empty() || children_.back()->size == stream_size_) {
@@ -56,6 +59,7 @@ void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight) {
   stream.rays.set(stream.size, ray);
   stream.throughput[stream.size] = throughput;
   stream.sample[stream.size] = current_.sample[parent];
+  stream.density[stream.size] = density;
   ++stream.size;
   ++spawned_;
 }
@@ -66,6 +70,7 @@ Wavefront::StreamPtr Wavefront::take_stream() {
     stream = std::make_unique<Stream>();
     stream->throughput.resize(stream_size_);
     stream->sample.resize(stream_size_);
+    stream->density.resize(stream_size_);
   } else {
     stream = std::move(spare_.back());
     spare_.pop_back();

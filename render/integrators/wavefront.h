@@ -17,7 +17,8 @@ struct PathStream {
   RayBuffer* rays = nullptr;
   const Color* throughput = nullptr;
   const std::uint32_t* sample = nullptr;
-  int depth = 0;  ///< bounces since the camera
+  const float* density = nullptr;  ///< with which its direction was chosen, as spawn() was told
+  int depth = 0;                   ///< bounces since the camera
 };
 
 /// The recursion of ray tracing as a loop over streams (lecture "Recursion"): whoever shades takes
@@ -42,8 +43,8 @@ class Wavefront {
   }
 
   /// Sends a ray on from ray `parent` of the current stream, unless nothing of it would count.
-  /// Parents in order.
-  void spawn(std::size_t parent, const Ray& ray, const Color& weight);
+  /// Parents in order. `density` is kept for who asks.
+  void spawn(std::size_t parent, const Ray& ray, const Color& weight, float density = 0);
 
   /// Writes the radiance of every sample, after next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
@@ -57,6 +58,7 @@ class Wavefront {
     RayBuffer rays;
     std::vector<Color> throughput;
     std::vector<std::uint32_t> sample;
+    std::vector<float> density;
     std::size_t size = 0;
     int depth = 0;
   };
@@ -69,6 +71,7 @@ class Wavefront {
   std::size_t stream_size_;
   std::vector<Color> camera_throughput_;      ///< all 1
   std::vector<std::uint32_t> camera_sample_;  ///< 0, 1, 2 ...
+  std::vector<float> camera_density_;         ///< all 0
   DepthSums depth_sums_;
   PathStream current_;
   Color* sums_ = nullptr;            ///< of the current depth

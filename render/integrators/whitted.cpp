@@ -16,12 +16,12 @@ Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
       geometry_(scene.geometry.view()),
       wavefront_(settings.stream_size) {}
 
-bool Whitted::trace(RayBuffer& rays, Coherence coherence, Color* radiance) {
-  primary_ += rays.size();
-  wavefront_.start(rays);
+bool Whitted::trace(const CameraRays& camera, Color* radiance) {
+  primary_ += camera.rays.size();
+  wavefront_.start(camera.rays);
   while (const PathStream* stream = wavefront_.next()) {
     if (cancelled()) return false;
-    shade(*stream, stream->depth == 0 ? coherence : Coherence::none);
+    shade(*stream, stream->depth == 0 ? camera.coherence : Coherence::none);
   }
   wavefront_.finish(radiance);
   return true;

@@ -21,7 +21,7 @@ class Whitted final : public Integrator {
   Whitted(const PreparedScene& scene, const KernelTable& kernels,
           const IntegratorSettings& settings);
 
-  bool trace(RayBuffer& rays, Coherence coherence, Color* radiance) override;
+  bool trace(const CameraRays& camera, Color* radiance) override;
   [[nodiscard]] RayCounts counts() const override {
     return {primary_, shadow_, wavefront_.spawned()};
   }

@@ -82,12 +82,13 @@ Camera default_camera(const Scene& scene, int width, int height) {
                        width <= height ? FovAxis::x : FovAxis::y};
 }
 
-bool lacks_light(const Scene& scene) {
+bool lacks_light(const Scene& scene, Method method) {
   const bool emits = std::any_of(
       scene.materials.begin(), scene.materials.end(),
       [](const NamedMaterial& m) { return std::holds_alternative<Emissive>(m.material); });
-  return scene.lights.empty() && !emits &&
-         std::holds_alternative<ConstantBackground>(scene.background);
+  const auto* constant = std::get_if<ConstantBackground>(&scene.background);
+  const bool dark = constant && (method == Method::whitted || is_black(constant->color));
+  return scene.lights.empty() && !emits && dark;
 }
 
 PointLight light_at_eye(const Camera& camera) {

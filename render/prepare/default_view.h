@@ -17,8 +17,9 @@ SphereBounds bounds_of(const std::vector<Sphere>& spheres);
 /// near the end of float's range can overflow: check it with find_problem().
 Camera default_camera(const Scene& scene, int width, int height);
 
-/// True if nothing in the scene gives light: no light, no emissive material, no gradient.
-bool lacks_light(const Scene& scene);
+/// True if nothing in the scene gives light: no light, no emissive material, no gradient; by path
+/// tracing a constant background gives light too, unless it is black.
+bool lacks_light(const Scene& scene, Method method);
 
 /// The light of such a scene: white, intensity 1, no falloff, at the camera's eye.
 PointLight light_at_eye(const Camera& camera);

@@ -1,5 +1,7 @@
 #include "render/prepare/flat_material.h"
 
+#include <algorithm>
+
 namespace boule {
 namespace {
 
@@ -58,6 +60,34 @@ struct Flatten {
 };
 
 }  // namespace
+
+namespace {
+
+/// The largest share of light that a material sends on, of any colour; at total reflection what
+/// else goes through joins the mirror.
+float largest_albedo(const FlatMaterial& m, float highlight) {
+  const auto [r, g, b] = m.fresnel ? Color{std::max(m.mirror.r, m.transmission.r),
+                                           std::max(m.mirror.g, m.transmission.g),
+                                           std::max(m.mirror.b, m.transmission.b)}
+                                   : m.mirror + m.transmission;
+  return std::max({m.diffuse.r + r, m.diffuse.g + g, m.diffuse.b + b}) + highlight;
+}
+
+}  // namespace
+
+FlatMaterial flatten_for_paths(const Material& material) {
+  FlatMaterial flat = flatten(material, Color{});
+  if (!std::holds_alternative<Emissive>(material)) flat.constant = {};
+  const float largest = largest_albedo(flat, static_cast<float>(flat.highlight));
+  flat.highlight *= (flat.shininess + 2) / 2;
+  flat.cosine_highlight = true;
+  if (!(largest > 1)) return flat;
+  flat.diffuse = flat.diffuse * (1 / largest);
+  flat.highlight /= static_cast<double>(largest);
+  flat.mirror = flat.mirror * (1 / largest);
+  flat.transmission = flat.transmission * (1 / largest);
+  return flat;
+}
 
 FlatMaterial flatten(const Material& material, const Color& ambient) {
   return std::visit(Flatten{ambient}, material);

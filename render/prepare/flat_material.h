@@ -10,18 +10,31 @@ namespace boule {
 ///   + mirror trace(R) + transmission trace(refracted).
 /// What a material lacks is 0 here.
 struct FlatMaterial {
-  Color constant;        ///< emission, and C (ka + ambient)
-  Color diffuse;         ///< C Kd
-  double highlight = 0;  ///< Ks of the white highlight; 0 where shininess is 0
-  double shininess = 0;  ///< Phong's exponent
-  Color mirror;          ///< weight of the reflected ray (times F where `fresnel`)
-  Color transmission;    ///< weight of the refracted ray (times 1 - F where `fresnel`)
-  double ior = 1;        ///< index of refraction, inside over outside
-  bool fresnel = false;  ///< a dielectric: reflection and refraction share the light
+  Color constant;                 ///< emission, and C (ka + ambient)
+  Color diffuse;                  ///< C Kd
+  double highlight = 0;           ///< Ks of the white highlight; 0 where shininess is 0
+  double shininess = 0;           ///< Phong's exponent
+  Color mirror;                   ///< weight of the reflected ray (times F where `fresnel`)
+  Color transmission;             ///< weight of the refracted ray (times 1 - F where `fresnel`)
+  double ior = 1;                 ///< index of refraction, inside over outside
+  bool cosine_highlight = false;  ///< the highlight counts with n.l, as a reflectance does
+  bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
 };
 
 /// A valid material under the scene's ambient light.
 FlatMaterial flatten(const Material& material, const Color& ambient);
+
+/// A valid material for path tracing, its constant emission alone: ambient light stands for what
+/// path tracing finds. The highlight is normalised (Lafortune and Willems 1994): pi times the
+/// reflectance is diffuse + highlight (r.l)^shininess, with highlight = Ks (n + 2) / 2, so that it
+/// sends on Ks of the light at most. Where all that is sent on is more than arrives, for any
+/// colour, everything is divided by that sum: energy is conserved.
+FlatMaterial flatten_for_paths(const Material& material);
+
+/// The share of light that the highlight of such a material sends on at most: Ks.
+inline double highlight_albedo(const FlatMaterial& m) {
+  return m.highlight * 2 / (m.shininess + 2);
+}
 
 /// True if light sources shine on it: otherwise no shadow ray is worth its time.
 inline bool takes_direct_light(const FlatMaterial& m) {

@@ -9,11 +9,12 @@
 namespace boule {
 namespace {
 
-std::vector<FlatMaterial> flatten_all(const Scene& scene) {
+std::vector<FlatMaterial> flatten_all(const Scene& scene, Method method) {
   std::vector<FlatMaterial> flat;
   flat.reserve(scene.materials.size());
   for (const NamedMaterial& named : scene.materials) {
-    flat.push_back(flatten(named.material, scene.ambient));
+    flat.push_back(method == Method::path ? flatten_for_paths(named.material)
+                                          : flatten(named.material, scene.ambient));
   }
   return flat;
 }
@@ -25,7 +26,8 @@ Coherence primary_coherence(const Camera& camera) {
 
 }  // namespace
 
-Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for) {
+Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
+                              Method method) {
   expand_instances(scene);
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
@@ -40,16 +42,18 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
     }
     notes.emplace_back("no camera in the scene: framed on the objects");
   }
-  if (lacks_light(scene)) {
+  if (lacks_light(scene, method)) {
     scene.lights.emplace_back(light_at_eye(camera));
     notes.emplace_back("no light in the scene: one white point light at the eye");
   }
+  AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
   return PreparedScene{
       .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
       .spheres = std::move(scene.spheres),  // the geometry above has read them: in this order
       .planes = std::move(scene.planes),
-      .materials = flatten_all(scene),
+      .materials = flatten_all(scene, method),
       .lights = std::move(scene.lights),
+      .area_lights = std::move(area_lights),
       .background = scene.background,
       .camera = camera,
       .camera_view = build_camera(camera, width, height),

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/scene/scene.h"
+#include "render/prepare/area_lights.h"
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
@@ -21,6 +22,7 @@ struct PreparedScene {
   std::vector<Plane> planes;            ///< by id - spheres.size()
   std::vector<FlatMaterial> materials;  ///< by Sphere::material, Plane::material
   std::vector<Light> lights;            ///< in file order
+  AreaLights area_lights;               ///< for path tracing
   Background background;
   Camera camera;                   ///< the scene's, or the default one
   CameraView camera_view;          ///< the same for the kernels
@@ -38,8 +40,10 @@ struct PreparedScene {
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
 /// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.
 /// Instances become spheres and planes (expand_instances()).
-/// Spheres and planes are kept, not copied: move a scene here that is not needed any more.
+/// Spheres and planes are kept, not copied: move a scene here that is not needed any more. How the
+/// scene itself asks to be rendered does not matter.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
-                              const ParallelFor& parallel_for = serial_for);
+                              const ParallelFor& parallel_for = serial_for,
+                              Method method = Method::whitted);
 
 }  // namespace boule

@@ -21,7 +21,7 @@ bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
     for (int sample = film.samples(x, y); sample < until; ++sample) {
       const RasterPoint place = setup_.sampler.position(x, y, sample);
       samples_.set(pixels_.size(), place.x, place.y);
-      pixels_.push_back({x, y});
+      pixels_.push_back({x, y, sample});
       if (pixels_.size() == setup_.stream_size && !trace(film)) return false;
     }
   }
@@ -51,7 +51,8 @@ bool BlockWorker::trace(Film& film) {
   samples_.resize(count);
   rays_.resize(count);
   setup_.kernels.primary_rays(setup_.scene.camera_view, samples_.view(), rays_.view());
-  if (!integrator_->trace(rays_, setup_.scene.coherence, radiance_.data())) return false;
+  const CameraRays camera{rays_, setup_.scene.coherence, pixels_.data()};
+  if (!integrator_->trace(camera, radiance_.data())) return false;
   for (std::size_t k = 0; k < count; ++k) film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
   pixels_.clear();
   samples_.resize(setup_.stream_size);

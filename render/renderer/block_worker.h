@@ -45,16 +45,13 @@ class BlockWorker {
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
 
  private:
-  struct Pixel {
-    int x, y;
-  };
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
   bool trace(Film& film);
 
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
-  std::vector<Pixel> pixels_;  ///< whose samples the stream holds
+  std::vector<SampleId> pixels_;  ///< whose samples the stream holds
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;

@@ -37,6 +37,7 @@ RenderOptions options_of(const Scene& scene) {
   options.height = scene.image.height;
   options.spp = scene.image.spp;
   options.filter = scene.image.filter;
+  options.method = scene.render.method;
   options.max_depth = scene.render.max_depth;
   return options;
 }

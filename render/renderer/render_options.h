@@ -17,14 +17,15 @@
 
 namespace boule {
 
-/// How a scene is rendered. Only the first seven, the crop and solver fast show in the picture.
+/// How a scene is rendered. Only the first eight, the crop and solver fast show in the picture.
 struct RenderOptions {
   int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
   int height = 720;  ///< likewise
   int spp = 1;       ///< samples per pixel, >= 1
   PixelFilter filter = PixelFilter::box;
-  std::uint64_t seed = 0;  ///< of the sample positions
-  int max_depth = 5;       ///< bounces after the primary hit, >= 0
+  std::uint64_t seed = 0;  ///< of all random numbers
+  Method method = Method::whitted;
+  int max_depth = 5;  ///< bounces after the primary hit, >= 0
   Solver solver = Solver::robust;
   std::optional<PixelRect> crop;  ///< render these pixels of the frame only
   ViewSelection views;            ///< what render_views() finds

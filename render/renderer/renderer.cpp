@@ -6,6 +6,7 @@
 
 #include "render/frame/float_environment.h"
 #include "render/frame/stopwatch.h"
+#include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 #include "render/renderer/scene_memory.h"
 #include "render/renderer/view_worker.h"
@@ -49,8 +50,9 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
   const bool reference = options.solver == Solver::reference;
   try {
     Scheduler scheduler(options.threads);
-    Result<PreparedScene> prepared = prepare(std::forward<AnyScene>(scene), options.width,
-                                             options.height, scheduler.parallel_for());
+    Result<PreparedScene> prepared =
+        prepare(std::forward<AnyScene>(scene), options.width, options.height,
+                scheduler.parallel_for(), options.method);
     if (!prepared) return prepared.error();
     RenderOptions fitted = options;
     fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());
@@ -173,8 +175,14 @@ std::unique_ptr<BlockWorker> Renderer::make_worker() const {
   settings.max_depth = options_.max_depth;
   settings.stream_size = setup_->stream_size;
   settings.cancel = options_.cancel;
-  return std::make_unique<BlockWorker>(
-      *setup_, std::make_unique<Whitted>(*scene_, setup_->kernels, settings));
+  settings.seed = options_.seed;
+  std::unique_ptr<Integrator> integrator;
+  if (options_.method == Method::path) {
+    integrator = std::make_unique<Path>(*scene_, setup_->kernels, settings);
+  } else {
+    integrator = std::make_unique<Whitted>(*scene_, setup_->kernels, settings);
+  }
+  return std::make_unique<BlockWorker>(*setup_, std::move(integrator));
 }
 
 RayCounts Renderer::count_rays() const {

@@ -29,6 +29,7 @@ class Hasher {
   void add(const OrthographicCamera& c) { add_all(c.pose, c.height); }
   void add(const PointLight& l) { add_all(l.position, l.intensity, l.falloff); }
   void add(const DirectionalLight& l) { add_all(l.direction, l.intensity); }
+  void add(const SphereLight& l) { add_all(l.center, l.radius, l.radiance); }
   void add(const Matte& m) { add(m.color); }
   void add(const Plastic& m) { add_all(m.color, m.specular, m.shininess, m.reflect); }
   void add(const Metal& m) { add(m.color); }

@@ -76,6 +76,14 @@ PointLight read_point(TomlTable& table) {
   return light;
 }
 
+SphereLight read_sphere_light(TomlTable& table) {
+  SphereLight light;
+  table.read("center", light.center);
+  table.read("radius", light.radius);
+  table.read("radiance", light.radiance);
+  return light;
+}
+
 DirectionalLight read_directional(TomlTable& table) {
   DirectionalLight light;
   table.read("direction", light.direction);
@@ -96,8 +104,9 @@ ImageSettings read_image(TomlTable& table) {
 }
 
 RenderSettings read_render(TomlTable& table) {
+  constexpr Method methods[] = {Method::whitted, Method::path};
   RenderSettings render;
-  table.choose("method", {"whitted"}, {"path"});
+  render.method = methods[table.choose("method", {"whitted", "path"})];
   table.read("max_depth", render.max_depth);
   table.finish();
   return render;
@@ -140,10 +149,15 @@ Material read_material(TomlTable& table) {
 
 Light read_light(TomlTable& table) {
   Light light;
-  if (table.choose("type", {"point", "directional"}, {"sphere"}) == 0) {
-    light = read_point(table);
-  } else {
-    light = read_directional(table);
+  switch (table.choose("type", {"point", "directional", "sphere"})) {
+    case 0:
+      light = read_point(table);
+      break;
+    case 1:
+      light = read_directional(table);
+      break;
+    default:
+      light = read_sphere_light(table);
   }
   table.finish();
   table.check(find_problem(light));

@@ -24,8 +24,8 @@ double power(double base, double exponent) {
 
 }  // namespace
 
-float highlight(const FlatMaterial& material, double r_dot_l) {
-  return static_cast<float>(material.highlight * power(r_dot_l, material.shininess));
+double highlight_power(const FlatMaterial& material, double r_dot_l) {
+  return power(r_dot_l, material.shininess);
 }
 
 Scatter scatter(const FlatMaterial& material, const Surface& surface) {

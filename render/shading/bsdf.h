@@ -21,18 +21,26 @@ inline bool faces(const Surface& surface, const Vec3d& to_light) {
   return dot(surface.normal, to_light) > 0;
 }
 
+/// The highlight's (r.l)^shininess for r.l > 0.
+double highlight_power(const FlatMaterial& material, double r_dot_l);
+
 /// The highlight's Ks (r.l)^shininess for r.l > 0.
-float highlight(const FlatMaterial& material, double r_dot_l);
+inline float highlight(const FlatMaterial& material, double r_dot_l) {
+  return static_cast<float>(material.highlight * highlight_power(material, r_dot_l));
+}
 
 /// What light of `intensity` from the unit direction `to_light`, which the surface faces, adds if
-/// nothing is in between: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980).
+/// nothing is in between: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980),
+/// the latter times n.l for FlatMaterial::cosine_highlight.
 inline Color direct_light(const FlatMaterial& material, double n_dot_l, const Vec3d& to_light,
                           const Vec3d& mirrored, const Color& intensity) {
   const Color sum = material.diffuse * intensity * static_cast<float>(n_dot_l);
   if (!(material.highlight > 0)) return sum;
   // Not above 1, or a great exponent makes infinity of a rounding error.
   const double r_dot_l = std::min(dot(mirrored, to_light), 1.0);
-  return r_dot_l > 0 ? sum + intensity * highlight(material, r_dot_l) : sum;
+  if (!(r_dot_l > 0)) return sum;
+  const float share = material.cosine_highlight ? static_cast<float>(n_dot_l) : 1.0f;
+  return sum + intensity * (highlight(material, r_dot_l) * share);
 }
 inline Color direct_light(const FlatMaterial& material, const Surface& surface,
                           const Vec3d& to_light, const Color& intensity) {

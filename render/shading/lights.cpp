@@ -17,8 +17,8 @@ Ray shadow_ray(const Light& light, const Surface& surface) {
 }
 
 Coherence shadow_coherence(const Light& light) {
-  return std::holds_alternative<PointLight>(light) ? Coherence::common_end
-                                                   : Coherence::common_direction;
+  return std::holds_alternative<DirectionalLight>(light) ? Coherence::common_direction
+                                                         : Coherence::common_end;
 }
 
 }  // namespace boule

@@ -8,7 +8,7 @@
 
 namespace boule {
 
-/// A light as one point sees it.
+/// A light as one point sees it: a sphere light as a point at its centre.
 struct LightSample {
   Vec3d to_light;   ///< unit length; NaN if the point is the light's own
   Color intensity;  ///< with its falloff over the distance
@@ -21,6 +21,9 @@ LightSample sample_light(const Light& light, const Vec3d& point);
 inline Vec3d direction_to(const PointLight& light, const Vec3d& point) {
   return normalize(vec_cast<double>(light.position) - point);
 }
+inline Vec3d direction_to(const SphereLight& light, const Vec3d& point) {
+  return normalize(vec_cast<double>(light.center) - point);
+}
 inline Vec3d direction_to(const DirectionalLight& light, const Vec3d&) {
   return normalize(-vec_cast<double>(light.direction));
 }
@@ -28,6 +31,9 @@ inline Vec3d direction_to(const DirectionalLight& light, const Vec3d&) {
 /// From `org` as far as the light.
 inline Ray way_to(const PointLight& light, const Vec3d& org) {
   return segment(org, vec_cast<double>(light.position));
+}
+inline Ray way_to(const SphereLight& light, const Vec3d& org) {
+  return segment(org, vec_cast<double>(light.center));
 }
 inline Ray way_to(const DirectionalLight& light, const Vec3d& org) {
   return {org, -light.direction};
@@ -38,6 +44,13 @@ inline Color intensity_at(const PointLight& light, const Vec3d& point) {
   if (light.falloff == Falloff::none) return light.intensity;
   const Vec3d way = vec_cast<double>(light.position) - point;
   return light.intensity * static_cast<float>(1 / dot(way, way));
+}
+/// Of the whole sphere as a point at its centre, radiance (radius / distance)^2: what a surface
+/// receives that sees all of it.
+inline Color intensity_at(const SphereLight& light, const Vec3d& point) {
+  const Vec3d way = vec_cast<double>(light.center) - point;
+  const auto radius = static_cast<double>(light.radius);
+  return light.radiance * static_cast<float>(radius * radius / dot(way, way));
 }
 inline Color intensity_at(const DirectionalLight& light, const Vec3d&) { return light.intensity; }
 

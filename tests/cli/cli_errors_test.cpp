@@ -80,7 +80,6 @@ TEST_F(Errors, ABadOptionValueIsWrongUsage) {
       {"--exposure", "nan"},
       {"--exposure", "101"},
       {"--nonsense", "1"},
-      {"--method", "path"},
       {"--method", "rays"},
       {"--progress", "dots"},
       {"--progress", ""},
@@ -134,7 +133,7 @@ TEST_F(Errors, QuietAndVerboseExcludeEachOther) {
 }
 
 TEST_F(Errors, AnUnknownMethodOfTheSceneIsInvalidInput) {
-  refused({write("path.toml", "schema = 1\n[render]\nmethod = \"path\"\n"), "-o", path("x.png")},
+  refused({write("path.toml", "schema = 1\n[render]\nmethod = \"paths\"\n"), "-o", path("x.png")},
           3);
 }
 

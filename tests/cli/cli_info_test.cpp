@@ -30,6 +30,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("hash").get<std::string>().size(), 16u);
   EXPECT_EQ(found.at("size"), json({32, 18}));
   EXPECT_EQ(found.at("spp"), 1);
+  EXPECT_EQ(found.at("method"), "whitted");
   EXPECT_EQ(found.at("max_depth"), 5);
   EXPECT_EQ(found.at("spheres"), 1);
   EXPECT_EQ(found.at("planes"), 1);
@@ -50,7 +51,7 @@ TEST_F(Info, JsonTellsEverything) {
       {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8]}])"));
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 18u);
+  EXPECT_EQ(found.size(), 19u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
@@ -107,6 +108,11 @@ direction = [0, -1, 0]
 type = "point"
 position = [0, 9, 0]
 falloff = "inverse_square"
+[[light]]
+type = "sphere"
+radius = 0.5
+[render]
+method = "path"
 )"));
   EXPECT_EQ(found.at("camera").at("type"), "orthographic");
   EXPECT_EQ(found.at("camera").at("height"), 3);
@@ -123,6 +129,10 @@ falloff = "inverse_square"
             json::parse(R"({"type": "directional", "direction": [0, -1, 0],
                             "intensity": [1, 1, 1]})"));
   EXPECT_EQ(found.at("lights").at(1).at("falloff"), "inverse_square");
+  EXPECT_EQ(found.at("lights").at(2),
+            json::parse(R"({"type": "sphere", "center": [0, 0, 0], "radius": 0.5,
+                            "radiance": [1, 1, 1]})"));
+  EXPECT_EQ(found.at("method"), "path");
 }
 
 TEST_F(Info, WhatTheSceneLeavesOutIsThereAndNoted) {

@@ -61,6 +61,9 @@ TEST_F(Render, ReferenceAndRobustAgree) {
 
 TEST_F(Render, WhittedIsTheMethod) {
   EXPECT_EQ(picture({"--method", "whitted"}, "a.ppm"), picture({}, "b.ppm"));
+  EXPECT_NE(picture({"--method", "path"}, "p.ppm"), picture({}, "b.ppm"));
+  EXPECT_EQ(picture({"--method", "path", "--spp", "3", "-t", "3"}, "p.ppm"),
+            picture({"--method", "path", "--spp", "3", "-t", "1", "--tile", "5"}, "q.ppm"));
 }
 
 TEST_F(Render, SizeSppSeedDepthAndExposureShow) {

@@ -45,6 +45,16 @@ TEST(SceneHash, ChangesWithEveryValueThatShows) {
       [](Scene& s) { std::get<PointLight>(s.lights[0]).position.x = 0; },
       [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).direction.x = 0; },
       [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).intensity.r = 0; },
+      [](Scene& s) { s.lights.emplace_back(SphereLight{}); },
+      [](Scene& s) {
+        s.lights.emplace_back(SphereLight{{0, 1, 0}});
+      },
+      [](Scene& s) {
+        s.lights.emplace_back(SphereLight{{}, 2});
+      },
+      [](Scene& s) {
+        s.lights.emplace_back(SphereLight{{}, 1, {1, 1, 2}});
+      },
       [](Scene& s) { s.spheres[7].center.y += 0x1p-20f; },
       [](Scene& s) { s.spheres[7].radius += 0x1p-20f; },
       [](Scene& s) { s.spheres[7].material = 0; },
@@ -66,7 +76,7 @@ TEST(SceneHash, LeavesOutNamesAndSettings) {
   const Scene scene = mixed_scene(8, 8);
   Scene other = mixed_scene(80, 60);
   other.image.spp = 9;
-  other.render.max_depth = 1;
+  other.render = {1, Method::path};
   for (NamedMaterial& material : other.materials) material.name += "'";
   EXPECT_EQ(scene_hash(other), scene_hash(scene));
 }

@@ -23,7 +23,8 @@ Scene full_scene() {
   scene.background = GradientBackground{};
   scene.materials = {{"matte", Matte{}}, {"plastic", Plastic{}},   {"metal", Metal{}},
                      {"glass", Glass{}}, {"emissive", Emissive{}}, {"phong", Phong{}}};
-  scene.lights = {PointLight{{4, 6, 4}, {1, 1, 1}, Falloff::none}, DirectionalLight{}};
+  scene.lights = {PointLight{{4, 6, 4}, {1, 1, 1}, Falloff::none}, DirectionalLight{},
+                  SphereLight{}};
   scene.spheres = {{{0, 1, 0}, 1, 0}, {{2, 1, 0}, 0.5f, 5}};
   scene.planes = {{{0, 0, 0}, {0, 1, 0}, 1}};
   return scene;
@@ -45,6 +46,7 @@ M& material(Scene& scene) {
   throw std::logic_error("full_scene() lacks a material");
 }
 PointLight& point_light(Scene& scene) { return std::get<PointLight>(scene.lights[0]); }
+SphereLight& sphere_light(Scene& scene) { return std::get<SphereLight>(scene.lights[2]); }
 DirectionalLight& directional_light(Scene& scene) {
   return std::get<DirectionalLight>(scene.lights[1]);
 }
@@ -143,6 +145,14 @@ const Breakage surroundings[] = {
      [](Scene& s) { point_light(s).position.x = nan; }},
     {"PointIntensityNegative", "light[0].intensity", not_negative,
      [](Scene& s) { point_light(s).intensity.r = -1; }},
+    {"SphereLightCenter", "light[2].center", finite,
+     [](Scene& s) { sphere_light(s).center.z = inf; }},
+    {"SphereLightRadiusZero", "light[2].radius", positive,
+     [](Scene& s) { sphere_light(s).radius = 0; }},
+    {"SphereLightRadiusNaN", "light[2].radius", positive,
+     [](Scene& s) { sphere_light(s).radius = nan; }},
+    {"SphereLightRadianceNegative", "light[2].radiance", not_negative,
+     [](Scene& s) { sphere_light(s).radiance.g = -1; }},
     {"DirectionZero", "light[1].direction", "zero vector",
      [](Scene& s) {
        directional_light(s).direction = {0, 0, 0};

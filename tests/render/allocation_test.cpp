@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "core/reference.h"
+#include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 #include "render/renderer/renderer.h"
 #include "simd/dispatch/dispatch.h"
+#include "tests/render/path_scenes.h"
 #include "tests/render/test_scenes.h"
 
 namespace {
@@ -51,12 +53,33 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyState) {
     }
     std::vector<Color> radiance(1024);
     const long start = allocations;
-    ASSERT_TRUE(whitted.trace(rays, prepared.coherence, radiance.data()));
+    ASSERT_TRUE(whitted.trace({rays, prepared.coherence, nullptr}, radiance.data()));
     const long first = allocations;
     EXPECT_GT(first, start);
-    ASSERT_TRUE(whitted.trace(rays, prepared.coherence, radiance.data()));
+    ASSERT_TRUE(whitted.trace({rays, prepared.coherence, nullptr}, radiance.data()));
     EXPECT_EQ(allocations, first);
   }
+}
+
+TEST(Allocation, NothingIsAllocatedInTheSteadyStateOfPathTracing) {
+  const Scene scene = path_scene(32, 32);
+  const PreparedScene prepared = prepare(scene, 32, 32, serial_for, Method::path).value();
+  IntegratorSettings settings;
+  settings.stream_size = 256;
+  Path path(prepared, *select_kernels("auto").value(), settings);
+  const CameraBasis basis = camera_basis(*scene.camera, 32, 32);
+  RayBuffer rays(1024);
+  std::vector<SampleId> ids;
+  for (int i = 0; i < 1024; ++i) {
+    ids.push_back({i % 32, i / 32, 0});
+    rays.set(static_cast<std::size_t>(i),
+             reference::primary_ray(basis, i % 32 + 0.5, i / 32 + 0.5));
+  }
+  std::vector<Color> radiance(1024);
+  ASSERT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
+  const long first = allocations;
+  ASSERT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
+  EXPECT_EQ(allocations, first);
 }
 
 /// Two parallel mirrors: one ray for ever.
@@ -73,7 +96,7 @@ TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
     ray.set(0, {{0, 0, 5}, {0, 0, -1}});
     Color radiance;
     const long start = allocations;
-    EXPECT_TRUE(whitted.trace(ray, Coherence::common_origin, &radiance));
+    EXPECT_TRUE(whitted.trace({ray, Coherence::common_origin, nullptr}, &radiance));
     EXPECT_EQ(whitted.counts().continuation, static_cast<std::uint64_t>(max_depth));
     return allocations - start;
   };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/reference.h"
 #include "render/prepare/default_view.h"
 #include "tests/render/test_scenes.h"
@@ -94,6 +96,40 @@ TEST(Prepare, MakesALightAtTheEyeOnlyWhereNothingShines) {
   EXPECT_EQ(lit().size(), 1u);
   EXPECT_TRUE(std::holds_alternative<DirectionalLight>(lit()[0]));
   EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());
+}
+
+TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
+  Scene scene;
+  const auto lights = [&] {
+    return prepare(scene, 10, 10, serial_for, Method::path).value().lights.size();
+  };
+  EXPECT_EQ(lights(), 1u);
+  scene.background = ConstantBackground{{0, 0.1f, 0}};
+  EXPECT_EQ(lights(), 0u);
+}
+
+TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPower) {
+  Scene scene;
+  scene.lights = {PointLight{}, SphereLight{{1, 2, 3}, 2, {1, 0, 0}},
+                  SphereLight{{0, 0, 0}, 9, {0, 0, 0}}};
+  const auto lamp = add_material(scene, Emissive{gray(1)});
+  const auto dark = add_material(scene, Emissive{gray(0)});
+  scene.spheres = {{{4, 5, 6}, 2, lamp}, {{7, 8, 9}, 5, dark}, {{7, 8, 9}, 1, lamp}};
+  const AreaLights lights(scene);  // powers 4, 12 and 3
+  EXPECT_EQ(lights.sphere_light_count(), 1u);
+  for (const auto& [at, share, x, rest] : {std::tuple{0.0, 4.0, 1.0, 0.0},
+                                           {0.1, 4.0, 1.0, 0.475},
+                                           {5 / 19.0, 12.0, 4.0, 1 / 12.0},
+                                           {15.5 / 19, 12.0, 4.0, 11.5 / 12},
+                                           {18 / 19.0, 3.0, 7.0, 2 / 3.0}}) {
+    double u = at;
+    const AreaLight& light = lights.pick(u);
+    EXPECT_NEAR(light.share, share / 19, 1e-15);
+    EXPECT_EQ(light.center.x, x);
+    EXPECT_NEAR(u, rest, 1e-14);
+  }
+  EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 3 / 19.0, 1e-15);
+  EXPECT_TRUE(AreaLights(Scene{}).empty());
 }
 
 TEST(Prepare, SaysThatItMadeACamera) {

@@ -154,6 +154,14 @@ TEST(Lights, HaveTheirDirectionAndFalloff) {
   EXPECT_EQ(sun.intensity, (Color{1, 2, 3}));
 }
 
+TEST(Lights, ASphereIsAPointAtItsCentreAsBrightAsTheWhole) {
+  const SphereLight light{{0, 4, 0}, 0.5f, {8, 16, 24}};
+  const LightSample sample = sample_light(light, {0, 2, 0});
+  EXPECT_EQ(sample.to_light, up);
+  EXPECT_EQ(sample.intensity, (Color{0.5f, 1, 1.5f}));  // radiance (radius / distance)^2
+  EXPECT_EQ(shadow_coherence(light), Coherence::common_end);
+}
+
 TEST(Background, IsAColourOrAGradientAlongUp) {
   EXPECT_EQ(background_radiance(ConstantBackground{{1, 2, 3}}, {0, 1, 0}), (Color{1, 2, 3}));
   const GradientBackground sky{{0, 0, 4}, {2, 0, 0}, {0, 5, 0}};

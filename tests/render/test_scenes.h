@@ -91,6 +91,7 @@ inline Scene moved(Scene scene, const Vec3f& by) {
   for (Plane& p : scene.planes) p.point = p.point + by;
   for (Light& l : scene.lights) {
     if (auto* point = std::get_if<PointLight>(&l)) point->position = point->position + by;
+    if (auto* sphere = std::get_if<SphereLight>(&l)) sphere->center = sphere->center + by;
   }
   std::visit([&](auto& c) { c.pose.eye = c.pose.eye + by, c.pose.look_at = c.pose.look_at + by; },
              *scene.camera);

@@ -195,7 +195,7 @@ std::vector<Color> trace(const PreparedScene& scene, const std::vector<Ray>& ray
   Whitted whitted(scene, *select_kernels("auto").value(), settings);
   RayBuffer stream = to_stream(rays);
   std::vector<Color> radiance(rays.size());
-  EXPECT_TRUE(whitted.trace(stream, scene.coherence, radiance.data()));
+  EXPECT_TRUE(whitted.trace({stream, scene.coherence, nullptr}, radiance.data()));
   return radiance;
 }
 
@@ -241,7 +241,7 @@ TEST(Whitted, CountsItsRays) {
   Whitted whitted(prepared, *select_kernels("auto").value(), settings);
   RayBuffer ray = to_stream(camera_rays(scene));
   Color radiance;
-  ASSERT_TRUE(whitted.trace(ray, Coherence::common_origin, &radiance));
+  ASSERT_TRUE(whitted.trace({ray, Coherence::common_origin, nullptr}, &radiance));
   const RayCounts counts = whitted.counts();
   EXPECT_EQ(counts.primary, 1u);
   EXPECT_EQ(counts.continuation, 2u);  // one reflected, one refracted
@@ -255,7 +255,7 @@ TEST(Whitted, NoRaysAreNoWork) {
   const PreparedScene prepared = prepare(scene, 4, 4).value();
   Whitted whitted(prepared, *select_kernels("auto").value(), {});
   RayBuffer none;
-  EXPECT_TRUE(whitted.trace(none, Coherence::none, nullptr));
+  EXPECT_TRUE(whitted.trace({none, Coherence::none, nullptr}, nullptr));
   EXPECT_EQ(whitted.counts().total(), 0u);
 }
 
@@ -270,10 +270,10 @@ TEST(Whitted, StopsWhenCancelledAndWorksAgainAfterwards) {
   Whitted whitted(prepared, *select_kernels("auto").value(), settings);
   RayBuffer stream = to_stream(rays);
   std::vector<Color> radiance(rays.size(), gray(-1));
-  EXPECT_FALSE(whitted.trace(stream, Coherence::none, radiance.data()));
+  EXPECT_FALSE(whitted.trace({stream, Coherence::none, nullptr}, radiance.data()));
   EXPECT_EQ(radiance[0], gray(-1));
   cancel = false;
-  EXPECT_TRUE(whitted.trace(stream, Coherence::none, radiance.data()));
+  EXPECT_TRUE(whitted.trace({stream, Coherence::none, nullptr}, radiance.data()));
   EXPECT_EQ(differing(radiance, expected), 0);
 }
 

@@ -14,7 +14,7 @@ class SceneDump {
   explicit SceneDump(const Scene& scene) {
     add("image", scene.image.width, scene.image.height, scene.image.spp,
         static_cast<int>(scene.image.filter));
-    add("render", scene.render.max_depth);
+    add("render", scene.render.max_depth, static_cast<int>(scene.render.method));
     if (scene.camera) std::visit([this](const auto& any) { dump(any); }, *scene.camera);
     std::visit([this](const auto& any) { dump(any); }, scene.background);
     add("ambient", scene.ambient);
@@ -62,6 +62,7 @@ class SceneDump {
   void dump(const PointLight& l) {
     add("point", l.position, l.intensity, static_cast<int>(l.falloff));
   }
+  void dump(const SphereLight& l) { add("sphere light", l.center, l.radius, l.radiance); }
   void dump(const DirectionalLight& l) { add("directional", l.direction, l.intensity); }
 
   template <class... Values>

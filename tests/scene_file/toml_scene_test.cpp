@@ -69,7 +69,7 @@ max_depth = 5
 TEST(TomlScene, EveryKeyOfEveryType) {
   const Scene scene = load(R"(schema = 1
 image = {size = [1, 65535], spp = 2147483647, filter = "tent"}
-render.max_depth = 0
+render = {max_depth = 0, method = "path"}
 [camera]
 type = "orthographic"
 eye = [1, 2, 3]
@@ -118,6 +118,11 @@ falloff = "inverse_square"
 type = "directional"
 direction = [0, -1, 1]
 intensity = [0.5, 0.5, 0.5]
+[[light]]
+type = "sphere"
+center = [7, 8, 9]
+radius = 0.25
+radiance = [10, 11, 12]
 [[plane]]
 point = [1, 2, 3]
 normal = [0, 0, 4]
@@ -127,7 +132,7 @@ material = "v"
 )");
   Scene expected;
   expected.image = {1, 65535, 2147483647, PixelFilter::tent};
-  expected.render.max_depth = 0;
+  expected.render = {0, Method::path};
   expected.camera = OrthographicCamera{{{1, 2, 3}, {4, 5, 7}, {0, 0, 1}}, 0.25f};
   expected.background = GradientBackground{{0.1f, 0.2f, 0.3f}, {1, 2, 3}, {0, 0, 2}};
   expected.ambient = {0.5f, 0.25f, 0.125f};
@@ -138,7 +143,8 @@ material = "v"
                         {"w", Emissive{{10, 20, 30}}},
                         {"v", Phong{{0.5f, 0.5f, 0.5f}, 0.1f, 0.7f, 0.2f, 30, 0.3f, 1.5f}}};
   expected.lights = {PointLight{{1, 2, 3}, {4, 5, 6}, Falloff::inverse_square},
-                     DirectionalLight{{0, -1, 1}, {0.5f, 0.5f, 0.5f}}};
+                     DirectionalLight{{0, -1, 1}, {0.5f, 0.5f, 0.5f}},
+                     SphereLight{{7, 8, 9}, 0.25f, {10, 11, 12}}};
   expected.spheres = {{{0, 0, 0}, 1, 5}};
   expected.planes = {{{1, 2, 3}, {0, 0, 4}, 3}};
   EXPECT_EQ(dump(scene), dump(expected));

@@ -114,6 +114,13 @@ class WhittedOracle {
         if (point->falloff == Falloff::inverse_square) intensity = intensity * (1 / dot(way, way));
         shadow.dir = vec_cast<float>(way);
         shadow.tmax = 1 - 0x1p-22f;
+      } else if (const auto* sphere = std::get_if<SphereLight>(&light)) {
+        const Vec3d way = vec_cast<double>(sphere->center) - at.p;
+        const auto r = static_cast<double>(sphere->radius);
+        l = normalize(way);
+        intensity = Rgb(sphere->radiance) * (r * r / dot(way, way));
+        shadow.dir = vec_cast<float>(way);
+        shadow.tmax = 1 - 0x1p-22f;
       } else {
         const auto& sun = std::get<DirectionalLight>(light);
         l = normalize(-vec_cast<double>(sun.direction));

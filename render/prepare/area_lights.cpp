@@ -1,0 +1,55 @@
+#include "render/prepare/area_lights.h"
+
+#include <algorithm>
+
+namespace boule {
+namespace {
+
+/// What a light's power is in proportion to.
+double power_of(const AreaLight& light) {
+  const Color& c = light.radiance;
+  return (double{c.r} + double{c.g} + double{c.b}) * light.radius * light.radius;
+}
+
+AreaLight area_light(const Vec3f& center, float radius, const Color& radiance) {
+  return {vec_cast<double>(center), static_cast<double>(radius), radiance, 0};
+}
+
+}  // namespace
+
+AreaLights::AreaLights(const Scene& scene) {
+  const auto add = [this](const AreaLight& light) {
+    if (is_black(light.radiance)) return;
+    lights_.push_back(light);
+    power_ += power_of(light);
+    cumulative_.push_back(power_);
+  };
+  for (const Light& light : scene.lights) {
+    const auto* sphere = std::get_if<SphereLight>(&light);
+    if (sphere) add(area_light(sphere->center, sphere->radius, sphere->radiance));
+  }
+  sphere_lights_ = lights_.size();
+  for (const Sphere& sphere : scene.spheres) {
+    const auto* emissive = std::get_if<Emissive>(&scene.materials[sphere.material].material);
+    if (emissive) add(area_light(sphere.center, sphere.radius, emissive->radiance));
+  }
+  for (AreaLight& light : lights_) light.share = power_of(light) / power_;
+  for (double& sum : cumulative_) sum /= power_;
+}
+
+const AreaLight& AreaLights::pick(double& u) const {
+  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u);
+  const auto index = static_cast<std::size_t>(found - cumulative_.begin());
+  const double before = index == 0 ? 0 : cumulative_[index - 1];
+  constexpr double below_one = 1 - 0x1p-53;
+  u = std::clamp((u - before) / lights_[index].share, 0.0, below_one);
+  return lights_[index];
+}
+
+AreaLight AreaLights::light_of(const Sphere& sphere, const Color& radiance) const {
+  AreaLight light = area_light(sphere.center, sphere.radius, radiance);
+  light.share = power_of(light) / power_;
+  return light;
+}
+
+}  // namespace boule

@@ -1,0 +1,81 @@
+#include "render/shading/lobes.h"
+
+#include <algorithm>
+
+#include "core/math/elementary.h"
+#include "core/math/warp.h"
+
+namespace boule {
+namespace {
+
+double mean(const Color& c) { return (double{c.r} + double{c.g} + double{c.b}) / 3; }
+
+/// u within a share of the numbers in [0, 1) that begins at `first`, spread over all of them again.
+double spread(double u, double first, double share) {
+  constexpr double below_one = 1 - 0x1p-53;
+  return std::clamp((u - first) / share, 0.0, below_one);
+}
+
+}  // namespace
+
+Lobes::Lobes(const FlatMaterial& material, const Surface& surface)
+    : material_(material),
+      surface_(surface),
+      diffuse_(mean(material.diffuse)),
+      highlight_(highlight_albedo(material)),
+      reflection_(0),
+      refraction_(0) {
+  if (scatters(material)) {
+    way_ = scatter(material, surface);
+    reflection_ = mean(way_.reflection);
+    refraction_ = mean(way_.refraction);
+  }
+  sum_ = diffuse_ + highlight_ + reflection_ + refraction_;
+}
+
+double Lobes::density(double cosine, const Vec3d& to_light) const {
+  double density = diffuse_ * cosine_density(cosine);
+  if (highlight_ > 0) {
+    const double r_dot_l = std::min(dot(surface_.mirrored, to_light), 1.0);
+    if (r_dot_l > 0) {
+      density +=
+          highlight_ * power_density(highlight_power(material_, r_dot_l), material_.shininess);
+    }
+  }
+  return density / sum_;
+}
+
+Bounce Lobes::bounce(UnitPair numbers) const {
+  const double u = numbers.u * sum_, v = numbers.v;
+  double first = 0;
+  if (u < first + diffuse_) {
+    const double inner = spread(u, first, diffuse_);
+    const Angle from = warp_to_cosine(inner);
+    const Vec3d direction = direction_about(surface_.normal, from, v);
+    if (diffuse_ < sum_) return scattered(direction);
+    return {direction, Side::viewer, material_.diffuse, cosine_density(from.cosine)};
+  }
+  first += diffuse_;
+  if (u < first + highlight_) {
+    const Angle from = warp_to_power(spread(u, first, highlight_), material_.shininess);
+    return scattered(direction_about(surface_.mirrored, from, v));
+  }
+  first += highlight_;
+  if (u < first + reflection_ || !(refraction_ > 0)) {
+    if (!(reflection_ > 0)) return {};
+    return {surface_.mirrored, Side::viewer,
+            way_.reflection * static_cast<float>(sum_ / reflection_)};
+  }
+  return {way_.refracted, Side::beyond, way_.refraction * static_cast<float>(sum_ / refraction_)};
+}
+
+/// Light from this direction by both lobes, over their density.
+Bounce Lobes::scattered(const Vec3d& direction) const {
+  const double cosine = dot(surface_.normal, direction);
+  if (!(cosine > 0)) return {};
+  const double density = this->density(cosine, direction);
+  const auto scale = static_cast<float>(1 / (elementary::pi * density));
+  return {direction, Side::viewer, reflected(cosine, direction) * scale, density};
+}
+
+}  // namespace boule

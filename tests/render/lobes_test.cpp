@@ -1,0 +1,103 @@
+#include "render/shading/lobes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/elementary.h"
+#include "core/math/geometry.h"
+#include "core/math/warp.h"
+#include "tests/render/test_scenes.h"
+
+namespace boule::test {
+namespace {
+
+/// A surface whose viewer is this far from its normal, z.
+Surface seen_at(double angle) {
+  Surface surface{};
+  surface.normal = {0, 0, 1};
+  surface.view = {std::sin(angle), 0, -std::cos(angle)};
+  surface.cosine = std::cos(angle);
+  surface.mirrored = {std::sin(angle), 0, std::cos(angle)};
+  return surface;
+}
+
+const Material materials[] = {Matte{{0.2f, 0.5f, 0.8f}},
+                              Plastic{{0.1f, 0.3f, 0.5f}, 0.3f, 12, 0.1f},
+                              Plastic{{0.8f, 0.8f, 0.8f}, 0.6f, 3, 0},
+                              Metal{{0.9f, 0.5f, 0.1f}},
+                              Glass{{0.9f, 1, 0.9f}, 1.5f},
+                              Phong{{0.5f, 0.4f, 0.3f}, 0, 0.6f, 0.2f, 8, 0.3f, 1.3f}};
+
+constexpr std::uint32_t samples = 16384;
+
+/// What all bounces are worth in white light is what the lobes send on, one by one: a quadrature of
+/// the first two, and the weights of the mirror and the refracted ray.
+TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
+  for (const Material& material : materials) {
+    for (const double angle : {0.1, 0.8, 1.4}) {
+      const FlatMaterial flat = flatten_for_paths(material);
+      const Surface surface = seen_at(angle);
+      const Lobes lobes(flat, surface);
+      Color by_chance, expected;
+      for (std::uint32_t i = 0; i < samples; ++i) {
+        by_chance =
+            by_chance + lobes.bounce(sobol_pair(1, RandomSet::film, i)).weight * (1.0f / samples);
+        const auto [u, v] = sobol_pair(2, RandomSet::film, i);
+        const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
+        expected = expected + lobes.reflected(w.z, w) * (2.0f / samples);
+      }
+      const Scatter way = scatter(flat, surface);
+      expected = expected + way.reflection + way.refraction;
+      EXPECT_NEAR(by_chance.r, expected.r, 4e-3) << material.index() << " " << angle;
+      EXPECT_NEAR(by_chance.g, expected.g, 4e-3) << material.index() << " " << angle;
+      EXPECT_NEAR(by_chance.b, expected.b, 4e-3) << material.index() << " " << angle;
+      EXPECT_LT(std::max({expected.r, expected.g, expected.b}), 1.001f) << material.index();
+    }
+  }
+}
+
+/// The density is that of the directions that come: over cells of the hemisphere.
+TEST(Lobes, BouncesFollowTheirDensity) {
+  for (const Material& material : materials) {
+    const FlatMaterial flat = flatten_for_paths(material);
+    const Surface surface = seen_at(0.7);
+    const Lobes lobes(flat, surface);
+    double counts[4][4] = {}, expected[4][4] = {};
+    const auto cell = [](const Vec3d& w) {
+      return std::pair{static_cast<int>(w.z * 3.999), (w.x > 0 ? 1 : 0) + (w.y > 0 ? 2 : 0)};
+    };
+    for (std::uint32_t i = 0; i < samples; ++i) {
+      const Bounce bounce = lobes.bounce(sobol_pair(1, RandomSet::film, i));
+      const auto [u, v] = sobol_pair(2, RandomSet::film, i);
+      const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
+      const auto [row, column] = cell(w);
+      expected[row][column] += lobes.density(w.z, w) * 2 * elementary::pi / samples;
+      if (!(bounce.density > 0)) continue;
+      EXPECT_NEAR(bounce.density, lobes.density(bounce.direction.z, bounce.direction), 1e-12);
+      const auto [r, c] = cell(bounce.direction);
+      counts[r][c] += 1.0 / samples;
+    }
+    for (int i = 0; i < 16; ++i) {
+      EXPECT_NEAR(counts[i / 4][i % 4], expected[i / 4][i % 4], 4e-3) << material.index();
+    }
+  }
+}
+
+TEST(Lobes, AmbientLightIsLeftOut) {
+  EXPECT_EQ(flatten_for_paths(Phong{gray(1), 0.5f}).constant, gray(0));
+  EXPECT_EQ(flatten_for_paths(Emissive{{1, 2, 3}}).constant, (Color{1, 2, 3}));
+}
+
+/// What sends on less than it gets stays as it is; what would send on more is scaled to 1.
+TEST(Lobes, EnergyIsConserved) {
+  const FlatMaterial modest = flatten_for_paths(Plastic{{0.5f, 0.4f, 0.3f}, 0.25f, 10, 0.25f});
+  EXPECT_EQ(modest.diffuse, (Color{0.5f, 0.4f, 0.3f}));
+  EXPECT_EQ(modest.highlight, 0.25 * 6);
+  EXPECT_EQ(highlight_albedo(modest), 0.25);
+  const FlatMaterial greedy = flatten_for_paths(Plastic{{1, 0.5f, 0}, 0.5f, 10, 0.5f});
+  EXPECT_EQ(greedy.diffuse, (Color{0.5f, 0.25f, 0}));
+  EXPECT_EQ(highlight_albedo(greedy), 0.25);
+  EXPECT_EQ(greedy.mirror, gray(0.25f));
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,253 @@
+#include "render/integrators/path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "simd/dispatch/dispatch.h"
+#include "tests/render/path_scenes.h"
+
+namespace boule::test {
+namespace {
+
+/// A white sphere, or several, in white light from everywhere: everything is white.
+Scene furnace(const Material& material) {
+  Scene scene = empty_scene(32, 32);
+  scene.background = ConstantBackground{gray(1)};
+  scene.render.method = Method::path;
+  scene.render.max_depth = max_count;
+  scene.spheres = {{{0, 0, 0}, 1.5f, add_material(scene, material)}};
+  return scene;
+}
+
+TEST(PathFurnace, OneSphereIsAsWhiteAsItsSurroundings) {
+  for (const Material& material :
+       {Material{Matte{gray(1)}}, Material{Metal{gray(1)}}, Material{Plastic{gray(1), 0, 0, 0}},
+        Material{Plastic{gray(0.6f), 0, 0, 0.4f}}, Material{Phong{gray(1), 0.5f, 1}}}) {
+    Scene scene = furnace(material);
+    scene.image.spp = 4;
+    for (const Color& c : render(scene).pixels) {
+      for (const float x : {c.r, c.g, c.b}) EXPECT_NEAR(x, 1, 1e-5) << material.index();
+    }
+  }
+}
+
+/// The mean of a furnace's pixels, which are independent, and its standard error.
+void expect_white(Scene scene, int spp, double most) {
+  scene.image.spp = spp;
+  Moments moments;
+  for (const Color& c : render(scene).pixels) moments.add(luminance(c));
+  EXPECT_NEAR(moments.mean, 1, 3 * std::sqrt(moments.variance_of_mean()) + 1e-6);
+  EXPECT_NEAR(moments.mean, 1, most);
+}
+
+TEST(PathFurnace, GlassIsWhiteInTheMean) { expect_white(furnace(Glass{}), 64, 0.002); }
+
+TEST(PathFurnace, ThirtyTwoTouchingSpheresWithoutALimitAreWhiteInTheMean) {
+  Scene scene = furnace(Matte{gray(1)});
+  scene.image = {64, 64, 1};
+  const std::uint32_t material = scene.spheres[0].material;
+  scene.spheres.clear();
+  for (int i = 0; i < 32; ++i) {
+    const auto x = static_cast<float>(i % 4), y = static_cast<float>(i / 4 % 4),
+               z = static_cast<float>(i / 16);
+    scene.spheres.push_back({{x - 1.5f, y - 1.5f, -z}, 0.5f, material});
+  }
+  expect_white(scene, 64, 0.002);
+}
+
+/// No material sends on more than it gets, whatever its coefficients say.
+TEST(PathFurnace, NothingIsBrighterThanItsSurroundings) {
+  for (const Material& material :
+       {Material{Plastic{gray(0.9f), 0.5f, 30, 0.3f}}, Material{Plastic{gray(0.5f), 0.5f, 2, 0}},
+        Material{Phong{gray(1), 1, 1, 0.5f, 20, 0.5f, 1.4f}}, Material{Matte{gray(3)}},
+        Material{Metal{gray(2)}}, Material{Glass{gray(2), 1.3f}}}) {
+    Scene scene = furnace(material);
+    scene.image.spp = 64;
+    Moments moments;
+    for (const Color& c : render(scene).pixels) moments.add(luminance(c));
+    EXPECT_LT(moments.mean, 1 + 3 * std::sqrt(moments.variance_of_mean()) + 1e-6)
+        << material.index();
+    EXPECT_GT(moments.mean, 0.5) << material.index();
+  }
+}
+
+/// A white plane seen from above where (x, 0, 0) is, all of the picture within a hair's breadth.
+Scene lit_plane(float x, float tilt) {
+  Scene scene = empty_scene(4, 4);
+  scene.camera = OrthographicCamera{{{x, 0.1f, 0}, {x, 0, 0}, {0, 0, 1}}, 1e-4f};
+  scene.render.method = Method::path;
+  scene.render.max_depth = 0;
+  scene.planes = {{{x, 0, 0}, {tilt, 1, 0}, add_material(scene, Matte{gray(1)})}};
+  scene.image.spp = 256;
+  return scene;
+}
+
+constexpr double light_height = 3, light_radius = 1.25;
+
+/// Irradiance over pi of the sphere light above at the plane's point, by the midpoint rule over the
+/// cone: cos > 0 only.
+double plane_radiance(double x, double tilt) {
+  const Vec3d to_light = Vec3d{-x, light_height, 0};
+  const double distance = length(to_light);
+  const Vec3d axis = normalize(to_light), normal = normalize(Vec3d{tilt, 1, 0});
+  const Vec3d side = {-axis.y, axis.x, 0}, other = cross(axis, side);
+  const double cone = std::asin(light_radius / distance);
+  constexpr int rings = 1000, parts = 1000;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i) {
+    const double a = cone * (i + 0.5) / rings;
+    for (int k = 0; k < parts; ++k) {
+      const double b = 2 * elementary::pi * (k + 0.5) / parts;
+      const Vec3d w = axis * std::cos(a) + side * (std::sin(a) * std::cos(b)) +
+                      other * (std::sin(a) * std::sin(b));
+      sum += std::max(0.0, dot(w, normal)) * std::sin(a);
+    }
+  }
+  return sum * (cone / rings) * (2 * elementary::pi / parts) / elementary::pi;
+}
+
+double mean_luminance(const Scene& scene) {
+  Moments moments;
+  for (const Color& c : render(scene).pixels) moments.add(luminance(c));
+  return moments.mean;
+}
+
+TEST(PathLight, IrradianceOfASphereLightIsTheAnalyticOne) {
+  for (const float x : {0.0f, 1.0f, 4.0f}) {
+    Scene scene = lit_plane(x, 0);
+    const double d2 = light_height * light_height + double{x} * double{x};
+    const double analytic = light_radius * light_radius / d2 * (light_height / std::sqrt(d2));
+    EXPECT_NEAR(plane_radiance(double{x}, 0) / analytic, 1, 1e-4);
+    scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)}};
+    EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.005) << x;
+    scene.render.method = Method::whitted;  // a point light of the same brightness
+    EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 1e-4) << x;
+    scene.render.method = Method::path;  // the same of an emissive sphere
+    scene.lights.clear();
+    scene.spheres = {{{0, light_height, 0}, light_radius, add_material(scene, Emissive{gray(1)})}};
+    EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.005) << x;
+    scene.render.max_depth = 1;
+    EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.005) << x;
+  }
+}
+
+TEST(PathLight, ALightBehindTheHorizonCountsAsFarAsItIsSeen) {
+  for (const float tilt : {1.0f, 2.5f, -3.0f}) {
+    Scene scene = lit_plane(2, tilt);
+    scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)}};
+    const double expected = plane_radiance(2, double{tilt});
+    EXPECT_NEAR(mean_luminance(scene), expected, 0.005 * expected) << tilt;
+  }
+}
+
+/// Without what only path tracing adds, both methods agree: direct light of points on matte.
+TEST(PathLight, PointLightsOnMatteAreWhittedsAtDepthZero) {
+  Scene scene = mixed_scene(32, 24);
+  scene.ambient = {};
+  for (NamedMaterial& named : scene.materials) {
+    if (!std::holds_alternative<Emissive>(named.material))
+      named.material = Matte{{0.5f, 0.6f, 0.7f}};
+  }
+  scene.spheres.erase(scene.spheres.begin() + 6);  // the lamp, which path tracing makes a light
+  scene.render.max_depth = 0;
+  const Image whitted = render(scene);
+  scene.render.method = Method::path;
+  EXPECT_EQ(differing_pixels(render(scene), whitted), 0);
+}
+
+TEST(PathLight, NoRayMeetsASphereLight) {
+  Scene scene = empty_scene(16, 16);
+  scene.background = ConstantBackground{gray(0.25f)};
+  scene.lights = {SphereLight{{0, 0, 0}, 1, gray(100)}};
+  for (const Method method : {Method::whitted, Method::path}) {
+    scene.render.method = method;
+    for (const Color& c : render(scene).pixels) EXPECT_EQ(c, gray(0.25f));
+  }
+}
+
+TEST(Path, NeitherIsaNorThreadsNorOrderNorTileNorCropShow) {
+  Scene scene = path_scene(40, 30);
+  scene.image.spp = 3;
+  RenderOptions usual = options_of(scene);
+  usual.seed = 5;
+  const Image expected = render(scene, usual);
+  std::vector<RenderOptions> others;
+  for (const IsaInfo& isa : list_isas()) {
+    if (!isa.supported) continue;
+    others.push_back(usual);
+    others.back().isa = std::string(isa.name);
+  }
+  for (const PixelOrder order :
+       {PixelOrder::rows, PixelOrder::progressive, PixelOrder::frameless}) {
+    for (const int tile : {1, 7, 64}) {
+      others.push_back(usual);
+      others.back().order = order;
+      others.back().tile = tile;
+      others.back().threads = static_cast<unsigned>(tile % 5 + 1);
+    }
+  }
+  others.push_back(usual);
+  others.back().solver = Solver::reference;
+  for (const RenderOptions& options : others) {
+    EXPECT_EQ(differing_pixels(render(scene, options), expected), 0)
+        << options.isa << " " << options.tile << " " << options.threads;
+  }
+  RenderOptions cropped = usual;
+  cropped.crop = PixelRect{11, 7, 30, 22};
+  const Image part = render(scene, cropped);
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      EXPECT_TRUE(same_bits(part.at(x, y), expected.at(x + 11, y + 7)));
+    }
+  }
+  usual.seed = 6;
+  EXPECT_GT(differing_pixels(render(scene, usual), expected), 40 * 30 / 2);
+}
+
+TEST(Path, StreamSizeNeverShows) {
+  const Scene scene = path_scene(24, 18);
+  const PreparedScene prepared = prepare(scene, 24, 18, serial_for, Method::path).value();
+  const CameraBasis basis = camera_basis(*scene.camera, 24, 18);
+  RayBuffer rays(24 * 18);
+  std::vector<SampleId> ids;
+  for (int i = 0; i < 24 * 18; ++i) {
+    ids.push_back({i % 24, i / 24, 3});
+    rays.set(static_cast<std::size_t>(i),
+             reference::primary_ray(basis, i % 24 + 0.5, i / 24 + 0.5));
+  }
+  const auto traced = [&](std::size_t stream_size) {
+    IntegratorSettings settings;
+    settings.stream_size = stream_size;
+    Path path(prepared, *select_kernels("auto").value(), settings);
+    std::vector<Color> radiance(rays.size());
+    EXPECT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
+    return radiance;
+  };
+  const std::vector<Color> expected = traced(16384);
+  for (const std::size_t size : {1, 2, 7, 16, 100}) {
+    const std::vector<Color> radiance = traced(size);
+    for (std::size_t k = 0; k < radiance.size(); ++k) {
+      EXPECT_TRUE(same_bits(radiance[k], expected[k])) << size;
+    }
+  }
+}
+
+TEST(Path, StopsWhenCancelled) {
+  const Scene scene = path_scene(4, 4);
+  const PreparedScene prepared = prepare(scene, 4, 4, serial_for, Method::path).value();
+  std::atomic<bool> cancel{true};
+  IntegratorSettings settings;
+  settings.cancel = &cancel;
+  Path path(prepared, *select_kernels("auto").value(), settings);
+  RayBuffer ray(1);
+  ray.set(0, {{0, 1, 7}, {0, 0, -1}});
+  const SampleId id{0, 0, 0};
+  Color radiance;
+  EXPECT_FALSE(path.trace({ray, Coherence::none, &id}, &radiance));
+  cancel = false;
+  EXPECT_TRUE(path.trace({ray, Coherence::none, &id}, &radiance));
+}
+
+}  // namespace
+}  // namespace boule::test
