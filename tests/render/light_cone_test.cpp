@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
@@ -43,10 +44,11 @@ TEST(LightCone, WaysEndJustBeforeTheSphere) {
     const Vec3d direction = cone.direction({u, random.uniform(0, 1)});
     EXPECT_NEAR(length(direction), 1, 1e-14);
     const Ray ray = cone.way(point, direction);
-    EXPECT_FALSE(reference::any_hit(ray, {{center, radius, 0}}, {})) << i;
+    const std::vector<Sphere> spheres = {{center, radius, 0}};
+    EXPECT_FALSE(reference::any_hit(ray, spheres, {})) << i;
     if (u > 0.99) continue;  // there distances change quickly
     EXPECT_TRUE(cone.meets(direction, inf));
-    const Hit hit = reference::closest_hit({point, ray.dir}, {{center, radius, 0}}, {});
+    const Hit hit = reference::closest_hit({point, ray.dir}, spheres, {});
     ASSERT_NE(hit.id, no_primitive) << i;
     EXPECT_NEAR(static_cast<double>(ray.tmax) / hit.t, 1, 2e-4) << i;
     EXPECT_TRUE(cone.meets(direction, hit.t * (1 + 1e-4)));
