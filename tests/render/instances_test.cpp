@@ -109,6 +109,16 @@ TEST(Instances, EveryIsaThreadsAndTilesGiveThePictureWrittenOut) {
   }
 }
 
+TEST(Instances, PathsSeeTheLampsInGroups) {
+  Scene grouped = grouped_scene();
+  grouped.groups[1].spheres[0].material = 4;  // the lamp
+  grouped.image.spp = 4;
+  grouped.render.method = Method::path;
+  Scene flat = grouped;
+  expand_instances(flat);
+  EXPECT_EQ(differing_pixels(render(grouped), render(flat)), 0);
+}
+
 struct LongPoint {
   long double x, y, z;
 };

@@ -224,6 +224,22 @@ TEST_F(Live, StoppedAnywhereItKeepsWhatIsDoneAndGoesOn) {
   }
 }
 
+TEST(LivePaths, EndAsThePictureWhateverTheOrder) {
+  Scene scene = mixed_scene(40, 30);
+  scene.image.spp = 5;
+  scene.render.method = Method::path;
+  const Image expected = render(scene);
+  for (const PixelOrder order : all_orders) {
+    RenderOptions options = options_of(scene);
+    options.order = order;
+    auto renderer = Renderer::create(scene, options);
+    ASSERT_TRUE(renderer);
+    Film film(renderer.value().rect());
+    EXPECT_FALSE(renderer.value().render_live(film));
+    EXPECT_EQ(differing_pixels(film.to_image(), expected), 0);
+  }
+}
+
 TEST_F(Live, ACropIsThatPartOfTheFrame) {
   RenderOptions options = options_of(scene_);
   options.order = PixelOrder::progressive;
