@@ -16,31 +16,7 @@ bool in_range(double t, const Ray& ray) {
   return representable && t > double{ray.tmin} && t <= double{ray.tmax};
 }
 
-/// Raster position to film position on one axis.
-double film_coordinate(const RasterToFilm& map, double raster) {
-  return (raster * map.scale + map.offset) / map.extent;
-}
-
 }  // namespace
-
-Ray primary_ray(const CameraBasis& camera, double raster_x, double raster_y) {
-  // Lecture "Pixel centres": pixel (i, j) is sampled at (i + 0.5, j + 0.5), and the film runs from
-  // -1 to 1 across the picture.
-  const double x = film_coordinate(camera.film_x, raster_x);
-  const double y = film_coordinate(camera.film_y, raster_y);
-  const Vec3d on_film = camera.right * x + camera.up * y;
-  Ray ray;
-  if (camera.parallel) {
-    // Lecture "Orthographic camera": every ray has the view's direction and starts on the film.
-    ray.org = camera.eye + on_film;
-    ray.dir = vec_cast<float>(camera.forward);
-  } else {
-    // Lecture "Pinhole camera": every ray starts at the eye and passes through the film point.
-    ray.org = camera.eye;
-    ray.dir = vec_cast<float>(normalize(camera.forward + on_film));
-  }
-  return ray;
-}
 
 // Ray-sphere. The lecture substitutes P = O + tD into |P - C|^2 = r^2 and gets the quadratic
 //   (D.D) t^2 + 2 (O - C).D t + (O - C).(O - C) - r^2 = 0,

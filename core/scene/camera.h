@@ -4,17 +4,12 @@
 #include <variant>
 
 #include "core/math/vec.h"
+#include "core/scene/camera_pose.h"
+#include "core/scene/distortion.h"
+#include "core/scene/lens.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
-
-/// Where a camera stands and what it looks at: L = unit(look_at - eye), u = unit(L x up),
-/// v = u x L. Right-handed; u points right in the picture, v up.
-struct CameraPose {
-  Vec3f eye{0, 0, 0};
-  Vec3f look_at{0, 0, -1};
-  Vec3f up{0, 1, 0};
-};
 
 /// Which side of the film the field of view spans: x (its width), y, or the longer of the two
 /// (the lecture's -1..1 rule).
@@ -33,26 +28,58 @@ struct OrthographicCamera {
   float height = 2;
 };
 
-using Camera = std::variant<PinholeCamera, OrthographicCamera>;
+/// All rays from the eye, their angle from the view in proportion to the distance from the middle
+/// of the film (equidistant projection); fov in degrees, 0 < fov <= 360.
+struct FisheyeCamera {
+  CameraPose pose;
+  float fov = 180;
+  FovAxis fov_axis = FovAxis::x;
+};
+
+/// A pinhole opened to a disc (Cook, Porter, Carpenter, "Distributed ray tracing", SIGGRAPH 1984):
+/// what lies at the distance `focus` along L is sharp; fov as there.
+struct ThinLensCamera {
+  CameraPose pose;
+  float fov = 45;
+  FovAxis fov_axis = FovAxis::x;
+  float aperture = 0;            ///< radius of the lens in world units, >= 0; 0 is a pinhole
+  std::optional<float> focus{};  ///< in world units, > 0; none: the distance of look_at
+};
+
+using Camera =
+    std::variant<PinholeCamera, OrthographicCamera, FisheyeCamera, ThinLensCamera, LensCamera>;
 
 /// From raster to film coordinates, one axis: film = (raster * scale + offset) / extent.
 struct RasterToFilm {
   double scale, offset, extent;
 };
 
-/// A camera ready for an image of W x H square pixels: the film point (x, y), each about -1..1,
-/// stands for the vector p = x right + y up. Perspective: rays from the eye along forward + p.
-/// Parallel: rays along forward from eye + p.
+/// How the film point (x, y), each about -1..1, becomes a ray: by the vector p = x right + y up.
+enum class Projection {
+  perspective,  ///< from the eye along forward + p
+  parallel,     ///< along forward from eye + p
+  equidistant,  ///< from the eye, |p| radians from forward towards p; no ray where |p| > pi
+  thin_lens,    ///< from eye + o along forward + p - o / focus, o on the lens
+  lens,         ///< through the elements of a lens: LensOptics
+};
+
+struct LensOptics;
+
+/// A camera ready for an image of W x H square pixels.
 struct CameraBasis {
   Vec3d eye;
   Vec3d forward;  ///< L, unit length
   Vec3d right;    ///< u times half the film's width
   Vec3d up;       ///< v times half the film's height
-  bool parallel;
+  Projection projection;
   RasterToFilm film_x, film_y;
+  Vec3d lens_right, lens_up;  ///< thin lens: u and v times its radius
+  double inverse_focus;       ///< thin lens: 1 / distance of what is sharp
+  DistortionView distortion;
+  const LensOptics* optics;  ///< lens: who traces it lends it
 };
 
-/// The basis of a valid camera for an image of `width` x `height` pixels.
+/// The basis of a valid camera for an image of `width` x `height` pixels, without distortion.
 CameraBasis camera_basis(const Camera& camera, int width, int height);
 
 /// Raster (0, 0) is the top left corner of the picture, pixel (i, j) has its centre at
@@ -61,7 +88,7 @@ CameraBasis camera_basis(const Camera& camera, int width, int height);
 inline RasterToFilm raster_to_film_x(int width) { return {2.0, -1.0 * width, 1.0 * width}; }
 inline RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1.0 * height}; }
 
-/// The first Problem of a camera: see the scene file's rules for eye, look_at, up, fov, height.
+/// The first Problem of a camera: see the scene file's rules for its keys.
 std::optional<Problem> find_problem(const Camera& camera);
 
 }  // namespace boule

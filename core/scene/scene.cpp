@@ -1,5 +1,6 @@
 #include "core/scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -58,6 +59,70 @@ Checker check_pose(const CameraPose& pose) {
   return checker.require("up", length(cross(view, up)) > 1e-6,
                          "must not be within 1e-6 rad of the view direction");
 }
+
+struct LensProblem {
+  std::optional<Problem> operator()(const LensSurface& s) const {
+    Checker checker;
+    checker.finite("radius", s.radius)
+        .not_negative("thickness", s.thickness)
+        .positive("index", s.index)
+        .positive("aperture", s.aperture);
+    return checker
+        .require("aperture", s.radius == 0 || s.aperture <= 2 * std::fabs(s.radius),
+                 "is wider than its sphere")
+        .problem();
+  }
+};
+
+struct CameraProblem {
+  /// The keys of a film that sees less than half the world.
+  template <class Kind>
+  [[nodiscard]] Checker check_acute(const Kind& c) const {
+    return check_pose(c.pose).require(
+        "fov", c.fov > 0 && c.fov < 180,
+        "must be above 0 and below 180 degrees, is " + text_of(double{c.fov}));
+  }
+
+  std::optional<Problem> operator()(const PinholeCamera& c) const {
+    return check_acute(c).problem();
+  }
+  std::optional<Problem> operator()(const OrthographicCamera& c) const {
+    return check_pose(c.pose).positive("height", c.height).problem();
+  }
+  std::optional<Problem> operator()(const FisheyeCamera& c) const {
+    return check_pose(c.pose)
+        .require("fov", c.fov > 0 && c.fov <= 360,
+                 "must be above 0 and at most 360 degrees, is " + text_of(double{c.fov}))
+        .problem();
+  }
+  std::optional<Problem> operator()(const ThinLensCamera& c) const {
+    Checker checker = check_acute(c).not_negative("aperture", c.aperture);
+    return (c.focus ? checker.positive("focus", *c.focus) : checker).problem();
+  }
+  std::optional<Problem> operator()(const LensCamera& c) const {
+    Checker checker = check_pose(c.pose)
+                          .positive("film_width", c.film_width)
+                          .positive("scale", c.scale)
+                          .require("file", !c.surfaces.empty(), "must have surfaces");
+    if (c.focus) checker.positive("focus", *c.focus);
+    for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
+      const auto bad = LensProblem{}(c.surfaces[i]);
+      checker.require(
+          "file", !bad,
+          bad ? "surface " + std::to_string(i + 1) + ": its " + bad->field + " " + bad->message
+              : "");
+    }
+    if (checker.problem()) return checker.problem();
+    const double focal = focal_length(c.surfaces);
+    checker.require("file", std::isfinite(focal) && focal > 0, "must gather light, to a focus");
+    const double focus = c.focus ? double{*c.focus} : depth_of(c.pose, c.pose.look_at);
+    const double behind = image_distance(c.surfaces, focus / double{c.scale});
+    return checker
+        .require("focus", std::isfinite(behind) && behind > 0,
+                 "is nearer than the lens can be focused")
+        .problem();
+  }
+};
 
 struct MaterialProblem {
   std::optional<Problem> operator()(const Matte& m) const {
@@ -177,14 +242,21 @@ std::optional<Problem> find_problem(const Instance& instance) {
 }
 
 std::optional<Problem> find_problem(const Camera& camera) {
-  if (const auto* pinhole = std::get_if<PinholeCamera>(&camera)) {
-    return check_pose(pinhole->pose)
-        .require("fov", pinhole->fov > 0 && pinhole->fov < 180,
-                 "must be above 0 and below 180 degrees, is " + text_of(double{pinhole->fov}))
-        .problem();
-  }
-  const auto& orthographic = std::get<OrthographicCamera>(camera);
-  return check_pose(orthographic.pose).positive("height", orthographic.height).problem();
+  return std::visit(CameraProblem{}, camera);
+}
+
+std::optional<Problem> find_problem(const DistortionMap& map) {
+  const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
+  return Checker{}
+      .require("file", map.width >= 2 && map.height >= 2,
+               "must have 2 x 2 pixels or more, has " + std::to_string(map.width) + " x " +
+                   std::to_string(map.height))
+      .require("file", map.st.size() == 2 * count(map.width) * count(map.height),
+               "must have two numbers a pixel")
+      .require("file",
+               std::all_of(map.st.begin(), map.st.end(), [](float x) { return std::isfinite(x); }),
+               "must be finite everywhere")
+      .problem();
 }
 
 std::optional<Problem> find_problem(const Material& material) {
@@ -211,6 +283,9 @@ Status validate_all_but_primitives(const Scene& scene) {
   if (auto bad = check_settings(scene)) return bad;
   if (scene.camera) {
     if (auto bad = located("camera", find_problem(*scene.camera))) return bad;
+  }
+  if (scene.distortion) {
+    if (auto bad = located("camera.distortion", find_problem(*scene.distortion))) return bad;
   }
   if (auto bad = located("background", find_problem(scene.background))) return bad;
   if (auto bad = located("background", Checker{}.color("ambient", scene.ambient).problem())) {

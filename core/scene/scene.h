@@ -9,6 +9,7 @@
 #include "core/math/color.h"
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
+#include "core/scene/distortion.h"
 #include "core/scene/group.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
@@ -52,7 +53,8 @@ struct NamedMaterial {
 struct Scene {
   ImageSettings image;
   RenderSettings render;
-  std::optional<Camera> camera;  ///< none: framed on the objects
+  std::optional<Camera> camera;             ///< none: framed on the objects
+  std::optional<DistortionMap> distortion;  ///< of the camera's film
   Background background = ConstantBackground{};
   Color ambient;  ///< what every surface receives from everywhere
   std::vector<NamedMaterial> materials;

@@ -44,10 +44,14 @@ CameraMatrices camera_matrices(const Camera& camera, int width, int height) {
   const Vec3d u = basis.right * (1 / half_width), v = basis.up * (1 / half_height);
   const Column z = along(basis, basis.forward, 1), one = {{}, 1};
   const Column film_x = along(basis, u, 1 / half_width), film_y = along(basis, v, 1 / half_height);
-  const Column& third = basis.parallel ? z : one;
-  const Column& divisor = basis.parallel ? one : z;
-  return {matrix_of({along(basis, u, 1), along(basis, v, 1), z, one}),
-          matrix_of({film_x, film_y, third, divisor})};
+  CameraMatrices matrices{matrix_of({along(basis, u, 1), along(basis, v, 1), z, one}), {}};
+  if (basis.projection == Projection::parallel) {
+    matrices.world_to_screen = matrix_of({film_x, film_y, z, one});
+  } else if (basis.projection == Projection::perspective ||
+             basis.projection == Projection::thin_lens) {
+    matrices.world_to_screen = matrix_of({film_x, film_y, one, z});
+  }
+  return matrices;
 }
 
 }  // namespace boule::cli

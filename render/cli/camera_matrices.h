@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/scene/camera.h"
 #include "render/image/image_file.h"
 
@@ -8,14 +10,16 @@ namespace boule::cli {
 /// The camera as picture files have it, for row vectors: (x, y, z, 1) M, as OpenEXR and RenderMan.
 /// Camera space: origin at the eye, x right, y up, z along the view (left-handed).
 /// Screen space: the film's x and y, -1 .. 1 from edge to edge of the whole frame, y up, after
-/// division by the fourth component; its third is 1/z for a perspective camera, z for a parallel
-/// one.
+/// division by the fourth component; its third is 1/z for a perspective camera and for a thin lens,
+/// whose matrix is that of the rays through its centre, z for a parallel one. There is none where
+/// straight lines become curves.
 struct CameraMatrices {
   MetadataMatrix world_to_camera;
-  MetadataMatrix world_to_screen;
+  std::optional<MetadataMatrix> world_to_screen;
 };
 
-/// Of a valid camera for a frame of `width` x `height` pixels; computed in double, rounded once.
+/// Of a valid camera without distortion for a frame of `width` x `height` pixels; computed in
+/// double, rounded once.
 CameraMatrices camera_matrices(const Camera& camera, int width, int height);
 
 }  // namespace boule::cli

@@ -19,11 +19,13 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
   const CameraMatrices matrices =
       camera_matrices(renderer.scene().camera, options.width, options.height);
   Metadata header = {{"worldtocamera", matrices.world_to_camera},
-                     {"worldtoscreen", matrices.world_to_screen},
                      {"samplesPerPixel", options.spp},
                      {"boule:solver", solver_name(options.solver)},
                      {"boule:seed", std::to_string(options.seed)},
                      {"boule:scene_hash", fmt::format("{:016x}", scene_hash)}};
+  const bool distorted = renderer.scene().camera_view.map != nullptr;
+  if (matrices.world_to_screen && !distorted)
+    header.emplace_back("worldtoscreen", *matrices.world_to_screen);
   if (partial) {
     header.emplace_back("ImageDescription",
                         fmt::format("partial: {} of {} samples", partial->done, partial->all));

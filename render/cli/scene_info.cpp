@@ -31,13 +31,38 @@ void add_pose(Json& json, const CameraPose& pose) {
   json["up"] = shown(pose.up);
 }
 
-Json describe(const PinholeCamera& camera) {
-  Json json = {{"type", "pinhole"}};
+/// What cameras with a field of view have in common.
+template <class Kind>
+Json describe_fov(const char* type, const Kind& camera) {
+  Json json = {{"type", type}};
   add_pose(json, camera.pose);
   json["fov"] = shown(camera.fov);
   json["fov_axis"] = camera.fov_axis == FovAxis::x   ? "x"
                      : camera.fov_axis == FovAxis::y ? "y"
                                                      : "max";
+  return json;
+}
+
+Json describe(const PinholeCamera& camera) { return describe_fov("pinhole", camera); }
+Json describe(const FisheyeCamera& camera) { return describe_fov("fisheye", camera); }
+
+Json describe(const ThinLensCamera& camera) {
+  Json json = describe_fov("thin_lens", camera);
+  json["aperture"] = shown(camera.aperture);
+  const double look_at = depth_of(camera.pose, camera.pose.look_at);
+  json["focus"] = shown(camera.focus.value_or(static_cast<float>(look_at)));
+  return json;
+}
+
+Json describe(const LensCamera& camera) {
+  Json json = {{"type", "lens"}};
+  add_pose(json, camera.pose);
+  json["surfaces"] = camera.surfaces.size();
+  json["focal_length"] = shown(static_cast<float>(focal_length(camera.surfaces)));
+  json["film_width"] = shown(camera.film_width);
+  json["scale"] = shown(camera.scale);
+  const double look_at = depth_of(camera.pose, camera.pose.look_at);
+  json["focus"] = shown(camera.focus.value_or(static_cast<float>(look_at)));
   return json;
 }
 
@@ -149,6 +174,9 @@ void add_view(Json& json, const Scene& scene) {
     notes.push_back("no light in the scene: one white point light at the eye");
   }
   json["camera"] = describe_any(camera);
+  if (scene.distortion) {
+    json["camera"]["distortion"] = {{"size", {scene.distortion->width, scene.distortion->height}}};
+  }
   json["background"] = describe_any(scene.background);
   json["ambient"] = shown(scene.ambient);
   json["lights"] = std::move(lights);

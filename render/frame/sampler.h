@@ -12,6 +12,11 @@ struct RasterPoint {
   double x, y;
 };
 
+/// A place on a lens, 0 .. 1 each; (0.5, 0.5) is its centre.
+struct LensPoint {
+  double x, y;
+};
+
 /// Where a pixel is sampled (lecture "Sampling"): one sample at the centre, or any number of them
 /// spread evenly, as sobol_pair() says, whenever one stops. The filter shapes where they lie, not
 /// what they count, so a sample is of one pixel only (Ernst, Stamminger, Greiner, "Filter
@@ -26,6 +31,9 @@ class Sampler {
 
   /// The place of sample 0 <= sample < spp of pixel (x, y).
   [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
+
+  /// The place on the lens of the same sample; a single one passes through its centre.
+  [[nodiscard]] LensPoint lens_position(int x, int y, int sample) const;
 
  private:
   bool single_;

@@ -270,6 +270,52 @@ void inspect_picture(const char* path, const char* format, FoundPicture& picture
   }
 }
 
+/// An integer as 0..1 by our own division: OpenImageIO multiplies, and the last bit differs.
+float number_of(unsigned short code) { return static_cast<float>(code) / 65535.0F; }
+float number_of(float number) { return number; }
+
+/// Reads the first channels as `Sample` and spreads them to three numbers a pixel.
+template <class Sample>
+bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, float* to) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const int channels = std::min(spec.nchannels, 3);
+  const auto stride = static_cast<size_t>(channels);
+  const auto pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  std::vector<Sample> samples(pixels * stride);
+  if (!input.read_image(0, 0, 0, channels, type, samples.data())) return false;
+  for (size_t i = 0; i < pixels; ++i, to += 3) {
+    const Sample* pixel = samples.data() + i * stride;
+    to[0] = number_of(pixel[0]);
+    to[1] = channels == 1 ? to[0] : number_of(pixel[1]);
+    to[2] = channels == 1 ? to[0] : channels == 2 ? 0.0F : number_of(pixel[2]);
+  }
+  return true;
+}
+
+void read_picture(PictureFile& file, Report* report) {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  const auto input = OIIO::ImageInput::create(file.format);
+  OIIO::ImageSpec spec, wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);  // alpha must not change the colours
+  if (!input || !input->open(file.path, spec, wishes)) {
+    return fail(report, reason_of(input ? input->geterror() : OIIO::geterror()));
+  }
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep) {
+    return fail(report, "it is no flat picture");
+  }
+  float* room = file.room(file.context, spec.width, spec.height);
+  if (room == nullptr) {
+    report->outcome = Outcome::stopped;
+    return;
+  }
+  const bool done = spec.format.is_floating_point()
+                        ? read_samples<float>(*input, OIIO::TypeDesc::FLOAT, room)
+                        : read_samples<unsigned short>(*input, OIIO::TypeDesc::UINT16, room);
+  if (!done) return fail(report, reason_of(input->geterror()));
+  file.is_integer = !spec.format.is_floating_point();
+}
+
 /// Runs a step so that no exception leaves the module.
 template <class Step>
 void guarded(Report* report, Step step) {
@@ -295,7 +341,11 @@ void inspect(const char* path, const char* format, FoundPicture* found, Report* 
   guarded(report, [&] { inspect_picture(path, format, *found, report); });
 }
 
-constexpr Table table = {version, write, check, inspect};
+void read(PictureFile* file, Report* report) {
+  guarded(report, [&] { read_picture(*file, report); });
+}
+
+constexpr Table table = {version, write, check, inspect, read};
 
 }  // namespace
 }  // namespace boule::image_module

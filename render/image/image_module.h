@@ -8,7 +8,7 @@
 namespace boule::image_module {
 
 /// Changes with any change of this file; the loader refuses a module of another version.
-inline constexpr std::uint32_t version = 2;
+inline constexpr std::uint32_t version = 3;
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
@@ -46,6 +46,16 @@ struct Picture {
   const void* context;
 };
 
+/// A picture to read.
+struct PictureFile {
+  const char* path;
+  const char* format;  ///< OpenImageIO's name of the format
+  /// Gives memory for width x height x 3 floats once the header is known; null gives up.
+  float* (*room)(void* context, int width, int height);
+  void* context;
+  bool is_integer;  ///< written: its numbers are codes, not floats
+};
+
 enum class Outcome : std::uint32_t { done, stopped, system_error, failed };
 
 /// What came of a call: the errno code of a system_error, else a text for failed.
@@ -62,12 +72,15 @@ struct FoundPicture {
 };
 
 /// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
-/// anew and reads its header, its first and its last row; `inspect` reads all of it.
+/// anew and reads its header, its first and its last row; `inspect` reads all of it. `read` reads a
+/// picture's pixels, row by row from the top, three floats each: its first three channels as they
+/// stand in the file (integers as 0..1), gray thrice, 0 for a third channel that is not there.
 struct Table {
   std::uint32_t version;
   void (*write)(const Picture* picture, int descriptor, Report* report);
   void (*check)(const Picture* picture, const char* path, Report* report);
   void (*inspect)(const char* path, const char* format, FoundPicture* found, Report* report);
+  void (*read)(PictureFile* file, Report* report);
 };
 
 }  // namespace boule::image_module

@@ -38,8 +38,7 @@ class SrgbTable {
 
   /// The least float whose code is at least this one.
   static float first(int code) {
-    const double s = (code - 0.5) / 255;
-    const double v = s <= 0.04045 ? s / 12.92 : elementary::pow((s + 0.055) / 1.055, 2.4);
+    const double v = linear_from_srgb((code - 0.5) / 255);
     const auto nearest = static_cast<float>(v);
     if (static_cast<double>(nearest) >= v) return nearest;
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);
@@ -60,6 +59,10 @@ float exposure_scale(float stops) {
 }
 
 }  // namespace
+
+double linear_from_srgb(double s) {
+  return s <= 0.04045 ? s / 12.92 : elementary::pow((s + 0.055) / 1.055, 2.4);
+}
 
 std::uint8_t srgb_code(float linear) { return srgb_table().code(linear); }
 

@@ -4,7 +4,6 @@
 
 #include "core/scene/instances.h"
 #include "render/prepare/default_view.h"
-#include "simd/build/camera_builder.h"
 
 namespace boule {
 namespace {
@@ -19,9 +18,23 @@ std::vector<FlatMaterial> flatten_all(const Scene& scene, Method method) {
   return flat;
 }
 
-Coherence primary_coherence(const Camera& camera) {
-  return std::holds_alternative<PinholeCamera>(camera) ? Coherence::common_origin
-                                                       : Coherence::common_direction;
+Coherence primary_coherence(CameraKind kind) {
+  switch (kind) {
+    case CameraKind::parallel:
+      return Coherence::common_direction;
+    case CameraKind::thin_lens:
+    case CameraKind::lens:
+      return Coherence::none;
+    case CameraKind::perspective:
+    case CameraKind::equidistant:
+      break;
+  }
+  return Coherence::common_origin;
+}
+
+/// Of the rays through a lens' centre, for those cameras that have one.
+Coherence central_coherence(CameraKind kind) {
+  return kind == CameraKind::thin_lens ? Coherence::common_origin : primary_coherence(kind);
 }
 
 }  // namespace
@@ -47,6 +60,11 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
     notes.emplace_back("no light in the scene: one white point light at the eye");
   }
   AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
+  DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
+  LensStack lens = build_lens(camera, width, height);
+  // The numbers stay where they are when their vectors move.
+  const CameraView view =
+      build_camera(camera, width, height, distortion.st.empty() ? nullptr : &distortion, &lens);
   return PreparedScene{
       .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
       .spheres = std::move(scene.spheres),  // the geometry above has read them: in this order
@@ -56,8 +74,11 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
       .area_lights = std::move(area_lights),
       .background = scene.background,
       .camera = camera,
-      .camera_view = build_camera(camera, width, height),
-      .coherence = primary_coherence(camera),
+      .distortion = std::move(distortion),
+      .lens = std::move(lens),
+      .camera_view = view,
+      .coherence = primary_coherence(view.kind),
+      .central_coherence = central_coherence(view.kind),
       .notes = std::move(notes)};
 }
 

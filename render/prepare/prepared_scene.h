@@ -10,6 +10,7 @@
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
+#include "simd/build/camera_builder.h"
 #include "simd/build/geometry_builder.h"
 
 namespace boule {
@@ -25,8 +26,11 @@ struct PreparedScene {
   AreaLights area_lights;               ///< for path tracing
   Background background;
   Camera camera;                   ///< the scene's, or the default one
-  CameraView camera_view;          ///< the same for the kernels
+  DistortionMap distortion;        ///< what camera_view.map points into, if anything
+  LensStack lens;                  ///< what camera_view.lens points into, likewise
+  CameraView camera_view;          ///< camera and distortion for the kernels
   Coherence coherence;             ///< what primary rays have in common
+  Coherence central_coherence;     ///< and those of them through the lens' centre
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
   /// The material of the primitive with this id.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "render/renderer/live_rays.h"
+
 namespace boule {
 
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
@@ -14,13 +16,18 @@ template <class Wanted>
 bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
                                 const Wanted& wanted) {
   pixels_.clear();
-  samples_.resize(setup_.stream_size);
+  const CameraView& camera = setup_.scene.camera_view;
+  samples_.resize(setup_.stream_size, camera);
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
       const RasterPoint place = setup_.sampler.position(x, y, sample);
       samples_.set(pixels_.size(), place.x, place.y);
+      if (has_lens(camera.kind)) {
+        const LensPoint on_lens = setup_.sampler.lens_position(x, y, sample);
+        samples_.set_lens(pixels_.size(), on_lens.x, on_lens.y);
+      }
       pixels_.push_back({x, y, sample});
       if (pixels_.size() == setup_.stream_size && !trace(film)) return false;
     }
@@ -50,12 +57,37 @@ bool BlockWorker::trace(Film& film) {
   if (count == 0) return true;
   samples_.resize(count);
   rays_.resize(count);
-  setup_.kernels.primary_rays(setup_.scene.camera_view, samples_.view(), rays_.view());
-  const CameraRays camera{rays_, setup_.scene.coherence, pixels_.data()};
-  if (!integrator_->trace(camera, radiance_.data())) return false;
-  for (std::size_t k = 0; k < count; ++k) film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
+  const CameraView& camera = setup_.scene.camera_view;
+  setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
+  if (!(camera.weighs ? trace_weighted(film) : trace_all(film))) return false;
   pixels_.clear();
   samples_.resize(setup_.stream_size);
+  return true;
+}
+
+bool BlockWorker::trace_all(Film& film) {
+  const CameraRays camera{rays_, setup_.scene.coherence, pixels_.data()};
+  if (!integrator_->trace(camera, radiance_.data())) return false;
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
+  }
+  return true;
+}
+
+/// A sample without a ray is black: it counts as one all the same.
+bool BlockWorker::trace_weighted(Film& film) {
+  keep_live_rays(samples_, rays_);
+  live_.clear();
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    if (samples_.weight(k) != 0) live_.push_back(pixels_[k]);
+  }
+  const CameraRays camera{rays_, setup_.scene.coherence, live_.data()};
+  if (!integrator_->trace(camera, radiance_.data())) return false;
+  const Color* radiance = radiance_.data();
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    const float weight = samples_.weight(k);
+    film.add(pixels_[k].x, pixels_[k].y, weight == 0 ? Color{} : *radiance++ * weight);
+  }
   return true;
 }
 

@@ -48,10 +48,13 @@ class BlockWorker {
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
   bool trace(Film& film);
+  bool trace_all(Film& film);
+  bool trace_weighted(Film& film);
 
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> pixels_;  ///< whose samples the stream holds
+  std::vector<SampleId> live_;    ///< those of them that have a ray, of a camera that weighs
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;

@@ -27,6 +27,19 @@ class Hasher {
   void add(const CameraPose& p) { add_all(p.eye, p.look_at, p.up); }
   void add(const PinholeCamera& c) { add_all(c.pose, c.fov, c.fov_axis); }
   void add(const OrthographicCamera& c) { add_all(c.pose, c.height); }
+  void add(const FisheyeCamera& c) { add_all(c.pose, c.fov, c.fov_axis); }
+  void add(const ThinLensCamera& c) {
+    add_all(c.pose, c.fov, c.fov_axis, c.aperture, std::uint64_t{c.focus.has_value()});
+    if (c.focus) add(*c.focus);
+  }
+  void add(const LensSurface& s) { add_all(s.radius, s.thickness, s.index, s.aperture); }
+  void add(const LensCamera& c) {
+    add_all(c.pose, c.surfaces, c.film_width, c.scale, std::uint64_t{c.focus.has_value()});
+    if (c.focus) add(*c.focus);
+  }
+  void add(const DistortionMap& d) {
+    add_all(std::uint64_t(d.width), std::uint64_t(d.height), d.st);
+  }
   void add(const PointLight& l) { add_all(l.position, l.intensity, l.falloff); }
   void add(const DirectionalLight& l) { add_all(l.direction, l.intensity); }
   void add(const SphereLight& l) { add_all(l.center, l.radius, l.radiance); }
@@ -70,6 +83,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   Hasher hash;
   hash.add(std::uint64_t{scene.camera.has_value()});
   if (scene.camera) hash.add(*scene.camera);
+  if (scene.distortion) hash.add(*scene.distortion);
   hash.add_all(scene.background, scene.ambient, scene.materials, scene.lights);
   const PrimitiveCount count = count_primitives(scene);
   hash.add(count.spheres);

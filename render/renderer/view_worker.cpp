@@ -1,5 +1,7 @@
 #include "render/renderer/view_worker.h"
 
+#include "render/renderer/live_rays.h"
+
 namespace boule {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr std::size_t stream_size = 1024;  // rays, as few as stay in the cache
 ViewWorker::ViewWorker(const BlockSetup& setup, Solver solver)
     : setup_(setup), finder_(setup.scene, setup.kernels, solver), views_(stream_size) {
   pixels_.reserve(stream_size);
-  samples_.resize(stream_size);
+  samples_.resize(stream_size, setup.scene.camera_view);  // in a lens' centre, and never set
   rays_.resize(stream_size);
 }
 
@@ -30,10 +32,14 @@ void ViewWorker::trace(ViewChannels& channels) {
   if (pixels_.empty()) return;
   samples_.resize(pixels_.size());
   rays_.resize(pixels_.size());
-  setup_.kernels.primary_rays(setup_.scene.camera_view, samples_.view(), rays_.view());
-  finder_.trace(rays_, setup_.scene.coherence, views_.data());
+  const CameraView& camera = setup_.scene.camera_view;
+  setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
+  if (camera.weighs) keep_live_rays(samples_, rays_);
+  finder_.trace(rays_, setup_.scene.central_coherence, views_.data());
+  const View* view = views_.data();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    channels.set(pixels_[k].x, pixels_[k].y, views_[k]);
+    const bool seen = !camera.weighs || samples_.weight(k) != 0;
+    channels.set(pixels_[k].x, pixels_[k].y, seen ? *view++ : View{});
   }
   pixels_.clear();
 }

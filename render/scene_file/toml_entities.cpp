@@ -3,28 +3,6 @@
 namespace boule {
 namespace {
 
-void read_keys(TomlTable& table, CameraPose& pose) {
-  table.read("eye", pose.eye);
-  table.read("look_at", pose.look_at);
-  table.read("up", pose.up);
-}
-
-PinholeCamera read_pinhole(TomlTable& table) {
-  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::max};
-  PinholeCamera camera;
-  read_keys(table, camera.pose);
-  table.read("fov", camera.fov);
-  camera.fov_axis = axes[table.choose("fov_axis", {"x", "y", "max"})];
-  return camera;
-}
-
-OrthographicCamera read_orthographic(TomlTable& table) {
-  OrthographicCamera camera;
-  read_keys(table, camera.pose);
-  table.read("height", camera.height);
-  return camera;
-}
-
 ConstantBackground read_constant(TomlTable& table) {
   ConstantBackground background;
   table.read("color", background.color);
@@ -110,18 +88,6 @@ RenderSettings read_render(TomlTable& table) {
   table.read("max_depth", render.max_depth);
   table.finish();
   return render;
-}
-
-Camera read_camera(TomlTable& table) {
-  Camera camera;
-  if (table.choose("type", {"pinhole", "orthographic"}, {"thin_lens", "lens", "fisheye"}) == 0) {
-    camera = read_pinhole(table);
-  } else {
-    camera = read_orthographic(table);
-  }
-  table.finish({"eye", "look_at"});
-  table.check(find_problem(camera));
-  return camera;
 }
 
 Background read_background(TomlTable& table, Color& ambient) {

@@ -10,7 +10,6 @@ namespace boule {
 
 ImageSettings read_image(TomlTable& table);
 RenderSettings read_render(TomlTable& table);
-Camera read_camera(TomlTable& table);
 Background read_background(TomlTable& table, Color& ambient);
 Material read_material(TomlTable& table);
 Light read_light(TomlTable& table);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "render/scene_file/toml_camera.h"
 #include "render/scene_file/toml_camera_keys.h"
 #include "render/scene_file/toml_entities.h"
 #include "render/scene_file/toml_objects.h"
@@ -44,7 +45,7 @@ Result<LoadedScene> TomlReader::read() {
 
   if (image) scene_.image = read_image(*image);
   if (render) scene_.render = read_render(*render);
-  if (camera) scene_.camera = read_camera(*camera);
+  if (camera) scene_.camera = read_camera(*camera, scene_.distortion);
   if (background) scene_.background = read_background(*background, scene_.ambient);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
   TomlObjects reader(scene_, error_, frame_);

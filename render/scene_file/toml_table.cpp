@@ -1,6 +1,7 @@
 #include "render/scene_file/toml_table.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -30,7 +31,16 @@ TomlTable::TomlTable(const TomlMembers& members, TextPlace place, std::string pa
                      FirstError& error)
     : members_(&members), place_(place), path_(std::move(path)), error_(&error) {}
 
+std::string TomlTable::file_path(const std::string& name) const {
+  return (std::filesystem::path(error_->file()).parent_path() / name).string();
+}
+
 bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }
+
+bool TomlTable::has_array(std::string_view key) {
+  const TomlValue* value = find(key);
+  return value != nullptr && std::holds_alternative<TomlArray>(value->data);
+}
 
 const TomlValue* TomlTable::find(std::string_view key) {
   known_.push_back(key);

@@ -25,6 +25,9 @@ class TomlTable {
   /// True if the table has `key`, which becomes known.
   bool has(std::string_view key);
 
+  /// True if `key` has an array.
+  bool has_array(std::string_view key);
+
   /// One number, integer or not, rounded to float once; too large for a float is an error.
   void read(std::string_view key, float& out);
   /// One integer of 32 bits.
@@ -56,6 +59,11 @@ class TomlTable {
 
   /// Reports an error of `key`: at its value, or at the table where it is absent.
   void report(std::string_view key, std::string message);
+
+  /// True if nothing was reported about the file so far.
+  [[nodiscard]] bool ok() const { return !error_->status(); }
+  /// A file name in this table as a path: it is relative to the scene file.
+  [[nodiscard]] std::string file_path(const std::string& name) const;
 
   /// Where the table begins, and where the value under `key` does (the table, if it is absent).
   [[nodiscard]] TextPlace place() const { return place_; }

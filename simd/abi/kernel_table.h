@@ -16,7 +16,8 @@ struct KernelTable {
   Isa isa;
   int width;  ///< float lanes of a packet
 
-  /// rays[k] = the camera's ray through samples[k], tmin 0, tmax inf, no source.
+  /// rays[k] = the camera's ray through samples[k], tmin 0, tmax inf, no source; anything where
+  /// the weight is 0.
   void (*primary_rays)(const CameraView& camera, const SampleStream& samples,
                        const RayStream& rays);
 

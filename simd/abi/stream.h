@@ -30,10 +30,14 @@ struct HitStream {
 };
 
 /// Places on the image plane to send primary rays through: raster coordinates, (0, 0) the top left
-/// corner, pixel (i, j) centred on (i + 0.5, j + 0.5). Arrays as in RayStream.
+/// corner, pixel (i, j) centred on (i + 0.5, j + 0.5). Arrays as in RayStream. What a camera does
+/// not ask for may be null: the lens of one that has none, the weights of one that does not weigh.
 struct SampleStream {
   double* raster_x;
   double* raster_y;
+  double* lens_x;  ///< 0 .. 1 with lens_y; the middle, (0.5, 0.5), is the lens' centre
+  double* lens_y;
+  float* weight;  ///< written: how much the ray's radiance counts; 0: there is no ray
   std::size_t size;
 };
 

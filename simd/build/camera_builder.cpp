@@ -1,5 +1,8 @@
 #include "simd/build/camera_builder.h"
 
+#include "core/math/elementary.h"
+#include "core/math/geometry.h"
+
 namespace boule {
 namespace {
 
@@ -9,9 +12,59 @@ void store(const Vec3d& v, double (&out)[3]) {
   out[2] = v.z;
 }
 
+CameraKind kind_of(Projection projection) {
+  switch (projection) {
+    case Projection::parallel:
+      return CameraKind::parallel;
+    case Projection::equidistant:
+      return CameraKind::equidistant;
+    case Projection::thin_lens:
+      return CameraKind::thin_lens;
+    case Projection::lens:
+      return CameraKind::lens;
+    case Projection::perspective:
+      break;
+  }
+  return CameraKind::perspective;
+}
+
+/// Whether the corners of the film are more than 180 degrees from the view, where there is nothing;
+/// or so close to it that rounding may decide.
+bool has_dark_corners(const CameraBasis& basis) {
+  constexpr double almost_pi = elementary::pi * (1 - 1e-9);
+  // Filters reach beyond the frame by less than a pixel.
+  const double x = 1 + 2 / basis.film_x.extent, y = 1 + 2 / basis.film_y.extent;
+  return basis.projection == Projection::equidistant &&
+         !(length(basis.right * x + basis.up * y) < almost_pi);
+}
+
 }  // namespace
 
-CameraView build_camera(const Camera& camera, int width, int height) {
+LensStack::LensStack(const LensOptics& optics) {
+  for (const LensElement& e : optics.elements) {
+    elements.push_back({e.radius, e.place, e.aperture2, e.eta});
+  }
+  for (const PupilBox& box : optics.pupil) pupil.push_back({box.x0, box.x1, box.y});
+  view = {elements.data(),
+          static_cast<int>(elements.size()),
+          pupil.data(),
+          static_cast<int>(pupil.size()),
+          optics.rings_per_length,
+          optics.rear,
+          optics.film,
+          optics.half_width,
+          optics.half_height,
+          optics.scale,
+          optics.exposure};
+}
+
+LensStack build_lens(const Camera& camera, int width, int height) {
+  const auto* lens = std::get_if<LensCamera>(&camera);
+  return lens != nullptr ? LensStack(make_optics(*lens, width, height)) : LensStack();
+}
+
+CameraView build_camera(const Camera& camera, int width, int height, const DistortionMap* map,
+                        const LensStack* lens) {
   const CameraBasis basis = camera_basis(camera, width, height);
   CameraView view{};
   store(basis.eye, view.eye);
@@ -24,7 +77,18 @@ CameraView build_camera(const Camera& camera, int width, int height) {
   view.scale_y = basis.film_y.scale;
   view.offset_y = basis.film_y.offset;
   view.extent_y = basis.film_y.extent;
-  view.parallel = basis.parallel;
+  store(basis.lens_right, view.lens_right);
+  store(basis.lens_up, view.lens_up);
+  view.inverse_focus = basis.inverse_focus;
+  view.kind = kind_of(basis.projection);
+  view.weighs = has_dark_corners(basis) || basis.projection == Projection::lens;
+  if (lens != nullptr) view.lens = lens->view;
+  if (map != nullptr) {
+    view.map = map->st.data();
+    view.map_width = map->width;
+    view.map_height = map->height;
+    view.weighs = view.weighs || basis.projection == Projection::equidistant;  // it leads anywhere
+  }
   return view;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/math/ray.h"
+#include "simd/abi/camera.h"
 #include "simd/abi/stream.h"
 #include "simd/build/aligned_array.h"
 
@@ -90,20 +91,40 @@ class HitBuffer {
 /// Memory for a SampleStream, likewise.
 class SampleBuffer {
  public:
+  /// Room for samples without a lens and without weights.
   void resize(std::size_t size) {
     raster_x_.resize(size);
     raster_y_.resize(size);
     size_ = size;
+  }
+  /// Room for what a camera asks for; new lens samples are in the lens' centre.
+  void resize(std::size_t size, const CameraView& camera) {
+    resize(size);
+    if (has_lens(camera.kind)) {
+      lens_x_.resize(size, 0.5);
+      lens_y_.resize(size, 0.5);
+    }
+    if (camera.weighs) weight_.resize(size);
   }
   [[nodiscard]] std::size_t size() const { return size_; }
   void set(std::size_t i, double x, double y) {
     raster_x_[i] = x;
     raster_y_[i] = y;
   }
-  SampleStream view() { return {raster_x_.data(), raster_y_.data(), size_}; }
+  void set_lens(std::size_t i, double x, double y) {
+    lens_x_[i] = x;
+    lens_y_[i] = y;
+  }
+  /// What the camera's ray counts; of a camera that weighs.
+  [[nodiscard]] float weight(std::size_t i) const { return weight_[i]; }
+  SampleStream view() {
+    return {raster_x_.data(), raster_y_.data(), lens_x_.data(),
+            lens_y_.data(),   weight_.data(),   size_};
+  }
 
  private:
-  AlignedArray<double> raster_x_, raster_y_;
+  AlignedArray<double> raster_x_, raster_y_, lens_x_, lens_y_;
+  AlignedArray<float> weight_;
   std::size_t size_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "core/reference.h"
+#include "core/scene/lens_optics.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
@@ -53,21 +54,71 @@ void set_ray(const RayStream& rays, std::size_t i, const Ray& ray) {
   rays.inside[i] = ray.inside ? 1 : 0;
 }
 
+Projection projection_of(CameraKind kind) {
+  switch (kind) {
+    case CameraKind::parallel:
+      return Projection::parallel;
+    case CameraKind::equidistant:
+      return Projection::equidistant;
+    case CameraKind::thin_lens:
+      return Projection::thin_lens;
+    case CameraKind::lens:
+      return Projection::lens;
+    case CameraKind::perspective:
+      break;
+  }
+  return Projection::perspective;
+}
+
 CameraBasis basis_of(const CameraView& view) {
   const auto vec = [](const double(&v)[3]) { return Vec3d{v[0], v[1], v[2]}; };
   return {vec(view.eye),
           vec(view.forward),
           vec(view.right),
           vec(view.up),
-          view.parallel,
+          projection_of(view.kind),
           {view.scale_x, view.offset_x, view.extent_x},
-          {view.scale_y, view.offset_y, view.extent_y}};
+          {view.scale_y, view.offset_y, view.extent_y},
+          vec(view.lens_right),
+          vec(view.lens_up),
+          view.inverse_focus,
+          {view.map, view.map_width, view.map_height},
+          nullptr};
+}
+
+LensOptics optics_of(const LensView& view) {
+  LensOptics optics{{},
+                    view.rear,
+                    view.film,
+                    view.half_width,
+                    view.half_height,
+                    view.scale,
+                    {},
+                    view.rings_per_length,
+                    view.exposure};
+  for (int i = 0; i < view.element_count; ++i) {
+    const LensElementView& e = view.elements[i];
+    optics.elements.push_back({e.radius, e.place, e.aperture2, e.eta});
+  }
+  for (int i = 0; i < view.ring_count; ++i) {
+    optics.pupil.push_back({view.pupil[i].x0, view.pupil[i].x1, view.pupil[i].y});
+  }
+  return optics;
 }
 
 void primary_rays(const CameraView& camera, const SampleStream& samples, const RayStream& rays) {
-  const CameraBasis basis = basis_of(camera);
+  CameraBasis basis = basis_of(camera);
+  const LensOptics optics = optics_of(camera.lens);
+  basis.optics = &optics;
   for (std::size_t i = 0; i < samples.size; ++i) {
-    set_ray(rays, i, reference::primary_ray(basis, samples.raster_x[i], samples.raster_y[i]));
+    reference::CameraSample sample{samples.raster_x[i], samples.raster_y[i]};
+    if (has_lens(camera.kind)) {
+      sample.lens_x = samples.lens_x[i];
+      sample.lens_y = samples.lens_y[i];
+    }
+    const reference::CameraRay made = reference::camera_ray(basis, sample);
+    set_ray(rays, i, made.ray);
+    if (camera.weighs) samples.weight[i] = made.weight;
   }
 }
 

@@ -16,7 +16,8 @@ BEGIN {
   layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/scene_file/", "^(core|render/scene_file)/", any)
+  # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
+  layer("^render/scene_file/", "^(core|render/scene_file)/|^render/image/(read_)?image\\.h$", any)
   layer("^render/image/", "^(core|render/image)/", any)
   layer("^render/frame/", "^(core|render/(image|frame))/", any)
   layer("^render/trace_file/", "^(core|render/(scene_file|image|frame|trace_file))/", any)

@@ -135,6 +135,27 @@ method = "path"
   EXPECT_EQ(found.at("method"), "path");
 }
 
+TEST_F(Info, EveryCameraIsDescribed) {
+  const std::string start = "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+  EXPECT_EQ(info(write("fisheye.toml", start + "type = \"fisheye\"\n")).at("camera"),
+            json::parse(R"({"type": "fisheye", "eye": [0, 0, 5], "look_at": [0, 0, 0],
+                            "up": [0, 1, 0], "fov": 180, "fov_axis": "x"})"));
+  const std::string lens = start + "type = \"thin_lens\"\naperture = 0.1\n";
+  EXPECT_EQ(info(write("lens.toml", lens)).at("camera"),
+            json::parse(R"({"type": "thin_lens", "eye": [0, 0, 5], "look_at": [0, 0, 0],
+                            "up": [0, 1, 0], "fov": 45, "fov_axis": "x", "aperture": 0.1,
+                            "focus": 5})"));
+  const std::string real = "type = \"lens\"\nfile = \"" BOULE_SCENES "/double_gauss_50mm.lens\"\n";
+  EXPECT_EQ(info(write("real.toml", start + real)).at("camera"),
+            json::parse(R"({"type": "lens", "eye": [0, 0, 5], "look_at": [0, 0, 0],
+                            "up": [0, 1, 0], "surfaces": 11, "focal_length": 50.218456,
+                            "film_width": 36, "scale": 0.001, "focus": 5})"));
+  const std::string map = "[camera.distortion]\nfile = \"" BOULE_SCENES "/barrel.exr\"\n";
+  EXPECT_EQ(info(write("distorted.toml", start + map)).at("camera").at("distortion"),
+            json::parse(R"({"size": [64, 36]})"));
+  EXPECT_EQ(info(write("focus.toml", lens + "focus = 2.5\n")).at("camera").at("focus"), 2.5);
+}
+
 TEST_F(Info, WhatTheSceneLeavesOutIsThereAndNoted) {
   const json found = info(write("bare.toml",
                                 "schema = 1\n[[sphere]]\ncenter = [1, 2, 3]\n"

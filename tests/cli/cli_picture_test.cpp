@@ -167,6 +167,21 @@ TEST_F(Picture, TheMatricesTakePositionsToTheirPixels) {
   }
 }
 
+TEST_F(Picture, WhereStraightLinesAreCurvesThereIsNoScreenMatrix) {
+  const std::string start = "schema = 1\n[camera]\neye = [0, 1, 5]\nlook_at = [0, 0, 0]\n";
+  const auto has_screen = [&](const std::string& name, const std::string& keys) {
+    const PictureFile file(render(write(name, start + keys), {"--size", "32x18"}));
+    EXPECT_NE(file.spec.find_attribute("worldtocamera"), nullptr);
+    return file.spec.find_attribute("worldtoscreen") != nullptr;
+  };
+  EXPECT_FALSE(has_screen("fisheye.toml", "type = \"fisheye\"\n"));
+  EXPECT_TRUE(has_screen("lens.toml", "type = \"thin_lens\"\naperture = 0.1\n"));
+  EXPECT_FALSE(has_screen("real.toml",
+                          "type = \"lens\"\nfile = \"" BOULE_SCENES "/double_gauss_50mm.lens\"\n"));
+  EXPECT_FALSE(has_screen("distorted.toml",
+                          "[camera.distortion]\nfile = \"" BOULE_SCENES "/barrel.exr\"\n"));
+}
+
 TEST_F(Picture, TheHeaderSaysHowItWasMade) {
   const std::string scene = small_scene();
   const PictureFile file(render(scene, {"--spp", "3", "--seed", "18446744073709551615"}));

@@ -15,6 +15,33 @@ TEST(SceneHash, ChangesWithEveryValueThatShows) {
       [](Scene&) {},
       [](Scene& s) { s.camera.reset(); },
       [](Scene& s) { s.camera = OrthographicCamera{}; },
+      [](Scene& s) { s.camera = FisheyeCamera{}; },
+      [](Scene& s) {
+        s.camera = FisheyeCamera{{}, 181};
+      },
+      [](Scene& s) { s.camera = LensCamera{}; },
+      [](Scene& s) {
+        s.camera = LensCamera{{}, {{1, 2, 3, 4}}};
+      },
+      [](Scene& s) {
+        s.camera = LensCamera{{}, {{1, 2, 3, 5}}};
+      },
+      [](Scene& s) {
+        s.camera = LensCamera{{}, {{1, 2, 3, 5}}, 24};
+      },
+      [](Scene& s) { s.camera = ThinLensCamera{}; },
+      [](Scene& s) {
+        s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, {}};
+      },
+      [](Scene& s) {
+        s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, 2.0f};
+      },
+      [](Scene& s) {
+        s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.5f)};
+      },
+      [](Scene& s) {
+        s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.25f)};
+      },
       [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov = 51; },
       [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov_axis = FovAxis::max; },
       [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.eye.x += 1; },

@@ -67,6 +67,10 @@ const Function tan_function{
     "tan", [](double x, double) { return elementary::tan_acute(x); },
     [](Exact& result, Exact& x, Exact&) { mpfr_tan(result.get(), x.get(), MPFR_RNDN); }};
 
+const Function sine_function{
+    "sine_ratio", [](double x, double) { return x * elementary::sine_ratio(x * x); },
+    [](Exact& result, Exact& x, Exact&) { mpfr_sin(result.get(), x.get(), MPFR_RNDN); }};
+
 double uniform(std::mt19937_64& bits, double low, double high) {
   return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
 }
@@ -80,6 +84,22 @@ struct Sweep {
 };
 
 std::ostream& operator<<(std::ostream& out, const Sweep& sweep) { return out << sweep.name; }
+
+TEST(ElementaryCosine, StaysBelowItsBound) {
+  std::mt19937_64 bits(20240608);
+  double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = uniform(bits, -below_half_pi, below_half_pi);
+    Exact exact_x(x), exact;
+    mpfr_cos(exact.get(), exact_x.get(), MPFR_RNDN);
+    Exact error;
+    mpfr_sub_d(error.get(), exact.get(), elementary::cosine(x * x), MPFR_RNDN);
+    worst = std::max(worst, std::fabs(mpfr_get_d(error.get(), MPFR_RNDN)));
+  }
+  EXPECT_LT(worst, 0x1p-52);
+  EXPECT_EQ(elementary::cosine(0.0), 1);
+  EXPECT_EQ(elementary::sine_ratio(0.0), 1);
+}
 
 class ElementarySweep : public testing::TestWithParam<Sweep> {};
 
@@ -128,6 +148,12 @@ const Sweep sweeps[] = {
      }},
     {"ExpDenormalResults", exp_function, 1,
      [](std::mt19937_64& bits, double& x, double&) { x = uniform(bits, -746, -708); }},
+    {"Sine", sine_function, 3,
+     [](std::mt19937_64& bits, double& x, double&) { x = uniform(bits, 0, below_half_pi); }},
+    {"SineTiny", sine_function, 3,
+     [](std::mt19937_64& bits, double& x, double&) {
+       x = std::ldexp(uniform(bits, 0.5, 1), -static_cast<int>(bits() % 60));
+     }},
     {"PowHighlight", pow_for_float_function, 0x1p15,  // what shading asks for
      [](std::mt19937_64& bits, double& x, double& y) {
        x = uniform(bits, 0, 1);

@@ -126,6 +126,84 @@ const Breakage camera[] = {
        orthographic(s).pose.up = {0, 0, 0};
      }},
 };
+FisheyeCamera& fisheye(Scene& scene) {
+  scene.camera = FisheyeCamera{pinhole(scene).pose};
+  return std::get<FisheyeCamera>(*scene.camera);
+}
+ThinLensCamera& thin_lens(Scene& scene) {
+  scene.camera = ThinLensCamera{pinhole(scene).pose};
+  return std::get<ThinLensCamera>(*scene.camera);
+}
+
+const Breakage round_cameras[] = {
+    {"FisheyeFovZero", "camera.fov", "is 0", [](Scene& s) { fisheye(s).fov = 0; }},
+    {"FisheyeFovNaN", "camera.fov", "360 degrees", [](Scene& s) { fisheye(s).fov = nan; }},
+    {"FisheyeFovTooLarge", "camera.fov", "is 361", [](Scene& s) { fisheye(s).fov = 361; }},
+    {"FisheyeUpZero", "camera.up", "zero vector",
+     [](Scene& s) {
+       fisheye(s).pose.up = {0, 0, 0};
+     }},
+    {"LensFov", "camera.fov", "is 180", [](Scene& s) { thin_lens(s).fov = 180; }},
+    {"ApertureNegative", "camera.aperture", not_negative,
+     [](Scene& s) { thin_lens(s).aperture = -1; }},
+    {"ApertureInfinite", "camera.aperture", not_negative,
+     [](Scene& s) { thin_lens(s).aperture = inf; }},
+    {"FocusZero", "camera.focus", positive, [](Scene& s) { thin_lens(s).focus = 0.0f; }},
+    {"FocusNaN", "camera.focus", positive, [](Scene& s) { thin_lens(s).focus = nan; }},
+};
+DistortionMap& distortion(Scene& scene) {
+  scene.distortion = DistortionMap{2, 3, std::vector<float>(12, 0.5f)};
+  return *scene.distortion;
+}
+
+const Breakage distortions[] = {
+    {"OneColumn", "camera.distortion.file", "2 x 2 pixels or more, has 1 x 3",
+     [](Scene& s) { distortion(s).width = 1; }},
+    {"NoRows", "camera.distortion.file", "has 2 x 0", [](Scene& s) { distortion(s).height = 0; }},
+    {"TooFew", "camera.distortion.file", "two numbers a pixel",
+     [](Scene& s) { distortion(s).st.pop_back(); }},
+    {"NaN", "camera.distortion.file", finite, [](Scene& s) { distortion(s).st[7] = nan; }},
+};
+INSTANTIATE_TEST_SUITE_P(Distortion, ValidateRefuses, testing::ValuesIn(distortions), name_of);
+
+LensCamera& lens(Scene& scene) {
+  LensCamera two_faces{pinhole(scene).pose, {{50, 5, 1.5f, 20}, {0, 1, 1, 10}, {-50, 0, 1, 20}}};
+  scene.camera = two_faces;
+  return std::get<LensCamera>(*scene.camera);
+}
+
+TEST(Validate, AcceptsALens) {
+  Scene scene = full_scene();
+  lens(scene);
+  EXPECT_FALSE(validate(scene));
+}
+
+const Breakage lenses[] = {
+    {"FilmWidth", "camera.film_width", positive, [](Scene& s) { lens(s).film_width = 0; }},
+    {"Scale", "camera.scale", positive, [](Scene& s) { lens(s).scale = nan; }},
+    {"LensFocus", "camera.focus", positive, [](Scene& s) { lens(s).focus = -1.0f; }},
+    {"NoSurfaces", "camera.file", "must have surfaces", [](Scene& s) { lens(s).surfaces = {}; }},
+    {"Radius", "camera.file", "surface 1: its radius must be finite",
+     [](Scene& s) { lens(s).surfaces[0].radius = nan; }},
+    {"Thickness", "camera.file", "surface 2: its thickness must be finite and 0 or above",
+     [](Scene& s) { lens(s).surfaces[1].thickness = -1; }},
+    {"Index", "camera.file", "surface 3: its index must be finite and above 0",
+     [](Scene& s) { lens(s).surfaces[2].index = 0; }},
+    {"Aperture", "camera.file", "surface 1: its aperture must be finite and above 0",
+     [](Scene& s) { lens(s).surfaces[0].aperture = 0; }},
+    {"TooWide", "camera.file", "surface 1: its aperture is wider than its sphere",
+     [](Scene& s) { lens(s).surfaces[0].aperture = 101; }},
+    {"Diverging", "camera.file", "must gather light",
+     [](Scene& s) {
+       lens(s).surfaces = {{-50, 5, 1.5f, 20}, {50, 0, 1, 20}};
+     }},
+    {"TooNear", "camera.focus", "nearer than the lens can be focused",
+     [](Scene& s) { lens(s).focus = 0.01f; }},
+};
+INSTANTIATE_TEST_SUITE_P(Lens, ValidateRefuses, testing::ValuesIn(lenses), name_of);
+
+INSTANTIATE_TEST_SUITE_P(RoundCameras, ValidateRefuses, testing::ValuesIn(round_cameras), name_of);
+
 INSTANTIATE_TEST_SUITE_P(Camera, ValidateRefuses, testing::ValuesIn(camera), name_of);
 
 const Breakage surroundings[] = {

@@ -3,6 +3,7 @@
 #include "core/math/elementary.h"
 #include "simd/build/camera_builder.h"
 #include "tests/support/bit_hash.h"
+#include "tests/support/camera_samples.h"
 #include "tests/support/case_random.h"
 #include "tests/support/hard_cases.h"
 #include "tests/support/kernel_runs.h"
@@ -15,6 +16,7 @@ HardCase hashed_case(const HardCaseSpec& spec) { return make_hard_case(spec, 61,
 // They change with the cases, never with the machine.
 constexpr std::uint64_t all_hits = 0xb2d3e1e00f0d3908;
 constexpr std::uint64_t all_primary_rays = 0xb82754bba516d2ff;
+constexpr std::uint64_t curved_primary_rays = 0xb48790f2242edf32;
 constexpr std::uint64_t all_elementary_values = 0x94eee7848c4d206b;
 
 TEST(Hash, OfTheInputs) {
@@ -68,6 +70,26 @@ TEST_P(Kernels, HashOfAllHits) {
           << "form " << static_cast<int>(form) << " structure " << static_cast<int>(structure);
     }
   }
+}
+
+/// Of cameras with a lens, with directions by polynomials, or that see less than the frame.
+TEST_P(Kernels, HashOfCurvedPrimaryRays) {
+  const CameraPose pose{{2.1F, 1.3F, 1.7F}, {0.1F, -0.2F, 0.3F}, {0, 0, 1}};
+  const Camera cameras[] = {FisheyeCamera{pose, 360}, FisheyeCamera{pose, 60, FovAxis::y},
+                            ThinLensCamera{pose, 45, FovAxis::x, 0.4F, 3.0F}};
+  BitHash hash;
+  for (const Camera& camera : cameras) {
+    const CameraView view = build_camera(camera, 640, 361);
+    SampleBuffer samples = random_samples(view, 1003, 640, 361, 8);
+    RayBuffer rays(samples.size());
+    kernels->primary_rays(view, samples.view(), rays.view());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const float weight = view.weighs ? samples.weight(i) : 1;
+      hash.add(weight);
+      if (weight != 0) hash.add(rays.get(i));
+    }
+  }
+  EXPECT_EQ(hash.value(), curved_primary_rays);
 }
 
 TEST_P(Kernels, HashOfAllPrimaryRays) {

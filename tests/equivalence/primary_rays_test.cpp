@@ -1,6 +1,6 @@
 // Camera rays of every kernel table against the scalar path, bit for bit.
 #include "simd/build/camera_builder.h"
-#include "tests/support/case_random.h"
+#include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
 
 namespace boule::test {
@@ -8,20 +8,19 @@ namespace {
 
 class PrimaryRays : public OnEachIsa {};
 
-void expect_same(const KernelTable& kernels, const Camera& camera, int width, int height) {
-  CaseRandom random(3);
-  SampleBuffer samples;
-  samples.resize(203);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double x = random.uniform(0, width);
-    const double y = random.uniform(0, height);
-    samples.set(i, x, y);
-  }
+void expect_same(const KernelTable& kernels, const Camera& camera, int width, int height,
+                 const DistortionMap* map = nullptr) {
+  const CameraView view = build_camera(camera, width, height, map);
+  SampleBuffer samples = random_samples(view, 203, width, height, 3);
+  SampleBuffer same = random_samples(view, 203, width, height, 3);
   RayBuffer wide(samples.size()), scalar(samples.size());
-  const CameraView view = build_camera(camera, width, height);
   kernels.primary_rays(view, samples.view(), wide.view());
-  reference_kernels().primary_rays(view, samples.view(), scalar.view());
+  reference_kernels().primary_rays(view, same.view(), scalar.view());
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (view.weighs) {
+      ASSERT_EQ(samples.weight(i), same.weight(i)) << i;
+      if (same.weight(i) == 0) continue;
+    }
     const Ray a = wide.get(i), b = scalar.get(i);
     ASSERT_EQ(a.org, b.org) << i;
     ASSERT_EQ(a.dir, b.dir) << i;
@@ -39,6 +38,18 @@ TEST_P(PrimaryRays, EqualTheScalarPath) {
     expect_same(*kernels, PinholeCamera{pose, 179.5F, axis}, 3, 65535);
   }
   expect_same(*kernels, OrthographicCamera{pose, 3.7F}, 640, 361);
+  expect_same(*kernels, FisheyeCamera{pose, 360, FovAxis::x}, 640, 361);
+  expect_same(*kernels, FisheyeCamera{pose, 100, FovAxis::y}, 640, 361);
+  expect_same(*kernels, ThinLensCamera{pose, 45, FovAxis::x, 0.3F, 2.5F}, 640, 361);
+}
+
+TEST_P(PrimaryRays, EqualTheScalarPathThroughAMap) {
+  const CameraPose pose{{2.1F, 1.3F, 1.7F}, {0.1F, -0.2F, 0.3F}, {0, 0, 1}};
+  const DistortionMap map = random_map(7, 5, 0.1);
+  expect_same(*kernels, PinholeCamera{pose, 45, FovAxis::x}, 640, 361, &map);
+  expect_same(*kernels, OrthographicCamera{pose, 3.7F}, 640, 361, &map);
+  expect_same(*kernels, FisheyeCamera{pose, 300, FovAxis::x}, 640, 361, &map);
+  expect_same(*kernels, ThinLensCamera{pose, 45, FovAxis::x, 0.3F, 2.5F}, 640, 361, &map);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, PrimaryRays, each_isa(), isa_name);

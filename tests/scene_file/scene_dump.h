@@ -16,6 +16,10 @@ class SceneDump {
         static_cast<int>(scene.image.filter));
     add("render", scene.render.max_depth, static_cast<int>(scene.render.method));
     if (scene.camera) std::visit([this](const auto& any) { dump(any); }, *scene.camera);
+    if (scene.distortion) {
+      add("distortion", scene.distortion->width, scene.distortion->height);
+      for (const float x : scene.distortion->st) add("st", x);
+    }
     std::visit([this](const auto& any) { dump(any); }, scene.background);
     add("ambient", scene.ambient);
     for (const NamedMaterial& named : scene.materials) {
@@ -48,6 +52,20 @@ class SceneDump {
   }
   void dump(const OrthographicCamera& c) {
     add("orthographic", c.pose.eye, c.pose.look_at, c.pose.up, c.height);
+  }
+  void dump(const FisheyeCamera& c) {
+    add("fisheye", c.pose.eye, c.pose.look_at, c.pose.up, c.fov, static_cast<int>(c.fov_axis));
+  }
+  void dump(const ThinLensCamera& c) {
+    add("thin_lens", c.pose.eye, c.pose.look_at, c.pose.up, c.fov, static_cast<int>(c.fov_axis),
+        c.aperture, c.focus.value_or(0.0f));
+  }
+  void dump(const LensCamera& c) {
+    add("lens", c.pose.eye, c.pose.look_at, c.pose.up, c.film_width, c.scale,
+        c.focus.value_or(0.0f));
+    for (const LensSurface& s : c.surfaces) {
+      add("surface", s.radius, s.thickness, s.index, s.aperture);
+    }
   }
   void dump(const ConstantBackground& b) { add("constant", b.color); }
   void dump(const GradientBackground& b) { add("gradient", b.bottom, b.top, b.up); }

@@ -102,12 +102,20 @@ INSTANTIATE_TEST_SUITE_P(Settings, TomlErrors, testing::ValuesIn(settings), test
 const Refusal cameras[] = {
     {"NoEye", scene("[camera]\nlook_at = [0, 0, 0]\n"), 2, 1, "camera.eye", "missing key 'eye'"},
     {"NoLookAt", scene("\n[camera]\neye = [0, 0, 0]\n"), 3, 1, "camera.look_at", "missing key"},
-    {"Later", camera("type = \"fisheye\"\n"), 5, 8, "camera.type",
-     "'fisheye' is not supported yet, expected 'pinhole' or 'orthographic'"},
-    {"ThinLens", camera("type = \"thin_lens\"\n"), 5, 8, "camera.type", "not supported yet"},
-    {"Lens", camera("type = \"lens\"\n"), 5, 8, "camera.type", "not supported yet"},
+    {"LensNoFile", camera("type = \"lens\"\n"), 2, 1, "camera.file", "missing key 'file'"},
+    {"LensMissing", camera("type = \"lens\"\nfile = \"none.lens\"\n"), 6, 8, "camera.file",
+     "'none.lens': cannot read it: No such file"},
+    {"LensNoLens", camera("type = \"lens\"\nfile = \"scene.toml\"\n"), 6, 8, "camera.file",
+     "'scene.toml': line 1: expected four numbers"},
+    {"LensFilmText", camera("type = \"lens\"\nfilm_width = \"36mm\"\n"), 6, 14, "camera.film_width",
+     "expected a number"},
+    {"LensScaleText", camera("type = \"lens\"\nscale = \"mm\"\n"), 6, 9, "camera.scale",
+     "expected a number"},
+    {"LensFocusBehind", camera("type = \"lens\"\nfocus = [0, 0, 6]\n"), 6, 9, "camera.focus",
+     "must lie in front of the camera"},
     {"UnknownType", camera("type = \"pinhol\"\n"), 5, 8, "camera.type",
-     "unknown 'pinhol', expected 'pinhole' or 'orthographic'; did you mean 'pinhole'?"},
+     "unknown 'pinhol', expected 'pinhole', 'orthographic', 'fisheye', 'thin_lens' or 'lens'; did "
+     "you mean 'pinhole'?"},
     {"TypeNoText", camera("type = 1\n"), 5, 8, "camera.type", "expected a string"},
     {"OtherTypesKey", camera("height = 2\n"), 5, 1, "camera.height", "unknown key 'height'"},
     {"KeySlip", camera("fvo = 45\n"), 5, 1, "camera.fvo", "did you mean 'fov'?"},
@@ -135,6 +143,41 @@ const Refusal cameras[] = {
     {"EyeFour", scene("[camera]\neye = [0, 1, 2, 3]\nlook_at = [1, 2, 3]\n"), 3, 7, "camera.eye",
      "got 4"},
 };
+std::string lens(const std::string& text) { return camera("type = \"thin_lens\"\n" + text); }
+
+const Refusal round_cameras[] = {
+    {"FisheyeFovZero", camera("type = \"fisheye\"\nfov = 0\n"), 6, 7, "camera.fov",
+     "must be above 0 and at most 360 degrees, is 0"},
+    {"FisheyeFovTooLarge", camera("type = \"fisheye\"\nfov = 360.1\n"), 6, 7, "camera.fov",
+     "at most 360"},
+    {"FisheyeAperture", camera("type = \"fisheye\"\naperture = 1\n"), 6, 1, "camera.aperture",
+     "unknown key 'aperture'"},
+    {"LensWithout", lens(""), 2, 1, "camera.aperture",
+     "missing key 'aperture', or 'f_number' with 'focal_length'"},
+    {"LensTwice", lens("aperture = 1\nf_number = 2\nfocal_length = 0.05\n"), 7, 12,
+     "camera.f_number", "cannot stand beside 'aperture'"},
+    {"LensNoFocalLength", lens("f_number = 2\n"), 2, 1, "camera.focal_length",
+     "missing key 'focal_length': it goes with 'f_number'"},
+    {"LensNoFNumber", lens("aperture = 1\nfocal_length = 2\n"), 2, 1, "camera.f_number",
+     "missing key 'f_number'"},
+    {"ApertureNegative", lens("aperture = -1\n"), 6, 12, "camera.aperture", "0 or above, is -1"},
+    {"ApertureText", lens("aperture = \"f/2\"\n"), 6, 12, "camera.aperture", "got a string"},
+    {"FNumberZero", lens("f_number = 0\nfocal_length = 1\n"), 6, 12, "camera.f_number", "above 0"},
+    {"FocalLength", lens("f_number = 2\nfocal_length = -1\n"), 7, 16, "camera.focal_length",
+     "above 0"},
+    {"FNumberTiny", lens("f_number = 1e-38\nfocal_length = 1e38\n"), 2, 1, "camera.aperture",
+     "must be finite"},
+    {"FocusZero", lens("aperture = 1\nfocus = 0\n"), 7, 9, "camera.focus", "above 0, is 0"},
+    {"FocusInfinite", lens("aperture = 1\nfocus = inf\n"), 7, 9, "camera.focus", "finite"},
+    {"FocusBehind", lens("aperture = 1\nfocus = [0, 0, 6]\n"), 7, 9, "camera.focus",
+     "must lie in front of the camera"},
+    {"FocusOfTwo", lens("aperture = 1\nfocus = [0, 0]\n"), 7, 9, "camera.focus", "got 2"},
+    {"FocusText", lens("aperture = 1\nfocus = \"far\"\n"), 7, 9, "camera.focus", "got a string"},
+    {"LensFov", lens("aperture = 1\nfov = 180\n"), 7, 7, "camera.fov", "below 180"},
+};
+INSTANTIATE_TEST_SUITE_P(RoundCameras, TomlErrors, testing::ValuesIn(round_cameras),
+                         test::refusal_name);
+
 INSTANTIATE_TEST_SUITE_P(Cameras, TomlErrors, testing::ValuesIn(cameras), test::refusal_name);
 
 const Refusal materials[] = {

@@ -173,6 +173,45 @@ TEST(TomlScene, FovAxes) {
   EXPECT_EQ(std::get<PinholeCamera>(*load(camera + "\"max\"").camera).fov_axis, FovAxis::max);
 }
 
+TEST(TomlScene, RoundCameras) {
+  const std::string start = "schema = 1\n[camera]\neye = [0,0,5]\nlook_at = [0,0,0]\ntype = ";
+  const CameraPose pose{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
+  const auto expect = [&](const std::string& text, const Camera& camera) {
+    Scene expected;
+    expected.camera = camera;
+    EXPECT_EQ(dump(load(start + text)), dump(expected)) << text;
+  };
+  expect("\"fisheye\"", FisheyeCamera{pose, 180, FovAxis::x});
+  expect("\"fisheye\"\nfov = 360\nfov_axis = \"max\"", FisheyeCamera{pose, 360, FovAxis::max});
+  expect("\"thin_lens\"\naperture = 0", ThinLensCamera{pose, 45, FovAxis::x, 0, {}});
+  expect("\"thin_lens\"\naperture = 0.5\nfov = 30\nfov_axis = \"y\"\nfocus = 7",
+         ThinLensCamera{pose, 30, FovAxis::y, 0.5f, 7.0f});
+  expect("\"thin_lens\"\naperture = 0.5\nfocus = [9, 9, 3]",
+         ThinLensCamera{pose, 45, FovAxis::x, 0.5f, 2.0f});
+  expect("\"thin_lens\"\nf_number = 2\nfocal_length = 0.05",
+         ThinLensCamera{pose, 45, FovAxis::x, 0.0125f, {}});
+}
+
+TEST(TomlScene, LensesComeFromFiles) {
+  const test::SceneFiles files;
+  static_cast<void>(files.write("two.lens", "# glass\n\n 50 5.5 1.5\t20 # front\r\n-50 0 1 21"));
+  const auto loaded = files.load("scene.toml", R"(schema = 1
+[camera]
+type = "lens"
+eye = [0, 0, 5]
+look_at = [0, 0, 0]
+file = "two.lens"
+film_width = 24
+scale = 0.01
+focus = [1, 1, 2]
+)");
+  ASSERT_TRUE(loaded) << format_diagnostic(loaded.error());
+  Scene expected;
+  expected.camera = LensCamera{
+      {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}}, {{50, 5.5f, 1.5f, 20}, {-50, 0, 1, 21}}, 24, 0.01f, 3.0f};
+  EXPECT_EQ(dump(loaded.value().scene), dump(expected));
+}
+
 TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatte) {
   const Scene scene = load(R"(schema = 1
 [[plane]]

@@ -36,7 +36,9 @@ class ReadmeFolder {
  public:
   ReadmeFolder() {
     write("cloud.npy", two_centers());
-    write("sphereflake.npy", read_bytes(scenes_folder() / "sphereflake.npy"));
+    for (const char* name : {"sphereflake.npy", "barrel.exr", "double_gauss_50mm.lens"}) {
+      write(name, read_bytes(scenes_folder() / name));
+    }
   }
   [[nodiscard]] Result<LoadedScene> load(const std::string& name, const std::string& text) const {
     return load_scene(write(name, text));
@@ -88,6 +90,9 @@ TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
                             "[render]",
                             "[camera]",
                             "[camera]\ntype='orthographic'",
+                            "[camera]\ntype='fisheye'",
+                            "[camera]\ntype='thin_lens'",
+                            "[camera]\ntype='lens'",
                             "[background]",
                             "[background]\ntype='gradient'",
                             "[[light]]",

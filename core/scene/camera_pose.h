@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace boule {
+
+/// Where a camera stands and what it looks at: L = unit(look_at - eye), u = unit(L x up),
+/// v = u x L. Right-handed; u points right in the picture, v up.
+struct CameraPose {
+  Vec3f eye{0, 0, 0};
+  Vec3f look_at{0, 0, -1};
+  Vec3f up{0, 1, 0};
+};
+
+/// The distance of a point from the eye along L; negative behind it.
+double depth_of(const CameraPose& pose, const Vec3f& point);
+
+}  // namespace boule

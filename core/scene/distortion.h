@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scene/primitive.h"
+
+namespace boule {
+
+/// An ST map: says for the points of a picture where on the film they are seen, so that any camera
+/// gets the distortions of a lens. Its pixels span the whole frame whatever the size of either;
+/// between their centres the numbers are bilinear, and so they go on at the rim.
+struct DistortionMap {
+  int width = 0, height = 0;  ///< >= 2
+  /// s and t of each pixel, row 0 on top: s from 0 on the left to 1 on the right edge of the film,
+  /// t from 0 at the bottom to 1 at the top. Finite; may lie outside, where cameras see on.
+  std::vector<float> st;
+};
+
+/// The numbers of a DistortionMap that lives elsewhere; null: there is none.
+struct DistortionView {
+  const float* st = nullptr;
+  int width = 0, height = 0;
+};
+
+/// The first Problem of a map.
+std::optional<Problem> find_problem(const DistortionMap& map);
+
+}  // namespace boule

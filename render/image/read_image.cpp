@@ -1,0 +1,69 @@
+#include "render/image/read_image.h"
+
+#include <new>
+#include <utility>
+
+#include "core/scene/scene.h"
+#include "render/image/image_format.h"
+#include "render/image/image_loader.h"
+#include "render/image/tone.h"
+
+namespace boule {
+namespace {
+
+namespace module = image_module;
+
+Diagnostic cannot_read(const std::string& path, const std::string& reason) {
+  return {"cannot read it: " + reason, "", path, 0, 0};
+}
+
+/// What the module's reader is given to fill, and why it was not.
+struct Room {
+  Image image;
+  std::string refusal;
+};
+
+/// No exception may cross the module's border.
+float* make_room(void* context, int width, int height) {
+  auto& room = *static_cast<Room*>(context);
+  if (width > max_image_side || height > max_image_side) {
+    room.refusal = "it has more than " + std::to_string(max_image_side) + " pixels a side";
+    return nullptr;
+  }
+  try {
+    room.image = Image(width, height);
+  } catch (const std::bad_alloc&) {
+    room.refusal = "it needs more memory than there is";
+    return nullptr;
+  }
+  static_assert(sizeof(Color) == 3 * sizeof(float));
+  return &room.image.pixels.data()->r;
+}
+
+void make_linear(Image& image) {
+  const auto linear = [](float code) {
+    return static_cast<float>(linear_from_srgb(static_cast<double>(code)));
+  };
+  for (Color& c : image.pixels) c = {linear(c.r), linear(c.g), linear(c.b)};
+}
+
+}  // namespace
+
+Result<Image> read_image(const std::string& path, PictureContent content) {
+  const ImageFormat* format = find_image_format(path);
+  if (format == nullptr) {
+    return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
+  }
+  const Result<const module::Table*> loaded = load_image_module();
+  if (!loaded) return cannot_read(path, loaded.error().message);
+  Room room;
+  module::PictureFile file{path.c_str(), format->writer, make_room, &room, false};
+  module::Report report{};
+  loaded.value()->read(&file, &report);
+  if (report.outcome == module::Outcome::stopped) return cannot_read(path, room.refusal);
+  if (report.outcome != module::Outcome::done) return cannot_read(path, report.text);
+  if (content == PictureContent::colors && file.is_integer) make_linear(room.image);
+  return std::move(room.image);
+}
+
+}  // namespace boule

@@ -1,0 +1,65 @@
+#include "render/scene_file/lens_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "render/scene_file/float32.h"
+#include "render/scene_file/input_file.h"
+
+namespace boule {
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+
+/// The next word of a line, which loses it; empty at the end.
+std::string_view take_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+std::optional<float> number_of(std::string_view word) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return to_float32(number);
+}
+
+/// A surface, or nothing if the line is not one.
+std::optional<LensSurface> surface_of(std::string_view line) {
+  LensSurface surface;
+  for (float* out : {&surface.radius, &surface.thickness, &surface.index, &surface.aperture}) {
+    const auto number = number_of(take_word(line));
+    if (!number) return std::nullopt;
+    *out = *number;
+  }
+  return take_word(line).empty() ? std::optional(surface) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<LensSurface>> read_lens(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text) return text.error();
+  std::vector<LensSurface> surfaces;
+  std::string_view rest = text.value();
+  for (int number = 1; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(blanks) == std::string_view::npos) continue;
+    const auto surface = surface_of(line);
+    if (!surface) {
+      return Diagnostic{"expected four numbers: radius, thickness, index, diameter", "", path,
+                        number, 0};
+    }
+    surfaces.push_back(*surface);
+  }
+  return surfaces;
+}
+
+}  // namespace boule

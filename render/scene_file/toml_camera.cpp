@@ -1,0 +1,153 @@
+#include "render/scene_file/toml_camera.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "render/scene_file/lens_file.h"
+#include "render/scene_file/picture_file.h"
+
+namespace boule {
+namespace {
+
+void read_pose(TomlTable& table, CameraPose& pose) {
+  table.read("eye", pose.eye);
+  table.read("look_at", pose.look_at);
+  table.read("up", pose.up);
+}
+
+template <class Kind>
+void read_fov(TomlTable& table, Kind& camera) {
+  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::max};
+  table.read("fov", camera.fov);
+  camera.fov_axis = axes[table.choose("fov_axis", {"x", "y", "max"})];
+}
+
+void finish(TomlTable& table) { table.finish({"eye", "look_at"}); }
+
+void read_keys(TomlTable& table, PinholeCamera& camera) {
+  read_fov(table, camera);
+  finish(table);
+}
+
+void read_keys(TomlTable& table, OrthographicCamera& camera) {
+  table.read("height", camera.height);
+  finish(table);
+}
+
+void read_keys(TomlTable& table, FisheyeCamera& camera) {
+  read_fov(table, camera);
+  finish(table);
+}
+
+void require_positive(TomlTable& table, const char* key, float value) {
+  if (!(std::isfinite(value) && value > 0)) table.report(key, "must be finite and above 0");
+}
+
+/// The radius of the lens: itself, or by the f-number, which is the focal length over the diameter.
+void read_aperture(TomlTable& table, float& aperture) {
+  float f_number = 0, focal_length = 0;
+  table.read("aperture", aperture);
+  table.read("f_number", f_number);
+  table.read("focal_length", focal_length);
+  finish(table);
+  const bool by_radius = table.has("aperture"), by_number = table.has("f_number");
+  if (by_radius && by_number) table.report("f_number", "cannot stand beside 'aperture'");
+  if (!by_radius && !by_number) {
+    table.report("aperture", "missing key 'aperture', or 'f_number' with 'focal_length'");
+  }
+  if (by_number != table.has("focal_length")) {
+    const char* missing = by_number ? "focal_length" : "f_number";
+    const char* there = by_number ? "f_number" : "focal_length";
+    table.report(missing,
+                 std::string("missing key '") + missing + "': it goes with '" + there + "'");
+  }
+  if (!by_number) return;
+  require_positive(table, "f_number", f_number);
+  require_positive(table, "focal_length", focal_length);
+  aperture = static_cast<float>(double{focal_length} / (2 * double{f_number}));
+}
+
+/// What is sharp: a distance, or a point that lies there.
+template <class Kind>
+void read_focus(TomlTable& table, Kind& camera) {
+  if (!table.has_array("focus")) {
+    if (table.has("focus")) table.read("focus", camera.focus.emplace());
+    return;
+  }
+  Vec3f point;
+  table.read("focus", point);
+  table.check(find_problem(PinholeCamera{camera.pose}));  // without a view there is no depth
+  const double depth = depth_of(camera.pose, point);
+  if (!(depth > 0)) table.report("focus", "must lie in front of the camera");
+  camera.focus = static_cast<float>(depth);
+}
+
+void read_keys(TomlTable& table, ThinLensCamera& camera) {
+  read_fov(table, camera);
+  read_focus(table, camera);
+  read_aperture(table, camera.aperture);
+}
+
+void read_keys(TomlTable& table, LensCamera& camera) {
+  std::string name;
+  table.read("file", name);
+  table.read("film_width", camera.film_width);
+  table.read("scale", camera.scale);
+  read_focus(table, camera);
+  table.finish({"eye", "look_at", "file"});
+  if (!table.ok()) return;
+  auto surfaces = read_lens(table.file_path(name));
+  if (!surfaces) {
+    const Diagnostic& error = surfaces.error();
+    const std::string line = error.line > 0 ? "line " + std::to_string(error.line) + ": " : "";
+    return table.report("file", quote(name) + ": " + line + error.message);
+  }
+  camera.surfaces = std::move(surfaces).value();
+}
+
+/// The picture's red and green.
+DistortionMap map_of(const Image& image) {
+  DistortionMap map{image.width, image.height, {}};
+  map.st.reserve(2 * image.pixels.size());
+  for (const Color& c : image.pixels) map.st.insert(map.st.end(), {c.r, c.g});
+  return map;
+}
+
+DistortionMap read_distortion(TomlTable table) {
+  std::string name;
+  table.read("file", name);
+  table.finish({"file"});
+  if (!table.ok()) return {};
+  const auto image = read_picture(table.file_path(name), PictureContent::numbers);
+  if (!image) {
+    table.report("file", quote(name) + ": " + image.error().message);
+    return {};
+  }
+  DistortionMap map = map_of(image.value());
+  if (const auto problem = find_problem(map)) {
+    table.report(problem->field, quote(name) + ": " + problem->message);
+  }
+  return map;
+}
+
+}  // namespace
+
+Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion) {
+  Camera kinds[] = {PinholeCamera{}, OrthographicCamera{}, FisheyeCamera{}, ThinLensCamera{},
+                    LensCamera{}};
+  std::optional<TomlTable> distorted = table.table("distortion");
+  Camera& camera =
+      kinds[table.choose("type", {"pinhole", "orthographic", "fisheye", "thin_lens", "lens"})];
+  std::visit(
+      [&](auto& kind) {
+        read_pose(table, kind.pose);
+        read_keys(table, kind);
+      },
+      camera);
+  table.check(find_problem(camera));
+  if (distorted) distortion = read_distortion(std::move(*distorted));
+  return camera;
+}
+
+}  // namespace boule

@@ -1,0 +1,86 @@
+// ST maps: pictures that a scene file names.
+#include "render/image/image_file.h"
+#include "tests/scene_file/scene_dump.h"
+#include "tests/scene_file/scene_files.h"
+
+#include <limits>
+
+namespace boule::test {
+namespace {
+
+class Distortion : public testing::Test {
+ protected:
+  [[nodiscard]] std::string scene(const std::string& keys) const {
+    return "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[camera.distortion]\n" +
+           keys;
+  }
+  void write(const Image& image, const std::string& name) const {
+    const Status failure = write_image(image, files_.path(name));
+    ASSERT_FALSE(failure) << failure->message;
+  }
+  void expect_refused(const std::string& keys, int line, int column, const std::string& key,
+                      const std::string& words) const {
+    const auto loaded = files_.load("scene.toml", scene(keys));
+    ASSERT_FALSE(loaded) << keys;
+    EXPECT_EQ(loaded.error().line, line);
+    EXPECT_EQ(loaded.error().column, column);
+    EXPECT_EQ(loaded.error().key, key);
+    EXPECT_THAT(loaded.error().message, testing::HasSubstr(words));
+  }
+
+  SceneFiles files_;
+};
+
+Image small_map() {
+  Image image(3, 2);
+  image.pixels = {{0.1f, 0.9f, 7},  {0.5f, 0.8f, 7}, {1.2f, 0.7f, 7},
+                  {-0.1f, 0.3f, 7}, {0.4f, 0.2f, 7}, {0.9f, 0.1f, 7}};
+  return image;
+}
+
+TEST_F(Distortion, IsRedAndGreenOfThePicture) {
+  write(small_map(), "map.exr");
+  const auto loaded = files_.load("scene.toml", scene("file = \"map.exr\"\n"));
+  ASSERT_TRUE(loaded) << format_diagnostic(loaded.error());
+  const auto& map = loaded.value().scene.distortion;
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->width, 3);
+  EXPECT_EQ(map->height, 2);
+  EXPECT_EQ(map->st, (std::vector<float>{0.1f, 0.9f, 0.5f, 0.8f, 1.2f, 0.7f,  //
+                                         -0.1f, 0.3f, 0.4f, 0.2f, 0.9f, 0.1f}));
+}
+
+TEST_F(Distortion, CodesAreNumbersFromZeroToOne) {
+  write(Image(2, 2), "black.png");
+  const auto loaded = files_.load("scene.toml", scene("file = \"black.png\"\n"));
+  ASSERT_TRUE(loaded) << format_diagnostic(loaded.error());
+  EXPECT_EQ(loaded.value().scene.distortion->st, std::vector<float>(8, 0));
+}
+
+TEST_F(Distortion, IsRefusedWithPlaceAndKey) {
+  const std::string key = "camera.distortion.file";
+  expect_refused("", 5, 1, key, "missing key 'file'");
+  expect_refused("fiel = \"a\"\n", 6, 1, "camera.distortion.fiel", "did you mean 'file'?");
+  expect_refused("file = 1\n", 6, 8, key, "expected a string");
+  expect_refused("file = \"none.exr\"\n", 6, 8, key, "'none.exr': cannot read it: No such file");
+  expect_refused("file = \".\"\n", 6, 8, key, "it is a directory");
+  expect_refused("file = \"scene.toml\"\n", 6, 8, key, "unknown extension, expected one of exr");
+  files_.write("text.exr", "no picture").size();
+  expect_refused("file = \"text.exr\"\n", 6, 8, key, "'text.exr': cannot read it: ");
+  write(Image(1, 4), "narrow.exr");
+  expect_refused("file = \"narrow.exr\"\n", 6, 8, key, "2 x 2 pixels or more, has 1 x 4");
+  Image holes = small_map();
+  holes.pixels[4].g = std::numeric_limits<float>::quiet_NaN();
+  write(holes, "holes.exr");
+  expect_refused("file = \"holes.exr\"\n", 6, 8, key, "must be finite");
+}
+
+TEST_F(Distortion, ABlueThatIsNotFiniteDoesNotMatter) {
+  Image image = small_map();
+  image.pixels[0].b = std::numeric_limits<float>::infinity();
+  write(image, "map.exr");
+  EXPECT_TRUE(files_.load("scene.toml", scene("file = \"map.exr\"\n")));
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,288 @@
+// Lenses of real elements: the shipped prescriptions, and every kernel table against a twin that
+// traces them in long double by other formulas.
+#include <cmath>
+#include <vector>
+
+#include "core/math/geometry.h"
+#include "core/scene/lens_optics.h"
+#include "render/scene_file/scene_file.h"
+#include "simd/build/camera_builder.h"
+#include "tests/scenes/shipped.h"
+#include "tests/support/camera_samples.h"
+#include "tests/support/kernel_runs.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+using Vec3l = Vec3<long double>;
+
+/// A shipped lens with a film of that width, at the origin, looking along -z at what is 3 m away.
+LensCamera shipped_lens(const std::string& name, const std::string& keys) {
+  const TempDir dir;
+  const std::string path = (dir.path() / "lens.toml").string();
+  std::ofstream(path) << "schema = 1\n[camera]\ntype = 'lens'\neye = [0, 0, 0]\n"
+                      << "look_at = [0, 0, -3]\nfile = '" << (scenes_folder() / name).string()
+                      << "'\n"
+                      << keys;
+  const auto loaded = load_scene(path);
+  if (!loaded) {
+    ADD_FAILURE() << format_diagnostic(loaded.error());
+    return {};
+  }
+  return std::get<LensCamera>(*loaded.value().scene.camera);
+}
+LensCamera double_gauss() { return shipped_lens("double_gauss_50mm.lens", "film_width = 20\n"); }
+LensCamera wide_angle() { return shipped_lens("wide_angle_22mm.lens", "film_width = 30\n"); }
+
+/// The middle of each surface on the axis, the first at 0.
+std::vector<long double> vertices_of(const LensCamera& camera) {
+  std::vector<long double> z;
+  long double place = 0;
+  for (const LensSurface& surface : camera.surfaces) {
+    z.push_back(place);
+    place += static_cast<long double>(surface.thickness);
+  }
+  return z;
+}
+
+/// A ray of the twin in the lens' space; not `there` once it is stopped.
+struct TwinRay {
+  Vec3l org, dir;
+  bool there = true;
+};
+
+/// Through surface i, between media of these indices: the textbook's quadratic, the root nearer to
+/// the vertex, and the tangential part of the direction stretched by Snell's law.
+void pass(TwinRay& ray, const LensSurface& surface, long double vertex, long double from,
+          long double to) {
+  const long double radius = surface.radius;
+  long double t = (vertex - ray.org.z) / ray.dir.z;
+  Vec3l normal{0, 0, 1};
+  if (radius != 0) {
+    const Vec3l o = ray.org - Vec3l{0, 0, vertex + radius};
+    const long double b = 2 * dot(o, ray.dir), c = dot(o, o) - radius * radius;
+    const long double discriminant = b * b - 4 * c;
+    ray.there = ray.there && discriminant >= 0;
+    const long double root = std::sqrt(discriminant);
+    const long double first = (-b - root) / 2, second = (-b + root) / 2;
+    const auto off = [&](long double at) { return std::fabs(ray.org.z + at * ray.dir.z - vertex); };
+    t = off(first) < off(second) ? first : second;
+    normal = (o + ray.dir * t) * (1 / radius);
+  }
+  ray.org = ray.org + ray.dir * t;
+  const long double half = static_cast<long double>(surface.aperture) / 2;
+  ray.there = ray.there && std::hypot(ray.org.x, ray.org.y) <= half;
+  const long double along = dot(ray.dir, normal);
+  const Vec3l aside = (ray.dir - normal * along) * (from / to);
+  const long double left = 1 - dot(aside, aside);
+  ray.there = ray.there && left >= 0;
+  ray.dir = aside + normal * std::copysign(std::sqrt(left), along);
+}
+
+void to_scene(TwinRay& ray, const LensCamera& camera) {
+  const auto z = vertices_of(camera);
+  for (std::size_t i = z.size(); i-- > 0;) {
+    const auto index = [&](std::size_t k) {
+      return static_cast<long double>(camera.surfaces[k].index);
+    };
+    pass(ray, camera.surfaces[i], z[i], index(i), i == 0 ? 1.0L : index(i - 1));
+  }
+}
+
+void to_film(TwinRay& ray, const LensCamera& camera) {
+  const auto z = vertices_of(camera);
+  long double index = 1;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto next = static_cast<long double>(camera.surfaces[i].index);
+    pass(ray, camera.surfaces[i], z[i], index, next);
+    index = next;
+  }
+}
+
+/// By a ray at a tenth of a micrometre from the axis.
+double traced_focal_length(const LensCamera& camera) {
+  TwinRay ray{{1e-4L, 0, -1}, {0, 0, 1}};
+  to_film(ray, camera);
+  EXPECT_TRUE(ray.there);
+  return static_cast<double>(-1e-4L * ray.dir.z / ray.dir.x);
+}
+
+TEST(Lens, FocalLengthsAreThePublishedOnes) {
+  struct Published {
+    LensCamera camera;
+    double focal_length;
+  };
+  for (const auto& [camera, published] :
+       {Published{double_gauss(), 50.2}, Published{wide_angle(), 22}}) {
+    EXPECT_NEAR(focal_length(camera.surfaces) / published, 1, 0.005);
+    EXPECT_NEAR(traced_focal_length(camera), focal_length(camera.surfaces), 1e-6);
+  }
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(image_distance(double_gauss().surfaces, inf) / 27.535, 1, 0.005);
+}
+
+class LensKernels : public OnEachIsa {};
+
+/// What the twin makes of one sample: the film point, and the pupil box by its ring.
+TwinRay twin_of(const LensCamera& camera, const LensOptics& optics, double film_x, double film_y,
+                double a, double b, double& weight) {
+  const long double x = -static_cast<long double>(film_x) * optics.half_width;
+  const long double y = -static_cast<long double>(film_y) * optics.half_height;
+  const long double phi = std::atan2(y, x), distance = std::hypot(x, y);
+  const auto ring = static_cast<std::size_t>(distance * optics.rings_per_length);
+  const PupilBox& box = optics.pupil[std::min(ring, optics.pupil.size() - 1)];
+  const long double p = box.x0 + (box.x1 - box.x0) * a, q = box.y * (2 * b - 1);
+  const Vec3l target{p * std::cos(phi) - q * std::sin(phi), p * std::sin(phi) + q * std::cos(phi),
+                     optics.rear};
+  TwinRay ray{{x, y, optics.film}, target - Vec3l{x, y, optics.film}};
+  const long double length = std::sqrt(dot(ray.dir, ray.dir));
+  ray.dir = ray.dir * (1 / length);
+  weight = static_cast<double>(std::pow(std::fabs(ray.dir.z), 4.0L)) * (box.x1 - box.x0) * 2 *
+           box.y * optics.exposure;
+  to_scene(ray, camera);
+  return ray;
+}
+
+TEST_P(LensKernels, EqualTheTwin) {
+  constexpr std::size_t many = 1000000;
+  constexpr int width = 640, height = 361;
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensOptics optics = make_optics(camera, width, height);
+    const LensStack lens = build_lens(camera, width, height);
+    const CameraView view = build_camera(camera, width, height, nullptr, &lens);
+    SampleBuffer samples = random_samples(view, many, width, height, 31);
+    const SampleStream at = samples.view();
+    RayBuffer rays(many);
+    kernels->primary_rays(view, at, rays.view());
+    std::size_t differing = 0, passed = 0;
+    for (std::size_t i = 0; i < many; ++i) {
+      double weight = 0;
+      const TwinRay twin =
+          twin_of(camera, optics, 2 * at.raster_x[i] / width - 1, 1 - 2 * at.raster_y[i] / height,
+                  at.lens_x[i], at.lens_y[i], weight);
+      const bool through = samples.weight(i) > 0;
+      differing += through != (twin.there && weight > 0) ? 1 : 0;
+      if (!through || !twin.there) continue;
+      ++passed;
+      // The camera stands at the origin and looks along -z: its space is the lens', x, y and z.
+      const Ray ray = rays.get(i);
+      const Vec3d dir = vec_cast<double>(ray.dir), wanted = vec_cast<double>(twin.dir);
+      ASSERT_LE(std::fabs(dir.x - wanted.x), 4 * unit_roundoff) << i;
+      ASSERT_LE(std::fabs(dir.y - wanted.y), 4 * unit_roundoff) << i;
+      ASSERT_LE(std::fabs(dir.z - wanted.z), 4 * unit_roundoff) << i;
+      const Vec3d org = vec_cast<double>(twin.org) * optics.scale;
+      ASSERT_LE(length(ray.org - org), unit_roundoff * optics.scale) << i;
+      ASSERT_NEAR(static_cast<double>(samples.weight(i)) / weight, 1, 1e-6) << i;
+    }
+    EXPECT_LE(differing, 1U);
+    EXPECT_GT(passed, many / 4);
+  }
+}
+
+TEST_P(LensKernels, EqualTheScalarPath) {
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensStack lens = build_lens(camera, 64, 48);
+    const CameraView view = build_camera(camera, 64, 48, nullptr, &lens);
+    SampleBuffer samples = random_samples(view, 5003, 64, 48, 32);
+    SampleBuffer same = random_samples(view, 5003, 64, 48, 32);
+    RayBuffer wide(samples.size()), scalar(samples.size());
+    kernels->primary_rays(view, samples.view(), wide.view());
+    reference_kernels().primary_rays(view, same.view(), scalar.view());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      ASSERT_EQ(samples.weight(i), same.weight(i)) << i;
+      if (same.weight(i) == 0) continue;
+      ASSERT_EQ(wide.get(i).org, scalar.get(i).org) << i;
+      ASSERT_EQ(wide.get(i).dir, scalar.get(i).dir) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, LensKernels, each_isa(), isa_name);
+
+TEST(Lens, RaysTracedBackwardsReturn) {
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensOptics optics = make_optics(camera, 64, 48);
+    CaseRandom random(33);
+    int passed = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const double x = random.uniform(-optics.half_width, optics.half_width);
+      const double y = random.uniform(-optics.half_height, optics.half_height);
+      const double half = static_cast<double>(camera.surfaces.back().aperture) / 2;
+      const double p = random.uniform(-half, half);
+      const double q = random.uniform(-half, half);
+      Vec3d org{x, y, optics.film};
+      Vec3d dir = normalize(Vec3d{p, q, optics.rear} - org);
+      if (!trace_lens(optics.elements, org, dir)) continue;
+      ++passed;
+      TwinRay back{vec_cast<long double>(org + dir), vec_cast<long double>(-dir)};
+      to_film(back, camera);
+      const long double t = (optics.film - back.org.z) / back.dir.z;
+      ASSERT_NEAR(static_cast<double>(back.org.x + t * back.dir.x), x, 1e-9);
+      ASSERT_NEAR(static_cast<double>(back.org.y + t * back.dir.y), y, 1e-9);
+    }
+    EXPECT_GT(passed, 1000);
+  }
+}
+
+TEST(Lens, WhatIsInFocusIsSharpNearTheAxis) {
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensOptics optics = make_optics(camera, 64, 48);
+    for (const double p : {-0.01, 0.005, 0.01}) {
+      Vec3d org{0, 0, optics.film};
+      Vec3d dir = normalize(Vec3d{p, 0, optics.rear} - org);
+      ASSERT_TRUE(trace_lens(optics.elements, org, dir));
+      const double meets = org.z - org.x * dir.z / dir.x;
+      EXPECT_NEAR(meets, -3000, 1);  // mm
+    }
+  }
+}
+
+TEST(Lens, TheExitPupilIsInsideItsBoxes) {
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensOptics optics = make_optics(camera, 64, 48);
+    CaseRandom random(34);
+    int passed = 0, outside = 0;
+    for (int i = 0; i < 400000; ++i) {
+      const double r = random.uniform(0, 64 / optics.rings_per_length);
+      const double half = static_cast<double>(camera.surfaces.back().aperture) * 0.75;
+      const double p = random.uniform(-half, half);
+      const double q = random.uniform(-half, half);
+      Vec3d org{r, 0, optics.film};
+      Vec3d dir = normalize(Vec3d{p, q, optics.rear} - org);
+      if (!trace_lens(optics.elements, org, dir)) continue;
+      ++passed;
+      const PupilBox& box = optics.pupil[std::min<std::size_t>(
+          static_cast<std::size_t>(r * optics.rings_per_length), 63)];
+      outside += p < box.x0 || p > box.x1 || std::fabs(q) > box.y ? 1 : 0;
+    }
+    EXPECT_GT(passed, 10000);
+    EXPECT_EQ(outside, 0);
+  }
+}
+
+TEST(Lens, AWhiteWorldIsOneInTheMiddleAndDarkerTowardsTheCorners) {
+  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+    const LensStack lens = build_lens(camera, 64, 48);
+    const CameraView view = build_camera(camera, 64, 48, nullptr, &lens);
+    const auto mean_weight = [&](double x, double y) {
+      SampleBuffer samples = random_samples(view, 40000, 64, 48, 35);
+      for (std::size_t i = 0; i < samples.size(); ++i) samples.set(i, x, y);
+      RayBuffer rays(samples.size());
+      reference_kernels().primary_rays(view, samples.view(), rays.view());
+      double sum = 0;
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        sum += static_cast<double>(samples.weight(i));
+      }
+      return sum / static_cast<double>(samples.size());
+    };
+    EXPECT_NEAR(mean_weight(32, 24), 1, 0.01);
+    const double half_way = mean_weight(48, 36), corner = mean_weight(63.5, 47.5);
+    EXPECT_LT(half_way, 0.99);
+    EXPECT_LT(corner, 0.8 * half_way);
+    EXPECT_GT(corner, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace boule::test
