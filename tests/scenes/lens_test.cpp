@@ -243,7 +243,7 @@ TEST(Lens, TheExitPupilIsInsideItsBoxes) {
     const LensOptics optics = make_optics(camera, 64, 48);
     CaseRandom random(34);
     int passed = 0, outside = 0;
-    for (int i = 0; i < 400000; ++i) {
+    for (int i = 0; i < 1000000; ++i) {
       const double r = random.uniform(0, 64 / optics.rings_per_length);
       const double half = static_cast<double>(camera.surfaces.back().aperture) * 0.75;
       const double p = random.uniform(-half, half);
