@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/scene/distortion.h"
 #include "simd/build/stream_buffer.h"
 #include "tests/support/case_random.h"
 
