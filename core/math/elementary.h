@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/platform.h"
@@ -170,6 +171,23 @@ inline double tan_acute(double x) {
   for (int n = 18; n >= 2; n -= 2) cosine = -(1 + z * cosine) / (n * (n - 1));
   const double sin_a = a + a * (z * sine), cos_a = 1 + z * cosine;
   return steep ? cos_a / sin_a : sin_a / cos_a;
+}
+
+/// The angle of (x, y) from the x axis, -pi to pi, both finite; 0 for (0, 0). Error below 1e-15.
+/// The angle is halved twice, tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), before Taylor's series.
+inline double atan2(double y, double x) {
+  const double a = x < 0 ? -x : x, b = y < 0 ? -y : y;
+  const bool steep = b > a;
+  if (!(a > 0) && !(b > 0)) return 0;
+  double t = steep ? a / b : b / a;
+  for (int halving = 0; halving < 2; ++halving) t /= 1 + std::sqrt(1 + t * t);
+  const double z = t * t;
+  double sum = 0;
+  for (int n = 23; n >= 1; n -= 2) sum = 1.0 / n - z * sum;
+  double angle = 4 * t * sum;
+  if (steep) angle = pi / 2 - angle;
+  if (x < 0) angle = pi - angle;
+  return y < 0 ? -angle : angle;
 }
 
 /// sin(x) / x for -pi / 2 <= x <= pi / 2, from z = x^2; T is double or lanes of it. x times it is

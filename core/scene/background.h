@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "core/math/color.h"
 #include "core/scene/primitive.h"
@@ -20,7 +21,15 @@ struct GradientBackground {
   Vec3f up{0, 1, 0};
 };
 
-using Background = std::variant<ConstantBackground, GradientBackground>;
+/// An image of everything around, latitude-longitude: its top row is up (+y), its middle is seen
+/// along -z, or `rotation` degrees to the right of that.
+struct EnvironmentBackground {
+  int width = 0, height = 0;  ///< >= 1
+  std::vector<Color> pixels;  ///< radiance, row by row, the top one first
+  float rotation = 0;
+};
+
+using Background = std::variant<ConstantBackground, GradientBackground, EnvironmentBackground>;
 
 /// The first Problem of a background: anything not finite or negative, a zero up.
 std::optional<Problem> find_problem(const Background& background);

@@ -271,6 +271,19 @@ std::optional<Problem> find_problem(const Background& background) {
   if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
     return Checker{}.color("color", constant->color).problem();
   }
+  if (const auto* image = std::get_if<EnvironmentBackground>(&background)) {
+    Checker checker;
+    checker.finite("rotation", image->rotation);
+    const bool whole = image->width >= 1 && image->height >= 1 &&
+                       image->pixels.size() == static_cast<std::size_t>(image->width) *
+                                                   static_cast<std::size_t>(image->height);
+    checker.require("file", whole, "must have width x height pixels, 1 or more");
+    for (const Color& c : image->pixels) {
+      const bool good = std::isfinite(c.r + c.g + c.b) && c.r >= 0 && c.g >= 0 && c.b >= 0;
+      if (!good) return Problem{"file", "must have finite numbers of 0 or above only"};
+    }
+    return checker.problem();
+  }
   const auto& gradient = std::get<GradientBackground>(background);
   return Checker{}
       .color("bottom", gradient.bottom)

@@ -84,6 +84,12 @@ Json describe(const GradientBackground& background) {
           {"up", shown(background.up)}};
 }
 
+Json describe(const EnvironmentBackground& background) {
+  return {{"type", "environment"},
+          {"size", {background.width, background.height}},
+          {"rotation", shown(background.rotation)}};
+}
+
 Json describe(const PointLight& light) {
   return {{"type", "point"},
           {"position", shown(light.position)},

@@ -38,7 +38,12 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
       settings_(settings),
       geometry_(scene.geometry.view()),
       wavefront_(settings.stream_size),
-      keys_(settings.seed) {
+      keys_(settings.seed),
+      environment_share_(!scene.environment.shines() ? 0
+                         : scene.area_lights.empty() ? 1
+                                                     : 0.5),
+      seeks_(settings.light_search != LightSearch::paths &&
+             (scene.environment.shines() || !scene.area_lights.empty())) {
   for (const Light& light : scene.lights) {
     if (!std::holds_alternative<SphereLight>(light)) delta_lights_.push_back(&light);
   }
@@ -95,7 +100,7 @@ void Path::find_points(const PathStream& stream) {
     const Ray ray = stream.rays->get(k);
     radiance_[k] = crossed_lights(ray, stream.density[k], hit.t);
     if (hit.id == no_primitive) {
-      radiance_[k] = radiance_[k] + background_radiance(scene_.background, ray.dir);
+      radiance_[k] = radiance_[k] + seen_background(ray, stream.density[k]);
     } else {
       shade_hit(stream, k, ray, hit);
     }
@@ -112,7 +117,8 @@ void Path::shade_hit(const PathStream& stream, std::uint32_t index, const Ray& r
     if (density > 0 && sphere < scene_.spheres.size()) {
       const AreaLight light =
           scene_.area_lights.light_of(scene_.spheres[sphere], material.constant);
-      light_density = light.share * LightCone(ray.org, light.center, light.radius).density();
+      light_density = (1 - environment_share_) * light.share *
+                      LightCone(ray.org, light.center, light.radius).density();
     }
     const auto weight = static_cast<float>(weight_of_hit(density, light_density));
     radiance_[index] = radiance_[index] + material.constant * weight;
@@ -124,30 +130,45 @@ void Path::shade_hit(const PathStream& stream, std::uint32_t index, const Ray& r
   const Lobes lobes(material, surface);
   if (lobes.black()) return;
   if (lit && !delta_lights_.empty()) illumination_.add_point(index, material, surface);
-  if (lit && !scene_.area_lights.empty()) seek_light(stream, index, surface, lobes);
+  if (lit && seeks_) seek_light(stream, index, surface, lobes);
   if (stream.depth < settings_.max_depth) go_on(stream, index, surface, lobes);
 }
 
-/// Picks a light, a direction to it, and makes the shadow ray that decides.
+/// Picks a light and a direction to it: the environment, or one of the spheres.
 void Path::seek_light(const PathStream& stream, std::uint32_t index, const Surface& surface,
                       const Lobes& lobes) {
-  if (settings_.light_search == LightSearch::paths) return;
   UnitPair numbers = this->numbers(stream, index, Use::light);
+  const Departure departure = depart(surface, Side::viewer);
+  if (numbers.u < environment_share_) {
+    numbers.u /= environment_share_;
+    const auto [to_light, density] = scene_.environment.sample(numbers);
+    const Ray way{departure.org, vec_cast<float>(to_light)};
+    const Color radiance = background_radiance(scene_.background, way.dir);
+    seek({stream, index, surface, lobes}, from_surface(way, departure),
+         {to_light, environment_share_ * density, radiance});
+    return;
+  }
+  const double sphere_share = 1 - environment_share_;
+  numbers.u = (numbers.u - environment_share_) / sphere_share;
   const AreaLight& light = scene_.area_lights.pick(numbers.u);
   const LightCone cone(surface.point, light.center, light.radius);
   if (!(cone.density() > 0)) return;
   const Vec3d to_light = cone.direction(numbers);
-  const double cosine = dot(surface.normal, to_light);
-  if (!(cosine > 0)) return;
-  const double light_density = light.share * cone.density();
-  const double density = lobes.density(cosine, to_light);
-  const bool last = stream.depth == settings_.max_depth;
-  const double weight = weight_of_light(light_density, density, last);
-  const auto scale = static_cast<float>(weight / (elementary::pi * light_density));
-  const Departure departure = depart(surface, Side::viewer);
-  const Ray ray = cone.way(departure.org, to_light);
-  shadow_rays_.set(arrivals_.size(), from_surface(ray, departure));
-  arrivals_.push_back({index, lobes.reflected(cosine, to_light) * light.radiance * scale});
+  seek({stream, index, surface, lobes}, from_surface(cone.way(departure.org, to_light), departure),
+       {to_light, sphere_share * light.share * cone.density(), light.radiance});
+}
+
+/// Makes the shadow ray that decides whether a light arrives, unless none of it would count.
+void Path::seek(const Seeker& seeker, const Ray& way, const Sought& light) {
+  const double cosine = dot(seeker.surface.normal, light.direction);
+  if (!(cosine > 0) || !(light.density > 0)) return;
+  const double density = seeker.lobes.density(cosine, light.direction);
+  const bool last = seeker.stream.depth == settings_.max_depth;
+  const double weight = weight_of_light(light.density, density, last);
+  const auto scale = static_cast<float>(weight / (elementary::pi * light.density));
+  const Color reflected = seeker.lobes.reflected(cosine, light.direction);
+  shadow_rays_.set(arrivals_.size(), way);
+  arrivals_.push_back({seeker.ray, reflected * light.radiance * scale});
 }
 
 /// Sends the path on, unless the roulette ends it.
@@ -189,6 +210,14 @@ void Path::add_area_lights() {
   }
 }
 
+/// The background, weighted where an image of it is sought too.
+Color Path::seen_background(const Ray& ray, double density) const {
+  const Color radiance = background_radiance(scene_.background, ray.dir);
+  if (!(environment_share_ > 0) || !(density > 0)) return radiance;
+  const double sought = scene_.environment.density(normalize(vec_cast<double>(ray.dir)));
+  return radiance * static_cast<float>(weight_of_hit(density, environment_share_ * sought));
+}
+
 /// The sphere lights that a ray passes before t: they are no objects, no ray ends there. Seen by
 /// rays that a diffuse lobe or a highlight sent there, and by no others.
 Color Path::crossed_lights(const Ray& ray, double density, double t) const {
@@ -201,7 +230,8 @@ Color Path::crossed_lights(const Ray& ray, double density, double t) const {
     const AreaLight& light = lights.sphere_lights()[i];
     const LightCone cone(ray.org, light.center, light.radius);
     if (!cone.meets(dir * (1 / size), t * size)) continue;
-    const double weight = weight_of_hit(density, light.share * cone.density());
+    const double weight =
+        weight_of_hit(density, (1 - environment_share_) * light.share * cone.density());
     sum = sum + light.radiance * static_cast<float>(weight);
   }
   return sum;

@@ -39,6 +39,19 @@ class Path final : public Integrator {
     std::uint32_t ray;
     Color radiance;
   };
+  /// A ray's hit that seeks light.
+  struct Seeker {
+    const PathStream& stream;
+    std::uint32_t ray;
+    const Surface& surface;
+    const Lobes& lobes;
+  };
+  /// Light in a direction that was chosen with a density.
+  struct Sought {
+    Vec3d direction;
+    double density;
+    Color radiance;
+  };
   /// What a sample's random numbers depend on.
   struct RandomKey {
     std::uint64_t pixel;
@@ -55,8 +68,10 @@ class Path final : public Integrator {
                   const Lobes& lobes);
   void go_on(const PathStream& stream, std::uint32_t index, const Surface& surface,
              const Lobes& lobes);
+  void seek(const Seeker& seeker, const Ray& way, const Sought& light);
   void add_light(const Light& light);
   void add_area_lights();
+  [[nodiscard]] Color seen_background(const Ray& ray, double density) const;
   [[nodiscard]] Color crossed_lights(const Ray& ray, double density, double t) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
   [[nodiscard]] double weight_of_light(double light_density, double density, bool last) const;
@@ -69,6 +84,8 @@ class Path final : public Integrator {
   GeometryView geometry_;
   Wavefront wavefront_;
   PixelKeys keys_;
+  double environment_share_;                ///< how often the environment is sought, not a sphere
+  bool seeks_;                              ///< there is something to seek, by rays to it
   std::vector<const Light*> delta_lights_;  ///< point and directional ones
   std::vector<RandomKey> random_keys_;      ///< by sample
   std::uint64_t primary_ = 0, shadow_ = 0;

@@ -59,6 +59,9 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
     scene.lights.emplace_back(light_at_eye(camera));
     notes.emplace_back("no light in the scene: one white point light at the eye");
   }
+  const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
+  EnvironmentLight environment =
+      image && method == Method::path ? EnvironmentLight(*image) : EnvironmentLight();
   AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
   DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
   LensStack lens = build_lens(camera, width, height);
@@ -72,7 +75,8 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
       .materials = flatten_all(scene, method),
       .lights = std::move(scene.lights),
       .area_lights = std::move(area_lights),
-      .background = scene.background,
+      .background = std::move(scene.background),
+      .environment = std::move(environment),
       .camera = camera,
       .distortion = std::move(distortion),
       .lens = std::move(lens),

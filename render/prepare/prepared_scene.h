@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/scene/scene.h"
 #include "render/prepare/area_lights.h"
+#include "render/prepare/environment.h"
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
@@ -25,6 +26,7 @@ struct PreparedScene {
   std::vector<Light> lights;            ///< in file order
   AreaLights area_lights;               ///< for path tracing
   Background background;
+  EnvironmentLight environment;    ///< of an image, for path tracing
   Camera camera;                   ///< the scene's, or the default one
   DistortionMap distortion;        ///< what camera_view.map points into, if anything
   LensStack lens;                  ///< what camera_view.lens points into, likewise

@@ -24,6 +24,9 @@ class Hasher {
 
   void add(const ConstantBackground& b) { add(b.color); }
   void add(const GradientBackground& b) { add_all(b.bottom, b.top, b.up); }
+  void add(const EnvironmentBackground& b) {
+    add_all(std::uint64_t(b.width), std::uint64_t(b.height), b.pixels, b.rotation);
+  }
   void add(const CameraPose& p) { add_all(p.eye, p.look_at, p.up); }
   void add(const PinholeCamera& c) { add_all(c.pose, c.fov, c.fov_axis); }
   void add(const OrthographicCamera& c) { add_all(c.pose, c.height); }

@@ -1,11 +1,38 @@
 #include "render/scene_file/toml_entities.h"
 
+#include <utility>
+
+#include "render/scene_file/picture_file.h"
+
 namespace boule {
 namespace {
 
 ConstantBackground read_constant(TomlTable& table) {
   ConstantBackground background;
   table.read("color", background.color);
+  return background;
+}
+
+/// Finishes the table: the file is read where all else is right.
+EnvironmentBackground read_environment(TomlTable& table) {
+  EnvironmentBackground background;
+  std::string name;
+  table.read("file", name);
+  table.read("rotation", background.rotation);
+  table.finish({"file"});
+  if (!table.ok()) return background;
+  auto image = read_picture(table.file_path(name), PictureContent::colors);
+  if (!image) {
+    table.report("file", quote(name) + ": " + image.error().message);
+    return background;
+  }
+  background.width = image.value().width;
+  background.height = image.value().height;
+  background.pixels = std::move(image).value().pixels;
+  if (const auto problem = find_problem(Background{background})) {
+    const bool of_file = problem->field == "file";
+    table.report(problem->field, (of_file ? quote(name) + ": " : "") + problem->message);
+  }
   return background;
 }
 
@@ -92,12 +119,14 @@ RenderSettings read_render(TomlTable& table) {
 
 Background read_background(TomlTable& table, Color& ambient) {
   Background background;
-  if (table.choose("type", {"constant", "gradient"}, {"environment"}) == 0) {
+  const std::size_t type = table.choose("type", {"constant", "gradient", "environment"});
+  table.read("ambient", ambient);
+  if (type == 2) return read_environment(table);
+  if (type == 0) {
     background = read_constant(table);
   } else {
     background = read_gradient(table);
   }
-  table.read("ambient", ambient);
   table.finish();
   table.check(find_problem(background));
   return background;

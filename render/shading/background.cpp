@@ -3,11 +3,15 @@
 #include <algorithm>
 
 #include "core/math/geometry.h"
+#include "render/prepare/environment.h"
 
 namespace boule {
 
 Color background_radiance(const Background& background, const Vec3f& direction) {
   if (const auto* constant = std::get_if<ConstantBackground>(&background)) return constant->color;
+  if (const auto* image = std::get_if<EnvironmentBackground>(&background)) {
+    return environment_radiance(*image, normalize(vec_cast<double>(direction)));
+  }
   const auto& gradient = std::get<GradientBackground>(background);
   const double cosine =
       dot(normalize(vec_cast<double>(direction)), normalize(vec_cast<double>(gradient.up)));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/math/geometry.h"
+#include "core/math/warp.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
 
@@ -154,6 +156,40 @@ TEST(PathLight, PointLightsOnMatteAreWhittedsAtDepthZero) {
   const Image whitted = render(scene);
   scene.render.method = Method::path;
   EXPECT_EQ(differing_pixels(render(scene), whitted), 0);
+}
+
+/// A grey image with a bright spot straight up; nothing else shines.
+EnvironmentBackground spotted_image(float rotation) {
+  EnvironmentBackground image{16, 8, std::vector<Color>(128, gray(0.5f)), rotation};
+  image.pixels[16 + 4] = {20, 10, 5};
+  return image;
+}
+
+TEST(PathLight, AnEnvironmentOfOneColourIsAConstantBackground) {
+  Scene scene = furnace(Matte{gray(1)});
+  scene.background = EnvironmentBackground{3, 2, std::vector<Color>(6, gray(1)), 20};
+  expect_white(scene, 16, 0.01);
+}
+
+TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
+  const EnvironmentBackground image = spotted_image(77);
+  const EnvironmentLight light(image);
+  Vec3d by_chance, integral;
+  double whole = 0;
+  constexpr int n = 65536;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const UnitPair numbers = sobol_pair(1, RandomSet::film, i);
+    const auto [direction, density] = light.sample(numbers);
+    ASSERT_GT(density, 0);
+    const double red = static_cast<double>(environment_radiance(image, direction).r);
+    by_chance = by_chance + direction * (red / density / n);
+    const Vec3d even = direction_about({0, 0, 1}, warp_to_cone(numbers.u, 2), numbers.v);
+    const double red_there = static_cast<double>(environment_radiance(image, even).r);
+    integral = integral + even * (red_there * 4 * elementary::pi / n);
+    whole += light.density(even) * 4 * elementary::pi / n;
+  }
+  EXPECT_NEAR(whole, 1, 0.005);
+  EXPECT_LT(length(by_chance - integral), 0.01 * length(integral));
 }
 
 TEST(PathLight, NoRayMeetsASphereLight) {

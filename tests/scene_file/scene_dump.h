@@ -69,6 +69,10 @@ class SceneDump {
   }
   void dump(const ConstantBackground& b) { add("constant", b.color); }
   void dump(const GradientBackground& b) { add("gradient", b.bottom, b.top, b.up); }
+  void dump(const EnvironmentBackground& b) {
+    add("environment", b.width, b.height, b.rotation);
+    for (const Color& c : b.pixels) add("pixel", c);
+  }
   void dump(const Matte& m) { add("matte", m.color); }
   void dump(const Plastic& m) { add("plastic", m.color, m.specular, m.shininess, m.reflect); }
   void dump(const Metal& m) { add("metal", m.color); }
