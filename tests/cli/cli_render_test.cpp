@@ -66,6 +66,26 @@ TEST_F(Render, WhittedIsTheMethod) {
             picture({"--method", "path", "--spp", "3", "-t", "1", "--tile", "5"}, "q.ppm"));
 }
 
+/// A picture of ours as another's surroundings: seen by both methods, turned by its rotation.
+TEST_F(Render, AnEnvironmentImageIsSeenAllAround) {
+  picture({"--size", "64x32"}, "around.exr");
+  const auto seen = [&](const std::string& keys, const std::string& method) {
+    const std::string scene = write("around.toml",
+                                    "schema = 1\n[[sphere]]\n[background]\n"
+                                    "type = \"environment\"\nfile = \"around.exr\"\n" +
+                                        keys);
+    const ProgramRun run = boule_run(
+        {"render", scene, "-o", path("e.ppm"), "--size", "24x16", "--method", method, "-q"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read("e.ppm");
+  };
+  for (const char* method : {"whitted", "path"}) {
+    const std::string plain = seen("", method);
+    EXPECT_NE(seen("rotation = 90\n", method), plain);
+    EXPECT_EQ(seen("rotation = 360\n", method), seen("rotation = 0\n", method));
+  }
+}
+
 TEST_F(Render, SizeSppSeedDepthAndExposureShow) {
   const std::string plain = picture({}, "a.ppm");
   EXPECT_EQ(plain.substr(0, 12), "P6\n32 18\n255");

@@ -17,6 +17,18 @@ TEST(Warp, TurnsAreAnglesToFullPrecision) {
   }
 }
 
+TEST(Warp, AnglesAreThoseOfTheirPoints) {
+  EXPECT_EQ(elementary::atan2(0, 0), 0);
+  EXPECT_EQ(elementary::atan2(0, -2), elementary::pi);
+  for (int i = -4096; i <= 4096; ++i) {
+    const double angle = elementary::pi * i / 4096;
+    for (const double size : {1e-200, 1.0, 1e200}) {
+      const double x = std::cos(angle) * size, y = std::sin(angle) * size;
+      EXPECT_NEAR(elementary::atan2(y, x), std::atan2(y, x), 1e-15) << i;
+    }
+  }
+}
+
 TEST(Warp, DirectionsLieAsFarFromTheAxisAsAsked) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const auto [a, b] = sobol_pair(1, RandomSet::film, i);
