@@ -104,4 +104,19 @@ ParallelFor Scheduler::parallel_for() {
   };
 }
 
+bool can_start_threads(unsigned count) {
+  std::atomic<bool> counted{false};
+  std::vector<std::thread> threads;
+  try {
+    threads.reserve(count);
+    while (threads.size() < count) threads.emplace_back([&counted] { counted.wait(false); });
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  counted = true;
+  counted.notify_all();
+  for (std::thread& thread : threads) thread.join();
+  return threads.size() == count;
+}
+
 }  // namespace boule

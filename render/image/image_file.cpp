@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -203,13 +204,26 @@ void write_bands(const Picture& picture, OIIO::ImageOutput& output, const Descri
   }
 }
 
+/// Before OpenImageIO starts pools of its own. One thread means the caller's: -1 to OpenEXR; and
+/// nothing to OpenImageIO, which would start one to be told so: each file is told.
+void use_threads(int threads) {
+  if (threads > 1) OIIO::attribute("threads", threads);
+  OIIO::attribute("exr_threads", threads > 1 ? threads : -1);
+}
+
+/// A reader that needs no thread but the caller's; null if there is none of this format.
+std::unique_ptr<OIIO::ImageInput> make_input(const char* format) {
+  auto input = OIIO::ImageInput::create(format);
+  if (input) input->threads(1);
+  return input;
+}
+
 void write_picture(const Picture& picture, int descriptor, Report* report) {
-  // Before OpenImageIO starts pools of its own. One thread means the caller's: -1 to OpenEXR.
-  OIIO::attribute("threads", picture.threads);
-  OIIO::attribute("exr_threads", picture.threads > 1 ? picture.threads : -1);
+  use_threads(picture.threads);
   DescriptorProxy proxy(descriptor);
   const auto output = OIIO::ImageOutput::create(picture.format);
   if (!output) return fail(report, reason_of(OIIO::geterror()));
+  output->threads(picture.threads);
   const std::string name = std::string("picture.") + picture.format;
   if (!output->set_ioproxy(&proxy) || !output->open(name, spec_of(picture))) {
     return fail(report, reason_of(output->geterror()));
@@ -238,7 +252,7 @@ bool same_shape(const OIIO::ImageSpec& found, const OIIO::ImageSpec& wanted) {
 }
 
 void check_picture(const Picture& picture, const char* path, Report* report) {
-  const auto input = OIIO::ImageInput::create(picture.format);
+  const auto input = make_input(picture.format);
   OIIO::ImageSpec found;
   if (!input || !input->open(path, found)) {
     return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
@@ -255,7 +269,7 @@ void check_picture(const Picture& picture, const char* path, Report* report) {
 }
 
 void inspect_picture(const char* path, const char* format, FoundPicture& picture, Report* report) {
-  const auto input = OIIO::ImageInput::create(format);
+  const auto input = make_input(format);
   OIIO::ImageSpec found;
   if (!input || !input->open(path, found)) {
     return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
@@ -293,9 +307,8 @@ bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, float* to) {
 }
 
 void read_picture(PictureFile& file, Report* report) {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
-  const auto input = OIIO::ImageInput::create(file.format);
+  use_threads(1);
+  const auto input = make_input(file.format);
   OIIO::ImageSpec spec, wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);  // alpha must not change the colours
   if (!input || !input->open(file.path, spec, wishes)) {

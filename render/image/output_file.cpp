@@ -85,11 +85,18 @@ int stream_all(int stream, const char* bytes, std::size_t count,
   return 0;
 }
 
+/// Another temporary may have the name that was drawn.
+constexpr int attempts = 100;
+
+std::string folder_to_open(const std::string& path) {
+  const std::string folder = folder_of(path);
+  return folder.empty() ? "." : folder;
+}
+
 /// The new name survives a power cut once its folder is written; a file system that cannot do that
 /// is no reason to fail.
 void sync_folder(const std::string& path) {
-  const std::string folder = folder_of(path);
-  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open(folder_to_open(path).c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
   fsync(descriptor);
   close(descriptor);
@@ -125,18 +132,46 @@ Result<OutputFile> OutputFile::create(const std::string& target) {
 }
 
 Result<OutputFile> OutputFile::create_beside(OutputFile file, const std::string& real_target) {
-  constexpr int attempts = 100;
   file.real_target_ = real_target;
+  if (file.open_unnamed()) return Result<OutputFile>(std::move(file));
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::string path = temporary_name(real_target);
     file.descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file.descriptor_ >= 0) {
-      file.path_ = path;
+      file.path_ = file.temporary_ = path;
       return Result<OutputFile>(std::move(file));
     }
     if (errno != EEXIST) break;
   }
   return cannot_write(file.name_, system_reason(errno));
+}
+
+/// A file without a name; false where the file system has none such, or there is no /proc.
+bool OutputFile::open_unnamed() {
+  const int descriptor =
+      open(folder_to_open(real_target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  const std::string path = "/proc/self/fd/" + std::to_string(descriptor);
+  if (access(path.c_str(), R_OK | W_OK) != 0) {
+    close(descriptor);
+    return false;
+  }
+  path_ = path;
+  descriptor_ = descriptor;
+  return true;
+}
+
+/// Names what has no name yet; 0 or an errno code.
+int OutputFile::give_name() {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const std::string name = temporary_name(real_target_);
+    if (linkat(AT_FDCWD, path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      temporary_ = name;
+      return 0;
+    }
+    if (errno != EEXIST) break;
+  }
+  return errno;
 }
 
 Result<OutputFile> OutputFile::create_stream(OutputFile file, const std::string& real_target) {
@@ -153,6 +188,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : name_(std::move(other.name_)),
       real_target_(std::move(other.real_target_)),
       path_(std::exchange(other.path_, {})),
+      temporary_(std::exchange(other.temporary_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)),
       stream_(std::exchange(other.stream_, -1)) {}
 
@@ -160,6 +196,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(real_target_, other.real_target_);
   std::swap(path_, other.path_);
+  std::swap(temporary_, other.temporary_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(stream_, other.stream_);
   return *this;
@@ -168,10 +205,11 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 OutputFile::~OutputFile() { discard(); }
 
 void OutputFile::discard() {
-  if (!path_.empty() && stream_ < 0) unlink(path_.c_str());
+  if (!temporary_.empty()) unlink(temporary_.c_str());
   if (descriptor_ >= 0) close(descriptor_);
   if (stream_ >= 0) close(stream_);
   path_.clear();
+  temporary_.clear();
   descriptor_ = stream_ = -1;
 }
 
@@ -190,13 +228,17 @@ Status OutputFile::commit(const std::function<bool()>& stop) {
   if (stream_ >= 0) return commit_stream(stop);
   if (auto bad = sync()) return bad;
   if (stop && stop()) return cannot_write(name_, "interrupted");
+  if (temporary_.empty()) {
+    if (const int code = give_name()) return cannot_write(name_, system_reason(code));
+  }
   if (close(std::exchange(descriptor_, -1)) != 0) {
     return cannot_write(name_, system_reason(errno));
   }
-  if (rename(path_.c_str(), real_target_.c_str()) != 0) {
+  if (rename(temporary_.c_str(), real_target_.c_str()) != 0) {
     return cannot_write(name_, system_reason(errno));
   }
   path_.clear();
+  temporary_.clear();
   sync_folder(real_target_);
   return {};
 }
@@ -214,7 +256,6 @@ Status OutputFile::commit_stream(const std::function<bool()>& stop) {
     if (code != 0) return cannot_write(name_, system_reason(code));
     position += count;
   }
-  path_.clear();  // it named the memory, nothing to remove
   if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, system_reason(errno));
   return {};
 }

@@ -11,8 +11,9 @@ namespace boule {
 /// "cannot write 'NAME': REASON", for every failure of an output.
 Diagnostic cannot_write(const std::string& name, const std::string& reason);
 
-/// A file that appears under its name only when it is complete: a temporary beside the target,
-/// renamed by commit(), removed by the destructor. A failure leaves an old file untouched.
+/// A file that appears under its name only when it is complete: a temporary in the target's folder,
+/// renamed by commit(), removed by the destructor. Where the file system can, it has no name until
+/// then, so that nothing is left however the program ends. A failure leaves an old file untouched.
 ///
 /// The new file has the old one's permissions, else 0666 less the umask. A symbolic link is
 /// followed: the file it names is replaced, the link stays. A device, pipe or socket is never
@@ -28,8 +29,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// The temporary: its path, to be opened and checked, and its descriptor, open for reading,
-  /// writing and seeking.
+  /// The temporary: its path, to be opened and checked, or removed where the program ends early
+  /// (one without a name cannot be, and need not), and its descriptor, open for reading, writing
+  /// and seeking.
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
@@ -48,12 +50,15 @@ class OutputFile {
   OutputFile() = default;
   static Result<OutputFile> create_beside(OutputFile file, const std::string& real_target);
   static Result<OutputFile> create_stream(OutputFile file, const std::string& real_target);
+  bool open_unnamed();
+  int give_name();
   Status commit_stream(const std::function<bool()>& stop);
   void discard();
 
   std::string name_;         // the target as the caller wrote it, for messages
   std::string real_target_;  // links resolved; empty for a stream
-  std::string path_;
+  std::string path_;         // of the temporary; under /proc while it has no name
+  std::string temporary_;    // its name, if it has one
   int descriptor_ = -1;
   int stream_ = -1;  // the device or pipe itself
 };

@@ -127,7 +127,7 @@ TEST_F(Partial, AFirstSignalWritesThePictureASecondEndsAtOnce) {
   ASSERT_TRUE(program.wait_for("Mray/s"));
   program.wait(700);
   program.send(SIGINT);
-  ASSERT_TRUE(program.wait_for_file(path(""), ".temp.webp", 0));
+  ASSERT_TRUE(program.wait_for_output(path(""), 0));
   program.wait(300);
   program.send(SIGINT);
   const ProgramRun run = program.finish();

@@ -67,7 +67,7 @@ TEST_F(Signals, WhileWritingRemoveTheTemporaryFile) {
   for (const auto& [signal, code, name] : signals) {
     RunningProgram program(
         {"render", scene, "-o", path("out.exr"), "--size", "2000x3000", "--progress", "none"});
-    ASSERT_TRUE(program.wait_for_file(path(""), ".temp.exr", 1 << 20));
+    ASSERT_TRUE(program.wait_for_output(path(""), 1 << 20));
     const Watch watch;
     program.send(signal);
     const ProgramRun run = program.finish();
@@ -85,7 +85,7 @@ TEST_F(Signals, WhilePackingInOneCallRemoveTheTemporaryFile) {
                                   "[background]\ntype = \"gradient\"\n");
   RunningProgram program(
       {"render", scene, "-o", path("out.webp"), "--size", "8000x6000", "--progress", "none"});
-  ASSERT_TRUE(program.wait_for_file(path(""), ".temp.webp", 0));
+  ASSERT_TRUE(program.wait_for_output(path(""), 0));
   program.wait(700);  // the tone curve is over: it is packing
   const Watch watch;
   program.send(SIGTERM);

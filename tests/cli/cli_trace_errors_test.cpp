@@ -152,10 +152,10 @@ TEST_F(TraceSignals, ASignalEndsItAtOnceAndLeavesNothing) {
   const std::tuple<int, int, const char*> signals[] = {
       {SIGINT, 130, "SIGINT"}, {SIGTERM, 143, "SIGTERM"}, {SIGHUP, 129, "SIGHUP"}};
   for (const auto& [signal, code, name] : signals) {
-    for (const std::uintmax_t bytes : {std::uintmax_t{0}, std::uintmax_t{1 << 20}}) {
+    for (const std::intmax_t bytes : {0, 1 << 20}) {
       RunningProgram program({"trace", scene, "--rays", rays, "-o", path("h.npy"), "--solver",
                               "reference", "--progress", "none"});
-      ASSERT_TRUE(program.wait_for_file(path(""), ".temp.npy", bytes));
+      ASSERT_TRUE(program.wait_for_output(path(""), bytes));
       const Watch watch;
       program.send(signal);
       const ProgramRun run = program.finish();

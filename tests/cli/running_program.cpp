@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,15 +55,22 @@ bool RunningProgram::wait_for(const std::string& text) {
   return true;
 }
 
-bool RunningProgram::wait_for_file(const std::string& folder, const std::string& part,
-                                   std::uintmax_t bytes) {
+bool RunningProgram::has_output(const std::string& folder, std::intmax_t bytes) const {
+  std::error_code ended;
+  const std::string open_files = "/proc/" + std::to_string(child_) + "/fd";
+  for (const auto& entry : std::filesystem::directory_iterator(open_files, ended)) {
+    std::error_code closed;
+    const std::string name = std::filesystem::read_symlink(entry.path(), closed);
+    struct stat file {};
+    if (closed || !name.starts_with(folder) || ::stat(entry.path().c_str(), &file) != 0) continue;
+    if (S_ISREG(file.st_mode) && file.st_nlink == 0 && file.st_size >= bytes) return true;
+  }
+  return false;
+}
+
+bool RunningProgram::wait_for_output(const std::string& folder, std::intmax_t bytes) {
   while (!ended_) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const bool named = entry.path().filename().string().find(part) != std::string::npos;
-      std::error_code gone;
-      const std::uintmax_t size = named ? entry.file_size(gone) : 0;
-      if (named && !gone && size >= bytes) return true;
-    }
+    if (has_output(folder, bytes)) return true;
     read_some(1);
   }
   return false;

@@ -24,9 +24,9 @@ class RunningProgram {
   /// Reads until `text` has been shown on the terminal; false if the program ends before.
   bool wait_for(const std::string& text);
 
-  /// Reads until `folder` has a file of so many bytes whose name contains `part`; false if the
-  /// program ends before.
-  bool wait_for_file(const std::string& folder, const std::string& part, std::uintmax_t bytes);
+  /// Reads until the program has a file of so many bytes open in `folder` that has no name (yet);
+  /// false if it ends before.
+  bool wait_for_output(const std::string& folder, std::intmax_t bytes);
 
   /// Reads for so long.
   void wait(int milliseconds);
@@ -38,6 +38,7 @@ class RunningProgram {
 
  private:
   bool read_some(int timeout_ms);
+  [[nodiscard]] bool has_output(const std::string& folder, std::intmax_t bytes) const;
 
   pid_t child_ = -1;
   int terminal_ = -1;
