@@ -23,6 +23,14 @@ RandomSet random_set(int depth, unsigned use) {
                                 uses_per_depth * static_cast<unsigned>(depth) + use);
 }
 
+/// a b scale: neither may overflow, or be lost, before they come together.
+Color multiply(const Color& a, const Color& b, double scale) {
+  const auto product = [scale](float x, float y) {
+    return static_cast<float>(double{x} * double{y} * scale);
+  };
+  return {product(a.r, b.r), product(a.g, b.g), product(a.b, b.b)};
+}
+
 /// Veach's power heuristic with exponent 2: the share of the way with density a, beside one with b.
 double power_heuristic(double a, double b) {
   const double ratio = b / a;
@@ -151,10 +159,10 @@ void Path::seek_light(const PathStream& stream, std::uint32_t index, const Surfa
   const double sphere_share = 1 - environment_share_;
   numbers.u = (numbers.u - environment_share_) / sphere_share;
   const AreaLight& light = scene_.area_lights.pick(numbers.u);
-  const LightCone cone(surface.point, light.center, light.radius);
+  const LightCone cone(departure.org, light.center, light.radius);
   if (!(cone.density() > 0)) return;
   const Vec3d to_light = cone.direction(numbers);
-  seek({stream, index, surface, lobes}, from_surface(cone.way(departure.org, to_light), departure),
+  seek({stream, index, surface, lobes}, from_surface(cone.way(to_light), departure),
        {to_light, sphere_share * light.share * cone.density(), light.radiance});
 }
 
@@ -165,10 +173,10 @@ void Path::seek(const Seeker& seeker, const Ray& way, const Sought& light) {
   const double density = seeker.lobes.density(cosine, light.direction);
   const bool last = seeker.stream.depth == settings_.max_depth;
   const double weight = weight_of_light(light.density, density, last);
-  const auto scale = static_cast<float>(weight / (elementary::pi * light.density));
   const Color reflected = seeker.lobes.reflected(cosine, light.direction);
   shadow_rays_.set(arrivals_.size(), way);
-  arrivals_.push_back({seeker.ray, reflected * light.radiance * scale});
+  arrivals_.push_back(
+      {seeker.ray, multiply(reflected, light.radiance, weight / (elementary::pi * light.density))});
 }
 
 /// Sends the path on, unless the roulette ends it.

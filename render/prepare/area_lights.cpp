@@ -22,7 +22,6 @@ AreaLights::AreaLights(const Scene& scene) {
     if (is_black(light.radiance)) return;
     lights_.push_back(light);
     power_ += power_of(light);
-    cumulative_.push_back(power_);
   };
   for (const Light& light : scene.lights) {
     const auto* sphere = std::get_if<SphereLight>(&light);
@@ -33,8 +32,15 @@ AreaLights::AreaLights(const Scene& scene) {
     const auto* emissive = std::get_if<Emissive>(&scene.materials[sphere.material].material);
     if (emissive) add(area_light(sphere.center, sphere.radius, emissive->radiance));
   }
-  for (AreaLight& light : lights_) light.share = power_of(light) / power_;
-  for (double& sum : cumulative_) sum /= power_;
+  double sum = 0;
+  for (AreaLight& light : lights_) {
+    light.share = share_of(light);
+    cumulative_.push_back(sum += light.share);
+  }
+}
+
+double AreaLights::share_of(const AreaLight& light) const {
+  return 0.5 * (power_of(light) / power_ + 1 / static_cast<double>(lights_.size()));
 }
 
 const AreaLight& AreaLights::pick(double& u) const {
@@ -48,7 +54,7 @@ const AreaLight& AreaLights::pick(double& u) const {
 
 AreaLight AreaLights::light_of(const Sphere& sphere, const Color& radiance) const {
   AreaLight light = area_light(sphere.center, sphere.radius, radiance);
-  light.share = power_of(light) / power_;
+  light.share = share_of(light);
   return light;
 }
 

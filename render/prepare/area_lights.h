@@ -13,10 +13,11 @@ struct AreaLight {
   Vec3d center;
   double radius;
   Color radiance;
-  double share;  ///< how often it is picked: its power over that of all
+  double share;  ///< how often it is picked
 };
 
-/// All of a scene's, each picked as often as its power demands. Black ones are none.
+/// All of a scene's. Half of the time one is picked by its power, else any: what is strong but far
+/// away, or all around, must not leave nothing for the others. Black ones are none.
 class AreaLights {
  public:
   AreaLights() = default;
@@ -35,8 +36,10 @@ class AreaLights {
   [[nodiscard]] AreaLight light_of(const Sphere& sphere, const Color& radiance) const;
 
  private:
+  [[nodiscard]] double share_of(const AreaLight& light) const;
+
   std::vector<AreaLight> lights_;   ///< sphere lights, then emissive spheres
-  std::vector<double> cumulative_;  ///< power up to and with each, over that of all
+  std::vector<double> cumulative_;  ///< shares up to and with each
   std::size_t sphere_lights_ = 0;
   double power_ = 0;
 };

@@ -28,6 +28,33 @@ std::size_t find_interval(const double* sums, std::size_t count, double& at) {
   return index;
 }
 
+/// The light of a pixel's area: the image there is bilinear, and each neighbour's share of the
+/// integral over it is 1/8 along either axis.
+class PixelLight {
+ public:
+  explicit PixelLight(const EnvironmentBackground& image) : image_(image) {}
+
+  double operator()(int x, int y) const {
+    const int last = image_.height - 1;
+    return 0.75 * in_row(x, y) +
+           0.125 * (in_row(x, std::max(y - 1, 0)) + in_row(x, std::min(y + 1, last)));
+  }
+
+ private:
+  double in_row(int x, int y) const {
+    const int width = image_.width;
+    return 0.75 * at(x, y) + 0.125 * (at((x + width - 1) % width, y) + at((x + 1) % width, y));
+  }
+  double at(int x, int y) const {
+    const Color& c =
+        image_.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+                      static_cast<std::size_t>(x)];
+    return double{c.r} + double{c.g} + double{c.b};
+  }
+
+  const EnvironmentBackground& image_;
+};
+
 }  // namespace
 
 Color environment_radiance(const EnvironmentBackground& image, const Vec3d& direction) {
@@ -48,12 +75,12 @@ EnvironmentLight::EnvironmentLight(const EnvironmentBackground& image)
     : width_(image.width), height_(image.height), rotation_(image.rotation) {
   columns_.reserve(image.pixels.size());
   double total = 0;
-  const Color* pixel = image.pixels.data();
+  const PixelLight light(image);
   for (int y = 0; y < height_; ++y) {
     const double sine = full_turns((y + 0.5) / (2.0 * height_)).sine;
     double row = 0;
-    for (int x = 0; x < width_; ++x, ++pixel) {
-      row += (double{pixel->r} + double{pixel->g} + double{pixel->b}) * sine;
+    for (int x = 0; x < width_; ++x) {
+      row += light(x, y) * sine;
       columns_.push_back(row);
     }
     total += row;

@@ -20,7 +20,7 @@ struct EnvironmentSample {
 
 /// Directions of an environment image, chosen as often as it is bright there (Pharr, Jakob,
 /// Humphreys, "Physically based rendering", 12.5): a row by the light of its pixels and their solid
-/// angle, a pixel of it by its light, a point of the pixel evenly.
+/// angle, a pixel of it by the light of its area, a point of the pixel evenly.
 class EnvironmentLight {
  public:
   EnvironmentLight() = default;

@@ -63,6 +63,10 @@ struct Flatten {
 
 namespace {
 
+/// No rays of float directions tell a sharper highlight from a mirror; and much sharper ones are
+/// lost between a double and 1.
+constexpr double sharpest = 1e12;
+
 /// The largest share of light that a material sends on, of any colour; at total reflection what
 /// else goes through joins the mirror.
 float largest_albedo(const FlatMaterial& m, float highlight) {
@@ -78,6 +82,7 @@ float largest_albedo(const FlatMaterial& m, float highlight) {
 FlatMaterial flatten_for_paths(const Material& material) {
   FlatMaterial flat = flatten(material, Color{});
   if (!std::holds_alternative<Emissive>(material)) flat.constant = {};
+  flat.shininess = std::min(flat.shininess, sharpest);
   const float largest = largest_albedo(flat, static_cast<float>(flat.highlight));
   flat.highlight *= (flat.shininess + 2) / 2;
   flat.cosine_highlight = true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,7 +13,9 @@ namespace boule {
 /// A reader reports and goes on, so that its code reads as the list of what it reads.
 class FirstError {
  public:
-  explicit FirstError(std::string file) : file_(std::move(file)) {}
+  /// `frame`: of a series, which the file is read for.
+  explicit FirstError(std::string file, std::optional<int> frame = {})
+      : file_(std::move(file)), frame_(frame) {}
 
   /// Reports an error in the file's text.
   void report(TextPlace place, std::string key, std::string message) {
@@ -22,12 +25,14 @@ class FirstError {
 
   /// The file the errors are about.
   [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] std::optional<int> frame() const { return frame_; }
 
   /// The first error, or nothing so far.
   [[nodiscard]] const Status& status() const { return status_; }
 
  private:
   std::string file_;
+  std::optional<int> frame_;
   Status status_;
 };
 

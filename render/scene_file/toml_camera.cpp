@@ -91,7 +91,7 @@ void read_keys(TomlTable& table, ThinLensCamera& camera) {
 
 void read_keys(TomlTable& table, LensCamera& camera) {
   std::string name;
-  table.read("file", name);
+  table.read_file_name("file", name);
   table.read("film_width", camera.film_width);
   table.read("scale", camera.scale);
   read_focus(table, camera);
@@ -116,7 +116,7 @@ DistortionMap map_of(const Image& image) {
 
 DistortionMap read_distortion(TomlTable table) {
   std::string name;
-  table.read("file", name);
+  table.read_file_name("file", name);
   table.finish({"file"});
   if (!table.ok()) return {};
   const auto image = read_picture(table.file_path(name), PictureContent::numbers);

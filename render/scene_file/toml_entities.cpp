@@ -17,7 +17,7 @@ ConstantBackground read_constant(TomlTable& table) {
 EnvironmentBackground read_environment(TomlTable& table) {
   EnvironmentBackground background;
   std::string name;
-  table.read("file", name);
+  table.read_file_name("file", name);
   table.read("rotation", background.rotation);
   table.finish({"file"});
   if (!table.ok()) return background;

@@ -1,13 +1,11 @@
 #include "render/scene_file/toml_objects.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "core/scene/instances.h"
-#include "render/scene_file/frame_name.h"
 #include "render/scene_file/nearest_name.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/toml_entities.h"
@@ -72,14 +70,13 @@ void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
 void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
   std::string name;
   NpySpheres request;
-  table.read("file", name);
+  table.read_file_name("file", name);
   if (table.has("radius")) table.read("radius", request.radius.emplace());
   request.material = material_of(table);
   table.finish({"file"});
   if (request.radius) table.check(find_problem(Sphere{{}, *request.radius}));
   if (error_.status()) return;
-  if (frame_) name = frame_name(name, *frame_);
-  request.path = (std::filesystem::path(error_.file()).parent_path() / name).string();
+  request.path = table.file_path(name);
   if (auto bad = append_spheres(request, spheres)) {
     table.report("file", quote(name) + ": " + bad->message);
   }

@@ -30,9 +30,8 @@ ObjectTables object_tables(TomlTable& table);
 /// start_groups(), then the others.
 class TomlObjects {
  public:
-  /// Scene and error must outlive it; data files are those of `frame`, if there is one.
-  TomlObjects(Scene& scene, FirstError& error, std::optional<int> frame)
-      : scene_(scene), error_(error), frame_(frame) {}
+  /// Scene and error must outlive it.
+  TomlObjects(Scene& scene, FirstError& error) : scene_(scene), error_(error) {}
 
   void read_materials(std::vector<TomlTable> tables);
 
@@ -64,7 +63,6 @@ class TomlObjects {
 
   Scene& scene_;
   FirstError& error_;
-  std::optional<int> frame_;
   std::map<std::string, std::uint32_t> material_ids_;
   std::map<std::string, std::uint32_t> group_ids_;
   std::optional<std::uint32_t> default_id_;

@@ -17,9 +17,7 @@ namespace {
 class TomlReader {
  public:
   TomlReader(const TomlValue& root, const std::string& path, std::optional<int> frame)
-      : error_(path),
-        root_(std::get<TomlMembers>(root.data), root.place, "", error_),
-        frame_(frame) {}
+      : error_(path, frame), root_(std::get<TomlMembers>(root.data), root.place, "", error_) {}
 
   Result<LoadedScene> read();
 
@@ -30,7 +28,6 @@ class TomlReader {
   Scene scene_;
   FirstError error_;
   TomlTable root_;
-  std::optional<int> frame_;
 };
 
 Result<LoadedScene> TomlReader::read() {
@@ -48,7 +45,7 @@ Result<LoadedScene> TomlReader::read() {
   if (camera) scene_.camera = read_camera(*camera, scene_.distortion);
   if (background) scene_.background = read_background(*background, scene_.ambient);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
-  TomlObjects reader(scene_, error_, frame_);
+  TomlObjects reader(scene_, error_);
   reader.read_materials(std::move(materials));
   reader.start_groups(groups);
   reader.read_scene(objects);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/scene_file/float32.h"
+#include "render/scene_file/frame_name.h"
 #include "render/scene_file/nearest_name.h"
 
 namespace boule {
@@ -33,6 +34,11 @@ TomlTable::TomlTable(const TomlMembers& members, TextPlace place, std::string pa
 
 std::string TomlTable::file_path(const std::string& name) const {
   return (std::filesystem::path(error_->file()).parent_path() / name).string();
+}
+
+void TomlTable::read_file_name(std::string_view key, std::string& name) {
+  read(key, name);
+  if (const auto frame = error_->frame()) name = frame_name(name, *frame);
 }
 
 bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }

@@ -38,6 +38,8 @@ class TomlTable {
   void read(std::string_view key, Vec3f& out);
   void read(std::string_view key, Color& out);
   void read(std::string_view key, std::string& out);
+  /// A file's name: that of the frame that is read, if any (frame_name()).
+  void read_file_name(std::string_view key, std::string& name);
 
   /// The index in `names` of the name under `key`; 0 if it is absent. Names in `later` are
   /// refused as not supported yet.

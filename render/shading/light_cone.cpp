@@ -9,7 +9,7 @@
 namespace boule {
 
 LightCone::LightCone(const Vec3d& point, const Vec3d& center, double radius)
-    : axis_(center - point), distance_(length(axis_)), radius_(radius) {
+    : point_(point), axis_(center - point), distance_(length(axis_)), radius_(radius) {
   if (!(distance_ > radius)) return;
   axis_ = axis_ * (1 / distance_);
   const double sine = radius / distance_;
@@ -33,12 +33,12 @@ double LightCone::distance_to(double aside) const {
   return along - std::sqrt(std::max(0.0, radius_ * radius_ - aside * aside));
 }
 
-Ray LightCone::way(const Vec3d& org, const Vec3d& direction) const {
+Ray LightCone::way(const Vec3d& direction) const {
   // Rounding turns the direction by up to u, so the line passes the centre by up to u distance
   // nearer; twice that is taken. The nearer it passes, the earlier it meets the sphere.
   const Vec3d aside = cross(direction, axis_) * distance_;
   const double nearest = std::max(0.0, length(aside) - 2 * unit_roundoff * distance_);
-  Ray ray{org, vec_cast<float>(direction)};
+  Ray ray{point_, vec_cast<float>(direction)};
   ray.tmax = static_cast<float>(distance_to(nearest) * (1 - 4 * unit_roundoff));
   return ray;
 }

@@ -21,14 +21,15 @@ class LightCone {
   /// True if the sphere lies in this direction, of unit length, before `distance`.
   [[nodiscard]] bool meets(const Vec3d& direction, double distance) const;
 
-  /// From `org`, the point up to rounding, along a direction within the cone as far as the sphere:
-  /// not so far that the ray, whose direction is rounded to float, can meet the sphere itself.
-  [[nodiscard]] Ray way(const Vec3d& org, const Vec3d& direction) const;
+  /// From the point along a direction within the cone as far as the sphere: not so far that the
+  /// ray, whose direction is rounded to float, can meet the sphere itself.
+  [[nodiscard]] Ray way(const Vec3d& direction) const;
 
  private:
   /// How far the sphere is along a line that passes its centre at the distance `aside`.
   [[nodiscard]] double distance_to(double aside) const;
 
+  Vec3d point_;
   Vec3d axis_;
   double distance_;  ///< to the centre
   double radius_;

@@ -74,6 +74,7 @@ Bounce Lobes::scattered(const Vec3d& direction) const {
   const double cosine = dot(surface_.normal, direction);
   if (!(cosine > 0)) return {};
   const double density = this->density(cosine, direction);
+  if (!(density > 0)) return {};
   const auto scale = static_cast<float>(1 / (elementary::pi * density));
   return {direction, Side::viewer, reflected(cosine, direction) * scale, density};
 }

@@ -192,6 +192,65 @@ TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
   EXPECT_LT(length(by_chance - integral), 0.01 * length(integral));
 }
 
+/// A pixel's light spreads to its neighbours, though they be black: wherever the image shines
+/// samples go. Held against a fine grid over all directions.
+TEST(PathLight, ASpotInTheDarkIsFoundWhole) {
+  for (const int at : {4, 3 * 16 + 15, 7 * 16}) {
+    EnvironmentBackground image{16, 8, std::vector<Color>(128), 0};
+    image.pixels[static_cast<std::size_t>(at)] = gray(100);
+    const EnvironmentLight light(image);
+    double by_chance = 0, integral = 0, most = 0;
+    constexpr int n = 65536, rows = 1024;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const auto [direction, density] = light.sample(sobol_pair(1, RandomSet::film, i));
+      const double share = luminance(environment_radiance(image, direction)) / density;
+      by_chance += share / n;
+      most = std::max(most, share);
+    }
+    for (int y = 0; y < rows; ++y) {
+      const double polar = elementary::pi * (y + 0.5) / rows;
+      for (int x = 0; x < 2 * rows; ++x) {
+        const double around = elementary::pi * (x + 0.5) / rows;
+        const Vec3d d{std::sin(polar) * std::sin(around), std::cos(polar),
+                      -std::sin(polar) * std::cos(around)};
+        integral += luminance(environment_radiance(image, d)) * std::sin(polar);
+      }
+    }
+    integral *= (elementary::pi / rows) * (elementary::pi / rows);
+    EXPECT_NEAR(by_chance / integral, 1, 0.005) << at;
+    EXPECT_LT(most, 20 * integral) << at;  // no sample counts for a whole picture
+  }
+}
+
+/// A lamp beside one that is far stronger, far away, and below the horizon.
+TEST(PathLight, NoLampStarvesTheOthers) {
+  Scene scene = lit_plane(0, 0);
+  scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)},
+                  SphereLight{{0, -1.5e11f, 0}, 7e8f, gray(1e4f)}};
+  const double analytic = light_radius * light_radius / (light_height * light_height);
+  EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.02);
+}
+
+/// Seen from afar a point is known less well; the rays to a lamp still end before it.
+TEST(PathLight, ALampShinesHoweverFarTheEyeIs) {
+  Scene scene = lit_plane(2, 0);
+  scene.spheres = {{{0, -light_height, 0}, 0.5f, add_material(scene, Emissive{gray(1)})}};
+  const double d2 = light_height * light_height + 4;
+  const double analytic = 0.25 / d2 * (light_height / std::sqrt(d2));
+  for (const float far : {1e3f, 1e8f, 1e9f}) {
+    scene.camera = OrthographicCamera{{{2, -far, 0}, {2, 0, 0}, {0, 0, 1}}, 1e-4f};
+    EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.01) << far;
+  }
+}
+
+TEST(PathFurnace, TheSharpestHighlightIsAMirror) {
+  Scene scene = furnace(Plastic{gray(0), 1, 1e20f, 0});
+  scene.image.spp = 64;
+  const double sharp = mean_luminance(scene);
+  std::get<Plastic>(scene.materials[0].material).shininess = 1e10f;
+  EXPECT_NEAR(sharp, mean_luminance(scene), 0.01);
+}
+
 TEST(PathLight, NoRayMeetsASphereLight) {
   Scene scene = empty_scene(16, 16);
   scene.background = ConstantBackground{gray(0.25f)};

@@ -108,7 +108,7 @@ TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
   EXPECT_EQ(lights(), 0u);
 }
 
-TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPower) {
+TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
   Scene scene;
   scene.lights = {PointLight{}, SphereLight{{1, 2, 3}, 2, {1, 0, 0}},
                   SphereLight{{0, 0, 0}, 9, {0, 0, 0}}};
@@ -117,18 +117,19 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPower) {
   scene.spheres = {{{4, 5, 6}, 2, lamp}, {{7, 8, 9}, 5, dark}, {{7, 8, 9}, 1, lamp}};
   const AreaLights lights(scene);  // powers 4, 12 and 3
   EXPECT_EQ(lights.sphere_light_count(), 1u);
-  for (const auto& [at, share, x, rest] : {std::tuple{0.0, 4.0, 1.0, 0.0},
-                                           {0.1, 4.0, 1.0, 0.475},
-                                           {5 / 19.0, 12.0, 4.0, 1 / 12.0},
-                                           {15.5 / 19, 12.0, 4.0, 11.5 / 12},
-                                           {18 / 19.0, 3.0, 7.0, 2 / 3.0}}) {
-    double u = at;
+  // Half by power, in 19ths, half evenly, in 3rds.
+  for (const auto& [at, share, x, rest] : {std::tuple{0.0, 31.0, 1.0, 0.0},
+                                           {15.5, 31.0, 1.0, 0.5},
+                                           {36.5, 55.0, 4.0, 5.5 / 55},
+                                           {85.5, 55.0, 4.0, 54.5 / 55},
+                                           {100.0, 28.0, 7.0, 0.5}}) {
+    double u = at / 114;
     const AreaLight& light = lights.pick(u);
-    EXPECT_NEAR(light.share, share / 19, 1e-15);
+    EXPECT_NEAR(light.share, share / 114, 1e-15);
     EXPECT_EQ(light.center.x, x);
     EXPECT_NEAR(u, rest, 1e-14);
   }
-  EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 3 / 19.0, 1e-15);
+  EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 28 / 114.0, 1e-15);
   EXPECT_TRUE(AreaLights(Scene{}).empty());
 }
 

@@ -71,12 +71,17 @@ TEST(FrameName, HasTheNumberWithZerosInFront) {
 
 TEST(FrameName, DataFilesAreThoseOfTheFrame) {
   const SceneFiles files;
-  const std::string text = "schema = 1\n[[spheres]]\nfile = \"ball.##.npy\"\n";
-  const auto load = [&](std::optional<int> frame) {
-    return files.load("scene.toml", text, {PolygonPolicy::plane, frame});
-  };
-  EXPECT_THAT(load(5).error().message, testing::HasSubstr("'ball.05.npy'"));
-  EXPECT_THAT(load({}).error().message, testing::HasSubstr("'ball.##.npy'"));
+  const std::string view = "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+  for (const std::string& table :
+       {std::string("[[spheres]]\n"), std::string("[background]\ntype = \"environment\"\n"),
+        view + "[camera.distortion]\n", view + "type = \"lens\"\n"}) {
+    const std::string text = "schema = 1\n" + table + "file = \"part.##.dat\"\n";
+    const auto load = [&](std::optional<int> frame) {
+      return files.load("scene.toml", text, {PolygonPolicy::plane, frame});
+    };
+    EXPECT_THAT(load(5).error().message, testing::HasSubstr("'part.05.dat'"));
+    EXPECT_THAT(load({}).error().message, testing::HasSubstr("'part.##.dat'"));
+  }
 }
 
 class CameraKeyErrors : public testing::TestWithParam<Refusal> {};
