@@ -39,6 +39,11 @@ Status check(const RenderCommand& command) {
             " file has no room for extra channels, expected --output to be an .exr file",
         "--aov");
   }
+  if (command.skip_existing && command.partial && !format->remarks) {
+    return wrong_option(std::string("a .") + format->extension +
+                            " file cannot say that it is partial: it would be skipped",
+                        "--skip-existing");
+  }
   const auto date = source_date();
   if (!date) return date.error();
   return check_run(command, "picture", {command.scene});

@@ -317,6 +317,10 @@ void read_picture(PictureFile& file, Report* report) {
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep) {
     return fail(report, "it is no flat picture");
   }
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height) {
+    return fail(report, "it is a part of a picture: its data window is not its display window");
+  }
   float* room = file.room(file.context, spec.width, spec.height);
   if (room == nullptr) {
     report->outcome = Outcome::stopped;

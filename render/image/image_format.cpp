@@ -11,13 +11,13 @@ constexpr int any = std::numeric_limits<int>::max();
 // hdr stores shared-exponent colours (RGBE), the others what ImageFormat says. TIFF is 8 bit as
 // viewers and office programs expect it; who wants floats takes EXR.
 constexpr ImageFormat formats[] = {
-    {"exr", "openexr", any, true, true},  {"hdr", "hdr", any, true, false},
-    {"rgbe", "hdr", any, true, false},    {"png", "png", any, false, false},
-    {"jpg", "jpeg", 65500, false, false}, {"jpeg", "jpeg", 65500, false, false},
-    {"jpe", "jpeg", 65500, false, false}, {"tif", "tiff", any, false, false},
-    {"tiff", "tiff", any, false, false},  {"webp", "webp", 16383, false, false},
-    {"ppm", "pnm", any, false, false},    {"pnm", "pnm", any, false, false},
-    {"bmp", "bmp", any, false, false},    {"tga", "targa", 65535, false, false},
+    {"exr", "openexr", any, true, true, true},  {"hdr", "hdr", any, true, false, false},
+    {"rgbe", "hdr", any, true, false, false},   {"png", "png", any, false, false, true},
+    {"jpg", "jpeg", 65500, false, false, true}, {"jpeg", "jpeg", 65500, false, false, true},
+    {"jpe", "jpeg", 65500, false, false, true}, {"tif", "tiff", any, false, false, true},
+    {"tiff", "tiff", any, false, false, true},  {"webp", "webp", 16383, false, false, false},
+    {"ppm", "pnm", any, false, false, false},   {"pnm", "pnm", any, false, false, false},
+    {"bmp", "bmp", any, false, false, false},   {"tga", "targa", 65535, false, false, true},
 };
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }

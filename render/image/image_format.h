@@ -11,6 +11,7 @@ struct ImageFormat {
   int longest_side;       ///< pixels a side at most (libjpeg ends the process beyond its limit)
   bool hdr;               ///< linear float; else 8 bit with the sRGB curve
   bool channels;          ///< holds extra named channels, and a crop's place in its frame
+  bool remarks;           ///< its header holds text: that a picture is partial, above all
 };
 
 /// The format that a file name's extension stands for, upper or lower case; null if it has none or

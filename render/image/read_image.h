@@ -13,8 +13,8 @@ namespace boule {
 enum class PictureContent { colors, numbers };
 
 /// Reads a picture by its extension, one of those write_image knows: its first three channels, a
-/// single one as gray, a missing third one as 0; alpha is left out. Of a picture cropped from a
-/// frame only what is there. The Diagnostic says "cannot read it: REASON"; its file is `path`.
+/// single one as gray, a missing third one as 0; alpha is left out. A part of a frame (EXR's data
+/// window) is refused. The Diagnostic says "cannot read it: REASON"; its file is `path`.
 /// Numbers are as in the file: NaN, infinite or negative ones too.
 Result<Image> read_image(const std::string& path, PictureContent content);
 

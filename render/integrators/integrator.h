@@ -25,8 +25,8 @@ struct RayCounts {
   [[nodiscard]] std::uint64_t total() const { return primary + shadow + continuation; }
 };
 
-/// How path tracing seeks the light of spheres and environment images: by rays to them, by where paths happen to go, or by
-/// both, weighted. The mean of a picture is the same, its noise is not.
+/// How path tracing seeks the light of spheres and environment images: by rays to them, by where
+/// paths happen to go, or by both, weighted. The mean of a picture is the same, its noise is not.
 enum class LightSearch { both, lights, paths };
 
 /// How an integrator works.

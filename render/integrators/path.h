@@ -19,10 +19,10 @@ namespace boule {
 /// Path tracing (Kajiya, "The rendering equation", 1986): every ray goes on as one, by chance. At
 /// each point light is sought in two ways, weighted by the power heuristic (Veach, "Robust Monte
 /// Carlo methods for light transport simulation", 1997, 9.2): by a ray to one sphere light or
-/// emissive sphere or into the environment's image, and by where the path goes on to. Point and directional lights have one way
-/// only, and each has its shadow ray at every point. Paths end by Russian roulette, or after
-/// max_depth bounces: there light is sought in the first way alone.
-/// A sample's numbers depend on its pixel, its index, the depth and the seed: nothing else.
+/// emissive sphere or into the environment's image, and by where the path goes on to. Point and
+/// directional lights have one way only, and each has its shadow ray at every point. Paths end by
+/// Russian roulette, or after max_depth bounces: there light is sought in the first way alone. A
+/// sample's numbers depend on its pixel, its index, the depth and the seed: nothing else.
 class Path final : public Integrator {
  public:
   /// `scene`, prepared for Method::path, and `kernels` must outlive the integrator.

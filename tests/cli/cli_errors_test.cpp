@@ -119,6 +119,14 @@ TEST_F(Errors, AovsNeedAFormatWithRoomForThem) {
   }
 }
 
+TEST_F(Errors, PartialPicturesThatDoNotSaySoCannotBeSkipped) {
+  for (const char* name : {"x.ppm", "x.bmp", "x.hdr", "x.webp"}) {
+    const ProgramRun run =
+        refused({path("missing.toml"), "-o", path(name), "--partial", "--skip-existing"}, 2);
+    EXPECT_THAT(run.err, HasSubstr("(key '--skip-existing')"));
+  }
+}
+
 TEST_F(Errors, TheSourceDateIsParsedStrictly) {
   for (const char* date :
        {"", "-1", "1.5", "1e9", " 1", "1 ", "0x1", "now", "253402300800", "99999999999999999999"}) {

@@ -30,6 +30,13 @@ TEST(ImageFormat, OnlyExrHoldsChannels) {
   EXPECT_FALSE(find_image_format("a.tif")->hdr);
 }
 
+TEST(ImageFormat, SomeHoldRemarks) {
+  for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tiff", "a.tga"})
+    EXPECT_TRUE(find_image_format(name)->remarks) << name;
+  for (const char* name : {"a.hdr", "a.webp", "a.ppm", "a.bmp"})
+    EXPECT_FALSE(find_image_format(name)->remarks) << name;
+}
+
 TEST(ImageFormat, AskingLoadsNothing) {
   ASSERT_TRUE(is_image_name("a.png"));
   EXPECT_EQ(known_image_extensions().substr(0, 5), "exr, ");

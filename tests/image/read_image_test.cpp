@@ -108,6 +108,15 @@ TEST_F(ReadImage, WhatIsNoPictureIsRefused) {
   expect_refused("folder.exr", "cannot read it: ");
 }
 
+TEST_F(ReadImage, APartOfAPictureIsRefused) {
+  ImageFileOptions options;
+  options.crop = {8, 8, 2, 3};
+  const std::string part = written(Image(4, 4), "part.exr", options);
+  const auto found = read_image(part, PictureContent::numbers);
+  ASSERT_FALSE(found.ok());
+  EXPECT_NE(found.error().message.find("data window"), std::string::npos);
+}
+
 TEST_F(ReadImage, AFileCutShortIsRefused) {
   for (const char* name : {"cut.exr", "cut.png", "cut.tif"}) {
     const std::string bytes = read_bytes(written(noise(64, 64), name));
