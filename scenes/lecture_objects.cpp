@@ -6,19 +6,15 @@
 /// Each stands on y = 0 around the origin and looks along z; the teapot's spout is at +x. A tube or
 /// a rounded body is a row of spheres so close together that it looks smooth. Only + - * / and
 /// roots, and turn_of() for angles: the bytes are the same on every machine.
-#include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/math/geometry.h"
 #include "core/math/similarity.h"
 #include "core/scene/primitive.h"
+#include "scenes/write_spheres.h"
 
 namespace {
 
@@ -126,26 +122,6 @@ Shape make_table() {
   return table;
 }
 
-/// The 128 bytes of header that NumPy puts before float32 data of `rows` x 4 (format version 1.0).
-std::string npy_header(std::size_t rows) {
-  std::string dict =
-      "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 4), }";
-  dict.resize(128 - 10 - 1, ' ');
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dict.size() + 1) + '\0' + dict +
-         '\n';
-}
-
-std::string npy_file(const std::vector<Sphere>& spheres) {
-  std::string bytes = npy_header(spheres.size());
-  for (const Sphere& s : spheres) {
-    for (const float number : {s.center.x, s.center.y, s.center.z, s.radius}) {
-      const auto bits = std::bit_cast<std::uint32_t>(number);
-      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
-    }
-  }
-  return bytes;
-}
-
 /// No spheres for a name that is none.
 Shape make(std::string_view name) {
   if (name == "bunny") return make_bunny();
@@ -162,13 +138,5 @@ int main(int argc, char** argv) {
     std::fputs("usage: boule_lecture_objects bunny|teapot|table FILE.npy\n", stderr);
     return 2;
   }
-  const std::string bytes = npy_file(shape.spheres());
-  std::ofstream file(argv[2], std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "error: cannot write '%s'\n", argv[2]);
-    return 1;
-  }
-  return 0;
+  return write_spheres(shape.spheres(), argv[2]);
 }

@@ -6,19 +6,15 @@
 /// A sphere of radius 1 at the origin carries nine of a third of its size, six around its equator
 /// and three above, each of those carries nine in turn. Only + - * and roots: the bytes are the
 /// same on every machine.
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/math/geometry.h"
 #include "core/scene/primitive.h"
+#include "scenes/write_spheres.h"
 
 namespace {
 
@@ -54,30 +50,6 @@ void grow(const Vec3d& center, double radius, const Frame& frame, int depth,
   for (const auto& [c, s] : above) grow_child(child_frame(frame, c, s, h));
 }
 
-/// The 128 bytes of header that NumPy puts before float32 data of `rows` x 4 (format version 1.0).
-std::string npy_header(std::size_t rows) {
-  std::string dict =
-      "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 4), }";
-  dict.resize(128 - 10 - 1, ' ');
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dict.size() + 1) + '\0' + dict +
-         '\n';
-}
-
-void append_little_endian(float number, std::string& bytes) {
-  const auto bits = std::bit_cast<std::uint32_t>(number);
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
-}
-
-std::string npy_file(const std::vector<Sphere>& spheres) {
-  std::string bytes = npy_header(spheres.size());
-  for (const Sphere& s : spheres) {
-    for (const float number : {s.center.x, s.center.y, s.center.z, s.radius}) {
-      append_little_endian(number, bytes);
-    }
-  }
-  return bytes;
-}
-
 /// DEPTH of the command line, or -1.
 int parse_depth(std::string_view text) {
   int depth = -1;
@@ -96,13 +68,5 @@ int main(int argc, char** argv) {
   }
   std::vector<Sphere> spheres;
   grow({0, 0, 0}, 1, {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, depth, spheres);
-  const std::string bytes = npy_file(spheres);
-  std::ofstream file(argv[2], std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "error: cannot write '%s'\n", argv[2]);
-    return 1;
-  }
-  return 0;
+  return write_spheres(spheres, argv[2]);
 }

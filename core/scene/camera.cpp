@@ -54,14 +54,14 @@ Vec3d view_direction(const CameraPose& pose) {
   return normalize(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
 }
 
-double focus_of(const ThinLensCamera& camera) {
-  return camera.focus ? double{*camera.focus} : depth_of(camera.pose, camera.pose.look_at);
-}
-
 }  // namespace
 
 double depth_of(const CameraPose& pose, const Vec3f& point) {
   return dot(vec_cast<double>(point) - vec_cast<double>(pose.eye), view_direction(pose));
+}
+
+double focus_of(const CameraPose& pose, const std::optional<float>& focus) {
+  return focus ? double{*focus} : depth_of(pose, pose.look_at);
 }
 
 CameraBasis camera_basis(const Camera& camera, int width, int height) {
@@ -81,7 +81,7 @@ CameraBasis camera_basis(const Camera& camera, int width, int height) {
         if (const auto* lens = std::get_if<ThinLensCamera>(&camera)) {
           basis.lens_right = u * double{lens->aperture};
           basis.lens_up = v * double{lens->aperture};
-          basis.inverse_focus = 1 / focus_of(*lens);
+          basis.inverse_focus = 1 / focus_of(lens->pose, lens->focus);
         }
         return basis;
       },

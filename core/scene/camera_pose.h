@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/math/vec.h"
 
 namespace boule {
@@ -14,5 +16,8 @@ struct CameraPose {
 
 /// The distance of a point from the eye along L; negative behind it.
 double depth_of(const CameraPose& pose, const Vec3f& point);
+
+/// How far along L a lens is sharp: at `focus`; none: where look_at is.
+double focus_of(const CameraPose& pose, const std::optional<float>& focus);
 
 }  // namespace boule

@@ -148,8 +148,7 @@ LensOptics make_optics(const LensCamera& camera, int width, int height) {
   optics.scale = camera.scale;
   optics.half_width = double{camera.film_width} / 2;
   optics.half_height = optics.half_width * height / width;
-  const double focus =
-      camera.focus ? double{*camera.focus} : depth_of(camera.pose, camera.pose.look_at);
+  const double focus = focus_of(camera.pose, camera.focus);
   optics.film = optics.rear + image_distance(camera.surfaces, focus / optics.scale);
   find_pupil(optics, camera.surfaces);
   optics.exposure = 1 / light_in_the_middle(optics);

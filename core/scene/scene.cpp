@@ -115,7 +115,7 @@ struct CameraProblem {
     if (checker.problem()) return checker.problem();
     const double focal = focal_length(c.surfaces);
     checker.require("file", std::isfinite(focal) && focal > 0, "must gather light, to a focus");
-    const double focus = c.focus ? double{*c.focus} : depth_of(c.pose, c.pose.look_at);
+    const double focus = focus_of(c.pose, c.focus);
     const double behind = image_distance(c.surfaces, focus / double{c.scale});
     return checker
         .require("focus", std::isfinite(behind) && behind > 0,

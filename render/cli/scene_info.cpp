@@ -49,8 +49,7 @@ Json describe(const FisheyeCamera& camera) { return describe_fov("fisheye", came
 Json describe(const ThinLensCamera& camera) {
   Json json = describe_fov("thin_lens", camera);
   json["aperture"] = shown(camera.aperture);
-  const double look_at = depth_of(camera.pose, camera.pose.look_at);
-  json["focus"] = shown(camera.focus.value_or(static_cast<float>(look_at)));
+  json["focus"] = shown(static_cast<float>(focus_of(camera.pose, camera.focus)));
   return json;
 }
 
@@ -61,8 +60,7 @@ Json describe(const LensCamera& camera) {
   json["focal_length"] = shown(static_cast<float>(focal_length(camera.surfaces)));
   json["film_width"] = shown(camera.film_width);
   json["scale"] = shown(camera.scale);
-  const double look_at = depth_of(camera.pose, camera.pose.look_at);
-  json["focus"] = shown(camera.focus.value_or(static_cast<float>(look_at)));
+  json["focus"] = shown(static_cast<float>(focus_of(camera.pose, camera.focus)));
   return json;
 }
 

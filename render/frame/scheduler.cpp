@@ -65,6 +65,20 @@ Diagnostic describe(const std::exception_ptr& error) {
   }
 }
 
+/// So many threads, or as many as can be had; each calls body(0), body(1), .. in its turn.
+template <class Body>
+std::vector<std::thread> start_threads(std::size_t count, const Body& body) {
+  std::vector<std::thread> threads;
+  try {
+    threads.reserve(count);
+    while (threads.size() < count)
+      threads.emplace_back([body, index = threads.size()] { body(index); });
+  } catch (const std::system_error&) {  // those that started do the work
+  } catch (const std::bad_alloc&) {
+  }
+  return threads;
+}
+
 }  // namespace
 
 Scheduler::Scheduler(unsigned threads) {
@@ -75,17 +89,10 @@ Scheduler::Scheduler(unsigned threads) {
 std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
                                       const std::atomic<bool>* cancel) {
   Loop loop(count, body, cancel);
-  std::vector<std::thread> others;
   const std::size_t wanted = std::min<std::size_t>(workers_, count);
-  try {
-    if (wanted > 1) others.reserve(wanted - 1);
-    while (others.size() + 1 < wanted) {
-      const auto worker = static_cast<unsigned>(others.size() + 1);
-      others.emplace_back([&loop, worker] { loop.work(worker); });
-    }
-  } catch (const std::system_error&) {  // those that started do the work
-  } catch (const std::bad_alloc&) {
-  }
+  auto others = start_threads(wanted > 1 ? wanted - 1 : 0, [&loop](std::size_t index) {
+    loop.work(static_cast<unsigned>(index + 1));
+  });
   loop.work(0);
   for (std::thread& thread : others) thread.join();
   threads_used_ = static_cast<unsigned>(others.size() + 1);
@@ -106,13 +113,7 @@ ParallelFor Scheduler::parallel_for() {
 
 bool can_start_threads(unsigned count) {
   std::atomic<bool> counted{false};
-  std::vector<std::thread> threads;
-  try {
-    threads.reserve(count);
-    while (threads.size() < count) threads.emplace_back([&counted] { counted.wait(false); });
-  } catch (const std::system_error&) {
-  } catch (const std::bad_alloc&) {
-  }
+  auto threads = start_threads(count, [&counted](std::size_t) { counted.wait(false); });
   counted = true;
   counted.notify_all();
   for (std::thread& thread : threads) thread.join();
