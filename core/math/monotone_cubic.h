@@ -12,6 +12,14 @@ struct TimedValue {
   double time, value;
 };
 
+/// The last of `values` that is not after `time`, or the first; their times grow strictly.
+inline std::size_t value_before(std::span<const TimedValue> values, double time) {
+  const auto after =
+      std::upper_bound(values.begin(), values.end(), time,
+                       [](double when, const TimedValue& value) { return when < value.time; });
+  return after == values.begin() ? 0 : static_cast<std::size_t>(after - values.begin()) - 1;
+}
+
 namespace detail {
 
 /// Slope between values i and i + 1.
@@ -41,8 +49,7 @@ inline double steffen_slope(std::span<const TimedValue> values, std::size_t i) {
 /// between two values never beyond them; before the first and after the last it stays. `values` is
 /// not empty, its times grow strictly.
 inline double monotone_cubic(std::span<const TimedValue> values, double time) {
-  std::size_t i = 0;
-  while (i + 1 < values.size() && values[i + 1].time <= time) ++i;
+  const std::size_t i = value_before(values, time);
   const TimedValue& from = values[i];
   if (i + 1 == values.size() || time <= from.time) return from.value;
   const TimedValue& to = values[i + 1];

@@ -66,6 +66,7 @@ void read_aperture(TomlTable& table, float& aperture) {
   require_positive(table, "f_number", f_number);
   require_positive(table, "focal_length", focal_length);
   aperture = static_cast<float>(double{focal_length} / (2 * double{f_number}));
+  if (!std::isfinite(aperture)) table.report("f_number", "makes the lens too large for a number");
 }
 
 /// What is sharp: a distance, or a point that lies there.
@@ -77,7 +78,8 @@ void read_focus(TomlTable& table, Kind& camera) {
   }
   Vec3f point;
   table.read("focus", point);
-  table.check(find_problem(PinholeCamera{camera.pose}));  // without a view there is no depth
+  if (!table.has("eye") || !table.has("look_at")) return;  // finish() reports it
+  table.check(find_problem(PinholeCamera{camera.pose}));   // without a view there is no depth
   const double depth = depth_of(camera.pose, point);
   if (!(depth > 0)) table.report("focus", "must lie in front of the camera");
   camera.focus = static_cast<float>(depth);
@@ -137,6 +139,7 @@ Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion) {
   Camera kinds[] = {PinholeCamera{}, OrthographicCamera{}, FisheyeCamera{}, ThinLensCamera{},
                     LensCamera{}};
   std::optional<TomlTable> distorted = table.table("distortion");
+  table.has("key");  // known: keys have become what they say (apply_camera_keys())
   Camera& camera =
       kinds[table.choose("type", {"pinhole", "orthographic", "fisheye", "thin_lens", "lens"})];
   std::visit(

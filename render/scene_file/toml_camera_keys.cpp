@@ -1,34 +1,26 @@
 #include "render/scene_file/toml_camera_keys.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
-#include "core/math/monotone_cubic.h"
 #include "core/math/vec.h"
-#include "render/scene_file/toml_table.h"
 
 namespace boule {
 namespace {
 
-/// One quantity over time: three components, or one.
-struct Track {
-  std::string_view key;
-  std::size_t components;
-  std::array<std::vector<TimedValue>, 3> values{};
-  std::vector<TextPlace> places{};  ///< of each key that names it
+void add(CameraTrack& track, double frame, const Vec3f& value, TextPlace place) {
+  const Vec3d v = vec_cast<double>(value);
+  track.values[0].push_back({frame, v.x});
+  track.values[1].push_back({frame, v.y});
+  track.values[2].push_back({frame, v.z});
+  track.places.push_back(place);
+}
 
-  void add(double frame, const Vec3f& value, TextPlace place) {
-    const Vec3d v = vec_cast<double>(value);
-    values[0].push_back({frame, v.x});
-    values[1].push_back({frame, v.y});
-    values[2].push_back({frame, v.z});
-    places.push_back(place);
-  }
-};
+/// The place of the key that a track comes from at a frame.
+TextPlace place_at(const CameraTrack& track, double frame) {
+  return track.places[value_before(track.values[0], frame)];
+}
 
 TomlMember* find_member(TomlMembers& members, std::string_view key) {
   const auto found = std::find_if(members.begin(), members.end(),
@@ -36,55 +28,52 @@ TomlMember* find_member(TomlMembers& members, std::string_view key) {
   return found == members.end() ? nullptr : &*found;
 }
 
-/// Reads the keys in order; their frames.
+/// Reads the keys in order.
 class CameraKeys {
  public:
   explicit CameraKeys(TomlTable camera) : camera_(std::move(camera)) {}
 
-  void read() {
+  CameraMotion read() {
     for (TomlTable& table : camera_.tables("key")) read(table);
-    if (frames_.empty()) camera_.report("key", "expected at least one table [[camera.key]]");
-    for (const Track& track : tracks_) {
+    if (motion_.frames.empty()) {
+      camera_.report("key", "expected at least one table [[camera.key]]");
+    }
+    for (const CameraTrack& track : motion_.tracks) {
       if (track.places.empty() || !camera_.has(track.key)) continue;
       camera_.report(track.key, "stands in [[camera.key]] too, expected it in one of them");
     }
+    return std::move(motion_);
   }
-  [[nodiscard]] int first_frame() const { return frames_.front(); }
-  [[nodiscard]] const std::array<Track, 3>& tracks() const { return tracks_; }
 
  private:
   void read(TomlTable& table) {
     int frame = 0;
     table.read("frame", frame);
-    if (frame < 0) table.report("frame", "must be 0 or above, is " + std::to_string(frame));
-    if (!frames_.empty() && frame <= frames_.back()) {
-      table.report("frame", "must be above " + std::to_string(frames_.back()) +
-                                ", the frame of the key before, is " + std::to_string(frame));
-    }
-    frames_.push_back(frame);
     bool any = false;
-    for (Track& track : tracks_) {
+    for (CameraTrack& track : motion_.tracks) {
       if (!table.has(track.key)) continue;
       any = true;
       Vec3f value;
       track.components == 3 ? table.read(track.key, value) : table.read(track.key, value.x);
-      track.add(frame, value, table.place_of(track.key));
+      add(track, frame, value, table.place_of(track.key));
     }
     table.finish({"frame"});
+    if (frame < 0) table.report("frame", "must be 0 or above, is " + std::to_string(frame));
+    if (!motion_.frames.empty() && frame <= motion_.frames.back()) {
+      table.report("frame", "must be above " + std::to_string(motion_.frames.back()) +
+                                ", the frame of the key before, is " + std::to_string(frame));
+    }
+    motion_.frames.push_back(frame);
     if (!any) table.report("eye", "missing key 'eye', 'look_at' or 'fov'");
   }
 
   TomlTable camera_;
-  std::vector<int> frames_;
-  std::array<Track, 3> tracks_{Track{"eye", 3}, Track{"look_at", 3}, Track{"fov", 1}};
+  CameraMotion motion_;
 };
 
 /// What a track has at a frame, as if it stood in [camera]; its place is that of the key before.
-TomlMember member_of(const Track& track, double frame) {
-  const std::vector<TimedValue>& times = track.values[0];
-  std::size_t before = 0;
-  while (before + 1 < times.size() && times[before + 1].time <= frame) ++before;
-  const TextPlace place = track.places[before];
+TomlMember member_of(const CameraTrack& track, double frame) {
+  const TextPlace place = place_at(track, frame);
   TomlArray numbers;
   for (std::size_t i = 0; i < track.components; ++i) {
     numbers.push_back({place, monotone_cubic(track.values[i], frame)});
@@ -94,20 +83,73 @@ TomlMember member_of(const Track& track, double frame) {
   return {std::string(track.key), place, std::move(value)};
 }
 
+float number_at(const CameraTrack& track, std::size_t component, double frame) {
+  return static_cast<float>(monotone_cubic(track.values[component], frame));
+}
+
+void move(Vec3f& point, const CameraTrack& track, double frame) {
+  if (track.places.empty()) return;
+  point = {number_at(track, 0, frame), number_at(track, 1, frame), number_at(track, 2, frame)};
+}
+
+/// What is wrong with a camera at a frame; `sharp` is the point that it keeps in focus.
+std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame, Camera camera,
+                                       const std::optional<Vec3f>& sharp) {
+  const CameraTrack &eye = motion.tracks[0], &look_at = motion.tracks[1], &fov = motion.tracks[2];
+  const auto move_it = [&](auto& kind) {
+    move(kind.pose.eye, eye, frame);
+    move(kind.pose.look_at, look_at, frame);
+    if constexpr (requires { kind.fov; }) {
+      if (!fov.places.empty()) kind.fov = number_at(fov, 0, frame);
+    }
+  };
+  std::visit(move_it, camera);
+  if (auto bad = find_problem(camera)) return bad;
+  const CameraPose& pose =
+      std::visit([](const auto& kind) -> const CameraPose& { return kind.pose; }, camera);
+  if (!sharp || depth_of(pose, *sharp) > 0) return std::nullopt;
+  return Problem{"focus", "must lie in front of the camera"};
+}
+
+/// A camera that is wrong where this one is: its elements do not move, nor are they copied.
+Camera without_elements(const Camera& camera) {
+  const auto* lens = std::get_if<LensCamera>(&camera);
+  return lens != nullptr ? PinholeCamera{lens->pose} : camera;
+}
+
 }  // namespace
 
-void apply_camera_keys(TomlMembers& root, std::optional<int> frame, FirstError& error) {
+std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
+                                              FirstError& error) {
   TomlMember* const camera = find_member(root, "camera");
-  if (camera == nullptr) return;
+  if (camera == nullptr) return std::nullopt;
   auto* const members = std::get_if<TomlMembers>(&camera->value.data);
-  if (members == nullptr || find_member(*members, "key") == nullptr) return;
-  CameraKeys keys(TomlTable(*members, camera->value.place, "camera", error));
-  keys.read();
-  if (error.status()) return;
-  const int now = frame.value_or(keys.first_frame());
+  if (members == nullptr || find_member(*members, "key") == nullptr) return std::nullopt;
+  CameraMotion motion =
+      CameraKeys(TomlTable(*members, camera->value.place, "camera", error)).read();
+  if (error.status()) return std::nullopt;
+  const int now = frame.value_or(motion.frames.front());
   std::erase_if(*members, [](const TomlMember& member) { return member.key == "key"; });
-  for (const Track& track : keys.tracks()) {
+  for (const CameraTrack& track : motion.tracks) {
     if (!track.places.empty()) members->push_back(member_of(track, now));
+  }
+  return motion;
+}
+
+void check_camera_keys(const CameraMotion& motion, const Camera& camera, TomlTable& table) {
+  std::optional<Vec3f> sharp;
+  if (table.has_array("focus")) table.read("focus", sharp.emplace());
+  const Camera light = without_elements(camera);
+  for (const int frame : motion.frames) {
+    const auto problem = find_problem_at(motion, frame, light, sharp);
+    if (!problem) continue;
+    const std::string_view field = problem->field;
+    TextPlace place = table.place_of(field);
+    for (const CameraTrack& track : motion.tracks) {
+      if (track.key == field && !track.places.empty()) place = place_at(track, frame);
+    }
+    return table.report_at(place, field,
+                           "in frame " + std::to_string(frame) + ": " + problem->message);
   }
 }
 

@@ -1,16 +1,42 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <string_view>
+#include <vector>
 
+#include "core/math/monotone_cubic.h"
+#include "core/scene/camera.h"
 #include "render/scene_file/first_error.h"
 #include "render/scene_file/toml_document.h"
+#include "render/scene_file/toml_table.h"
 
 namespace boule {
+
+/// One quantity of a camera over time: three components, or one.
+struct CameraTrack {
+  std::string_view key;
+  std::size_t components;
+  std::array<std::vector<TimedValue>, 3> values{};
+  std::vector<TextPlace> places{};  ///< of each key that names it
+};
+
+/// What the tables [[camera.key]] of a scene file say.
+struct CameraMotion {
+  std::vector<int> frames{};  ///< of the keys
+  std::array<CameraTrack, 3> tracks{CameraTrack{"eye", 3}, CameraTrack{"look_at", 3},
+                                    CameraTrack{"fov", 1}};
+};
 
 /// Puts eye, look_at and fov of one frame in place of the tables [[camera.key]] of a scene file:
 /// what reads [camera] afterwards sees a camera that stands still. Each of the three follows the
 /// keys that name it, component by component (monotone_cubic()), in double. No frame: that of the
-/// first key. `root` holds the members of the whole file.
-void apply_camera_keys(TomlMembers& root, std::optional<int> frame, FirstError& error);
+/// first key. `root` holds the members of the whole file. Nothing if it has no such tables.
+std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
+                                              FirstError& error);
+
+/// Reports the first key whose frame `camera`, read from `table` for another frame, cannot show.
+void check_camera_keys(const CameraMotion& motion, const Camera& camera, TomlTable& table);
 
 }  // namespace boule

@@ -16,15 +16,21 @@ namespace {
 /// Turns the root table into a Scene: settings first, then materials, then what refers to them.
 class TomlReader {
  public:
-  TomlReader(const TomlValue& root, const std::string& path, std::optional<int> frame)
-      : error_(path, frame), root_(std::get<TomlMembers>(root.data), root.place, "", error_) {}
+  /// `motion`, or null, is what moves the camera from frame to frame.
+  TomlReader(const TomlValue& root, const std::string& path, std::optional<int> frame,
+             const CameraMotion* motion)
+      : motion_(motion),
+        error_(path, frame),
+        root_(std::get<TomlMembers>(root.data), root.place, "", error_) {}
 
   Result<LoadedScene> read();
 
  private:
   void check_schema();
+  void read_view(TomlTable& table);
   void validate_whole();
 
+  const CameraMotion* motion_;
   Scene scene_;
   FirstError error_;
   TomlTable root_;
@@ -42,7 +48,7 @@ Result<LoadedScene> TomlReader::read() {
 
   if (image) scene_.image = read_image(*image);
   if (render) scene_.render = read_render(*render);
-  if (camera) scene_.camera = read_camera(*camera, scene_.distortion);
+  if (camera) read_view(*camera);
   if (background) scene_.background = read_background(*background, scene_.ambient);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
   TomlObjects reader(scene_, error_);
@@ -60,6 +66,11 @@ void TomlReader::check_schema() {
   int schema = 1;
   root_.read("schema", schema);
   if (schema != 1) root_.report("schema", "must be 1, is " + std::to_string(schema));
+}
+
+void TomlReader::read_view(TomlTable& table) {
+  scene_.camera = read_camera(table, scene_.distortion);
+  if (motion_ != nullptr && table.ok()) check_camera_keys(*motion_, *scene_.camera, table);
 }
 
 /// What no single table shows: the settings, `ambient` and the sum of all.
@@ -82,9 +93,9 @@ Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
   auto root = parse_toml(text, path);
   if (!root) return root.error();
   FirstError error(path);
-  apply_camera_keys(std::get<TomlMembers>(root.value().data), frame, error);
+  const auto motion = apply_camera_keys(std::get<TomlMembers>(root.value().data), frame, error);
   if (error.status()) return *error.status();
-  return TomlReader(root.value(), path, frame).read();
+  return TomlReader(root.value(), path, frame, motion ? &*motion : nullptr).read();
 }
 
 }  // namespace boule

@@ -49,7 +49,7 @@ bool TomlTable::has_array(std::string_view key) {
 }
 
 const TomlValue* TomlTable::find(std::string_view key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return find_member(*members_, key);
 }
 

@@ -61,6 +61,8 @@ class TomlTable {
 
   /// Reports an error of `key`: at its value, or at the table where it is absent.
   void report(std::string_view key, std::string message);
+  /// The same, at another place.
+  void report_at(TextPlace place, std::string_view key, std::string message);
 
   /// True if nothing was reported about the file so far.
   [[nodiscard]] bool ok() const { return !error_->status(); }
@@ -76,7 +78,6 @@ class TomlTable {
  private:
   const TomlValue* find(std::string_view key);
   [[nodiscard]] std::string path_of(std::string_view key) const;
-  void report_at(TextPlace place, std::string_view key, std::string message);
   void report_type(const TomlValue& value, std::string_view key, const std::string& expected);
   const TomlArray* find_array(std::string_view key, std::size_t count, const char* of_what);
   void convert(const TomlValue& value, std::string_view key, float& out);

@@ -84,6 +84,26 @@ TEST(FrameName, DataFilesAreThoseOfTheFrame) {
   }
 }
 
+/// Every key is looked at, whichever frame is read, and in a time that does not grow with its
+/// square.
+TEST(CameraKeys, AreCheckedAllHoweverManyThereAre) {
+  std::string text = "schema = 1\n[camera]\nlook_at = [0, 0, 0]\n";
+  for (int frame = 0; frame < 50000; ++frame)
+    text += "[[camera.key]]\nframe = " + std::to_string(frame) + "\neye = [0, 0, 1]\n";
+  EXPECT_TRUE(SceneFiles{}.load("scene.toml", text).ok());
+  const auto bad = SceneFiles{}.load("scene.toml", text + "fov = 0\n");
+  ASSERT_FALSE(bad.ok());
+  EXPECT_EQ(bad.error().line, 150004);
+}
+
+TEST(CameraKeys, OfAFisheyeMayOpenItFurther) {
+  const std::string text =
+      "schema = 1\n[camera]\ntype = \"fisheye\"\nlook_at = [0, 0, 0]\n"
+      "[[camera.key]]\nframe = 0\neye = [0, 0, 1]\nfov = 20\n[[camera.key]]\nframe = 9\nfov = "
+      "360\n";
+  EXPECT_TRUE(SceneFiles{}.load("scene.toml", text).ok());
+}
+
 class CameraKeyErrors : public testing::TestWithParam<Refusal> {};
 
 TEST_P(CameraKeyErrors, AreRefusedWithPlaceAndKey) {
@@ -104,6 +124,25 @@ const Refusal wrong[] = {
      "camera.key[1].frame", "must be above 1"},
     {"FrameBack", key("frame = 9\neye = [0, 0, 1]\n[[camera.key]]\nframe = 4\nfov = 3\n"), 8, 9,
      "camera.key[1].frame", "must be above 9"},
+    {"SecondNoFrame", key("frame = 0\neye = [0, 0, 1]\n[[camera.key]]\nfov = 3\n"), 7, 1,
+     "camera.key[1].frame", "missing key 'frame'"},
+    {"LaterFov",
+     key("frame = 1\neye = [0, 0, 1]\nfov = 20\n[[camera.key]]\nframe = 7\nfov = 180\n"), 10, 7,
+     "camera.fov", "in frame 7: must be above 0 and below 180"},
+    {"LaterEye", key("frame = 1\neye = [0, 0, 1]\n[[camera.key]]\nframe = 4\neye = [0, nan, 1]\n"),
+     9, 7, "camera.eye", "in frame 4: must be finite"},
+    {"LaterEyeIsLookAt",
+     key("frame = 1\neye = [0, 0, 1]\n[[camera.key]]\nframe = 4\neye = [0, 0, 0]\n"), 3, 11,
+     "camera.look_at", "in frame 4: must differ from eye"},
+    {"LaterUp", key("frame = 1\neye = [0, 0, 1]\n[[camera.key]]\nframe = 4\neye = [0, 9, 0]\n"), 2,
+     1, "camera.up", "in frame 4: must not be within 1e-6 rad"},
+    {"LaterFocus",
+     "schema = 1\n[camera]\ntype = \"thin_lens\"\naperture = 1\nlook_at = [0, 0, 0]\n"
+     "focus = [0, 0, 2]\n[[camera.key]]\nframe = 0\neye = [0, 0, 5]\n"
+     "[[camera.key]]\nframe = 4\neye = [0, 0, 1]\n",
+     6, 9, "camera.focus", "in frame 4: must lie in front"},
+    {"KeysSlip", "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[[camera.keys]]\n", 5,
+     10, "camera.keys", "unknown key 'keys'; did you mean 'key'?"},
     {"Nothing", key("frame = 1\n"), 4, 1, "camera.key[0].eye", "'eye', 'look_at' or 'fov'"},
     {"UnknownKey", key("frame = 1\neyes = [0, 0, 1]\n"), 6, 1, "camera.key[0].eyes",
      "did you mean 'eye'?"},
