@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "render/cli/commands.h"
 #include "render/cli/fitting_scene.h"
 #include "render/cli/frames.h"
-#include "render/cli/image_threads.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/picture_header.h"
@@ -202,15 +199,11 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   }
   file.date_time = source_date().value();  // check() has seen it
   file.metadata = picture_header(renderer, scene_hash_, partial_);
-  file.threads = image_threads(renderer.statistics().threads);
+  file.threads = static_cast<int>(renderer.statistics().threads);
   return file;
 }
 
 ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
-  if (options.threads == 0) {
-    const std::string no_thread = std::generic_category().message(EAGAIN);
-    return refuse(cannot_write(command_.output, no_thread), command_, failed);
-  }
   const Stopwatch watch;
   Status status;
   {

@@ -4,11 +4,9 @@
 #include <exception>
 #include <mutex>
 #include <new>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 #include "render/frame/float_environment.h"
+#include "render/threads/threads.h"
 
 namespace boule {
 namespace {
@@ -65,25 +63,10 @@ Diagnostic describe(const std::exception_ptr& error) {
   }
 }
 
-/// So many threads, or as many as can be had; each calls body(0), body(1), .. in its turn.
-template <class Body>
-std::vector<std::thread> start_threads(std::size_t count, const Body& body) {
-  std::vector<std::thread> threads;
-  try {
-    threads.reserve(count);
-    while (threads.size() < count)
-      threads.emplace_back([body, index = threads.size()] { body(index); });
-  } catch (const std::system_error&) {  // those that started do the work
-  } catch (const std::bad_alloc&) {
-  }
-  return threads;
-}
-
 }  // namespace
 
 Scheduler::Scheduler(unsigned threads) {
-  if (threads == 0) threads = std::thread::hardware_concurrency();
-  workers_ = std::clamp(threads, 1u, max_workers);
+  workers_ = std::min(threads == 0 ? hardware_threads() : threads, max_workers);
 }
 
 std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
@@ -94,7 +77,7 @@ std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
     loop.work(static_cast<unsigned>(index + 1));
   });
   loop.work(0);
-  for (std::thread& thread : others) thread.join();
+  for (auto& thread : others) thread.join();
   threads_used_ = static_cast<unsigned>(others.size() + 1);
   return loop.error();
 }
@@ -109,15 +92,6 @@ ParallelFor Scheduler::parallel_for() {
     const auto indexed = [&body](unsigned, std::size_t index) { body(index); };
     if (const auto error = run_all(count, indexed, nullptr)) std::rethrow_exception(error);
   };
-}
-
-bool can_start_threads(unsigned count) {
-  std::atomic<bool> counted{false};
-  auto threads = start_threads(count, [&counted](std::size_t) { counted.wait(false); });
-  counted = true;
-  counted.notify_all();
-  for (std::thread& thread : threads) thread.join();
-  return threads.size() == count;
 }
 
 }  // namespace boule

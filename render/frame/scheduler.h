@@ -43,8 +43,4 @@ class Scheduler {
   unsigned threads_used_ = 0;
 };
 
-/// Whether so many threads can run at once besides the caller's: tries it. For what starts threads
-/// of its own and cannot do without.
-bool can_start_threads(unsigned count);
-
 }  // namespace boule

@@ -27,7 +27,7 @@ bool is_finished_picture(const std::string& path, int width, int height) {
   // First: without a file nothing needs to be loaded.
   if (format == nullptr || !std::filesystem::is_regular_file(path, ignored)) return false;
   if (format->writer == std::string_view("jpeg") && !is_whole_jpeg(path)) return false;
-  const auto loaded = load_image_module();
+  const auto loaded = load_image_module(*format);
   if (!loaded) return false;
   image_module::FoundPicture found{};
   image_module::Report report{};

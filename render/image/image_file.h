@@ -47,7 +47,7 @@ struct ImageFileOptions {
   std::vector<ImageChannel> channels;             ///< refused by formats without channels
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, EXIF notation
   Metadata metadata;                              ///< an entry replaces a standard one of its name
-  int threads = 1;                                ///< for compressing; the bytes are the same
+  int threads = 1;                                ///< for compressing, if they can be had
   std::function<bool()> stop;                     ///< asked now and then: true gives up
   /// Told the temporary file's name when it is there, and an empty one when all is in it and the
   /// renaming is next: so a signal's handler can remove it instead of waiting.

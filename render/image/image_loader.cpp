@@ -3,11 +3,16 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "render/threads/threads.h"
 
 namespace boule {
 namespace {
@@ -56,24 +61,69 @@ const Table* open_module(const fs::path& file, std::string& reason) {
   return nullptr;
 }
 
-}  // namespace
+/// What is loaded and runs; one for the process, as OpenImageIO is.
+struct Loaded {
+  std::mutex mutex;
+  const Table* table = nullptr;
+  bool has_pool = false;  ///< OpenImageIO's threads run
+};
+Loaded& loaded() {
+  static Loaded one;
+  return one;
+}
 
-Result<const Table*> load_image_module() {
-  static std::mutex mutex;
-  static const Table* loaded = nullptr;
-  const std::lock_guard lock(mutex);
-  if (loaded != nullptr) return loaded;
-  std::string places, reason;
+/// The module's table, or null and the reasons, of all places.
+const Table* open_somewhere(std::string& reason) {
+  std::string places;
   for (const fs::path& folder : candidates()) {
     const fs::path file = folder / module_name;
     places += (places.empty() ? "" : ", ") + folder.string();
     std::error_code ignored;
     if (!fs::exists(file, ignored)) continue;
-    loaded = open_module(file, reason);
-    if (loaded != nullptr) return loaded;
+    if (const Table* table = open_module(file, reason)) return table;
   }
   if (reason.empty()) reason = std::string(module_name) + " not found in " + places;
-  return Diagnostic{"cannot load the image module: " + reason, {}, {}, 0, 0};
+  return nullptr;
+}
+
+Diagnostic cannot_load(const std::string& reason) {
+  return {"cannot load the image module: " + reason, {}, {}, 0, 0};
+}
+
+/// OpenImageIO's pool, which begins with as many threads as the hardware runs.
+unsigned pool_threads(const Loaded& one) { return one.has_pool ? 0 : hardware_threads(); }
+
+}  // namespace
+
+Result<const Table*> load_image_module(const ImageFormat& format) {
+  constexpr unsigned at_load = 4;  // log4cplus
+  Loaded& one = loaded();
+  const std::lock_guard lock(one.mutex);
+  // Reading and writing TIFF starts the pool, however many threads are asked for.
+  const bool takes_pool = format.writer == std::string_view("tiff");
+  const unsigned threads =
+      (one.table == nullptr ? at_load : 0) + (takes_pool ? pool_threads(one) : 0);
+  if (threads > 0 && !can_start_threads(threads)) {
+    return cannot_load(std::generic_category().message(EAGAIN));
+  }
+  if (one.table == nullptr) {
+    std::string reason;
+    one.table = open_somewhere(reason);
+    if (one.table == nullptr) return cannot_load(reason);
+  }
+  one.has_pool = one.has_pool || takes_pool;
+  return one.table;
+}
+
+int image_threads(int wanted) {
+  if (wanted <= 1) return 1;
+  Loaded& one = loaded();
+  const std::lock_guard lock(one.mutex);
+  const auto count = static_cast<unsigned>(wanted);
+  // The pool is resized to `wanted`; OpenEXR has one of its own.
+  if (!can_start_threads(std::max(count, pool_threads(one)) + count)) return 1;
+  one.has_pool = true;
+  return wanted;
 }
 
 }  // namespace boule

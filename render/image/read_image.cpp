@@ -54,7 +54,7 @@ Result<Image> read_image(const std::string& path, PictureContent content) {
   if (format == nullptr) {
     return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
   }
-  const Result<const module::Table*> loaded = load_image_module();
+  const Result<const module::Table*> loaded = load_image_module(*format);
   if (!loaded) return cannot_read(path, loaded.error().message);
   Room room;
   module::PictureFile file{path.c_str(), format->writer, make_room, &room, false};

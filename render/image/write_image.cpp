@@ -157,7 +157,7 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
   picture.channel_count = plan->channels.size();
   picture.attributes = plan->attributes.data();
   picture.attribute_count = plan->attributes.size();
-  picture.threads = options.threads > 1 ? options.threads : 1;
+  picture.threads = image_threads(options.threads);
   picture.stop = [](const void* context) {
     const auto& stop = static_cast<const ImageFileOptions*>(context)->stop;
     return stop && stop();
@@ -193,7 +193,7 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   if (!created.ok()) return created.error();
   OutputFile& file = created.value();
   if (options.temporary) options.temporary(file.path());
-  const Result<const module::Table*> loaded = load_image_module();
+  const Result<const module::Table*> loaded = load_image_module(*format);
   if (!loaded.ok()) return cannot_write(path, loaded.error().message);
   const module::Table& table = *loaded.value();
 

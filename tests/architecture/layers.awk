@@ -18,8 +18,9 @@ BEGIN {
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
   # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
   layer("^render/scene_file/", "^(core|render/scene_file)/|^render/image/(read_)?image\\.h$", any)
-  layer("^render/image/", "^(core|render/image)/", any)
-  layer("^render/frame/", "^(core|render/(image|frame))/", any)
+  layer("^render/threads/", "^render/threads/", plain_std)
+  layer("^render/image/", "^(core|render/(threads|image))/", any)
+  layer("^render/frame/", "^(core|render/(threads|image|frame))/", any)
   layer("^render/trace_file/", "^(core|render/(scene_file|image|frame|trace_file))/", any)
   layer("^render/prepare/", narrow "|^render/prepare/", any)
   layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
@@ -30,13 +31,13 @@ BEGIN {
   layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
   # The command line is fuzzed without its program.
   layer("^tests/fuzz/fuzz_options", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/image_file\\.cpp$", "OpenImageIO")
-  owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/frame/scheduler\\.", "threads")
-  owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/frame/scheduler\\.", "threads")
+  owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
+  owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
   owner("#include <(iostream|print)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?f?printf|f?puts|f?putc|putchar|fmt::print|perror)[ (]", "^render/cli/", "the terminal")
   owner(word "(_exit|_Exit|exit|quick_exit|abort|terminate)[ ]*\\(", "^render/cli/", "the end of the process")

@@ -82,6 +82,45 @@ const Fault files_and_threads[] = {{"OpenWithoutPermission", "open", EACCES},
 INSTANTIATE_TEST_SUITE_P(System, FaultsWhileRendering, testing::ValuesIn(files_and_threads),
                          [](const auto& fault) { return fault.param.name; });
 
+/// Pictures are read where a scene has a map or an environment, and where finished ones are
+/// skipped; OpenImageIO and the libraries below it would end the program without their threads.
+TEST_F(Faults, PicturesAreReadOnlyWhereTheThreadsForThatCanBeHad) {
+  const Fault no_thread{"NoThread", "thread", EAGAIN};
+  for (const std::string extension : {"exr", "png", "jpg", "tif"}) {
+    const std::string map = "map." + extension;
+    ASSERT_EQ(boule_run({"render", small_scene(), "-o", path(map)}).exit_code, 0);
+    const std::string keys =
+        "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"
+        "[camera.distortion]\nfile = \"" +
+        map + "\"\n";
+    const std::string distorted = write("distorted.toml", keys);
+    const std::string sky = write(
+        "sky.toml", "schema = 1\n[background]\ntype = \"environment\"\nfile = \"" + map + "\"\n");
+    const std::vector<std::vector<std::string>> commands = {
+        {"info", distorted},
+        {"info", sky},
+        {"render", small_scene(), "-o", path(map), "--skip-existing", "-t", "2"},
+        {"render", sky, "-o", path("x." + extension), "--size", "8x8", "-t", "2"}};
+    for (const auto& command : commands) {
+      const auto all_files = files();
+      int n = 1;
+      for (;; ++n) {
+        ASSERT_LT(n, 100);
+        const auto run = run_with_fault(command, no_thread, n);
+        if (!run) break;
+        const std::string what = command[1] + " " + map + ", thread " + std::to_string(n) + ": ";
+        std::filesystem::remove(path("x." + extension));
+        EXPECT_EQ(files(), all_files) << what;
+        if (run->exit_code == 0) continue;
+        EXPECT_TRUE(run->exit_code == 1 || run->exit_code == 3) << what << run->exit_code;
+        EXPECT_THAT(run->err, testing::HasSubstr("error: ")) << what;
+        EXPECT_THAT(run->err, testing::HasSubstr(std::strerror(EAGAIN))) << what;
+      }
+      EXPECT_GT(n, 4) << "the program starts no such threads";
+    }
+  }
+}
+
 /// From the n-th allocation on there is no memory.
 TEST_F(Faults, WithoutMemoryTheOldPictureStays) {
   const std::string scene = small_scene(), old = "the old picture";

@@ -62,7 +62,7 @@ TEST_F(WriteImage, ThreadsDoNotShowInTheFile) {
   const Image image = test::noise(100, 300);
   ImageFileOptions options;
   // Loading brings in log4cplus (a dependency's dependency), which starts four threads of its own.
-  ASSERT_TRUE(load_image_module().ok());
+  ASSERT_TRUE(load_image_module(*find_image_format("a.tif")).ok());
   const std::size_t threads_loaded = test::names_in("/proc/self/task").size();
   ASSERT_EQ(reason(image, at("one.exr"), options), "");
   EXPECT_EQ(test::names_in("/proc/self/task").size(), threads_loaded) << "one is the caller's";
@@ -183,7 +183,7 @@ TEST_F(WriteImage, NamesOfAnyAlphabet) {
 /// The check after writing must see a file that lost its end. (PNG, too, but there libpng jumps
 /// over OpenImageIO's message, a leak that the leak checker reports.)
 TEST_F(WriteImage, CheckFindsTruncatedFiles) {
-  const Result<const image_module::Table*> table = load_image_module();
+  const Result<const image_module::Table*> table = load_image_module(*find_image_format("a.tif"));
   ASSERT_TRUE(table.ok()) << table.error().message;
   std::vector<unsigned char> bytes(40 * 40 * 4);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i * i / 7);
