@@ -9,7 +9,7 @@ namespace boule::bench {
 
 /// A lecture's or a textbook's remedy against false shadows: lengths in units of the scene, for the
 /// shadow ray's direction is of unit length; 0 where not used. For the experiment alone: the
-/// renderer has render/shading/surface.h.
+/// renderer has core/surface.h.
 struct FloatRemedy {
   const char* name;
   float least_t = 0;        ///< the shadow ray begins here (the lecture's small_num)

@@ -4,9 +4,9 @@
 
 #include "core/math/geometry.h"
 #include "core/math/random.h"
+#include "core/surface.h"
 #include "render/shading/bsdf.h"
 #include "render/shading/lights.h"
-#include "render/shading/surface.h"
 
 namespace boule::bench {
 namespace {

@@ -41,11 +41,7 @@ double power_heuristic(double a, double b) {
 
 Path::Path(const PreparedScene& scene, const KernelTable& kernels,
            const IntegratorSettings& settings)
-    : scene_(scene),
-      kernels_(kernels),
-      settings_(settings),
-      geometry_(scene.geometry.view()),
-      wavefront_(settings.stream_size),
+    : StreamIntegrator(scene, kernels, settings),
       keys_(settings.seed),
       environment_share_(!scene.environment.shines() ? 0
                          : scene.area_lights.empty() ? 1
@@ -53,93 +49,74 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
       seeks_(settings.light_search != LightSearch::paths &&
              (scene.environment.shines() || !scene.area_lights.empty())) {
   for (const Light& light : scene.lights) {
-    if (!std::holds_alternative<SphereLight>(light)) delta_lights_.push_back(&light);
+    if (std::holds_alternative<SphereLight>(light)) continue;
+    use_light(light);
+    delta_lights_ = true;
   }
+  points_.reserve(Surfaces::block_size);
 }
 
-bool Path::trace(const CameraRays& camera, Color* radiance) {
+void Path::start(const CameraRays& camera) {
   const std::size_t count = camera.rays.size();
-  primary_ += count;
   if (random_keys_.size() < count) random_keys_.resize(std::bit_ceil(count));
   for (std::size_t k = 0; k < count; ++k) {
     const SampleId& id = camera.samples[k];
     random_keys_[k] = {keys_.of(id.x, id.y), static_cast<std::uint32_t>(id.sample)};
   }
-  wavefront_.start(camera.rays);
-  while (const PathStream* stream = wavefront_.next()) {
-    if (cancelled()) return false;
-    shade(*stream, stream->depth == 0 ? camera.coherence : Coherence::none);
-  }
-  wavefront_.finish(radiance);
-  return true;
 }
 
-bool Path::cancelled() const {
-  return settings_.cancel != nullptr && settings_.cancel->load(std::memory_order_relaxed);
-}
-
-void Path::shade(const PathStream& stream, Coherence coherence) {
-  const std::size_t count = stream.rays->size();
-  make_room(count);
-  hits_.resize(count);
-  const Query query{settings_.solver, Form::automatic, coherence};
-  kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
-  find_points(stream);
-  for (const Light* light : delta_lights_) add_light(*light);
-  add_area_lights();
-  for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
-}
-
-/// Makes room for what comes of so many rays, by powers of two: see Whitted.
 void Path::make_room(std::size_t rays) {
-  const std::size_t room = std::bit_ceil(rays);
-  hits_.resize(room);
-  occluded_.resize(room);
-  shadow_rays_.resize(room);
-  arrivals_.reserve(room);
-  if (radiance_.size() < room) radiance_.resize(room);
-  illumination_.start(rays);
-}
-
-void Path::find_points(const PathStream& stream) {
+  shadow_rays_.resize(rays);
   arrivals_.clear();
-  for (std::uint32_t k = 0; k < stream.rays->size(); ++k) {
-    const Hit hit = hits_.get(k);
-    const Ray ray = stream.rays->get(k);
-    radiance_[k] = crossed_lights(ray, stream.density[k], hit.t);
-    if (hit.id == no_primitive) {
-      radiance_[k] = radiance_[k] + seen_background(ray, stream.density[k]);
-    } else {
-      shade_hit(stream, k, ray, hit);
-    }
+  arrivals_.reserve(rays);
+}
+
+void Path::shade(const Block& block) {
+  points_.clear();
+  for (std::size_t k = block.first; k < block.end; ++k) {
+    const auto index = static_cast<std::uint32_t>(k);
+    if (meet(block.stream, index)) points_.push_back(index);
+  }
+  if (points_.empty()) return;
+  find_surfaces(block);
+  for (const std::uint32_t index : points_) {
+    shade_hit(block.stream, index, surfaces_.get(index - block.first));
   }
 }
 
-void Path::shade_hit(const PathStream& stream, std::uint32_t index, const Ray& ray,
-                     const Hit& hit) {
-  const FlatMaterial& material = scene_.material_of(hit.id);
-  if (!is_black(material.constant)) {  // emissive: nothing else
-    const double density = stream.density[index];
-    const auto sphere = static_cast<std::size_t>(hit.id);
-    double light_density = 0;
-    if (density > 0 && sphere < scene_.spheres.size()) {
-      const AreaLight light =
-          scene_.area_lights.light_of(scene_.spheres[sphere], material.constant);
-      light_density = (1 - environment_share_) * light.share *
-                      LightCone(ray.org, light.center, light.radius).density();
-    }
-    const auto weight = static_cast<float>(weight_of_hit(density, light_density));
-    radiance_[index] = radiance_[index] + material.constant * weight;
-    return;
+/// Finds the radiance that a ray comes upon. True if its path may go on from a surface.
+bool Path::meet(const PathStream& stream, std::uint32_t index) {
+  const Hit met = hit(index);
+  const Ray ray = stream.rays->get(index);
+  const double density = stream.density[index];
+  Color& sum = radiance(index);
+  sum = crossed_lights(ray, density, met.t);
+  if (met.id == no_primitive) {
+    sum = sum + seen_background(ray, density);
+    return false;
   }
-  const bool lit = takes_direct_light(material);
-  if (!lit && !scatters(material)) return;
-  const Surface surface = find_surface(scene_, ray, hit);
+  const FlatMaterial& material = scene_.material_of(met.id);
+  if (is_black(material.constant)) return takes_direct_light(material) || scatters(material);
+  // Emissive: nothing else.
+  const auto sphere = static_cast<std::size_t>(met.id);
+  double light_density = 0;
+  if (density > 0 && sphere < scene_.spheres.size()) {
+    const AreaLight light = scene_.area_lights.light_of(scene_.spheres[sphere], material.constant);
+    light_density = (1 - environment_share_) * light.share *
+                    LightCone(ray.org, light.center, light.radius).density();
+  }
+  sum = sum + material.constant * static_cast<float>(weight_of_hit(density, light_density));
+  return false;
+}
+
+void Path::shade_hit(const PathStream& stream, std::uint32_t index, const Surface& surface) {
+  const FlatMaterial& material = scene_.material_of(surface.id);
   const Lobes lobes(material, surface);
   if (lobes.black()) return;
-  if (lit && !delta_lights_.empty()) illumination_.add_point(index, material, surface);
+  const bool lit = takes_direct_light(material);
+  if (lit && delta_lights_) illumination_.add_point(index, material);
   if (lit && seeks_) seek_light(stream, index, surface, lobes);
-  if (stream.depth < settings_.max_depth) go_on(stream, index, surface, lobes);
+  if (!ends(stream)) go_on(stream, index, surface, lobes);
 }
 
 /// Picks a light and a direction to it: the environment, or one of the spheres.
@@ -171,7 +148,7 @@ void Path::seek(const Seeker& seeker, const Ray& way, const Sought& light) {
   const double cosine = dot(seeker.surface.normal, light.direction);
   if (!(cosine > 0) || !(light.density > 0)) return;
   const double density = seeker.lobes.density(cosine, light.direction);
-  const bool last = seeker.stream.depth == settings_.max_depth;
+  const bool last = ends(seeker.stream);
   const double weight = weight_of_light(light.density, density, last);
   const Color reflected = seeker.lobes.reflected(cosine, light.direction);
   shadow_rays_.set(arrivals_.size(), way);
@@ -194,26 +171,14 @@ void Path::go_on(const PathStream& stream, std::uint32_t index, const Surface& s
                    static_cast<float>(bounce.density));
 }
 
-/// Adds a point or directional light to the points it reaches: one stream of shadow rays.
-void Path::add_light(const Light& light) {
-  const RayStream rays = illumination_.aim(light);
-  if (rays.size == 0) return;
-  shadow_ += rays.size;
-  const Query query{settings_.solver, Form::automatic, shadow_coherence(light)};
-  kernels_.any_hit(geometry_, rays, query, occluded_.data());
-  illumination_.add_unblocked(light, occluded_.data(), radiance_.data());
-}
-
-void Path::add_area_lights() {
+void Path::add_more_light() {
   if (arrivals_.empty()) return;
-  shadow_ += arrivals_.size();
   RayStream rays = shadow_rays_.view();
   rays.size = arrivals_.size();
-  const Query query{settings_.solver, Form::automatic, Coherence::none};
-  kernels_.any_hit(geometry_, rays, query, occluded_.data());
+  const std::uint8_t* blocked = find_blocked(rays, Coherence::none);
   for (std::size_t k = 0; k < arrivals_.size(); ++k) {
-    if (occluded_[k] != 0) continue;
-    Color& sum = radiance_[arrivals_[k].ray];
+    if (blocked[k] != 0) continue;
+    Color& sum = radiance(arrivals_[k].ray);
     sum = sum + arrivals_[k].radiance;
   }
 }

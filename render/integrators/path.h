@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "core/math/sobol.h"
-#include "render/integrators/integrator.h"
-#include "render/integrators/wavefront.h"
-#include "render/prepare/prepared_scene.h"
-#include "render/shading/illumination.h"
+#include "render/integrators/stream_integrator.h"
 #include "render/shading/light_cone.h"
 #include "render/shading/lobes.h"
-#include "render/shading/surface.h"
-#include "simd/abi/kernel_table.h"
-#include "simd/build/aligned_array.h"
 
 namespace boule {
 
@@ -23,15 +17,10 @@ namespace boule {
 /// directional lights have one way only, and each has its shadow ray at every point. Paths end by
 /// Russian roulette, or after max_depth bounces: there light is sought in the first way alone. A
 /// sample's numbers depend on its pixel, its index, the depth and the seed: nothing else.
-class Path final : public Integrator {
+class Path final : public StreamIntegrator {
  public:
   /// `scene`, prepared for Method::path, and `kernels` must outlive the integrator.
   Path(const PreparedScene& scene, const KernelTable& kernels, const IntegratorSettings& settings);
-
-  bool trace(const CameraRays& camera, Color* radiance) override;
-  [[nodiscard]] RayCounts counts() const override {
-    return {primary_, shadow_, wavefront_.spawned()};
-  }
 
  private:
   /// What arrives at ray `ray`'s hit from a light, unless its shadow ray is blocked.
@@ -60,43 +49,32 @@ class Path final : public Integrator {
   /// The random numbers of one depth of a path, each set for a use of its own.
   enum class Use { bounce, light, roulette };
 
-  void shade(const PathStream& stream, Coherence coherence);
-  void make_room(std::size_t rays);
-  void find_points(const PathStream& stream);
-  void shade_hit(const PathStream& stream, std::uint32_t index, const Ray& ray, const Hit& hit);
+  void start(const CameraRays& camera) override;
+  void make_room(std::size_t rays) override;
+  void shade(const Block& block) override;
+  void add_more_light() override;
+  bool meet(const PathStream& stream, std::uint32_t index);
+  void shade_hit(const PathStream& stream, std::uint32_t index, const Surface& surface);
   void seek_light(const PathStream& stream, std::uint32_t index, const Surface& surface,
                   const Lobes& lobes);
   void go_on(const PathStream& stream, std::uint32_t index, const Surface& surface,
              const Lobes& lobes);
   void seek(const Seeker& seeker, const Ray& way, const Sought& light);
-  void add_light(const Light& light);
-  void add_area_lights();
   [[nodiscard]] Color seen_background(const Ray& ray, double density) const;
   [[nodiscard]] Color crossed_lights(const Ray& ray, double density, double t) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
   [[nodiscard]] double weight_of_light(double light_density, double density, bool last) const;
   [[nodiscard]] UnitPair numbers(const PathStream& stream, std::uint32_t index, Use use) const;
-  [[nodiscard]] bool cancelled() const;
 
-  const PreparedScene& scene_;
-  const KernelTable& kernels_;
-  IntegratorSettings settings_;
-  GeometryView geometry_;
-  Wavefront wavefront_;
   PixelKeys keys_;
-  double environment_share_;                ///< how often the environment is sought, not a sphere
-  bool seeks_;                              ///< there is something to seek, by rays to it
-  std::vector<const Light*> delta_lights_;  ///< point and directional ones
-  std::vector<RandomKey> random_keys_;      ///< by sample
-  std::uint64_t primary_ = 0, shadow_ = 0;
+  double environment_share_;            ///< how often the environment is sought, not a sphere
+  bool seeks_;                          ///< there is something to seek, by rays to it
+  bool delta_lights_ = false;           ///< there are point or directional lights
+  std::vector<RandomKey> random_keys_;  ///< by sample
 
-  // Working memory of one stream.
-  HitBuffer hits_;
-  std::vector<Color> radiance_;  ///< by ray
-  Illumination illumination_;
-  RayBuffer shadow_rays_;          ///< to sphere lights and emissive spheres
-  std::vector<Arrival> arrivals_;  ///< by shadow ray
-  AlignedArray<std::uint8_t> occluded_;
+  RayBuffer shadow_rays_;              ///< of a stream: to what is sought
+  std::vector<Arrival> arrivals_;      ///< by shadow ray
+  std::vector<std::uint32_t> points_;  ///< of a block: rays whose surface matters
 };
 
 }  // namespace boule

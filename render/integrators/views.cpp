@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/math/geometry.h"
+#include "core/surface.h"
 #include "render/shading/bsdf.h"
-#include "render/shading/surface.h"
 
 namespace boule {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/scene/scene.h"
+#include "core/surface.h"
 #include "render/prepare/area_lights.h"
 #include "render/prepare/environment.h"
 #include "render/prepare/flat_material.h"
@@ -42,6 +43,11 @@ struct PreparedScene {
     return materials[i < first_plane ? spheres[i].material : planes[i - first_plane].material];
   }
 };
+
+/// The surface a ray met in it.
+inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+  return find_surface(scene.spheres, scene.planes, ray, hit);
+}
 
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
 /// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.

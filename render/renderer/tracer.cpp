@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "core/surface.h"
 #include "render/frame/float_environment.h"
 #include "render/frame/stopwatch.h"
 #include "render/renderer/scene_memory.h"
-#include "render/shading/surface.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
 

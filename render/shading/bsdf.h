@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/math/color.h"
+#include "core/surface.h"
 #include "render/prepare/flat_material.h"
-#include "render/shading/surface.h"
 
 namespace boule {
 

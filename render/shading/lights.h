@@ -3,8 +3,9 @@
 #include "core/math/geometry.h"
 #include "core/math/ray.h"
 #include "core/scene/light.h"
-#include "render/shading/surface.h"
+#include "core/surface.h"
 #include "simd/abi/isa.h"
+#include "simd/abi/shading.h"
 
 namespace boule {
 
@@ -56,6 +57,9 @@ inline Color intensity_at(const DirectionalLight& light, const Vec3d&) { return 
 
 /// The ray that decides whether anything is: from the surface to the light.
 Ray shadow_ray(const Light& light, const Surface& surface);
+
+/// Where a light is, for shadow rays of many points at once.
+LightPlace place_of(const Light& light);
 
 /// What a light's shadow rays have in common.
 Coherence shadow_coherence(const Light& light);

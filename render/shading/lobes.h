@@ -2,9 +2,9 @@
 
 #include "core/math/color.h"
 #include "core/math/sobol.h"
+#include "core/surface.h"
 #include "render/prepare/flat_material.h"
 #include "render/shading/bsdf.h"
-#include "render/shading/surface.h"
 
 namespace boule {
 

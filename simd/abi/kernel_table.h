@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "simd/abi/camera.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/isa.h"
+#include "simd/abi/shading.h"
 #include "simd/abi/stream.h"
 
 namespace boule {
@@ -28,6 +30,14 @@ struct KernelTable {
   /// occluded[k] = 1 if rays[k] meets anything with tmin < t <= tmax, else 0.
   void (*any_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
                   std::uint8_t* occluded);
+
+  /// surfaces[k] = where rays[k] met hits[k]; anything where that is a miss.
+  void (*find_surfaces)(const GeometryView& geometry, const SphereRows& spheres,
+                        const RayStream& rays, const HitStream& hits,
+                        const SurfaceStream& surfaces);
+
+  /// Makes the shadow rays of all lit points that face the light, in their order. How many.
+  std::size_t (*aim)(const LightPlace& light, const LitStream& points, const AimedStream& aimed);
 };
 
 }  // namespace boule

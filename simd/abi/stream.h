@@ -21,6 +21,21 @@ struct RayStream {
   std::size_t size;
 };
 
+/// Rays from `first`, a multiple of max_width, on.
+inline RayStream part(const RayStream& r, std::size_t first, std::size_t size) {
+  return {r.org_x + first,
+          r.org_y + first,
+          r.org_z + first,
+          r.dir_x + first,
+          r.dir_y + first,
+          r.dir_z + first,
+          r.tmin + first,
+          r.tmax + first,
+          r.source + first,
+          r.inside + first,
+          size};
+}
+
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
 /// miss. Arrays as in RayStream.
 struct HitStream {
@@ -28,6 +43,10 @@ struct HitStream {
   std::int32_t* id;
   std::size_t size;
 };
+
+inline HitStream part(const HitStream& hits, std::size_t first, std::size_t size) {
+  return {hits.t + first, hits.id + first, size};
+}
 
 /// Places on the image plane to send primary rays through: raster coordinates, (0, 0) the top left
 /// corner, pixel (i, j) centred on (i + 0.5, j + 0.5). Arrays as in RayStream. What a camera does

@@ -5,6 +5,7 @@
 
 #include "core/math/ray.h"
 #include "simd/abi/camera.h"
+#include "simd/abi/shading.h"
 #include "simd/abi/stream.h"
 #include "simd/build/aligned_array.h"
 
@@ -43,6 +44,7 @@ class RayBuffer {
     source_[i] = ray.source;
     inside_[i] = ray.inside ? 1 : 0;
   }
+  [[nodiscard]] Vec3f dir(std::size_t i) const { return {dir_x_[i], dir_y_[i], dir_z_[i]}; }
   [[nodiscard]] Ray get(std::size_t i) const {
     Ray ray{{org_x_[i], org_y_[i], org_z_[i]}, {dir_x_[i], dir_y_[i], dir_z_[i]}};
     ray.tmin = tmin_[i];
@@ -86,6 +88,21 @@ class HitBuffer {
   AlignedArray<double> t_;
   AlignedArray<std::int32_t> id_;
   std::size_t size_ = 0;
+};
+
+/// Memory for a VectorStream, likewise.
+class VectorBuffer {
+ public:
+  void resize(std::size_t size) {
+    x_.resize(size);
+    y_.resize(size);
+    z_.resize(size);
+  }
+  [[nodiscard]] Vec3d get(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  VectorStream view() { return {x_.data(), y_.data(), z_.data()}; }
+
+ private:
+  AlignedArray<double> x_, y_, z_;
 };
 
 /// Memory for a SampleStream, likewise.

@@ -1,11 +1,18 @@
 #include <vector>
 
+#include "core/math/geometry.h"
 #include "core/reference.h"
 #include "core/scene/lens_optics.h"
+#include "core/surface.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
 namespace {
+
+Plane get_plane(const PlaneView& p, std::size_t i) {
+  return {
+      {p.point_x[i], p.point_y[i], p.point_z[i]}, {p.normal_x[i], p.normal_y[i], p.normal_z[i]}, 0};
+}
 
 /// The geometry back as plain primitives in the order of their ids: what the reference path reads.
 struct Primitives {
@@ -23,11 +30,7 @@ struct Primitives {
           {block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], 0};
     }
     const PlaneView& p = view.planes;
-    for (std::size_t i = 0; i < p.size; ++i) {
-      planes.push_back({{p.point_x[i], p.point_y[i], p.point_z[i]},
-                        {p.normal_x[i], p.normal_y[i], p.normal_z[i]},
-                        0});
-    }
+    for (std::size_t i = 0; i < p.size; ++i) planes.push_back(get_plane(p, i));
   }
 };
 
@@ -140,10 +143,72 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
   }
 }
 
+void set(const VectorStream& vectors, std::size_t i, const Vec3d& v) {
+  vectors.x[i] = v.x;
+  vectors.y[i] = v.y;
+  vectors.z[i] = v.z;
+}
+
+Vec3d get(const VectorStream& vectors, std::size_t i) {
+  return {vectors.x[i], vectors.y[i], vectors.z[i]};
+}
+
+Surface find_surface(const GeometryView& geometry, const SphereRows& spheres, const Ray& ray,
+                     const Hit& hit) {
+  const PlaneView& planes = geometry.planes;
+  if (hit.id >= planes.first_id) {
+    return find_surface(get_plane(planes, static_cast<std::size_t>(hit.id - planes.first_id)), ray,
+                        hit);
+  }
+  const float* row = spheres.first + static_cast<std::size_t>(hit.id) * spheres.stride;
+  return find_surface(Sphere{{row[0], row[1], row[2]}, row[3], 0}, ray, hit);
+}
+
+void find_surfaces(const GeometryView& geometry, const SphereRows& spheres, const RayStream& rays,
+                   const HitStream& hits, const SurfaceStream& surfaces) {
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (hits.id[i] == no_primitive) continue;
+    const Surface surface =
+        find_surface(geometry, spheres, get_ray(rays, i), {hits.t[i], hits.id[i]});
+    const Departure departure = depart(surface, Side::viewer);
+    set(surfaces.point, i, surface.point);
+    set(surfaces.normal, i, surface.normal);
+    set(surfaces.view, i, surface.view);
+    set(surfaces.mirrored, i, surface.mirrored);
+    set(surfaces.org, i, departure.org);
+    surfaces.cosine[i] = surface.cosine;
+    surfaces.reach[i] = surface.reach;
+    surfaces.inner[i] = surface.inner ? 1 : 0;
+    surfaces.inside[i] = departure.inside ? 1 : 0;
+  }
+}
+
+std::size_t aim(const LightPlace& light, const LitStream& points, const AimedStream& aimed) {
+  const Vec3d place{light.place[0], light.place[1], light.place[2]};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const Vec3d to_light = light.directional ? place : normalize(place - get(points.point, i));
+    const double cosine = dot(get(points.normal, i), to_light);
+    if (points.lit[i] == 0 || !(cosine > 0)) continue;
+    const Vec3d org = get(points.org, i);
+    Ray ray = light.directional ? Ray{org, {light.way[0], light.way[1], light.way[2]}}
+                                : segment(org, place);
+    ray.source = points.id[i];
+    ray.inside = points.inside[i] != 0;
+    set_ray(aimed.rays, count, ray);
+    set(aimed.to_light, count, to_light);
+    aimed.cosine[count] = cosine;
+    aimed.point[count] = static_cast<std::uint32_t>(i);
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 const KernelTable& reference_kernels() {
-  static const KernelTable table = {Isa::scalar, 1, primary_rays, closest_hit, any_hit};
+  static const KernelTable table = {Isa::scalar,   1,  primary_rays, closest_hit, any_hit,
+                                    find_surfaces, aim};
   return table;
 }
 

@@ -1,9 +1,11 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
+#include "simd/kernel/aim.h"
 #include "simd/kernel/bundle_stream.h"
 #include "simd/kernel/packet_stream.h"
 #include "simd/kernel/primary_rays.h"
 #include "simd/kernel/scattered_stream.h"
+#include "simd/kernel/surfaces.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -58,9 +60,20 @@ void camera_rays(const CameraView& camera, const SampleStream& samples, const Ra
   primary_rays(camera, samples, rays);
 }
 
+void surfaces_of_hits(const GeometryView& geometry, const SphereRows& spheres,
+                      const RayStream& rays, const HitStream& hits, const SurfaceStream& surfaces) {
+  find_surfaces(geometry, spheres, rays, hits, surfaces);
+}
+
+std::size_t shadow_rays(const LightPlace& light, const LitStream& points,
+                        const AimedStream& aimed) {
+  return aim(light, points, aimed);
+}
+
 }  // namespace
 
 extern const KernelTable kernel_table;
-const KernelTable kernel_table = {Isa::BOULE_KERNEL_ISA, width, camera_rays, closest_hit, any_hit};
+const KernelTable kernel_table = {
+    Isa::BOULE_KERNEL_ISA, width, camera_rays, closest_hit, any_hit, surfaces_of_hits, shadow_rays};
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -9,14 +9,13 @@
 #include "simd/kernel/film_point.h"
 #include "simd/kernel/lens_disc.h"
 #include "simd/kernel/lens_stack.h"
+#include "simd/kernel/vectors.h"
 #include "simd/lanes/lanes.h"
 
 /// Camera rays, W at a time: in double, the direction rounded to float once.
 namespace boule::BOULE_KERNEL_ISA {
 
 BOULE_INLINE Vec3<Wide> broadcast(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-BOULE_INLINE Vec3<Wide> unit(const Vec3<Wide>& v) { return v * (Wide(1.0) / sqrt(dot(v, v))); }
 
 BOULE_INLINE void store_ray(const RayStream& rays, std::size_t first, const Vec3<Wide>& org,
                             const Vec3<Wide>& dir) {

@@ -43,6 +43,7 @@ BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
   *p = chosen.m ? a.v : rest.v;
 }
+BOULE_INLINE void store_chosen(double* p, Wide a, unsigned) { *p = a.v; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 /// A row of four floats as columns, and back: see xsimd_lanes.h.

@@ -232,6 +232,9 @@ BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
 BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest) {
   _mm512_storeu_ps(p, _mm512_mask_compress_ps(rest, chosen, a));
 }
+BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
+  _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(chosen), a));
+}
 #else
 #if defined(__AVX2__)
 /// For every set of eight lanes their numbers, one after the other, and then the others', a byte
@@ -256,13 +259,29 @@ BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
   const __m128i lanes = _mm_cvtsi64_si128(static_cast<long long>(chosen_lanes.of[chosen]));
   _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a, _mm256_cvtepu8_epi32(lanes)));
 }
+BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
+  // As pairs of floats.
+  constexpr unsigned pairs[16] = {0x00, 0x03, 0x0c, 0x0f, 0x30, 0x33, 0x3c, 0x3f,
+                                  0xc0, 0xc3, 0xcc, 0xcf, 0xf0, 0xf3, 0xfc, 0xff};
+  const __m128i lanes = _mm_cvtsi64_si128(static_cast<long long>(chosen_lanes.of[pairs[chosen]]));
+  const __m256 together =
+      _mm256_permutevar8x32_ps(_mm256_castpd_ps(a), _mm256_cvtepu8_epi32(lanes));
+  _mm256_storeu_pd(p, _mm256_castps_pd(together));
+}
 #else
-BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
-  alignas(16) float lanes[Floats::size];
+template <class T, class Lanes>
+BOULE_INLINE void store_chosen_one_by_one(T* p, const Lanes& a, unsigned chosen) {
+  alignas(16) T lanes[Lanes::size];
   a.store_aligned(lanes);
-  for (const unsigned set : {chosen, ~chosen & ((1U << Floats::size) - 1)}) {
+  for (const unsigned set : {chosen, ~chosen & ((1U << Lanes::size) - 1)}) {
     for (unsigned left = set; left != 0; left &= left - 1) *p++ = lanes[__builtin_ctz(left)];
   }
+}
+BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+  store_chosen_one_by_one(p, a, chosen);
+}
+BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
+  store_chosen_one_by_one(p, a, chosen);
 }
 #endif
 BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest) {
@@ -270,13 +289,13 @@ BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest
 }
 #endif
 
-// Rows of four floats: lanes 4k .. 4k + 3 are the row at p[4k], or at p + 16k.
+// Rows of four floats: lanes 4k .. 4k + 3 are the row at p[4k], any address, or at p + 16k.
 #if defined(__AVX512F__)
 BOULE_INLINE Floats load_fours(const float* const* p) {
-  Floats a = _mm512_castps128_ps512(_mm_load_ps(p[0]));
-  a = _mm512_insertf32x4(a, _mm_load_ps(p[4]), 1);
-  a = _mm512_insertf32x4(a, _mm_load_ps(p[8]), 2);
-  return _mm512_insertf32x4(a, _mm_load_ps(p[12]), 3);
+  Floats a = _mm512_castps128_ps512(_mm_loadu_ps(p[0]));
+  a = _mm512_insertf32x4(a, _mm_loadu_ps(p[4]), 1);
+  a = _mm512_insertf32x4(a, _mm_loadu_ps(p[8]), 2);
+  return _mm512_insertf32x4(a, _mm_loadu_ps(p[12]), 3);
 }
 BOULE_INLINE void store_fours(float* p, Floats a) {
   _mm_store_ps(p, _mm512_castps512_ps128(a));
@@ -286,14 +305,14 @@ BOULE_INLINE void store_fours(float* p, Floats a) {
 }
 #elif defined(__AVX2__)
 BOULE_INLINE Floats load_fours(const float* const* p) {
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[0])), _mm_load_ps(p[4]), 1);
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[0])), _mm_loadu_ps(p[4]), 1);
 }
 BOULE_INLINE void store_fours(float* p, Floats a) {
   _mm_store_ps(p, _mm256_castps256_ps128(a));
   _mm_store_ps(p + 16, _mm256_extractf128_ps(a, 1));
 }
 #else
-BOULE_INLINE Floats load_fours(const float* const* p) { return Floats::load_aligned(p[0]); }
+BOULE_INLINE Floats load_fours(const float* const* p) { return Floats::load_unaligned(p[0]); }
 BOULE_INLINE void store_fours(float* p, Floats a) { a.store_aligned(p); }
 #endif
 

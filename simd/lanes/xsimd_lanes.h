@@ -53,13 +53,18 @@ BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
 BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
   gaps::store_chosen(p, a.v, chosen.m, rest.v);
 }
+BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
+  const unsigned lo = chosen & ((1U << (width / 2)) - 1);
+  gaps::store_chosen(p, a.lo, lo);
+  gaps::store_chosen(p + __builtin_popcount(lo), a.hi, chosen >> (width / 2));
+}
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {
   a.lo.store_aligned(p);
   a.hi.store_aligned(p + width / 2);
 }
 
-/// W rows of four floats, 16 bytes aligned each, as columns; row k is lane k.
+/// W rows of four floats as columns; row k is lane k.
 struct Columns {
   Real x, y, z, w;
 };
@@ -71,12 +76,12 @@ BOULE_INLINE Columns transpose(const Columns& c) {
   return {xsimd::zip_lo(xz, yw), xsimd::zip_hi(xz, yw), xsimd::zip_lo(xz_high, yw_high),
           xsimd::zip_hi(xz_high, yw_high)};
 }
-/// `rows`: one pointer for each.
+/// `rows`: one pointer for each, to any address.
 BOULE_INLINE Columns load_rows(const float* const* rows) {
   return transpose({gaps::load_fours(rows), gaps::load_fours(rows + 1), gaps::load_fours(rows + 2),
                     gaps::load_fours(rows + 3)});
 }
-/// One after the other.
+/// One after the other, 16 bytes aligned each.
 BOULE_INLINE void store_rows(float* p, const Columns& columns) {
   const Columns rows = transpose(columns);
   gaps::store_fours(p, rows.x.v);

@@ -2,7 +2,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "render/shading/surface.h"
+#include "core/surface.h"
+#include "simd/build/geometry_builder.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/cli/trace_program.h"

@@ -56,8 +56,10 @@ void any_in(const GeometryView& geometry, const RayStream& rays, const Query& qu
 }
 template <Form form>
 KernelTable kernels_in() {
-  return {forwarded->isa, forwarded->width, forwarded->primary_rays, closest_in<form>,
-          any_in<form>};
+  KernelTable kernels = *forwarded;
+  kernels.closest_hit = closest_in<form>;
+  kernels.any_hit = any_in<form>;
+  return kernels;
 }
 
 /// The pixels' bits.

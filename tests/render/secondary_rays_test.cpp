@@ -3,8 +3,8 @@
 // million surface points, ten million bounces; by default few enough for every day).
 #include <cstdio>
 
+#include "core/surface.h"
 #include "render/shading/dielectric.h"
-#include "render/shading/surface.h"
 #include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/test_size.h"

@@ -1,4 +1,4 @@
-#include "render/shading/surface.h"
+#include "core/surface.h"
 #include "render/shading/lights.h"
 
 #include <gtest/gtest.h>

@@ -12,9 +12,9 @@
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
+#include "core/surface.h"
 #include "render/integrators/views.h"
 #include "render/prepare/prepared_scene.h"
-#include "render/shading/surface.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/ray_clouds.h"

@@ -33,6 +33,7 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.counted, count_from(77));
   store_chosen(out.chosen + 1, a, bits(a < b));
   store_chosen(out.chosen_or + 1, a, a < b, Real(-1.0F));
+  store_chosen(out.wide_chosen + 1, x, bits(x < y));
   alignas(64) std::int32_t integers[width];
   for (int i = 0; i < width; ++i) integers[i] = i % 3;
   out.equal_integers = bits(equal(integers, 2));

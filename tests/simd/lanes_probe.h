@@ -24,8 +24,9 @@ struct LaneOutputs {
   alignas(64) float counted[most_lanes];  ///< bits of 77 and on
   /// The lanes where a < b of a, one after the other, from place 1 on; then -1.
   alignas(64) float chosen[most_lanes + 1], chosen_or[most_lanes + 1];
-  alignas(64) float rows[4 * most_lanes];    ///< from a, b, c and a + b, lane by lane
-  alignas(64) float columns[4][most_lanes];  ///< from these rows, the last one first
+  alignas(64) double wide_chosen[most_lanes + 1];  ///< the same of x where x < y
+  alignas(64) float rows[4 * most_lanes];          ///< from a, b, c and a + b, lane by lane
+  alignas(64) float columns[4][most_lanes];        ///< from these rows, the last one first
   unsigned less, less_equal, equal_integers, wide_less, wide_less_equal, wide_equal;
   unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, widened_mask;
   bool any_less, all_less, any_none, all_all;

@@ -192,6 +192,11 @@ TEST_P(Lanes, ChosenOneAfterTheOther) {
       ++next;
     }
     for (; next <= out.width; ++next) ASSERT_EQ(out.chosen_or[next], -1);
+    next = 1;
+    for (int k = 0; k < out.width; ++k) {
+      if (!(in.x[k] < in.y[k])) continue;
+      ASSERT_TRUE(same(out.wide_chosen[next++], in.x[k]));
+    }
   });
 }
 

@@ -1,4 +1,4 @@
-#include "render/shading/surface.h"
+#include "core/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,24 +50,41 @@ Vec3d moved_point(const Surface& surface, Side side) {
   return surface.point + n * (side == Side::viewer ? distance : -distance);
 }
 
-}  // namespace
-
-Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
-                     const Hit& hit) {
+/// What the solver found, before the primitive is known; then what follows from its normal.
+Surface arrive(const Ray& ray, const Hit& hit) {
   const Vec3d dir = vec_cast<double>(ray.dir);
   Surface surface{};
   surface.id = hit.id;
   surface.point = ray.org + dir * hit.t;
   surface.view = normalize(dir);
-  const auto i = static_cast<std::size_t>(hit.id);
-  if (i < spheres.size()) {
-    meet_sphere(surface, spheres[i], ray);
-  } else {
-    meet_plane(surface, planes[i - spheres.size()], ray);
-  }
+  return surface;
+}
+void mirror(Surface& surface) {
   surface.cosine = std::clamp(-dot(surface.normal, surface.view), 0.0, 1.0);
   surface.mirrored = surface.view + surface.normal * (2 * surface.cosine);
+}
+
+}  // namespace
+
+Surface find_surface(const Sphere& sphere, const Ray& ray, const Hit& hit) {
+  Surface surface = arrive(ray, hit);
+  meet_sphere(surface, sphere, ray);
+  mirror(surface);
   return surface;
+}
+
+Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit) {
+  Surface surface = arrive(ray, hit);
+  meet_plane(surface, plane, ray);
+  mirror(surface);
+  return surface;
+}
+
+Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
+                     const Hit& hit) {
+  const auto i = static_cast<std::size_t>(hit.id);
+  if (i < spheres.size()) return find_surface(spheres[i], ray, hit);
+  return find_surface(planes[i - spheres.size()], ray, hit);
 }
 
 Departure depart(const Surface& surface, Side side) {

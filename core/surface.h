@@ -4,12 +4,13 @@
 #include <span>
 
 #include "core/math/ray.h"
-#include "render/prepare/prepared_scene.h"
+#include "core/scene/primitive.h"
 
 namespace boule {
 
-/// Where a ray met a primitive, all in double. This file is the one place that moves a ray's
-/// origin off a surface; there is no epsilon anywhere (lecture "Shadow acne").
+/// Where a ray met a primitive, all in double. This file says how a ray's origin is moved off a
+/// surface, and simd/kernel/surfaces.h does the same W at a time; there is no epsilon anywhere
+/// (lecture "Shadow acne").
 struct Surface {
   Vec3d point;      ///< org + t dir
   Vec3d normal;     ///< geometric, unit length, turned towards the viewer
@@ -25,15 +26,13 @@ struct Surface {
 /// Which way a ray leaves a surface: back to the viewer's side, or through it.
 enum class Side { viewer, beyond };
 
-/// The surface a ray met among these primitives, by id: the spheres, then the planes. `hit` is a
-/// hit, not a miss.
+/// The surface of the primitive that a ray met. `hit` is a hit, not a miss.
+Surface find_surface(const Sphere& sphere, const Ray& ray, const Hit& hit);
+Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit);
+
+/// The same among these primitives, by id: the spheres, then the planes.
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
                      const Hit& hit);
-
-/// The same among a prepared scene's.
-inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
-  return find_surface(scene.spheres, scene.planes, ray, hit);
-}
 
 /// Where a ray starts that leaves the surface, and what tells the solver so.
 struct Departure {

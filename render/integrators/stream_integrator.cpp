@@ -1,0 +1,80 @@
+#include "render/integrators/stream_integrator.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "render/shading/lights.h"
+
+namespace boule {
+
+StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
+                                   const IntegratorSettings& settings)
+    : scene_(scene),
+      kernels_(kernels),
+      settings_(settings),
+      wavefront_(settings.stream_size),
+      surfaces_(scene, kernels),
+      geometry_(scene.geometry.view()) {}
+
+void StreamIntegrator::use_light(const Light& light) {
+  lights_.push_back({&light, place_of(light)});
+}
+
+bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
+  primary_ += camera.rays.size();
+  start(camera);
+  wavefront_.start(camera.rays);
+  while (const PathStream* stream = wavefront_.next()) {
+    if (cancelled()) return false;
+    trace_stream(*stream, stream->depth == 0 ? camera.coherence : Coherence::none);
+  }
+  wavefront_.finish(radiance);
+  return true;
+}
+
+bool StreamIntegrator::cancelled() const {
+  return settings_.cancel != nullptr && settings_.cancel->load(std::memory_order_relaxed);
+}
+
+/// Makes room by powers of two: as blocks fill up one more than the other, memory must not be taken
+/// for each.
+void StreamIntegrator::trace_stream(const PathStream& stream, Coherence coherence) {
+  const std::size_t count = stream.rays->size(), room = std::bit_ceil(count);
+  hits_.resize(room);
+  if (radiance_.size() < room) radiance_.resize(room);
+  surfaces_.resize(room);
+  illumination_.start(count);
+  make_room(room);
+  hits_.resize(count);
+  const Query query{settings_.solver, Form::automatic, coherence};
+  kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  for (std::size_t first = 0; first < count; first += Surfaces::block_size) {
+    shade({stream, first, std::min(first + Surfaces::block_size, count)});
+  }
+  for (const PlacedLight& light : lights_) add_light(light);
+  add_more_light();
+  for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
+}
+
+void StreamIntegrator::find_surfaces(const Block& block) {
+  surfaces_.find(block.stream.rays->view(), hits_.view(), block.first, block.end - block.first);
+}
+
+/// Adds one light to the radiance of the points it reaches: one stream of shadow rays.
+void StreamIntegrator::add_light(const PlacedLight& light) {
+  const RayStream rays = illumination_.aim(kernels_, light.place, surfaces_);
+  if (rays.size == 0) return;
+  const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
+  illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());
+}
+
+const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
+                                                   Coherence coherence) {
+  shadow_ += shadow_rays.size;
+  blocked_.resize(std::bit_ceil(shadow_rays.size));
+  const Query query{settings_.solver, Form::automatic, coherence};
+  kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
+  return blocked_.data();
+}
+
+}  // namespace boule

@@ -1,0 +1,63 @@
+#include "render/shading/surfaces.h"
+
+namespace boule {
+namespace {
+
+SphereRows rows_of(const std::vector<Sphere>& spheres) {
+  static_assert(sizeof(Sphere) % sizeof(float) == 0 && offsetof(Sphere, center) == 0 &&
+                offsetof(Sphere, radius) == 3 * sizeof(float));
+  if (spheres.empty()) return {nullptr, 0};
+  return {&spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const PreparedScene& scene, const KernelTable& kernels)
+    : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(rows_of(scene.spheres)) {
+  views_.resize(block_size);
+  cosines_.resize(block_size);
+  reaches_.resize(block_size);
+  inner_.resize(block_size);
+}
+
+void Surfaces::resize(std::size_t rays) {
+  for (VectorBuffer* vectors : {&points_, &normals_, &mirrored_, &orgs_}) vectors->resize(rays);
+  inside_.resize(rays);
+}
+
+void Surfaces::find(const RayStream& rays, const HitStream& hits, std::size_t first,
+                    std::size_t size) {
+  first_ = first;
+  ids_ = hits.id;
+  const SurfaceStream found{part(points_.view(), first),
+                            part(normals_.view(), first),
+                            views_.view(),
+                            part(mirrored_.view(), first),
+                            part(orgs_.view(), first),
+                            cosines_.data(),
+                            reaches_.data(),
+                            inner_.data(),
+                            inside_.data() + first};
+  kernels_.find_surfaces(geometry_, spheres_, part(rays, first, size), part(hits, first, size),
+                         found);
+}
+
+Surface Surfaces::get(std::size_t k) const {
+  const std::size_t i = first_ + k;
+  const std::int32_t id = ids_[i];
+  return {points_.get(i),
+          normals_.get(i),
+          views_.get(k),
+          mirrored_.get(i),
+          cosines_[k],
+          reaches_[k],
+          id,
+          inner_[k] != 0,
+          id < geometry_.planes.first_id};
+}
+
+LitStream Surfaces::lit(const std::uint8_t* lit, std::size_t size) {
+  return {points_.view(), normals_.view(), orgs_.view(), ids_, inside_.data(), lit, size};
+}
+
+}  // namespace boule

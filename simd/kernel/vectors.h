@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/math/vec.h"
+#include "simd/abi/shading.h"
+#include "simd/lanes/lanes.h"
+
+/// Vectors of doubles in lanes.
+namespace boule::BOULE_KERNEL_ISA {
+
+BOULE_INLINE Vec3<Wide> unit(const Vec3<Wide>& v) { return v * (Wide(1.0) / sqrt(dot(v, v))); }
+
+BOULE_INLINE void store(const VectorStream& vectors, std::size_t first, const Vec3<Wide>& v) {
+  store(vectors.x + first, v.x);
+  store(vectors.y + first, v.y);
+  store(vectors.z + first, v.z);
+}
+BOULE_INLINE Vec3<Wide> load(const VectorStream& vectors, std::size_t first) {
+  return {load(vectors.x + first), load(vectors.y + first), load(vectors.z + first)};
+}
+BOULE_INLINE void store_chosen(const VectorStream& vectors, std::size_t first, const Vec3<Wide>& v,
+                               unsigned chosen) {
+  store_chosen(vectors.x + first, v.x, chosen);
+  store_chosen(vectors.y + first, v.y, chosen);
+  store_chosen(vectors.z + first, v.z, chosen);
+}
+
+BOULE_INLINE Vec3<Wide> select(const WideMask& m, const Vec3<Wide>& a, const Vec3<Wide>& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,149 @@
+// Hit points, normals and shadow rays of every kernel table against the scalar path, bit for bit.
+#include <bit>
+#include <optional>
+
+#include "core/surface.h"
+#include "tests/support/hard_case_runs.h"
+
+namespace boule::test {
+namespace {
+
+constexpr std::size_t ray_count = 517;  // the last packet is not whole
+
+/// Memory for a SurfaceStream.
+struct SurfaceArrays {
+  VectorBuffer point, normal, view, mirrored, org;
+  AlignedArray<double> cosine{ray_count}, reach{ray_count};
+  AlignedArray<std::uint8_t> inner{ray_count, 7}, inside{ray_count, 7};
+
+  SurfaceArrays() {
+    for (VectorBuffer* vectors : {&point, &normal, &view, &mirrored, &org}) {
+      vectors->resize(ray_count);
+    }
+  }
+  SurfaceStream stream() {
+    return {point.view(),  normal.view(), view.view(),  mirrored.view(), org.view(),
+            cosine.data(), reach.data(),  inner.data(), inside.data()};
+  }
+};
+
+/// Memory for an AimedStream.
+struct AimedArrays {
+  RayBuffer rays{ray_count};
+  VectorBuffer to_light;
+  AlignedArray<double> cosine{ray_count};
+  AlignedArray<std::uint32_t> point{ray_count};
+
+  AimedArrays() { to_light.resize(ray_count); }
+  AimedStream stream() { return {rays.view(), to_light.view(), cosine.data(), point.data()}; }
+};
+
+/// Equal bits, or NaN both.
+void expect_same(double a, double b) {
+  if (a != a && b != b) return;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;
+}
+void expect_same(const Vec3d& a, const Vec3d& b) {
+  expect_same(a.x, b.x);
+  expect_same(a.y, b.y);
+  expect_same(a.z, b.z);
+}
+void expect_same(const Ray& a, const Ray& b) {
+  expect_same(a.org, b.org);
+  EXPECT_EQ(a.dir, b.dir);
+  EXPECT_EQ(a.tmin, b.tmin);
+  EXPECT_EQ(a.tmax, b.tmax);
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.inside, b.inside);
+}
+
+/// A hard case's surfaces, and what any table needs to find them.
+class SurfacesOfHardCases : public OnEachHardCase {
+ protected:
+  void SetUp() override {
+    OnEachHardCase::SetUp();
+    if (IsSkipped()) return;
+    hard_case = make_hard_case(GetParam().spec, 61, ray_count);
+    // Rays that begin elsewhere than at their origin, and rays that leave what they meet.
+    for (std::size_t k = 0; k < ray_count; k += 5) hard_case.rays[k].tmin = -1e30F;
+    geometry.emplace(hard_case.spheres, hard_case.planes);
+    rays = to_stream(hard_case.rays);
+    hits.resize(ray_count);
+    reference_kernels().closest_hit(geometry->view(), rays.view(), {}, hits.view());
+    for (std::size_t k = 0; k < ray_count; k += 7) rays.view().source[k] = hits.get(k).id;
+    if (!hard_case.spheres.empty()) {
+      rows = {&hard_case.spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
+    }
+  }
+
+  void find(const KernelTable& table, SurfaceArrays& found) {
+    table.find_surfaces(geometry->view(), rows, rays.view(), hits.view(), found.stream());
+  }
+
+  HardCase hard_case;
+  std::optional<Geometry> geometry;
+  RayBuffer rays;
+  HitBuffer hits;
+  SphereRows rows{nullptr, 0};
+};
+
+TEST_P(SurfacesOfHardCases, EqualTheScalarPath) {
+  SurfaceArrays wide;
+  find(*kernels, wide);
+  std::size_t met = 0;
+  for (std::size_t k = 0; k < ray_count && !HasFailure(); ++k) {
+    const Hit hit = hits.get(k);
+    if (hit.id == no_primitive) continue;
+    ++met;
+    SCOPED_TRACE(k);
+    const Surface surface = find_surface(hard_case.spheres, hard_case.planes, rays.get(k), hit);
+    const Departure departure = depart(surface, Side::viewer);
+    expect_same(wide.point.get(k), surface.point);
+    expect_same(wide.normal.get(k), surface.normal);
+    expect_same(wide.view.get(k), surface.view);
+    expect_same(wide.mirrored.get(k), surface.mirrored);
+    expect_same(wide.org.get(k), departure.org);
+    expect_same(wide.cosine[k], surface.cosine);
+    expect_same(wide.reach[k], surface.reach);
+    EXPECT_EQ(wide.inner[k] != 0, surface.inner);
+    EXPECT_EQ(wide.inside[k] != 0, departure.inside);
+  }
+  EXPECT_GT(met, ray_count / 10);
+}
+
+TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
+  SurfaceArrays surfaces;
+  find(reference_kernels(), surfaces);
+  AlignedArray<std::uint8_t> lit(ray_count, 0);
+  for (std::size_t k = 0; k < ray_count; ++k) {
+    lit[k] = hits.get(k).id != no_primitive && k % 3 != 0 && (k < 100 || k > 140) ? 1 : 0;
+  }
+  const LitStream points{surfaces.point.view(),
+                         surfaces.normal.view(),
+                         surfaces.org.view(),
+                         hits.view().id,
+                         surfaces.inside.data(),
+                         lit.data(),
+                         ray_count};
+  const Vec3d eye = hard_case.rays[0].org;
+  for (const LightPlace& light :
+       {LightPlace{false, {eye.x, eye.y, eye.z}, {}}, LightPlace{false, {3, 70, -20}, {}},
+        LightPlace{true, {0.6, 0, -0.8}, {6, 0, -8}}}) {
+    AimedArrays wide, scalar;
+    const std::size_t count = kernels->aim(light, points, wide.stream());
+    ASSERT_EQ(reference_kernels().aim(light, points, scalar.stream()), count);
+    for (std::size_t k = 0; k < count && !HasFailure(); ++k) {
+      SCOPED_TRACE(k);
+      expect_same(wide.rays.get(k), scalar.rays.get(k));
+      expect_same(wide.to_light.get(k), scalar.to_light.get(k));
+      expect_same(wide.cosine[k], scalar.cosine[k]);
+      EXPECT_EQ(wide.point[k], scalar.point[k]);
+      EXPECT_EQ(lit[wide.point[k]], 1);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, SurfacesOfHardCases, each_hard_case(), hard_case_name);
+
+}  // namespace
+}  // namespace boule::test
