@@ -59,7 +59,8 @@ report() {
   cmake --preset release -G Ninja -B build/bench -DBOULE_BENCH=ON -DBOULE_TESTS=OFF
   cmake --build build/bench --target report
   SOURCE_DATE_EPOCH="$(git log -1 --format=%ct)" build/bench/bin/report -o report.html \
-    --chart bench/report/speed_against_error.svg --readme README.md
+    --chart bench/report/speed_against_error.svg \
+    --path-chart bench/report/error_at_equal_time.svg --readme README.md
   echo "bootstrap: the page is $PWD/report.html, its figures are report.json"
 }
 

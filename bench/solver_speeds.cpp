@@ -1,7 +1,5 @@
 #include "bench/solver_speeds.h"
 
-#include <ctime>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +10,7 @@
 #include "bench/bench_scenes.h"
 #include "bench/book_arrays.h"
 #include "bench/camera_rays.h"
+#include "bench/thread_seconds.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -105,20 +104,13 @@ std::vector<Contender> make_contenders(Arena& arena) {
   return all;
 }
 
-/// Seconds that this thread has computed.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// One repetition more for everybody, beginning with another one each time.
 void take_turns(std::vector<Contender>& contenders, std::size_t turn, std::size_t rays) {
   for (std::size_t k = 0; k < contenders.size(); ++k) {
     Contender& contender = contenders[(turn + k) % contenders.size()];
-    const double begin = cpu_seconds();
+    const double begin = thread_seconds();
     contender.run();
-    const double seconds = cpu_seconds() - begin;
+    const double seconds = thread_seconds() - begin;
     contender.mrays_per_s.push_back(1e-6 * static_cast<double>(rays) / seconds);
   }
 }

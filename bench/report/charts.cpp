@@ -87,6 +87,16 @@ void add_growth(const Figures& figures, const Lines& lines, const KeyOf& key_of,
   add_isas(figures.growth, chart.legend);
 }
 
+Series path_series(const char* name, Look look, const std::vector<PathError>& errors) {
+  Series series{name, look, true, {}};
+  for (const PathError& e : errors) {
+    series.points.push_back({e.seconds, e.error,
+                             fmt::format("{}, {} samples a pixel: error {:.3g} after {:.3g} s",
+                                         name, e.samples, e.error, e.seconds)});
+  }
+  return series;
+}
+
 }  // namespace
 
 std::string solver_name(const std::string& solver) {
@@ -210,6 +220,18 @@ Chart secondary_chart(const Figures& figures) {
   add_growth(
       figures, secondary_kinds, [](const Growth& growth) { return growth.rays; }, chart);
   return chart;
+}
+
+Chart path_error_chart(const ScenePathErrors& scene) {
+  constexpr Look ours{8, 0}, theirs{1, 1};
+  constexpr const char* our_name = "scrambled Sobol (ours)";
+  constexpr const char* their_name = "plain random numbers";
+  return {"Error of path tracing over time, " + scene.scene,
+          {"seconds, one thread", true},
+          {"RMS error of the radiance", true},
+          {path_series(our_name, ours, scene.errors.sequence),
+           path_series(their_name, theirs, scene.errors.random)},
+          {{our_name, ours}, {their_name, theirs}}};
 }
 
 }  // namespace boule::bench

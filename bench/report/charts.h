@@ -32,6 +32,9 @@ Chart growth_chart(const Figures& figures);
 /// The same of rays that leave what the camera sees, by kind.
 Chart secondary_chart(const Figures& figures);
 
+/// Error over time, ours beside random samples.
+Chart path_error_chart(const ScenePathErrors& scene);
+
 /// How solvers are called and drawn.
 std::string solver_name(const std::string& solver);
 Look solver_look(const std::string& solver, const std::string& isa);

@@ -7,6 +7,7 @@
 
 #include "bench/epsilons.h"
 #include "bench/hard_errors.h"
+#include "bench/path_errors.h"
 #include "bench/report/error_map.h"
 #include "bench/report/growth.h"
 #include "bench/report/peer_rows.h"
@@ -35,6 +36,12 @@ struct CaseErrors {
   HardErrors errors;
 };
 
+/// A scene of the gallery, path-traced.
+struct ScenePathErrors {
+  std::string scene;
+  PathErrors errors;
+};
+
 /// All that the report shows.
 struct Figures {
   ReportSettings settings;
@@ -46,6 +53,7 @@ struct Figures {
   std::vector<EpsilonFigure> epsilons;
   std::vector<EpsilonPicture> pictures;
   std::vector<Growth> growth;
+  std::vector<ScenePathErrors> paths;
   std::optional<PeerRows> peers;  ///< none without Embree
 };
 
@@ -67,5 +75,8 @@ std::optional<std::string> with_tables(const std::string& readme, Figures& figur
 
 /// The main scene's chart by itself, as SVG.
 std::string main_chart(Figures& figures);
+
+/// Likewise the first chart of path tracing.
+std::string path_chart(const Figures& figures);
 
 }  // namespace boule::bench

@@ -1,12 +1,11 @@
 #include "bench/report/growth.h"
 
-#include <ctime>
-
 #include <algorithm>
 
 #include "bench/bench_scenes.h"
 #include "bench/camera_rays.h"
 #include "bench/ray_kinds.h"
+#include "bench/thread_seconds.h"
 #include "simd/build/geometry_builder.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -39,12 +38,6 @@ std::vector<Way> all_ways(RayKind kind) {
     }
   }
   return ways;
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Room for all answers.

@@ -60,6 +60,10 @@ Json to_json(const Growth& g) {
           {"ns_per_ray", g.ns},   {"min", g.least}, {"max", g.most}};
 }
 
+Json to_json(const PathError& e) {
+  return {{"samples", e.samples}, {"seconds", e.seconds}, {"rms_error", e.error}};
+}
+
 Json to_json(const PeerRow& r) {
   return {{"scene", r.scene},
           {"rays", r.rays},
@@ -73,11 +77,18 @@ Json to_json(const PeerRow& r) {
           {"mismatches", r.mismatches}};
 }
 
+Json to_json(ScenePathErrors& s);
+
 template <class T>
 Json list(std::vector<T>& values) {
   Json all = Json::array();
   for (T& value : values) all.push_back(to_json(value));
   return all;
+}
+
+Json to_json(ScenePathErrors& s) {
+  return {
+      {"scene", s.scene}, {"sequence", list(s.errors.sequence)}, {"random", list(s.errors.random)}};
 }
 
 }  // namespace
@@ -89,6 +100,7 @@ std::string to_json(Figures& figures) {
                  {"error_map", {{"isa", figures.widest}, {"cells", list(figures.map.cells)}}},
                  {"epsilons", list(figures.epsilons)},
                  {"growth", list(figures.growth)},
+                 {"path_errors", list(figures.paths)},
                  {"embree", nullptr}};
   if (figures.peers)
     report["embree"] = {{"version", figures.peers->embree}, {"rows", list(figures.peers->rows)}};

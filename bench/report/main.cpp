@@ -1,6 +1,7 @@
 // Speed against error: measures, and writes one page that shows it.
 //
-//   report [--quick] -o report.html [--chart chart.svg] [--readme README.md]
+//   report [--quick] -o report.html [--chart chart.svg] [--path-chart chart.svg]
+//          [--readme README.md]
 //
 // Beside the page come its figures, report.json. A README gets its tables anew. Exit code 1: a
 // robust solver was wrong, or a file could not be written; 2: bad arguments.
@@ -17,7 +18,7 @@ namespace {
 
 struct Arguments {
   ReportSettings settings;
-  std::string page, chart, readme;
+  std::string page, chart, path_chart, readme;
 };
 
 /// All or nothing: under another name first.
@@ -65,6 +66,8 @@ int run(const Arguments& arguments) {
   bool written = write_file(json, to_json(figures)) && write_file(page, to_html(figures));
   if (!arguments.chart.empty())
     written = written && write_file(arguments.chart, main_chart(figures));
+  if (!arguments.path_chart.empty())
+    written = written && write_file(arguments.path_chart, path_chart(figures));
   if (!arguments.readme.empty()) written = written && update_readme(arguments.readme, figures);
   return written && robust_is_right(figures) ? 0 : 1;
 }
@@ -79,6 +82,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", arguments.page, "The page, .html; figures go beside it, .json")
       ->required();
   app.add_option("--chart", arguments.chart, "The first chart by itself, .svg");
+  app.add_option("--path-chart", arguments.path_chart, "That of path tracing by itself, .svg");
   app.add_option("--readme", arguments.readme, "A text whose tables are brought up to date")
       ->check(CLI::ExistingFile);
   try {

@@ -59,6 +59,21 @@ std::vector<CaseErrors> measure_cases(std::size_t rays) {
   return cases;
 }
 
+/// Of scenes that shipped with this source; those that cannot be loaded are said and left out.
+std::vector<ScenePathErrors> measure_paths(int reference) {
+  std::vector<ScenePathErrors> all;
+  for (const char* name : {"soft_light", "daylight"}) {
+    const auto scene = load_path_scene(std::string(BOULE_SCENES "/") + name + ".toml");
+    if (!scene) {
+      std::fprintf(stderr, "report: %s\n", format_diagnostic(scene.error()).c_str());
+      continue;
+    }
+    const KernelTable& kernels = *select_kernels("auto").value();
+    all.push_back({name, measure_path_errors(scene.value(), kernels, reference)});
+  }
+  return all;
+}
+
 void say(const char* what) { std::fprintf(stderr, "report: %s\n", what); }
 
 }  // namespace
@@ -83,6 +98,8 @@ Figures measure(const ReportSettings& settings, const std::string& command) {
   figures.pictures = draw_epsilon_pictures(scene_on_ground(1e4), 320, 240);
   say("growth");
   figures.growth = measure_growth(quick ? 5 : 6, quick ? 256 : 512, quick ? 3 : 7);
+  say("path tracing");
+  figures.paths = measure_paths(quick ? 512 : 8192);
   say("Embree");
   figures.peers = measure_peers(quick);
   return figures;

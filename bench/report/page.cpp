@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "bench/report/charts.h"
@@ -185,6 +186,39 @@ std::string epsilon_section(const Figures& figures) {
   return html + epsilon_pictures(figures);
 }
 
+/// The error of random samples after so many seconds: between two measured points along a line of
+/// logarithms, beyond the last one as 1 / sqrt(time).
+double error_after(double seconds, const std::vector<PathError>& errors) {
+  const auto after = std::find_if(errors.begin(), errors.end(),
+                                  [&](const PathError& e) { return e.seconds >= seconds; });
+  if (after == errors.begin()) return after->error;
+  const PathError& before = *(after - 1);
+  const double share = std::log(seconds / before.seconds);
+  if (after == errors.end()) return before.error * std::exp(-share / 2);
+  const double slope =
+      std::log(after->error / before.error) / std::log(after->seconds / before.seconds);
+  return before.error * std::exp(share * slope);
+}
+
+std::string path_section(const Figures& figures) {
+  std::string html = paragraph(fmt::format(
+      "Pictures of {} x {} pixels with 1, 2, 4, ... samples each, against one of eight times as "
+      "many as the last. The samples of a pixel are points of one scrambled sequence, or each is "
+      "drawn by itself, as random numbers are; all else is the same code, and so is its cost.",
+      PathPicture::width, PathPicture::height));
+  Table table({"scene", "seconds", "error, Sobol", "error, random", "ratio", "random takes"});
+  for (const ScenePathErrors& scene : figures.paths) {
+    html += figure(path_error_chart(scene));
+    const PathError& last = scene.errors.sequence.back();
+    const double random = error_after(last.seconds, scene.errors.random);
+    const double ratio = random / last.error;
+    table.add({scene.scene, fmt::format("{:.3g}", last.seconds), fmt::format("{:.3g}", last.error),
+               fmt::format("{:.3g}", random), fmt::format("{:.2f}", ratio),
+               fmt::format("{:.1f} times as long", ratio * ratio)});
+  }
+  return html + table.html();
+}
+
 }  // namespace
 
 std::string to_html(Figures& figures) {
@@ -205,6 +239,7 @@ std::string to_html(Figures& figures) {
                   case_table(figures) + sum_table(figures));
   html += section("Shadows without an epsilon", epsilon_section(figures));
   html += section("Growth", figure(growth_chart(figures)) + figure(secondary_chart(figures)));
+  html += section("Path tracing: error at equal time", path_section(figures));
   html += section("Embree", peer_section(figures));
   return html + page_end();
 }
@@ -216,6 +251,10 @@ std::string main_scene(const Figures& figures) {
 
 std::string main_chart(Figures& figures) {
   return draw_alone(speed_chart(figures, main_scene(figures), "bvh"));
+}
+
+std::string path_chart(const Figures& figures) {
+  return figures.paths.empty() ? "" : draw_alone(path_error_chart(figures.paths.front()));
 }
 
 }  // namespace boule::bench
