@@ -36,7 +36,8 @@ class ReadmeFolder {
  public:
   ReadmeFolder() {
     write("cloud.npy", two_centers());
-    for (const char* name : {"sphereflake.npy", "barrel.exr", "double_gauss_50mm.lens"}) {
+    for (const char* name :
+         {"sphereflake.npy", "barrel.exr", "sky.exr", "double_gauss_50mm.lens"}) {
       write(name, read_bytes(scenes_folder() / name));
     }
   }
@@ -95,8 +96,10 @@ TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
                             "[camera]\ntype='lens'",
                             "[background]",
                             "[background]\ntype='gradient'",
+                            "[background]\ntype='environment'",
                             "[[light]]",
                             "[[light]]\ntype='directional'",
+                            "[[light]]\ntype='sphere'",
                             "[material.a]",
                             "[material.a]\ntype='plastic'",
                             "[material.a]\ntype='metal'",
