@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct LensSurface {
   float index = 1;     ///< of refraction up to the next surface, > 0
   float aperture = 0;  ///< diameter, > 0
 };
+
+/// How wide each surface is at least, beside the last one: exit pupils are measured in steps.
+inline constexpr double least_width = 1.0 / 500;
 
 /// A lens of real elements before a film (Kolb, Mitchell, Hanrahan, "A realistic camera model for
 /// computer graphics", SIGGRAPH 1995). The eye is the middle of its first surface; the film moves
@@ -34,5 +38,14 @@ double focal_length(const std::vector<LensSurface>& surfaces);
 /// How far behind the last surface the rays close to the axis meet again that come from a point at
 /// `distance` before the first one; inf: at infinity. Not above 0: nowhere behind it.
 double image_distance(const std::vector<LensSurface>& surfaces, double distance);
+
+/// The number of a lens' stop: its only flat surface between equal media. None where there is none,
+/// or more than one.
+std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces);
+
+/// How wide a stop is at an f-number: N = f / D, D the diameter of the beam along the axis that
+/// passes it. A ray close to the axis that comes in parallel at the height 1 passes the stop at y,
+/// so its diameter is |y| f / N. It goes the other way as well: from a diameter to N.
+double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number);
 
 }  // namespace boule

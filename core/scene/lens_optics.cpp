@@ -16,7 +16,7 @@ struct ParaxialRay {
 
 /// Through all surfaces, up to the last one: at each the ray bends by its height times the power
 /// (n' - n) / R (Smith, "Modern Lens Design", 1992, "y-nu ray trace").
-ParaxialRay trace_paraxial(const std::vector<LensSurface>& surfaces, ParaxialRay ray) {
+ParaxialRay trace_paraxial(std::span<const LensSurface> surfaces, ParaxialRay ray) {
   double index = 1;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const LensSurface& surface = surfaces[i];
@@ -112,6 +112,24 @@ double focal_length(const std::vector<LensSurface>& surfaces) {
 double image_distance(const std::vector<LensSurface>& surfaces, double distance) {
   const ParaxialRay out = trace_paraxial(surfaces, {1, 1 / distance});
   return -out.height / out.slope * double{surfaces.back().index};
+}
+
+std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces) {
+  std::optional<std::size_t> stop;
+  float index = 1;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const bool bends = surfaces[i].radius != 0 || surfaces[i].index != index;
+    index = surfaces[i].index;
+    if (bends) continue;
+    if (stop) return std::nullopt;
+    stop = i;
+  }
+  return stop;
+}
+
+double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number) {
+  const std::span<const LensSurface> before(surfaces.data(), stop + 1);
+  return std::fabs(trace_paraxial(before, {1, 0}).height) * focal_length(surfaces) / f_number;
 }
 
 bool trace_lens(std::span<const LensElement> elements, Vec3d& org, Vec3d& dir) {

@@ -106,11 +106,12 @@ struct CameraProblem {
                           .require("file", !c.surfaces.empty(), "must have surfaces");
     if (c.focus) checker.positive("focus", *c.focus);
     for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
+      const std::string place = "surface " + std::to_string(i + 1) + ": its ";
       const auto bad = LensProblem{}(c.surfaces[i]);
-      checker.require(
-          "file", !bad,
-          bad ? "surface " + std::to_string(i + 1) + ": its " + bad->field + " " + bad->message
-              : "");
+      checker.require("file", !bad, bad ? place + bad->field + " " + bad->message : "");
+      const double width = c.surfaces[i].aperture, last = c.surfaces.back().aperture;
+      checker.require("file", !(width < least_width * last),
+                      place + "aperture is less than a 500th of the last one's");
     }
     if (checker.problem()) return checker.problem();
     const double focal = focal_length(c.surfaces);
@@ -278,9 +279,10 @@ std::optional<Problem> find_problem(const Background& background) {
                        image->pixels.size() == static_cast<std::size_t>(image->width) *
                                                    static_cast<std::size_t>(image->height);
     checker.require("file", whole, "must have width x height pixels, 1 or more");
+    const auto good = [](float x) { return std::isfinite(x) && x >= 0; };
     for (const Color& c : image->pixels) {
-      const bool good = std::isfinite(c.r + c.g + c.b) && c.r >= 0 && c.g >= 0 && c.b >= 0;
-      if (!good) return Problem{"file", "must have finite numbers of 0 or above only"};
+      if (good(c.r) && good(c.g) && good(c.b)) continue;
+      return Problem{"file", "must have finite numbers of 0 or above only"};
     }
     return checker.problem();
   }

@@ -1,5 +1,6 @@
 #include "render/scene_file/toml_camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -91,13 +92,32 @@ void read_keys(TomlTable& table, ThinLensCamera& camera) {
   read_aperture(table, camera.aperture);
 }
 
+/// Narrows the stop, where there is a key for it.
+void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
+  if (!table.has("f_number") || find_problem(Camera{camera})) return;
+  const auto stop = find_stop(camera.surfaces);
+  if (!stop) return table.report("f_number", "the lens must have one stop, flat and in one medium");
+  LensSurface& surface = camera.surfaces[*stop];
+  const double open = stop_diameter(camera.surfaces, *stop, double{surface.aperture});
+  const double least = least_width * double{camera.surfaces.back().aperture};
+  const double closed = std::max(stop_diameter(camera.surfaces, *stop, least), open);
+  if (!(double{f_number} >= open && double{f_number} <= closed)) {
+    return table.report("f_number", "this lens has " + std::to_string(open) + " wide open to " +
+                                        std::to_string(closed));
+  }
+  surface.aperture = static_cast<float>(stop_diameter(camera.surfaces, *stop, double{f_number}));
+}
+
 void read_keys(TomlTable& table, LensCamera& camera) {
   std::string name;
+  float f_number = 1;
   table.read_file_name("file", name);
+  table.read("f_number", f_number);
   table.read("film_width", camera.film_width);
   table.read("scale", camera.scale);
   read_focus(table, camera);
   table.finish({"eye", "look_at", "file"});
+  require_positive(table, "f_number", f_number);
   if (!table.ok()) return;
   auto surfaces = read_lens(table.file_path(name));
   if (!surfaces) {
@@ -106,6 +126,7 @@ void read_keys(TomlTable& table, LensCamera& camera) {
     return table.report("file", quote(name) + ": " + line + error.message);
   }
   camera.surfaces = std::move(surfaces).value();
+  stop_down(table, f_number, camera);
 }
 
 /// The picture's red and green.

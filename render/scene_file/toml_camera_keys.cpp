@@ -64,7 +64,7 @@ class CameraKeys {
                                 ", the frame of the key before, is " + std::to_string(frame));
     }
     motion_.frames.push_back(frame);
-    if (!any) table.report("eye", "missing key 'eye', 'look_at' or 'fov'");
+    if (!any) table.report("eye", "missing key 'eye', 'look_at', 'fov', 'aperture' or 'focus'");
   }
 
   TomlTable camera_;
@@ -92,15 +92,21 @@ void move(Vec3f& point, const CameraTrack& track, double frame) {
   point = {number_at(track, 0, frame), number_at(track, 1, frame), number_at(track, 2, frame)};
 }
 
+void move(float& number, const CameraTrack& track, double frame) {
+  if (!track.places.empty()) number = number_at(track, 0, frame);
+}
+
 /// What is wrong with a camera at a frame; `sharp` is the point that it keeps in focus.
 std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame, Camera camera,
                                        const std::optional<Vec3f>& sharp) {
-  const CameraTrack &eye = motion.tracks[0], &look_at = motion.tracks[1], &fov = motion.tracks[2];
+  const auto& [eye, look_at, fov, aperture, focus] = motion.tracks;
   const auto move_it = [&](auto& kind) {
     move(kind.pose.eye, eye, frame);
     move(kind.pose.look_at, look_at, frame);
-    if constexpr (requires { kind.fov; }) {
-      if (!fov.places.empty()) kind.fov = number_at(fov, 0, frame);
+    if constexpr (requires { kind.fov; }) move(kind.fov, fov, frame);
+    if constexpr (requires { kind.aperture; }) move(kind.aperture, aperture, frame);
+    if constexpr (requires { kind.focus; }) {
+      if (!focus.places.empty()) move(kind.focus.emplace(), focus, frame);
     }
   };
   std::visit(move_it, camera);
@@ -111,10 +117,12 @@ std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame,
   return Problem{"focus", "must lie in front of the camera"};
 }
 
-/// A camera that is wrong where this one is: its elements do not move, nor are they copied.
-Camera without_elements(const Camera& camera) {
+/// A camera that is wrong where this one is: while its focus stands, its elements need not be
+/// looked at again, nor copied.
+Camera without_elements(const Camera& camera, const CameraMotion& motion) {
   const auto* lens = std::get_if<LensCamera>(&camera);
-  return lens != nullptr ? PinholeCamera{lens->pose} : camera;
+  const bool stands = motion.tracks.back().places.empty();
+  return lens != nullptr && stands ? PinholeCamera{lens->pose} : camera;
 }
 
 }  // namespace
@@ -139,7 +147,7 @@ std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<i
 void check_camera_keys(const CameraMotion& motion, const Camera& camera, TomlTable& table) {
   std::optional<Vec3f> sharp;
   if (table.has_array("focus")) table.read("focus", sharp.emplace());
-  const Camera light = without_elements(camera);
+  const Camera light = without_elements(camera, motion);
   for (const int frame : motion.frames) {
     const auto problem = find_problem_at(motion, frame, light, sharp);
     if (!problem) continue;

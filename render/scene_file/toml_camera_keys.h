@@ -25,12 +25,13 @@ struct CameraTrack {
 /// What the tables [[camera.key]] of a scene file say.
 struct CameraMotion {
   std::vector<int> frames{};  ///< of the keys
-  std::array<CameraTrack, 3> tracks{CameraTrack{"eye", 3}, CameraTrack{"look_at", 3},
-                                    CameraTrack{"fov", 1}};
+  std::array<CameraTrack, 5> tracks{CameraTrack{"eye", 3}, CameraTrack{"look_at", 3},
+                                    CameraTrack{"fov", 1}, CameraTrack{"aperture", 1},
+                                    CameraTrack{"focus", 1}};
 };
 
-/// Puts eye, look_at and fov of one frame in place of the tables [[camera.key]] of a scene file:
-/// what reads [camera] afterwards sees a camera that stands still. Each of the three follows the
+/// Puts what moves, as it is in one frame, in place of the tables [[camera.key]] of a scene file:
+/// what reads [camera] afterwards sees a camera that stands still. Each quantity follows the
 /// keys that name it, component by component (monotone_cubic()), in double. No frame: that of the
 /// first key. `root` holds the members of the whole file. Nothing if it has no such tables.
 std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,

@@ -38,6 +38,10 @@ OrthographicCamera& orthographic(Scene& scene) {
 GradientBackground& gradient(Scene& scene) {
   return std::get<GradientBackground>(scene.background);
 }
+EnvironmentBackground& environment(Scene& scene) {
+  scene.background = EnvironmentBackground{3, 2, std::vector<Color>(6, {1, 1, 1}), 0};
+  return std::get<EnvironmentBackground>(scene.background);
+}
 template <class M>
 M& material(Scene& scene) {
   for (NamedMaterial& named : scene.materials) {
@@ -193,6 +197,8 @@ const Breakage lenses[] = {
      [](Scene& s) { lens(s).surfaces[0].aperture = 0; }},
     {"TooWide", "camera.file", "surface 1: its aperture is wider than its sphere",
      [](Scene& s) { lens(s).surfaces[0].aperture = 101; }},
+    {"TooNarrow", "camera.file", "surface 2: its aperture is less than a 500th of the last one's",
+     [](Scene& s) { lens(s).surfaces[1].aperture = 0.039f; }},
     {"Diverging", "camera.file", "must gather light",
      [](Scene& s) {
        lens(s).surfaces = {{-50, 5, 1.5f, 20}, {50, 0, 1, 20}};
@@ -205,6 +211,36 @@ INSTANTIATE_TEST_SUITE_P(Lens, ValidateRefuses, testing::ValuesIn(lenses), name_
 INSTANTIATE_TEST_SUITE_P(RoundCameras, ValidateRefuses, testing::ValuesIn(round_cameras), name_of);
 
 INSTANTIATE_TEST_SUITE_P(Camera, ValidateRefuses, testing::ValuesIn(camera), name_of);
+
+TEST(Validate, AcceptsAnEnvironment) {
+  Scene scene = full_scene();
+  environment(scene).pixels[2] = {3e38f, 3e38f, 3e38f};
+  EXPECT_FALSE(validate(scene));
+}
+
+const Breakage environments[] = {
+    {"NoColumns", "background.file", "width x height pixels",
+     [](Scene& s) { environment(s).width = 0; }},
+    {"NegativeRows", "background.file", "width x height pixels",
+     [](Scene& s) { environment(s).height = -2; }},
+    {"BothNegative", "background.file", "width x height pixels",
+     [](Scene& s) {
+       environment(s).width = -3;
+       environment(s).height = -2;
+     }},
+    {"TooFew", "background.file", "width x height pixels",
+     [](Scene& s) { environment(s).pixels.pop_back(); }},
+    {"Negative", "background.file", "finite numbers of 0 or above",
+     [](Scene& s) { environment(s).pixels[5].b = -1; }},
+    {"NaN", "background.file", "finite numbers of 0 or above",
+     [](Scene& s) { environment(s).pixels[0].r = nan; }},
+    {"Infinite", "background.file", "finite numbers of 0 or above",
+     [](Scene& s) { environment(s).pixels[3].g = inf; }},
+    {"Rotation", "background.rotation", finite, [](Scene& s) { environment(s).rotation = nan; }},
+    {"RotationInfinite", "background.rotation", finite,
+     [](Scene& s) { environment(s).rotation = -inf; }},
+};
+INSTANTIATE_TEST_SUITE_P(Environment, ValidateRefuses, testing::ValuesIn(environments), name_of);
 
 const Breakage surroundings[] = {
     {"ConstantNegative", "background.color", not_negative,

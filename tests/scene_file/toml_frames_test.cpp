@@ -61,6 +61,136 @@ TEST(CameraKeys, EachQuantityFollowsTheKeysThatNameIt) {
   }
 }
 
+/// The camera of `keys` at each frame from 0 to 30, keys at 5, 10 and 25.
+template <class Kind>
+std::vector<Kind> cameras(const std::string& keys) {
+  const SceneFiles files;
+  static_cast<void>(files.write("one.lens", "50 5 1.5 20\n-50 2 1 20\n0 0 1 8\n"));
+  std::vector<Kind> all;
+  for (int frame = 0; frame <= 30; ++frame) {
+    const auto loaded =
+        files.load("scene.toml", "schema = 1\n[camera]\n" + keys, {PolygonPolicy::plane, frame});
+    if (!loaded) throw std::runtime_error(format_diagnostic(loaded.error()));
+    all.push_back(std::get<Kind>(*loaded.value().scene.camera));
+  }
+  return all;
+}
+
+/// A quantity with these values at the keys.
+class Course {
+ public:
+  Course(float a, float b, float c) : values_{{5, a}, {10, b}, {25, c}} {}
+  [[nodiscard]] float at(std::size_t frame) const {
+    return static_cast<float>(monotone_cubic(values_, static_cast<double>(frame)));
+  }
+
+ private:
+  std::vector<TimedValue> values_;
+};
+
+TEST(CameraKeys, MoveAThinLensAndItsFocus) {
+  const auto all = cameras<ThinLensCamera>(R"(type = "thin_lens"
+up = [0, 1, 0.5]
+fov_axis = "max"
+key = [
+  {frame = 5, eye = [0, 1, 9], look_at = [0, 0, 0], fov = 40, aperture = 0.25, focus = 9},
+  {frame = 10, eye = [2, 1, 9], look_at = [0, 1, 0], fov = 50, aperture = 0, focus = 3},
+  {frame = 25, eye = [3, 1, 4], look_at = [0, 1, -1], fov = 30, aperture = 0.5, focus = 4},
+])");
+  const Course x{0, 2, 3}, z{9, 9, 4}, y{0, 1, 1}, far{0, 0, -1}, fov{40, 50, 30};
+  const Course aperture{0.25f, 0, 0.5f}, focus{9, 3, 4};
+  for (std::size_t frame = 0; frame < all.size(); ++frame) {
+    const ThinLensCamera& camera = all[frame];
+    EXPECT_EQ(camera.pose.eye, (Vec3f{x.at(frame), 1, z.at(frame)})) << frame;
+    EXPECT_EQ(camera.pose.look_at, (Vec3f{0, y.at(frame), far.at(frame)})) << frame;
+    EXPECT_EQ(camera.fov, fov.at(frame));
+    EXPECT_EQ(camera.aperture, aperture.at(frame));
+    EXPECT_EQ(camera.focus, focus.at(frame));
+    EXPECT_EQ(camera.pose.up, (Vec3f{0, 1, 0.5f}));
+    EXPECT_EQ(camera.fov_axis, FovAxis::max);
+    if (frame == 0) continue;
+    // Smooth: no step beyond what a curve through these keys may take in one frame.
+    EXPECT_LT(std::fabs(camera.fov - all[frame - 1].fov), 4) << frame;
+    EXPECT_LT(std::fabs(*camera.focus - *all[frame - 1].focus), 2) << frame;
+    EXPECT_LT(std::fabs(camera.pose.eye.x - all[frame - 1].pose.eye.x), 0.7f) << frame;
+  }
+}
+
+TEST(CameraKeys, WhatIsNotKeyedStays) {
+  const auto all = cameras<ThinLensCamera>(R"(type = "thin_lens"
+eye = [1, 2, 9]
+look_at = [0, 0, 0]
+f_number = 2
+focal_length = 0.5
+focus = [1, 2, 0]
+key = [{frame = 5, fov = 20}, {frame = 10, fov = 30}, {frame = 25, fov = 30}])");
+  for (std::size_t frame = 0; frame < all.size(); ++frame) {
+    ThinLensCamera expected = all[0];
+    expected.fov = Course(20, 30, 30).at(frame);
+    EXPECT_EQ(all[frame].pose.eye, (Vec3f{1, 2, 9}));
+    EXPECT_EQ(all[frame].pose.look_at, Vec3f{});
+    EXPECT_EQ(all[frame].aperture, 0.125f);
+    EXPECT_EQ(all[frame].focus, expected.focus);
+    EXPECT_EQ(all[frame].fov, expected.fov) << frame;
+  }
+}
+
+TEST(CameraKeys, TurnAFisheye) {
+  const auto all = cameras<FisheyeCamera>(R"(type = "fisheye"
+eye = [0, 1, 0]
+fov_axis = "y"
+key = [
+  {frame = 5, look_at = [0, 1, -1], fov = 180},
+  {frame = 10, look_at = [1, 1, -1]},
+  {frame = 25, look_at = [1, 1, 1], fov = 360},
+])");
+  const std::vector<TimedValue> fov = {{5, 180}, {25, 360}};
+  for (std::size_t frame = 0; frame < all.size(); ++frame) {
+    EXPECT_EQ(all[frame].pose.eye, (Vec3f{0, 1, 0}));
+    EXPECT_EQ(all[frame].pose.look_at,
+              (Vec3f{Course(0, 1, 1).at(frame), 1, Course(-1, -1, 1).at(frame)}));
+    EXPECT_EQ(all[frame].fov, static_cast<float>(monotone_cubic(fov, static_cast<double>(frame))));
+    EXPECT_EQ(all[frame].fov_axis, FovAxis::y);
+  }
+}
+
+TEST(CameraKeys, FocusALens) {
+  const auto all = cameras<LensCamera>(R"(type = "lens"
+eye = [0, 0, 1]
+look_at = [0, 0, 0]
+file = "one.lens"
+f_number = 16
+key = [{frame = 5, focus = 1}, {frame = 10, focus = 2}, {frame = 25, focus = 3}])");
+  for (std::size_t frame = 0; frame < all.size(); ++frame) {
+    EXPECT_EQ(all[frame].focus, Course(1, 2, 3).at(frame)) << frame;
+    EXPECT_EQ(all[frame].surfaces[2].aperture, all[0].surfaces[2].aperture);
+    EXPECT_EQ(all[frame].surfaces[0].aperture, 20);
+  }
+}
+
+TEST(CameraKeys, ALaterFocusNearerThanALensCanHaveIsRefused) {
+  const SceneFiles files;
+  static_cast<void>(files.write("one.lens", "50 5 1.5 20\n-50 2 1 20\n0 0 1 8\n"));
+  const auto loaded = files.load("scene.toml", R"(schema = 1
+[camera]
+type = "lens"
+eye = [0, 0, 1]
+look_at = [0, 0, 0]
+file = "one.lens"
+[[camera.key]]
+frame = 5
+focus = 1
+[[camera.key]]
+frame = 8
+focus = 0.01
+)");
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().line, 12);
+  EXPECT_EQ(loaded.error().column, 9);
+  EXPECT_EQ(loaded.error().key, "camera.focus");
+  EXPECT_THAT(loaded.error().message, testing::HasSubstr("in frame 8: is nearer than the lens"));
+}
+
 TEST(FrameName, HasTheNumberWithZerosInFront) {
   EXPECT_EQ(frame_name("ball.####.npy", 7), "ball.0007.npy");
   EXPECT_EQ(frame_name("#/##-###", 42), "42/42-042");
@@ -143,11 +273,26 @@ const Refusal wrong[] = {
      6, 9, "camera.focus", "in frame 4: must lie in front"},
     {"KeysSlip", "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[[camera.keys]]\n", 5,
      10, "camera.keys", "unknown key 'keys'; did you mean 'key'?"},
-    {"Nothing", key("frame = 1\n"), 4, 1, "camera.key[0].eye", "'eye', 'look_at' or 'fov'"},
+    {"Nothing", key("frame = 1\n"), 4, 1, "camera.key[0].eye",
+     "'eye', 'look_at', 'fov', 'aperture' or 'focus'"},
     {"UnknownKey", key("frame = 1\neyes = [0, 0, 1]\n"), 6, 1, "camera.key[0].eyes",
      "did you mean 'eye'?"},
     {"EyeTwo", key("frame = 1\neye = [0, 0]\n"), 6, 7, "camera.key[0].eye", "got 2"},
     {"FovType", key("frame = 1\nfov = \"a\"\n"), 6, 7, "camera.key[0].fov", "a number"},
+    {"ApertureType", key("frame = 1\naperture = \"a\"\n"), 6, 12, "camera.key[0].aperture",
+     "a number"},
+    {"FocusPoint", key("frame = 1\nfocus = [0, 0, 1]\n"), 6, 9, "camera.key[0].focus",
+     "expected a number, got an array"},
+    {"ApertureNegative",
+     "schema = 1\n[camera]\ntype = \"thin_lens\"\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n"
+     "[[camera.key]]\nframe = 3\naperture = -1\n",
+     8, 12, "camera.aperture", "0 or above"},
+    {"LaterAperture",
+     "schema = 1\n[camera]\ntype = \"thin_lens\"\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n"
+     "[[camera.key]]\nframe = 3\naperture = 1\n[[camera.key]]\nframe = 4\naperture = -1\n",
+     11, 12, "camera.aperture", "in frame 4: must be finite and 0 or above"},
+    {"ApertureOfAPinhole", key("frame = 1\neye = [0, 0, 1]\naperture = 1\n"), 7, 12,
+     "camera.aperture", "unknown key"},
     {"InBoth", key("frame = 1\nlook_at = [0, 0, 1]\n"), 3, 11, "camera.look_at",
      "stands in [[camera.key]] too"},
     {"NoList", "schema = 1\n[camera]\nkey = 4\n", 3, 7, "camera.key", "[[camera.key]]"},

@@ -212,6 +212,55 @@ focus = [1, 1, 2]
   EXPECT_EQ(dump(loaded.value().scene), dump(expected));
 }
 
+constexpr const char* five_surfaces =
+    " 50 5 1.5 20\n-50 2 1 20\n0 3 1 8\n-200 2 1.5 20\n-60 0 1 20\n";
+
+TEST(TomlScene, AnFNumberNarrowsALensStop) {
+  const test::SceneFiles files;
+  static_cast<void>(files.write("five.lens", five_surfaces));
+  const auto lens = [&](const std::string& keys) {
+    const auto loaded = files.load("scene.toml",
+                                   "schema = 1\n[camera]\ntype = \"lens\"\neye = [0, 0, 5]\n"
+                                   "look_at = [0, 0, 0]\nfile = \"five.lens\"\n" +
+                                       keys);
+    EXPECT_TRUE(loaded) << format_diagnostic(loaded.error());
+    return std::get<LensCamera>(*loaded.value().scene.camera);
+  };
+  const LensCamera open = lens(""), f16 = lens("f_number = 16"), f32 = lens("f_number = 32.0");
+  EXPECT_EQ(open.surfaces[2].aperture, 8);
+  EXPECT_EQ(f16.surfaces[2].aperture, 2 * f32.surfaces[2].aperture);
+  // Through the first two surfaces from the height 1, by the thick lens' formulas.
+  const double power = 0.5 / 50, lens_power = 2 * power - power * power * 5 / 1.5;
+  const double behind = 1 - power * 5 / 1.5, at_stop = behind - 2 * lens_power;
+  EXPECT_NEAR(static_cast<double>(f16.surfaces[2].aperture),
+              at_stop * focal_length(open.surfaces) / 16, 1e-5);
+  for (std::size_t i : {0U, 1U, 3U, 4U}) EXPECT_EQ(f16.surfaces[i].aperture, 20) << i;
+}
+
+TEST(TomlScene, AnFNumberThatALensHasNotIsRefused) {
+  const test::SceneFiles files;
+  static_cast<void>(files.write("five.lens", five_surfaces));
+  static_cast<void>(files.write("none.lens", "50 5 1.5 20\n-50 0 1 20\n"));
+  static_cast<void>(files.write("two.lens", "0 1 1 9\n50 5 1.5 20\n-50 2 1 20\n0 0 1 9\n"));
+  static_cast<void>(files.write("flat.lens", "50 5 1.5 20\n0 0 1 20\n"));
+  const auto expect = [&](const std::string& lens, const std::string& value,
+                          const std::string& words) {
+    const auto loaded = files.load("scene.toml",
+                                   "schema = 1\n[camera]\ntype = \"lens\"\neye = [0, 0, 5]\n"
+                                   "look_at = [0, 0, 0]\nfile = \"" +
+                                       lens + ".lens\"\nf_number = " + value + "\n");
+    ASSERT_FALSE(loaded) << lens << " " << value;
+    EXPECT_EQ(loaded.error().key, "camera.f_number");
+    EXPECT_EQ(loaded.error().line, 7);
+    EXPECT_EQ(loaded.error().column, 12);
+    EXPECT_THAT(loaded.error().message, testing::HasSubstr(words));
+  };
+  expect("five", "\"f/8\"", "expected a number, got a string");
+  for (const char* value : {"0", "-8", "inf", "nan"}) expect("five", value, "finite and above 0");
+  for (const char* value : {"1.0", "1e30"}) expect("five", value, "wide open to ");
+  for (const char* lens : {"none", "two", "flat"}) expect(lens, "8", "must have one stop");
+}
+
 TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatte) {
   const Scene scene = load(R"(schema = 1
 [[plane]]

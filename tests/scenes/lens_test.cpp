@@ -33,6 +33,9 @@ LensCamera shipped_lens(const std::string& name, const std::string& keys) {
   return std::get<LensCamera>(*loaded.value().scene.camera);
 }
 LensCamera double_gauss() { return shipped_lens("double_gauss_50mm.lens", "film_width = 20\n"); }
+LensCamera stopped_down() {
+  return shipped_lens("double_gauss_50mm.lens", "film_width = 20\nf_number = 8\n");
+}
 LensCamera wide_angle() { return shipped_lens("wide_angle_22mm.lens", "film_width = 30\n"); }
 
 /// The middle of each surface on the axis, the first at 0.
@@ -122,6 +125,35 @@ TEST(Lens, FocalLengthsAreThePublishedOnes) {
   EXPECT_NEAR(image_distance(double_gauss().surfaces, inf) / 27.535, 1, 0.005);
 }
 
+/// The whole of a beam of that width, from far away along the axis, passes; what is a little wider
+/// is stopped.
+TEST(Lens, AnFNumberIsTheFocalLengthOverTheBeam) {
+  for (const auto& [name, keys] : {std::pair{"double_gauss_50mm.lens", "film_width = 20\n"},
+                                   {"wide_angle_22mm.lens", "film_width = 30\n"}}) {
+    const LensCamera open = shipped_lens(name, keys);
+    for (const int f_number : {4, 8, 16, 64}) {
+      LensCamera camera = shipped_lens(name, keys + ("f_number = " + std::to_string(f_number)));
+      const auto passes = [&](long double share) {
+        const long double height = focal_length(camera.surfaces) / f_number / 2 * share;
+        TwinRay ray{{height, 0, -1}, {0, 0, 1}};
+        to_film(ray, camera);
+        return ray.there;
+      };
+      EXPECT_TRUE(passes(0.96L)) << name << " f/" << f_number;
+      EXPECT_FALSE(passes(1.04L)) << name << " f/" << f_number;
+      ASSERT_EQ(camera.surfaces.size(), open.surfaces.size());
+      int changed = 0;
+      for (std::size_t i = 0; i < open.surfaces.size(); ++i) {
+        EXPECT_LE(camera.surfaces[i].aperture, open.surfaces[i].aperture);
+        changed += camera.surfaces[i].aperture != open.surfaces[i].aperture ? 1 : 0;
+        camera.surfaces[i].aperture = open.surfaces[i].aperture;
+        EXPECT_EQ(camera.surfaces[i].radius, open.surfaces[i].radius);
+      }
+      EXPECT_EQ(changed, 1);
+    }
+  }
+}
+
 class LensKernels : public OnEachIsa {};
 
 /// What the twin makes of one sample: the film point, and the pupil box by its ring.
@@ -147,7 +179,7 @@ TwinRay twin_of(const LensCamera& camera, const LensOptics& optics, double film_
 TEST_P(LensKernels, EqualTheTwin) {
   constexpr std::size_t many = 1000000;
   constexpr int width = 640, height = 361;
-  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+  for (const LensCamera& camera : {double_gauss(), stopped_down(), wide_angle()}) {
     const LensOptics optics = make_optics(camera, width, height);
     const LensStack lens = build_lens(camera, width, height);
     const CameraView view = build_camera(camera, width, height, nullptr, &lens);
@@ -239,11 +271,11 @@ TEST(Lens, WhatIsInFocusIsSharpNearTheAxis) {
 }
 
 TEST(Lens, TheExitPupilIsInsideItsBoxes) {
-  for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
+  for (const LensCamera& camera : {double_gauss(), stopped_down(), wide_angle()}) {
     const LensOptics optics = make_optics(camera, 64, 48);
     CaseRandom random(34);
     int passed = 0, outside = 0;
-    for (int i = 0; i < 1000000; ++i) {
+    for (int i = 0; i < 2000000; ++i) {
       const double r = random.uniform(0, 64 / optics.rings_per_length);
       const double half = static_cast<double>(camera.surfaces.back().aperture) * 0.75;
       const double p = random.uniform(-half, half);
@@ -261,27 +293,37 @@ TEST(Lens, TheExitPupilIsInsideItsBoxes) {
   }
 }
 
+/// The light of a white world at a place of a picture of 64 x 48 pixels.
+double light_at(const LensCamera& camera, double x, double y) {
+  const LensStack lens = build_lens(camera, 64, 48);
+  const CameraView view = build_camera(camera, 64, 48, nullptr, &lens);
+  SampleBuffer samples = random_samples(view, 40000, 64, 48, 35);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples.set(i, x, y);
+  RayBuffer rays(samples.size());
+  reference_kernels().primary_rays(view, samples.view(), rays.view());
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) sum += static_cast<double>(samples.weight(i));
+  return sum / static_cast<double>(samples.size());
+}
+
 TEST(Lens, AWhiteWorldIsOneInTheMiddleAndDarkerTowardsTheCorners) {
   for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
-    const LensStack lens = build_lens(camera, 64, 48);
-    const CameraView view = build_camera(camera, 64, 48, nullptr, &lens);
-    const auto mean_weight = [&](double x, double y) {
-      SampleBuffer samples = random_samples(view, 40000, 64, 48, 35);
-      for (std::size_t i = 0; i < samples.size(); ++i) samples.set(i, x, y);
-      RayBuffer rays(samples.size());
-      reference_kernels().primary_rays(view, samples.view(), rays.view());
-      double sum = 0;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        sum += static_cast<double>(samples.weight(i));
-      }
-      return sum / static_cast<double>(samples.size());
-    };
-    EXPECT_NEAR(mean_weight(32, 24), 1, 0.01);
-    const double half_way = mean_weight(48, 36), corner = mean_weight(63.5, 47.5);
+    EXPECT_NEAR(light_at(camera, 32, 24), 1, 0.01);
+    const double half_way = light_at(camera, 48, 36), corner = light_at(camera, 63.5, 47.5);
     EXPECT_LT(half_way, 0.99);
     EXPECT_LT(corner, 0.8 * half_way);
     EXPECT_GT(corner, 0.01);
   }
+}
+
+/// As in photography: stopped down hardly a rim but the stop's is in the way, and what is left is
+/// cos^4.
+TEST(Lens, StoppedDownItsCornersAreBrighter) {
+  const LensCamera camera = stopped_down();
+  EXPECT_NEAR(light_at(camera, 32, 24), 1, 0.01);
+  const double corner = light_at(camera, 63.5, 47.5);
+  EXPECT_GT(corner, 1.5 * light_at(double_gauss(), 63.5, 47.5));
+  EXPECT_LT(corner, 0.97);
 }
 
 }  // namespace
