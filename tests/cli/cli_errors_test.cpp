@@ -160,6 +160,39 @@ TEST_F(Errors, ABadSceneNamesFileLineColumnAndKey) {
   EXPECT_THAT(run.err, HasSubstr("(key 'camera.fov')"));
 }
 
+/// Once for each table and each kind of thing that has keys; the readers' own tests have every key.
+TEST_F(Errors, EveryTableNamesFileLineColumnAndKey) {
+  const std::string camera = "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+  const std::string background = "schema = 1\n[background]\ntype = \"environment\"\n";
+  const std::string instance = "schema = 1\n[[group.a.sphere]]\n[[instance]]\ngroup = \"a\"\n";
+  write("text.exr", "no picture");
+  struct Bad {
+    std::string text, place, key;
+  };
+  for (const auto& [text, place, key] : std::vector<Bad>{
+           {"schema = 1\n[image]\nfilter = \"bx\"\n", "3:10", "image.filter"},
+           {"schema = 1\n[render]\nmethod = \"paths\"\n", "3:10", "render.method"},
+           {camera + "type = \"fisheye\"\nfov = 361\n", "6:7", "camera.fov"},
+           {camera + "type = \"thin_lens\"\naperture = -1\n", "6:12", "camera.aperture"},
+           {camera + "type = \"thin_lens\"\naperture = 1\nfocus = 0\n", "7:9", "camera.focus"},
+           {camera + "type = \"lens\"\nfile = \"none.lens\"\n", "6:8", "camera.file"},
+           {camera + "[camera.distortion]\nfile = \"text.exr\"\n", "6:8", "camera.distortion.file"},
+           {camera + "[[camera.key]]\nframe = -1\nfov = 9\n", "6:9", "camera.key[0].frame"},
+           {background + "file = \"text.exr\"\n", "4:8", "background.file"},
+           {background + "file = \"text.exr\"\nrotation = \"left\"\n", "5:12",
+            "background.rotation"},
+           {"schema = 1\n[[light]]\ntype = \"sphere\"\nradius = 0\n", "4:10", "light[0].radius"},
+           {instance + "scale = -1\n", "5:9", "instance[0].scale"},
+           {instance + "[[group.a.instance]]\ngroup = \"a\"\n", "6:9",
+            "group.a.instance[0].group"}}) {
+    SCOPED_TRACE(key);
+    const std::string scene = write("bad.toml", text);
+    const ProgramRun run = refused({scene, "-o", path("x.png")}, 3);
+    EXPECT_THAT(run.err, StartsWith(scene + ":" + place + ": error: "));
+    EXPECT_THAT(run.err, HasSubstr("(key '" + key + "')"));
+  }
+}
+
 TEST_F(Errors, AnOldPictureSurvivesABadScene) {
   write("x.png", "old");
   refused({write("bad.toml", "schema = 2\n"), "-o", path("x.png")}, 3);

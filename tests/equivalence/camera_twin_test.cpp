@@ -83,6 +83,41 @@ void expect_close(const Ray& ray, const TwinRay& twin, std::size_t i) {
   ASSERT_LE(length(ray.org - twin.org), unit_roundoff) << i;
 }
 
+TEST_P(CameraTwin, Pinhole) {
+  const Frame frame{640, 361};
+  for (const PinholeCamera& camera :
+       {PinholeCamera{pose, 45, FovAxis::x}, PinholeCamera{pose, 150, FovAxis::y},
+        PinholeCamera{pose, 0.1F, FovAxis::max}}) {
+    const CameraView view = build_camera(camera, frame.width, frame.height);
+    EXPECT_FALSE(view.weighs);
+    SampleBuffer samples = random_samples(view, many, frame.width, frame.height, 17);
+    const RayBuffer rays = rays_of(*kernels, view, samples);
+    const SampleStream at = samples.view();
+    const double tangent = std::tan(static_cast<double>(camera.fov) * pi / 360);
+    for (std::size_t i = 0; i < many; ++i) {
+      const double x = tangent * frame.film_x(at.raster_x[i], camera.fov_axis);
+      const double y = tangent * frame.film_y(at.raster_y[i], camera.fov_axis);
+      const double cosine = 1 / std::hypot(1, x, y);
+      expect_close(rays.get(i), {frame.eye, (frame.l + frame.u * x + frame.v * y) * cosine}, i);
+    }
+  }
+}
+
+TEST_P(CameraTwin, Orthographic) {
+  const Frame frame{640, 361};
+  const OrthographicCamera camera{pose, 3.7F};
+  const CameraView view = build_camera(camera, frame.width, frame.height);
+  SampleBuffer samples = random_samples(view, many, frame.width, frame.height, 18);
+  const RayBuffer rays = rays_of(*kernels, view, samples);
+  const SampleStream at = samples.view();
+  const double half = static_cast<double>(camera.height) / 2;
+  for (std::size_t i = 0; i < many; ++i) {
+    const double x = half * frame.film_x(at.raster_x[i], FovAxis::y);
+    const double y = half * frame.film_y(at.raster_y[i], FovAxis::y);
+    expect_close(rays.get(i), {frame.eye + frame.u * x + frame.v * y, frame.l}, i);
+  }
+}
+
 TEST_P(CameraTwin, Fisheye) {
   const Frame frame{640, 361};
   for (const FisheyeCamera& camera :
@@ -183,6 +218,25 @@ TEST_P(CameraTwin, Distortion) {
     ASSERT_TRUE(twin.there);
     ASSERT_EQ(samples.weight(i), 1);
     expect_close(rays.get(i), twin, i);
+  }
+}
+
+TEST_P(CameraTwin, DistortedThinLens) {
+  const Frame frame{640, 361};
+  const DistortionMap map = random_map(5, 7, 0.08);
+  const ThinLensCamera camera{pose, 60, FovAxis::y, 0.3F, 2.5F};
+  const CameraView view = build_camera(camera, frame.width, frame.height, &map);
+  SampleBuffer samples = random_samples(view, many, frame.width, frame.height, 19);
+  const RayBuffer rays = rays_of(*kernels, view, samples);
+  const SampleStream at = samples.view();
+  for (std::size_t i = 0; i < many; ++i) {
+    const double x = at.raster_x[i] * map.width / frame.width - 0.5;
+    const double y = at.raster_y[i] * map.height / frame.height - 0.5;
+    const double s = map_twin(map, x, y, 0), t = map_twin(map, x, y, 1);
+    expect_close(rays.get(i),
+                 thin_lens_twin(camera, frame, s * frame.width, (1 - t) * frame.height,
+                                at.lens_x[i], at.lens_y[i]),
+                 i);
   }
 }
 

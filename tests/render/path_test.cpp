@@ -261,8 +261,7 @@ TEST(PathLight, NoRayMeetsASphereLight) {
   }
 }
 
-TEST(Path, NeitherIsaNorThreadsNorOrderNorTileNorCropShow) {
-  Scene scene = path_scene(40, 30);
+void expect_same_however_rendered(Scene scene) {
   scene.image.spp = 3;
   RenderOptions usual = options_of(scene);
   usual.seed = 5;
@@ -298,6 +297,17 @@ TEST(Path, NeitherIsaNorThreadsNorOrderNorTileNorCropShow) {
   }
   usual.seed = 6;
   EXPECT_GT(differing_pixels(render(scene, usual), expected), 40 * 30 / 2);
+}
+
+TEST(Path, NeitherIsaNorThreadsNorOrderNorTileNorCropShow) {
+  expect_same_however_rendered(path_scene(40, 30));
+}
+
+TEST(Path, NorDoTheyInAnEnvironment) {
+  Scene scene = path_scene(40, 30);
+  scene.planes.pop_back();
+  scene.background = spotted_image(200);
+  expect_same_however_rendered(scene);
 }
 
 TEST(Path, StreamSizeNeverShows) {

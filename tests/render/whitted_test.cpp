@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tests/render/pictures.h"
@@ -60,6 +61,24 @@ TEST(Whitted, EqualsTheOracleSeenFromInsideOfASphere) {
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
   scene.spheres.back() = {{0.5f, 1.6f, 6}, 1, 3};  // the eye at the centre of a glass ball
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
+}
+
+/// Pixels of every colour, an odd number of them, turned by more than once around; and a picture of
+/// one pixel, of one row, of one column.
+TEST(Whitted, EqualsTheOracleInAnEnvironment) {
+  Scene scene = mixed_scene(64, 48);
+  scene.planes.clear();
+  CaseRandom random(11);
+  for (const auto& [width, height] : {std::pair{7, 5}, {1, 1}, {6, 1}, {1, 6}}) {
+    EnvironmentBackground image{width, height, {}, 400 * static_cast<float>(random.uniform(-1, 1))};
+    for (int i = 0; i < width * height; ++i) {
+      const auto tone = [&] { return static_cast<float>(random.uniform(0.2, 1)); };
+      const float r = tone(), g = tone(), b = tone();
+      image.pixels.push_back({r, g, b});
+    }
+    scene.background = image;
+    EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise) << width << " x " << height;
+  }
 }
 
 TEST(Whitted, AGlassFloorRefractsByTheSideItIsEnteredFrom) {

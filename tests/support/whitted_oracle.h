@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
@@ -54,9 +55,33 @@ class WhittedOracle {
     if (const auto* constant = std::get_if<ConstantBackground>(&scene_.background)) {
       return Rgb(constant->color);
     }
+    if (const auto* around = std::get_if<EnvironmentBackground>(&scene_.background)) {
+      return seen_in(*around, view);
+    }
     const auto& sky = std::get<GradientBackground>(scene_.background);
     const double s = (1 + dot(view, normalize(vec_cast<double>(sky.up)))) / 2;
     return Rgb(sky.bottom) + (Rgb(sky.top) + Rgb(sky.bottom) * -1) * s;
+  }
+
+  /// The picture around, bilinear between its pixels' centres, which are counted from the middle of
+  /// the picture to the right and from straight up downwards; it goes on beyond its sides, and ends
+  /// at its first and last row.
+  static Rgb seen_in(const EnvironmentBackground& image, const Vec3d& view) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double to_right =
+        std::atan2(view.x, -view.z) / degree - static_cast<double>(image.rotation);
+    const double down = std::acos(std::clamp(view.y, -1.0, 1.0)) / degree;
+    const double x = (to_right + 180) / 360 * image.width - 0.5;
+    const double y = std::clamp(down / 180 * image.height - 0.5, 0.0, image.height - 1.0);
+    Rgb sum;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double i = std::floor(x) + corner % 2, j = std::floor(y) + corner / 2;
+      const double share = (1 - std::fabs(x - i)) * (1 - std::fabs(y - j));
+      if (share == 0) continue;
+      const double column = i - image.width * std::floor(i / image.width);
+      sum = sum + Rgb(image.pixels.at(static_cast<std::size_t>(j * image.width + column))) * share;
+    }
+    return sum;
   }
 
   [[nodiscard]] Local locate(const Ray& ray, const Hit& hit, const Vec3d& view) const {

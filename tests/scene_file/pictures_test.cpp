@@ -1,4 +1,4 @@
-// ST maps: pictures that a scene file names.
+// Pictures that a scene file names: ST maps, environments.
 #include "render/image/image_file.h"
 #include "tests/scene_file/scene_dump.h"
 #include "tests/scene_file/scene_files.h"
@@ -8,12 +8,11 @@
 namespace boule::test {
 namespace {
 
-class Distortion : public testing::Test {
+class Pictures : public testing::Test {
  protected:
-  [[nodiscard]] std::string scene(const std::string& keys) const {
-    return "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[camera.distortion]\n" +
-           keys;
-  }
+  explicit Pictures(const char* begin) : begin_(begin) {}
+
+  [[nodiscard]] std::string scene(const std::string& keys) const { return begin_ + keys; }
   void write(const Image& image, const std::string& name) const {
     const Status failure = write_image(image, files_.path(name));
     ASSERT_FALSE(failure) << failure->message;
@@ -29,6 +28,21 @@ class Distortion : public testing::Test {
   }
 
   SceneFiles files_;
+
+ private:
+  std::string begin_;
+};
+
+class Distortion : public Pictures {
+ protected:
+  Distortion()
+      : Pictures(
+            "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[camera.distortion]\n") {}
+};
+
+class Environment : public Pictures {
+ protected:
+  Environment() : Pictures("schema = 1\n[background]\ntype = \"environment\"\n") {}
 };
 
 Image small_map() {
@@ -80,6 +94,55 @@ TEST_F(Distortion, ABlueThatIsNotFiniteDoesNotMatter) {
   image.pixels[0].b = std::numeric_limits<float>::infinity();
   write(image, "map.exr");
   EXPECT_TRUE(files_.load("scene.toml", scene("file = \"map.exr\"\n")));
+}
+
+TEST_F(Environment, IsThePictureAsItIs) {
+  Image image = small_map();
+  image.pixels[3].r = 3e38f;
+  write(image, "sky.exr");
+  const auto sky = files_.load("scene.toml", scene("file = \"sky.exr\"\nrotation = -400\n"));
+  ASSERT_TRUE(sky) << format_diagnostic(sky.error());
+  const auto& read = std::get<EnvironmentBackground>(sky.value().scene.background);
+  EXPECT_EQ(read.width, 3);
+  EXPECT_EQ(read.height, 2);
+  EXPECT_EQ(read.pixels, image.pixels);
+  EXPECT_EQ(read.rotation, -400);
+}
+
+/// Codes of 8 bits are colours as screens show them; one pixel is enough.
+TEST_F(Environment, CodesAreMadeLinear) {
+  Image image(1, 1);
+  image.pixels[0] = {1, 0.2158605f, 0};
+  write(image, "wall.png");
+  const auto loaded = files_.load("scene.toml", scene("file = \"wall.png\"\n"));
+  ASSERT_TRUE(loaded) << format_diagnostic(loaded.error());
+  const Color c = std::get<EnvironmentBackground>(loaded.value().scene.background).pixels.at(0);
+  EXPECT_EQ(c.r, 1);
+  EXPECT_NEAR(c.g, 0.2158605, 1e-4);
+  EXPECT_EQ(c.b, 0);
+}
+
+TEST_F(Environment, IsRefusedWithPlaceAndKey) {
+  const std::string key = "background.file";
+  expect_refused("", 2, 1, key, "missing key 'file'");
+  expect_refused("fiel = \"a\"\n", 4, 1, "background.fiel", "did you mean 'file'?");
+  expect_refused("file = 1\n", 4, 8, key, "expected a string");
+  expect_refused("file = \"none.exr\"\n", 4, 8, key, "'none.exr': cannot read it: No such file");
+  expect_refused("file = \".\"\n", 4, 8, key, "it is a directory");
+  expect_refused("file = \"scene.toml\"\n", 4, 8, key, "unknown extension, expected one of exr");
+  files_.write("text.exr", "no picture").size();
+  expect_refused("file = \"text.exr\"\n", 4, 8, key, "'text.exr': cannot read it: ");
+  write(small_map(), "dark.exr");
+  expect_refused("file = \"dark.exr\"\n", 4, 8, key, "'dark.exr': must have finite numbers of 0");
+  Image holes(2, 2);
+  holes.pixels[3].b = std::numeric_limits<float>::quiet_NaN();
+  write(holes, "holes.exr");
+  expect_refused("file = \"holes.exr\"\n", 4, 8, key, "must have finite numbers");
+  write(Image(2, 2), "black.exr");
+  for (const char* angle : {"inf", "nan"}) {
+    expect_refused(std::string("file = \"black.exr\"\nrotation = ") + angle + "\n", 5, 12,
+                   "background.rotation", "must be finite");
+  }
 }
 
 }  // namespace
