@@ -1,5 +1,7 @@
 // Lenses of real elements: the shipped prescriptions, and every kernel table against a twin that
 // traces them in long double by other formulas.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -290,6 +292,29 @@ TEST(Lens, TheExitPupilIsInsideItsBoxes) {
     }
     EXPECT_GT(passed, 10000);
     EXPECT_EQ(outside, 0);
+  }
+}
+
+/// What a pinhole lets through goes with its area; and it is found as fast as a wide stop is.
+TEST(Lens, NarrowStopsAreFoundInNoTime) {
+  LensCamera camera = double_gauss();
+  const auto stop = std::find_if(camera.surfaces.begin(), camera.surfaces.end(),
+                                 [](const LensSurface& s) { return s.radius == 0; });
+  ASSERT_NE(stop, camera.surfaces.end());
+  double last = 0;
+  for (const float diameter : {1.0f, 0.1f, 0.01f, 1e-3f, 1e-6f}) {
+    stop->aperture = diameter;
+    const auto begin = std::chrono::steady_clock::now();
+    const LensOptics optics = make_optics(camera, 640, 480);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    const double light = 1 / optics.exposure / std::pow(double{diameter}, 2);
+    if (last > 0) {
+      EXPECT_NEAR(light / last, 1, 0.02) << diameter;
+    }
+    last = light;
+    const auto seen = std::count_if(optics.pupil.begin(), optics.pupil.end(),
+                                    [](const PupilBox& box) { return box.x0 < box.x1; });
+    EXPECT_EQ(seen, 64) << diameter;
   }
 }
 
