@@ -35,12 +35,12 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value; only where ok().
+  /// The value; only where ok(), else it throws std::bad_variant_access.
   T& value() & { return std::get<0>(state_); }
   const T& value() const& { return std::get<0>(state_); }
   T&& value() && { return std::get<0>(std::move(state_)); }
 
-  /// The Diagnostic; only where not ok().
+  /// The Diagnostic; only where not ok(), else likewise.
   [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
 
  private:

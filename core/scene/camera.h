@@ -79,7 +79,8 @@ struct CameraBasis {
   const LensOptics* optics;  ///< lens: who traces it lends it
 };
 
-/// The basis of a valid camera for an image of `width` x `height` pixels, without distortion.
+/// The basis of a valid camera (find_problem()) for an image of `width` x `height` pixels, 1 or
+/// more, without distortion. Of others it may hold NaN: what comes of that are rays that miss.
 CameraBasis camera_basis(const Camera& camera, int width, int height);
 
 /// Raster (0, 0) is the top left corner of the picture, pixel (i, j) has its centre at

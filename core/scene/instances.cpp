@@ -175,7 +175,7 @@ bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& count
 
 }  // namespace
 
-std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
+std::optional<InstanceProblem> find_reference_problem(const Scene& scene) {
   for (std::size_t i = 0; i < scene.groups.size(); ++i) {
     if (auto bad = find_own_problem(scene, scene.groups[i].instances, i)) return bad;
   }
@@ -189,6 +189,12 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
     return InstanceProblem{
         {}, i, {"group", "with it the scene has more than 2147483647 primitives"}};
   }
+  return std::nullopt;
+}
+
+std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
+  if (auto bad = find_reference_problem(scene)) return bad;
+  const GroupSurvey survey(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     if (stays_in_range(scene, survey.counts(), scene.instances[i])) continue;
     return InstanceProblem{

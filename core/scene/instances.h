@@ -24,8 +24,12 @@ struct InstanceProblem {
 /// The first thing wrong with a scene's instances: a Problem of one by itself, a group or material
 /// that there is not, a group that contains itself (the message names the way round), too deep a
 /// nesting, more primitives than a scene may have, or a sphere or plane that leaves the range of
-/// float. Groups and materials are valid by themselves.
+/// float. Groups and materials are valid by themselves. Throws std::bad_alloc, as all these do.
 std::optional<InstanceProblem> find_instance_problem(const Scene& scene);
+
+/// Those of them, all but the last, that are known in no time, before anything that the instances
+/// show is looked at.
+std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 
 /// How many spheres and planes a scene has, those of its instances among them.
 struct PrimitiveCount {

@@ -67,7 +67,8 @@ struct Scene {
 
 /// The first thing wrong with a scene, its key a dotted path as in the scene file
 /// ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"), or nothing. Whoever renders
-/// a scene made in memory calls this first; the readers return only scenes that pass.
+/// a scene made in memory calls this first; the readers return only scenes that pass. Takes any
+/// values. Throws std::bad_alloc.
 Status validate(const Scene& scene);
 
 /// As validate(), for readers that have checked each sphere and plane when they read it, and given

@@ -1,9 +1,9 @@
 #include <utility>
 
 #include "render/cli/commands.h"
-#include "render/cli/fitting_scene.h"
 #include "render/cli/messages.h"
 #include "render/cli/scene_info.h"
+#include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
 namespace {
@@ -43,7 +43,7 @@ std::string as_text(const Json& info) {
 }  // namespace
 
 ExitCode run(const InfoCommand& command) {
-  auto loaded = load_fitting_scene(command.scene);
+  auto loaded = load_scene(command.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
   const Json info = scene_info(std::move(loaded).value(), command.scene);
   // A file name may hold any bytes: what is not UTF-8 is replaced rather than refused.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/float_environment.h"
+
 namespace boule {
 namespace {
 
@@ -20,6 +22,7 @@ std::uint64_t Film::total_samples() const {
 }
 
 Image Film::to_image() const {
+  const FloatEnvironment environment;
   Image image(rect_.width(), rect_.height());
   copy_to(image, rect_);
   return image;

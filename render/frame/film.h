@@ -14,7 +14,8 @@ namespace boule {
 /// may add at the same time to different pixels.
 class Film {
  public:
-  /// A film of the frame's pixels in `rect`, not empty. Throws std::bad_alloc.
+  /// A film of the frame's pixels in `rect`, which is not empty; places outside it are nobody's:
+  /// what asks for them reads foreign memory. Throws std::bad_alloc.
   explicit Film(const PixelRect& rect)
       : rect_(rect), pixels_(static_cast<std::size_t>(rect.area())) {}
 

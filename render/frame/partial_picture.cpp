@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/float_environment.h"
 #include "render/frame/live_passes.h"
 
 namespace boule {
@@ -143,6 +144,7 @@ void fill_nearest(const Film& film, PixelOrder order, Image& image) {
 }  // namespace
 
 Image partial_picture(const Film& film, PixelOrder order) {
+  const FloatEnvironment environment;
   Image image = film.to_image();
   if (order == PixelOrder::rows || order == PixelOrder::tiles) return image;
   if (order == PixelOrder::progressive) fill_coarse(film, image);

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <new>
 
-#include "render/frame/float_environment.h"
+#include "core/base/float_environment.h"
 #include "render/threads/threads.h"
 
 namespace boule {
@@ -73,12 +73,12 @@ std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
                                       const std::atomic<bool>* cancel) {
   Loop loop(count, body, cancel);
   const std::size_t wanted = std::min<std::size_t>(workers_, count);
-  auto others = start_threads(wanted > 1 ? wanted - 1 : 0, [&loop](std::size_t index) {
-    loop.work(static_cast<unsigned>(index + 1));
-  });
-  loop.work(0);
-  for (auto& thread : others) thread.join();
-  threads_used_ = static_cast<unsigned>(others.size() + 1);
+  {
+    const auto work = [&loop](std::size_t index) { loop.work(static_cast<unsigned>(index + 1)); };
+    const Threads others(wanted > 1 ? wanted - 1 : 0, work);
+    loop.work(0);
+    threads_used_ = static_cast<unsigned>(others.size() + 1);
+  }
   return loop.error();
 }
 
@@ -92,6 +92,15 @@ ParallelFor Scheduler::parallel_for() {
     const auto indexed = [&body](unsigned, std::size_t index) { body(index); };
     if (const auto error = run_all(count, indexed, nullptr)) std::rethrow_exception(error);
   };
+}
+
+Status diagnose(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (...) {
+    return describe(std::current_exception());
+  }
+  return std::nullopt;
 }
 
 }  // namespace boule

@@ -43,4 +43,7 @@ class Scheduler {
   unsigned threads_used_ = 0;
 };
 
+/// Calls it: nothing, or the Diagnostic that its exception becomes.
+Status diagnose(const std::function<void()>& call);
+
 }  // namespace boule

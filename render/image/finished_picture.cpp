@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/base/float_environment.h"
 #include "render/image/image_format.h"
 #include "render/image/image_loader.h"
 
@@ -22,6 +23,7 @@ bool is_whole_jpeg(const std::string& path) {
 }  // namespace
 
 bool is_finished_picture(const std::string& path, int width, int height) {
+  const FloatEnvironment environment;
   std::error_code ignored;
   const ImageFormat* const format = find_image_format(path);
   // First: without a file nothing needs to be loaded.

@@ -58,7 +58,9 @@ struct ImageFileOptions {
 /// sRGB curve, 8 bit. Into a temporary file beside the target (OutputFile), re-opened and checked,
 /// then renamed: a failure leaves an old file untouched and nothing behind. Equal arguments make
 /// equal files, byte for byte. The Diagnostic says "cannot write 'NAME': REASON", the reason being
-/// the system's where there is one.
+/// the system's where there is one: so it does for a picture without pixels or too large for the
+/// format, a crop outside its frame, channels without a name of their own or of another size.
+/// Throws what options.stop and options.temporary throw.
 Status write_image(const Image& image, const std::string& path,
                    const ImageFileOptions& options = {});
 

@@ -3,10 +3,12 @@
 #include <new>
 #include <utility>
 
+#include "core/base/float_environment.h"
 #include "core/scene/scene.h"
 #include "render/image/image_format.h"
 #include "render/image/image_loader.h"
 #include "render/image/tone.h"
+#include "render/memory/available.h"
 
 namespace boule {
 namespace {
@@ -30,6 +32,13 @@ float* make_room(void* context, int width, int height) {
     room.refusal = "it has more than " + std::to_string(max_image_side) + " pixels a side";
     return nullptr;
   }
+  // Readers hold as much again.
+  const std::uint64_t bytes =
+      2 * sizeof(Color) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (const auto bad = check_memory(bytes, "it needs")) {
+    room.refusal = bad->message;
+    return nullptr;
+  }
   try {
     room.image = Image(width, height);
   } catch (const std::bad_alloc&) {
@@ -47,9 +56,7 @@ void make_linear(Image& image) {
   for (Color& c : image.pixels) c = {linear(c.r), linear(c.g), linear(c.b)};
 }
 
-}  // namespace
-
-Result<Image> read_image(const std::string& path, PictureContent content) {
+Result<Image> read(const std::string& path, PictureContent content) {
   const ImageFormat* format = find_image_format(path);
   if (format == nullptr) {
     return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
@@ -64,6 +71,17 @@ Result<Image> read_image(const std::string& path, PictureContent content) {
   if (report.outcome != module::Outcome::done) return cannot_read(path, report.text);
   if (content == PictureContent::colors && file.is_integer) make_linear(room.image);
   return std::move(room.image);
+}
+
+}  // namespace
+
+Result<Image> read_image(const std::string& path, PictureContent content) {
+  const FloatEnvironment environment;
+  try {
+    return read(path, content);
+  } catch (const std::bad_alloc&) {
+    return cannot_read(path, "it needs more memory than there is");
+  }
 }
 
 }  // namespace boule

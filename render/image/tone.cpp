@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/base/float_environment.h"
 #include "core/math/elementary.h"
 
 namespace boule {
@@ -16,6 +17,7 @@ namespace {
 class SrgbTable {
  public:
   SrgbTable() {
+    const FloatEnvironment environment;  // it outlives this call
     step_[0] = 0;
     step_[256] = std::numeric_limits<float>::infinity();
     for (int code = 1; code < 256; ++code) step_[static_cast<std::size_t>(code)] = first(code);
@@ -67,6 +69,7 @@ double linear_from_srgb(double s) {
 std::uint8_t srgb_code(float linear) { return srgb_table().code(linear); }
 
 std::vector<std::uint8_t> tone_map(const Image& image, float stops) {
+  const FloatEnvironment environment;
   const SrgbTable& table = srgb_table();
   const float scale = exposure_scale(stops);
   std::vector<std::uint8_t> codes(image.pixels.size() * 3);

@@ -1,9 +1,12 @@
+#include <cerrno>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <new>
 #include <set>
 #include <system_error>
 
+#include "core/base/float_environment.h"
 #include "render/image/image_file.h"
 #include "render/image/image_loader.h"
 #include "render/image/output_file.h"
@@ -181,9 +184,7 @@ Status status_of(const module::Report& report, const std::string& path) {
   return cannot_write(path, report.text);
 }
 
-}  // namespace
-
-Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
+Status write(const Image& image, const std::string& path, const ImageFileOptions& options) {
   const ImageFormat* format = find_image_format(path);
   if (const std::string reason = find_reason(image, options, format); !reason.empty()) {
     return cannot_write(path, reason);
@@ -206,6 +207,17 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   if (Status failure = file.sync()) return failure;
   if (options.temporary) options.temporary({});
   return file.commit(options.stop);
+}
+
+}  // namespace
+
+Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
+  const FloatEnvironment environment;
+  try {
+    return write(image, path, options);
+  } catch (const std::bad_alloc&) {
+    return cannot_write(path, std::generic_category().message(ENOMEM));
+  }
 }
 
 }  // namespace boule

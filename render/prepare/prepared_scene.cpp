@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/float_environment.h"
 #include "core/scene/instances.h"
 #include "render/prepare/default_view.h"
 
@@ -41,6 +42,7 @@ Coherence central_coherence(CameraKind kind) {
 
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
+  const FloatEnvironment floats;
   expand_instances(scene);
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);

@@ -50,7 +50,8 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
 }
 
 /// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
-/// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc.
+/// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc; an
+/// invalid scene may end the program: validate() comes first.
 /// Instances become spheres and planes (expand_instances()).
 /// Spheres and planes are kept, not copied: move a scene here that is not needed any more. How the
 /// scene itself asks to be rendered does not matter.

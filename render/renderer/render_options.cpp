@@ -1,7 +1,7 @@
 #include "render/renderer/render_options.h"
 
-#include "render/frame/memory.h"
 #include "render/image/image.h"
+#include "render/memory/available.h"
 #include "simd/abi/stream.h"
 
 namespace boule {
@@ -15,18 +15,15 @@ int least_tile(const RenderOptions& options) {
   return options.tile != 0 ? options.tile : smallest_fit;
 }
 
-Status check_memory(const RenderOptions& options) {
+Status check_picture_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
                                BlockOrder::bytes(rect, least_tile(options)) +
                                ViewChannels::bytes(options.views, rect);
-  const std::uint64_t available = available_memory();
-  if (needed <= available) return std::nullopt;
-  constexpr std::uint64_t mebibyte = 1024 * 1024;
-  return wrong("image.size", "a picture of " + std::to_string(rect.width()) + " x " +
-                                 std::to_string(rect.height()) + " pixels needs " +
-                                 std::to_string(needed / mebibyte) + " MiB of memory, there are " +
-                                 std::to_string(available / mebibyte));
+  return check_memory(needed,
+                      "a picture of " + std::to_string(rect.width()) + " x " +
+                          std::to_string(rect.height()) + " pixels needs",
+                      "image.size");
 }
 
 }  // namespace
@@ -70,7 +67,7 @@ Status validate(const RenderOptions& options) {
                              std::to_string(options.width) + " x " +
                              std::to_string(options.height));
   }
-  return check_memory(options);
+  return check_picture_memory(options);
 }
 
 }  // namespace boule

@@ -4,11 +4,11 @@
 #include <new>
 #include <utility>
 
-#include "render/frame/float_environment.h"
+#include "core/base/float_environment.h"
 #include "render/frame/stopwatch.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
-#include "render/renderer/scene_memory.h"
+#include "render/memory/scene_memory.h"
 #include "render/renderer/view_worker.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -42,13 +42,13 @@ template <class AnyScene>
 Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
   const FloatEnvironment environment;
   const Stopwatch watch;
-  if (auto bad = validate(scene)) return *bad;
-  if (auto bad = check_scene_memory(scene)) return *bad;
-  if (auto bad = validate(options)) return *bad;
-  const Result<const KernelTable*> selected = select_kernels(options.isa);
-  if (!selected) return selected.error();
-  const bool reference = options.solver == Solver::reference;
   try {
+    if (auto bad = check_scene_memory(scene)) return *bad;
+    if (auto bad = validate(scene)) return *bad;
+    if (auto bad = validate(options)) return *bad;
+    const Result<const KernelTable*> selected = select_kernels(options.isa);
+    if (!selected) return selected.error();
+    const bool reference = options.solver == Solver::reference;
     Scheduler scheduler(options.threads);
     Result<PreparedScene> prepared =
         prepare(std::forward<AnyScene>(scene), options.width, options.height,
@@ -81,6 +81,7 @@ Result<Image> Renderer::render() {
 }
 
 Status Renderer::render_pass(Film& film, int until) {
+  const FloatEnvironment environment;
   if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
   if (until < 1 || until > options_.spp) {
     return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
@@ -93,6 +94,7 @@ Status Renderer::render_pass(Film& film, int until) {
 }
 
 Status Renderer::render_live(Film& film) {
+  const FloatEnvironment environment;
   if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
   const std::uint64_t rays_before = count_rays().total();
   const LivePasses passes(options_.order, rect(), options_.spp);
@@ -134,8 +136,7 @@ Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   if (status) return status;
   if (done != blocks_.size()) return failure("rendering was cancelled");
   rays = count_rays().total() - rays_before;
-  report();
-  return std::nullopt;
+  return diagnose(report);
 }
 
 Result<std::vector<ImageChannel>> Renderer::render_views() {

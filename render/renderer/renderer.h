@@ -24,8 +24,10 @@ struct RenderStatistics : RunStatistics {
 };
 
 /// A scene and how to render it: the library's public face. The bits of a picture depend on
-/// neither ISA, threads, order, tile size nor crop; the caller's rounding mode and denormal flags
-/// do not matter and are left as they were.
+/// neither ISA, threads, order, tile size nor crop; the caller's rounding mode, denormal flags and
+/// traps do not matter and are left as they were (FloatEnvironment). Nothing here throws but what
+/// options.update throws: what fails, a progress callback too, is a Diagnostic. The calling thread
+/// needs 2 MiB of stack. One call at a time.
 class Renderer {
  public:
   /// Prepares the scene, which is not needed any more afterwards. An error if scene or options are

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/base/float_environment.h"
 #include "core/math/random.h"
 #include "core/scene/instances.h"
 
@@ -83,6 +84,7 @@ class Hasher {
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
+  const FloatEnvironment environment;
   Hasher hash;
   hash.add(std::uint64_t{scene.camera.has_value()});
   if (scene.camera) hash.add(*scene.camera);

@@ -4,11 +4,11 @@
 #include <new>
 #include <utility>
 
+#include "core/base/float_environment.h"
 #include "core/scene/instances.h"
 #include "core/surface.h"
-#include "render/frame/float_environment.h"
 #include "render/frame/stopwatch.h"
-#include "render/renderer/scene_memory.h"
+#include "render/memory/scene_memory.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -60,12 +60,12 @@ template <class AnyScene>
 Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
   const FloatEnvironment environment;
   const Stopwatch watch;
-  if (auto bad = validate(scene)) return *bad;
-  if (auto bad = check_scene_memory(scene)) return *bad;
-  const Result<const KernelTable*> selected = select_kernels(options.isa);
-  if (!selected) return selected.error();
-  const bool reference = options.solver == Solver::reference;
   try {
+    if (auto bad = check_scene_memory(scene)) return *bad;
+    if (auto bad = validate(scene)) return *bad;
+    const Result<const KernelTable*> selected = select_kernels(options.isa);
+    if (!selected) return selected.error();
+    const bool reference = options.solver == Solver::reference;
     Scene objects(std::forward<AnyScene>(scene));
     expand_instances(objects);
     Tracer tracer(std::move(objects), options, reference ? reference_kernels() : *selected.value());
@@ -108,6 +108,7 @@ Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& b
     return failure("there are " + std::to_string(rays.size()) + " rays, but room for " +
                    std::to_string(results) + " results");
   }
+  const FloatEnvironment environment;
   const Stopwatch watch;
   const Status status = run_blocks(rays, body);
   trace_seconds_ += watch.seconds();
@@ -134,8 +135,7 @@ Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
   rays_ += done;
   if (status) return status;
   if (done != rays.size()) return failure("tracing was cancelled");
-  report(1);
-  return std::nullopt;
+  return diagnose([&] { report(1); });
 }
 
 Tracer::Worker& Tracer::worker(unsigned index) {

@@ -38,9 +38,10 @@ struct TraceStatistics : RunStatistics {
 
 /// The objects of a scene, ready for rays: the public face for whoever brings rays of their own.
 /// Camera, lights and materials are not needed. The bits of a hit depend on neither ISA, threads
-/// nor the other rays; the caller's rounding mode and denormal flags do not matter and are left as
-/// they were. Any ray may be asked for: one with NaN, with an infinite origin or direction, or
-/// without a direction is a miss. One call at a time.
+/// nor the other rays; the caller's rounding mode, denormal flags and traps do not matter and are
+/// left as they were. Nothing here throws: what fails, a progress callback too, is a Diagnostic.
+/// The calling thread needs 2 MiB of stack. Any ray may be asked for: one with NaN, with an
+/// infinite origin or direction, or without a direction is a miss. One call at a time.
 class Tracer {
  public:
   /// Prepares the objects; the scene is not needed any more afterwards. An error if the scene is

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "render/memory/available.h"
 #include "render/scene_file/huge_pages.h"
 
 namespace boule {
@@ -102,6 +103,9 @@ Result<std::string> read_text(const std::string& path) {
   constexpr std::size_t block_size = std::size_t{1} << 18;
   auto file = InputFile::open(path);
   if (!file) return file.error();
+  if (const auto bad = check_memory(file.value().size(), "it needs")) {
+    return cannot_read(path, bad->message);
+  }
   const auto size = static_cast<std::size_t>(file.value().size());
   std::string text;
   text.reserve(size);

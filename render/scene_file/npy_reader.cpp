@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/memory/available.h"
+#include "render/memory/scene_memory.h"
 #include "render/scene_file/float32.h"
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/npy_header.h"
@@ -152,6 +154,11 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres) {
   if (!header) return named(header.error());
   const auto layout = check_layout(header.value(), request.radius.has_value(), file.value().size());
   if (!layout) return named(layout.error());
+  const std::uint64_t rows = layout.value().rows;
+  if (auto bad = check_memory(bytes_of_spheres(rows) + bytes_of_tree(spheres.size() + rows),
+                              std::to_string(rows) + " spheres need")) {
+    return named(*bad);
+  }
   const std::size_t before = spheres.size();
   if (auto bad = append_rows(file.value(), layout.value(), request, spheres)) {
     spheres.resize(before);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/base/float_environment.h"
+#include "render/memory/scene_memory.h"
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/toml_reader.h"
@@ -29,13 +31,20 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
   }
   const auto text = read_text(path);
   if (!text) return text.error();
-  return is_toml ? read_toml(text.value(), path, options.frame)
-                 : read_nff(text.value(), path, options.polygons);
+  auto loaded = is_toml ? read_toml(text.value(), path, options.frame)
+                        : read_nff(text.value(), path, options.polygons);
+  if (!loaded) return loaded;
+  if (auto too_large = check_scene_memory(loaded.value().scene)) {
+    too_large->file = path;
+    return *too_large;
+  }
+  return loaded;
 }
 
 }  // namespace
 
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
+  const FloatEnvironment environment;
   const Diagnostic too_large{"needs more memory than there is", "", path, 0, 0};
   try {
     return load(path, options);

@@ -1,4 +1,5 @@
 #include "render/scene_file/toml_objects.h"
+#include "render/memory/scene_memory.h"
 
 #include <algorithm>
 #include <string_view>
@@ -132,6 +133,10 @@ void TomlObjects::read_scene(ObjectTables& tables) {
 
 void TomlObjects::check_instances() {
   if (error_.status() || instance_tables_.empty()) return;
+  if (const auto too_large = check_scene_memory(scene_)) {
+    return error_.report(instance_tables_.front().table.place(), too_large->key,
+                         too_large->message);
+  }
   const auto bad = find_instance_problem(scene_);
   if (!bad) return;
   for (InstanceTable& one : instance_tables_) {

@@ -40,7 +40,8 @@ class TomlObjects {
   void read_group(std::size_t group, TomlTable& table);
   void read_scene(ObjectTables& tables);
 
-  /// Reports, at its place, what find_instance_problem() finds.
+  /// Reports, at its place, what find_instance_problem() finds; and if there is no memory for what
+  /// the instances show.
   void check_instances();
 
  private:

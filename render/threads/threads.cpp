@@ -2,17 +2,75 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <new>
+#include <thread>
+#include <utility>
 
 namespace boule {
+namespace {
+
+constexpr std::size_t least_stack = std::size_t{4} << 20;
+
+/// The default ones, but for the stack.
+class Attributes {
+ public:
+  Attributes() {
+    std::size_t size = 0;
+    pthread_getattr_default_np(&value_);
+    pthread_attr_getstacksize(&value_, &size);
+    pthread_attr_setstacksize(&value_, std::max(size, least_stack));
+  }
+  ~Attributes() { pthread_attr_destroy(&value_); }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+
+  [[nodiscard]] const pthread_attr_t* get() const { return &value_; }
+
+ private:
+  pthread_attr_t value_{};
+};
+
+/// What one thread is to do.
+struct Start {
+  const std::function<void(std::size_t)>& run;
+  std::size_t index;
+};
+
+void* enter(void* start) {
+  const Start mine = *std::unique_ptr<Start>(static_cast<Start*>(start));
+  mine.run(mine.index);
+  return nullptr;
+}
+
+}  // namespace
 
 unsigned hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1U); }
 
+Threads::Threads(std::size_t count, std::function<void(std::size_t)> run) : run_(std::move(run)) {
+  const Attributes attributes;
+  try {
+    threads_.reserve(count);
+    while (threads_.size() < count) {
+      auto start = std::make_unique<Start>(Start{run_, threads_.size()});
+      pthread_t thread{};
+      if (pthread_create(&thread, attributes.get(), enter, start.get()) != 0) return;
+      start.release();
+      threads_.push_back(thread);
+    }
+  } catch (const std::bad_alloc&) {  // those that started do the work
+  }
+}
+
+Threads::~Threads() {
+  for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
+}
+
 bool can_start_threads(std::size_t count) {
   std::atomic<bool> counted{false};
-  auto threads = start_threads(count, [&counted](std::size_t) { counted.wait(false); });
+  const Threads threads(count, [&counted](std::size_t) { counted.wait(false); });
   counted = true;
   counted.notify_all();
-  for (std::thread& thread : threads) thread.join();
   return threads.size() == count;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <pthread.h>
+
 #include <cstddef>
-#include <new>
-#include <system_error>
-#include <thread>
+#include <functional>
 #include <vector>
 
 namespace boule {
@@ -11,19 +11,23 @@ namespace boule {
 /// How many threads the hardware runs at once, 1 where that is not known.
 unsigned hardware_threads();
 
-/// So many threads, or as many as can be had; each calls body(0), body(1), .. in its turn.
-template <class Body>
-std::vector<std::thread> start_threads(std::size_t count, const Body& body) {
-  std::vector<std::thread> threads;
-  try {
-    threads.reserve(count);
-    while (threads.size() < count)
-      threads.emplace_back([body, index = threads.size()] { body(index); });
-  } catch (const std::system_error&) {  // those that started do the work
-  } catch (const std::bad_alloc&) {
-  }
-  return threads;
-}
+/// Threads that run the same function, joined at the end. Each has stack enough for kernels and
+/// shading, however little of it a process is given (ulimit -s).
+class Threads {
+ public:
+  /// So many, or as many as can be had; each calls run(0), run(1), .. in its turn, which
+  /// must not throw.
+  Threads(std::size_t count, std::function<void(std::size_t index)> run);
+  ~Threads();
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return threads_.size(); }
+
+ private:
+  const std::function<void(std::size_t)> run_;
+  std::vector<pthread_t> threads_;
+};
 
 /// Whether so many threads can run at once besides the caller's: tries it. For what starts threads
 /// of its own and cannot do without.

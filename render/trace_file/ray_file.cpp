@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/float_environment.h"
 #include "render/scene_file/npy_header.h"
 #include "render/scene_file/npy_rows.h"
 
@@ -57,6 +58,7 @@ Result<RayFile> RayFile::open(const std::string& path) {
 }
 
 Status RayFile::read(std::span<Ray> rays) {
+  const FloatEnvironment environment;
   rows_.resize(rows_per_read * row_bytes);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {
     const std::size_t count = std::min(rows_per_read, rays.size() - first);

@@ -23,7 +23,7 @@ LensStack build_lens(const Camera& camera, int width, int height);
 
 /// The plain view of a valid camera for an image of `width` x `height` pixels. The map, if there is
 /// one, must outlive the view, and so must the lens, which build_lens() makes; only a LensCamera
-/// needs one.
+/// needs one. Neither checks the camera: find_problem() does. Both throw std::bad_alloc.
 CameraView build_camera(const Camera& camera, int width, int height,
                         const DistortionMap* map = nullptr, const LensStack* lens = nullptr);
 

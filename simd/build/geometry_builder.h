@@ -16,7 +16,9 @@ namespace boule {
 enum class Structure { automatic, scan, bvh };
 
 /// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
-/// Immutable once built. Takes any floats, degenerate ones too. Throws std::bad_alloc.
+/// Immutable once built. Takes any floats, degenerate ones too, and max_primitives spheres and
+/// planes in all at most: nobody checks that here. Throws std::bad_alloc, and what `parallel_for`
+/// throws.
 class Geometry {
  public:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,

@@ -24,7 +24,7 @@ std::string_view isa_name(Isa isa);
 
 /// The kernels of one ISA by name, or for "auto" those that the environment variable BOULE_ISA
 /// names, or the widest supported ones. An unknown name, one this build lacks or one the CPU
-/// cannot run is an error that says which names would do.
+/// cannot run is an error that says which names would do. Throws std::bad_alloc.
 Result<const KernelTable*> select_kernels(std::string_view name);
 
 /// The scalar reference path behind the same door: every query is answered by core/reference.

@@ -16,22 +16,23 @@ BEGIN {
   layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
+  layer("^render/memory/", "^(core|render/memory)/", any)
   # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
-  layer("^render/scene_file/", "^(core|render/scene_file)/|^render/image/(read_)?image\\.h$", any)
-  layer("^render/threads/", "^render/threads/", plain_std)
-  layer("^render/image/", "^(core|render/(threads|image))/", any)
-  layer("^render/frame/", "^(core|render/(threads|image|frame))/", any)
+  layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)
+  layer("^render/threads/", "^render/threads/", plain_std "|^<pthread\\.h>$")
+  layer("^render/image/", "^(core|render/(memory|threads|image))/", any)
+  layer("^render/frame/", "^(core|render/(memory|threads|image|frame))/", any)
   layer("^render/trace_file/", "^(core|render/(scene_file|image|frame|trace_file))/", any)
   layer("^render/prepare/", narrow "|^render/prepare/", any)
   layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
   layer("^render/renderer/",
-        narrow "|^render/(image|frame|prepare|shading|integrators|renderer)/", any)
+        narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
   layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
   # The command line is fuzzed without its program.
   layer("^tests/fuzz/fuzz_options", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")

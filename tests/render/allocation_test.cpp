@@ -9,6 +9,7 @@
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 #include "render/renderer/renderer.h"
+#include "render/renderer/tracer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
 #include "tests/render/test_scenes.h"
@@ -16,9 +17,11 @@
 namespace {
 
 std::atomic<long> allocations{0};
+std::atomic<long> last_allocation{-1};  ///< none after it; -1: there is memory enough
 
 void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
+  const long number = ++allocations;
+  if (last_allocation >= 0 && number > last_allocation) throw std::bad_alloc();
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   if (void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded))
     return memory;
@@ -179,6 +182,57 @@ TEST(Allocation, DoesNotGrowAsBlocksFillUp) {
   const auto [first, second] = count_render(scene, options);
   EXPECT_LE(first, most_per_worker);
   EXPECT_EQ(second, 3);
+}
+
+/// While it lives, there is memory for so many allocations more.
+class ShortMemory {
+ public:
+  explicit ShortMemory(long allowed) { last_allocation = allocations + allowed; }
+  ~ShortMemory() { last_allocation = -1; }
+};
+
+/// Makes what it likes with ever more memory, until it is done: the ways it ended before. One that
+/// ends otherwise than by `true` or bad_alloc ends the test.
+template <class Make>
+int failures_of(const Make& make) {
+  int failures = 0;
+  for (long allowed = 0; allowed < 100000; allowed += 1 + allowed / 50) {
+    bool done = false;
+    try {
+      const ShortMemory memory(allowed);
+      done = make();
+    } catch (const std::bad_alloc&) {  // not even for a Diagnostic
+    }
+    if (done) return failures;
+    ++failures;
+  }
+  ADD_FAILURE() << "never done";
+  return failures;
+}
+
+TEST(Allocation, WithoutMemoryThereIsAnErrorAndNoEnd) {
+  const Scene scene = mixed_scene(32, 32);
+  RenderOptions options = options_of(scene);
+  options.threads = 2;
+  EXPECT_GT(failures_of([&] {
+              auto renderer = Renderer::create(scene, options);
+              return renderer && renderer.value().render();
+            }),
+            20);
+  auto renderer = Renderer::create(scene, options);
+  Film film(renderer.value().rect());
+  EXPECT_GT(failures_of([&] {
+              auto another = Renderer::create(scene, options);
+              return another && !another.value().render_live(film);
+            }),
+            20);
+  const std::vector<Ray> rays(3000, Ray{{0, 1, 5}, {0, 0, -1}});
+  std::vector<TracedHit> hits(rays.size());
+  EXPECT_GT(failures_of([&] {
+              auto tracer = Tracer::create(scene);
+              return tracer && !tracer.value().closest(rays, hits);
+            }),
+            10);
 }
 
 }  // namespace

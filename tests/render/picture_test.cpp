@@ -1,11 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cfenv>
-
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
-
 #include "tests/render/pictures.h"
 #include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
@@ -82,32 +76,6 @@ TEST(Picture, ACropIsThatPartOfTheFrame) {
       }
     }
   }
-}
-
-#ifdef __SSE__
-/// Rounding mode, traps, flush to zero, denormals are zero: all but the sticky exception flags.
-unsigned float_controls() { return _mm_getcsr() & ~0x3fu; }
-void set_odd_float_controls() {
-  std::fesetround(FE_UPWARD);
-  _mm_setcsr(_mm_getcsr() | 0x8040);
-}
-#else
-int float_controls() { return std::fegetround(); }
-void set_odd_float_controls() { std::fesetround(FE_UPWARD); }
-#endif
-
-TEST(Picture, TheCallersRoundingAndFlushToZeroDoNotMatterAndStay) {
-  RenderOptions options = options_of(scene());
-  options.threads = 2;
-  expected();
-  set_odd_float_controls();
-  const auto before = float_controls();
-  const Image image = render(scene(), options);
-  const auto after = float_controls();
-  std::fesetenv(FE_DFL_ENV);
-  EXPECT_NE(before, float_controls());
-  EXPECT_EQ(after, before);
-  EXPECT_EQ(differing_pixels(image, expected()), 0);
 }
 
 TEST(Picture, TheSkyIsOnTop) {

@@ -4,8 +4,9 @@
 
 #include <atomic>
 #include <functional>
+#include <stdexcept>
 
-#include "render/frame/memory.h"
+#include "render/memory/available.h"
 #include "tests/render/pictures.h"
 #include "tests/render/test_scenes.h"
 
@@ -143,6 +144,21 @@ TEST(Renderer, AnExceptionInTheProgressCallbackIsADiagnostic) {
   const auto image = renderer.value().render();
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().message, "out of memory");
+}
+
+TEST(Renderer, SoIsOneThatComesAtTheEnd) {
+  const Scene scene = mixed_scene(8, 8);
+  RenderOptions options = options_of(scene);
+  options.threads = 1;
+  bool done = false;
+  options.progress = [&done](const Progress& progress) {
+    if (done && progress.share == 1) throw std::runtime_error("enough");
+    done = progress.share == 1;  // of the last block; what follows is outside of all work
+  };
+  auto renderer = Renderer::create(scene, options);
+  const auto image = renderer.value().render();
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().message, "enough");
 }
 
 TEST(Renderer, ReportsProgressUpToTheEnd) {

@@ -3,12 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cfenv>
 #include <cmath>
 #include <limits>
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
@@ -334,66 +330,6 @@ TEST(Tracer, RefusesAnotherNumberOfResults) {
   std::vector<std::uint8_t> met(4);
   EXPECT_EQ(tracer.closest(rays, hits)->message, "there are 3 rays, but room for 2 results");
   EXPECT_EQ(tracer.any(rays, met)->message, "there are 3 rays, but room for 4 results");
-}
-
-/// While it lives, this thread rounds upward and flushes denormals.
-class OddFloatEnvironment {
- public:
-  OddFloatEnvironment() {
-    std::fegetenv(&saved_);
-    std::fesetround(FE_UPWARD);
-#if defined(__SSE__)
-    _mm_setcsr(_mm_getcsr() | 0x8040);
-#endif
-  }
-  ~OddFloatEnvironment() { std::fesetenv(&saved_); }
-  [[nodiscard]] static bool holds() {
-#if defined(__SSE__)
-    if ((_mm_getcsr() & 0x8040) != 0x8040) return false;
-#endif
-    return std::fegetround() == FE_UPWARD;
-  }
-
- private:
-  std::fenv_t saved_;
-};
-
-/// Everything so small that it is denormal.
-Scene tiny(Scene scene) {
-  for (Sphere& s : scene.spheres) s = {s.center * 0x1p-133f, s.radius * 0x1p-133f, 0};
-  for (Plane& p : scene.planes) p.point = p.point * 0x1p-133f;
-  return scene;
-}
-
-TEST(Tracer, TheCallersFloatEnvironmentDoesNotMatterAndStays) {
-  std::vector<Ray> rays = ray_cloud(3000);
-  for (std::size_t i = 0; i < rays.size(); i += 2) rays[i].dir = rays[i].dir * 0x1p-133f;
-  for (Ray& ray : rays) ray.org = ray.org * 0x1p-133;
-  const Scene scene = tiny(cloud_and_planes());
-  for (const Solver solver : solvers) {
-    for (const unsigned threads : {1u, 3u}) {
-      TraceOptions options;
-      options.solver = solver;
-      options.threads = threads;
-      Tracer tracer = make_tracer(scene, options);
-      const auto expected = closest(tracer, rays);
-      const auto expected_met = any(tracer, rays);
-      std::vector<TracedHit> hits;
-      std::vector<std::uint8_t> met;
-      bool stayed = false;
-      {
-        const OddFloatEnvironment odd;
-        Tracer another = make_tracer(scene, options);
-        hits = closest(another, rays);
-        met = any(another, rays);
-        stayed = OddFloatEnvironment::holds();
-      }
-      EXPECT_TRUE(stayed);
-      EXPECT_EQ(differing_hits(hits, expected), 0);
-      EXPECT_EQ(met, expected_met);
-      EXPECT_GT(std::count(met.begin(), met.end(), 1), 300);
-    }
-  }
 }
 
 TEST(Tracer, CancelledItIsAnError) {

@@ -1,0 +1,92 @@
+#include "render/memory/available.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+namespace boule {
+namespace {
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t bytes_of(long pages) {
+  const long page = sysconf(_SC_PAGE_SIZE);
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+}
+
+/// The number behind a name, in a file of lines "NAME NUMBER ..."; 0 where there is none.
+std::uint64_t number_in(const std::string& path, std::string_view wanted) {
+  std::ifstream file(path);
+  std::string name, rest;
+  std::uint64_t number = 0;
+  while (file >> name >> number) {
+    std::getline(file, rest);
+    if (name == wanted) return number;
+  }
+  return 0;
+}
+
+std::uint64_t system_memory() {
+  constexpr std::uint64_t kibibyte = 1024;
+  if (const auto linux_has = number_in("/proc/meminfo", "MemAvailable:"); linux_has > 0)
+    return linux_has * kibibyte;
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  return pages > 0 ? bytes_of(pages) : unlimited;
+}
+
+/// By the innermost of the process' groups and all around it.
+std::uint64_t control_groups_memory() {
+  std::ifstream file("/proc/self/cgroup");
+  std::uint64_t least = unlimited;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("0::/")) continue;  // version 1
+    for (std::string group = line.substr(3); !group.empty();
+         group.resize(group.rfind('/') == std::string::npos ? 0 : group.rfind('/')))
+      least = std::min(least, control_group_memory("/sys/fs/cgroup" + group));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::uint64_t available_memory() {
+  return std::min({system_memory(), address_room(), control_groups_memory()});
+}
+
+std::uint64_t address_room() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  std::ifstream file("/proc/self/statm");
+  long pages = 0;
+  file >> pages;
+  return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, bytes_of(pages));
+}
+
+std::uint64_t control_group_memory(const std::string& folder) {
+  std::uint64_t limit = 0, used = 0;
+  if (!(std::ifstream(folder + "/memory.max") >> limit)) return unlimited;  // or "max"
+  std::ifstream(folder + "/memory.current") >> used;
+  const std::string statistics = folder + "/memory.stat";  // files' pages are given up at need
+  used -=
+      std::min(used, number_in(statistics, "active_file") + number_in(statistics, "inactive_file"));
+  return limit - std::min(limit, used);
+}
+
+Status check_memory(std::uint64_t bytes, const std::string& who, const std::string& key) {
+  const std::uint64_t available = available_memory();
+  if (bytes <= available) return std::nullopt;
+  constexpr std::uint64_t mebibyte = 1024 * 1024;
+  const std::uint64_t needed = bytes / mebibyte + (bytes % mebibyte != 0 ? 1 : 0);
+  return Diagnostic{who + " " + std::to_string(needed) + " MiB of memory, there are " +
+                        std::to_string(available / mebibyte),
+                    key,
+                    {},
+                    0,
+                    0};
+}
+
+}  // namespace boule

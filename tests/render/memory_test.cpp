@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+
+#include "render/image/image_file.h"
+#include "render/image/read_image.h"
+#include "render/memory/available.h"
+#include "render/memory/scene_memory.h"
+#include "render/renderer/renderer.h"
+#include "render/renderer/tracer.h"
+#include "render/scene_file/scene_file.h"
+#include "tests/render/npy_files.h"
+#include "tests/render/test_scenes.h"
+#include "tests/support/temp_dir.h"
+
+namespace boule::test {
+namespace {
+
+TEST(Memory, IsKnownAndNotAbsurd) {
+  EXPECT_GT(available_memory(), std::uint64_t{1} << 20);
+  EXPECT_LT(available_memory(), std::uint64_t{1} << 50);
+}
+
+/// While it lives, the process' addresses are limited to so many bytes.
+class AddressLimit {
+ public:
+  explicit AddressLimit(std::uint64_t bytes) {
+    getrlimit(RLIMIT_AS, &saved_);
+    const rlimit limit{bytes, saved_.rlim_max};
+    set_ = setrlimit(RLIMIT_AS, &limit) == 0;
+  }
+  ~AddressLimit() { setrlimit(RLIMIT_AS, &saved_); }
+  [[nodiscard]] bool holds() const { return set_; }
+
+ private:
+  rlimit saved_{};
+  bool set_ = false;
+};
+
+std::uint64_t used_addresses() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+TEST(Memory, IsWhatTheLimitOnAddressesLeaves) {
+  const AddressLimit limit(used_addresses() + (std::uint64_t{100} << 20));
+  ASSERT_TRUE(limit.holds());
+  EXPECT_LE(available_memory(), std::uint64_t{100} << 20);
+  EXPECT_GT(available_memory(), std::uint64_t{10} << 20);
+  const auto refused = check_memory(std::uint64_t{101} << 20, "a thing needs", "thing");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->message.find("a thing needs 101 MiB of memory, there are "), 0u);
+  EXPECT_EQ(refused->key, "thing");
+  EXPECT_FALSE(check_memory(1 << 20, "a thing needs"));
+}
+
+class MemoryFiles : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name, std::ios::binary) << text;
+    return (folder_.path() / name).string();
+  }
+  std::string folder() const { return folder_.path().string(); }
+
+ private:
+  TempDir folder_;
+};
+
+TEST_F(MemoryFiles, AControlGroupLeavesItsLimitLessWhatCannotBeGivenUp) {
+  constexpr auto unlimited = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(control_group_memory(folder()), unlimited);
+  write("memory.max", "max\n");
+  EXPECT_EQ(control_group_memory(folder()), unlimited);
+  write("memory.max", "1000000\n");
+  EXPECT_EQ(control_group_memory(folder()), 1000000u);
+  write("memory.current", "700000\n");
+  write("memory.stat", "anon 1\nactive_file 20000\ninactive_file 300000\nslab 3\n");
+  EXPECT_EQ(control_group_memory(folder()), 1000000u - (700000 - 320000));
+  write("memory.current", "2000000\n");
+  EXPECT_EQ(control_group_memory(folder()), 0u);
+}
+
+/// A scene whose groups show each other tenfold: 10^levels spheres.
+Scene tenfold(int levels) {
+  Scene scene = empty_scene(8, 8);
+  add_material(scene, Matte{});
+  scene.groups.push_back({"0", {{{0, 0, 0}, 1, 0}}, {}, {}});
+  for (int i = 1; i < levels; ++i) {
+    Group group{std::to_string(i), {}, {}, {}};
+    group.instances.resize(10, {static_cast<std::uint32_t>(i - 1), {1, 0, 0}, {}, 0.5f, {}});
+    scene.groups.push_back(group);
+  }
+  scene.instances.resize(10, {static_cast<std::uint32_t>(levels - 1), {}, {}, 1, {}});
+  return scene;
+}
+
+class Limit {
+ public:
+  [[nodiscard]] bool holds() const {
+    return std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(1);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+TEST(Memory, IsCountedBeforeAnInstanceIsLookedAt) {
+  if (available_memory() > bytes_of_tree(1000000000)) GTEST_SKIP() << "it fits into this machine";
+  const Scene scene = tenfold(9);
+  const Limit second;
+  const auto renderer = Renderer::create(scene, options_of(scene));
+  const auto tracer = Tracer::create(scene);
+  EXPECT_TRUE(second.holds());
+  ASSERT_FALSE(renderer);
+  EXPECT_EQ(renderer.error().key, "instance");
+  EXPECT_EQ(renderer.error().message.find(
+                "1000000000 spheres and planes, with those of the instances, need "),
+            0u);
+  ASSERT_FALSE(tracer);
+  EXPECT_EQ(tracer.error().key, "instance");
+}
+
+TEST(Memory, CountsThatNoNumberHoldsAreRefused) {
+  for (const int levels : {10, 19, 20, 39, 200}) {
+    const Scene scene = tenfold(levels);
+    const Limit second;
+    const Status bad = validate(scene);
+    EXPECT_TRUE(second.holds());
+    ASSERT_TRUE(bad) << levels;
+    EXPECT_EQ(bad->message, "with it the scene has more than 2147483647 primitives");
+    EXPECT_FALSE(check_scene_memory(scene));
+    EXPECT_FALSE(Renderer::create(scene, options_of(scene)));
+  }
+}
+
+TEST_F(MemoryFiles, AFileOfInstancesIsRefusedAtOnce) {
+  if (available_memory() > bytes_of_tree(1000000000)) GTEST_SKIP() << "it fits into this machine";
+  std::string text = "schema = 1\n[group.g0]\n[[group.g0.sphere]]\ncenter = [0, 0, 0]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string name = "group.g" + std::to_string(i);
+    text += "[" + name + "]\n";
+    for (int k = 0; k < 10; ++k)
+      text += "[[" + name + ".instance]]\ngroup = \"g" + std::to_string(i - 1) + "\"\n";
+  }
+  for (int k = 0; k < 10; ++k) text += "[[instance]]\ngroup = \"g8\"\n";
+  const std::string path = write("many.toml", text);
+  const Limit second;
+  const auto loaded = load_scene(path);
+  EXPECT_TRUE(second.holds());
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().key, "instance");
+  EXPECT_EQ(loaded.error().file, path);
+  EXPECT_GT(loaded.error().line, 1);
+}
+
+/// What a file's header says, and no data behind it but a hole.
+TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
+  const std::string header = npy_file(npy_dict("'<f4'", "(2000000000, 4)"), "");
+  const std::string cloud = write("cloud.npy", header);
+  std::filesystem::resize_file(cloud, header.size() + 32000000000);
+  const std::string path = write("scene.toml", "schema = 1\n[[spheres]]\nfile = \"cloud.npy\"\n");
+  if (available_memory() > bytes_of_tree(2000000000)) GTEST_SKIP() << "it fits into this machine";
+  const Limit second;
+  const auto loaded = load_scene(path);
+  EXPECT_TRUE(second.holds());
+  ASSERT_FALSE(loaded);
+  EXPECT_NE(loaded.error().message.find("2000000000 spheres need "), std::string::npos);
+}
+
+TEST_F(MemoryFiles, ATextThatDoesNotFitIsRefusedBeforeItIsRead) {
+  for (const char* const name : {"scene.toml", "scene.nff"}) {
+    const std::string path = write(name, "");
+    std::filesystem::resize_file(path, std::uintmax_t{1} << 42);
+    const Limit second;
+    const auto loaded = load_scene(path);
+    EXPECT_TRUE(second.holds());
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().message.find("cannot read it: it needs 4194304 MiB of memory"), 0u)
+        << loaded.error().message;
+  }
+}
+
+/// Four bytes of a file, the lowest first.
+void set_int32(std::string& file, std::size_t at, std::int32_t value) {
+  for (std::size_t i = 0; i < 4; ++i)
+    file[at + i] = static_cast<char>(static_cast<std::uint32_t>(value) >> 8 * i & 255);
+}
+
+/// An EXR picture whose header says another size.
+std::string spoilt_exr(std::string file, std::int32_t width, std::int32_t height) {
+  for (const char* const window : {"dataWindow", "displayWindow"}) {
+    const std::size_t box =
+        file.find(std::string(window) + '\0' + "box2i") + std::string(window).size() + 11;
+    set_int32(file, box + 8, width - 1);
+    set_int32(file, box + 12, height - 1);
+  }
+  return file;
+}
+
+TEST_F(MemoryFiles, HugePicturesAreRefusedByTheirHeaders) {
+  const std::string good = write("good.exr", "");
+  Image image(4, 4);
+  ASSERT_FALSE(write_image(image, good));
+  std::ifstream opened(good, std::ios::binary);
+  const std::string file((std::istreambuf_iterator<char>(opened)), {});
+  struct Case {
+    std::int32_t width, height;
+  };
+  for (const Case& c : {Case{100000, 100000}, Case{65535, 65535}, Case{2000000000, 2000000000},
+                        Case{4, 2000000000}, Case{2000000000, 4}, Case{-5, 4}}) {
+    const std::string path = write("huge.exr", spoilt_exr(file, c.width, c.height));
+    const Limit second;
+    const auto read = read_image(path, PictureContent::numbers);
+    EXPECT_TRUE(second.holds());
+    ASSERT_FALSE(read) << c.width << " x " << c.height;
+    RecordProperty(std::to_string(c.width) + "x" + std::to_string(c.height), read.error().message);
+  }
+}
+
+}  // namespace
+}  // namespace boule::test
