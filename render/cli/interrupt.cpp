@@ -37,21 +37,19 @@ const char* name_of(int signal) {
   }
 }
 
-/// Async-signal-safe: one line, in one write.
+/// Async-signal-safe.
 void print_end(int signal) {
-  char text[96] = "";
-  if (line_open) std::strcat(text, "\n");
-  std::strcat(text, "boule: interrupted (");
+  char text[96] = "boule: interrupted (";
   std::strcat(text, name_of(signal));
   std::strcat(text, "), ");
   std::strcat(text, end_of_line);
   std::strcat(text, "\n");
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
+  print_at_once(text);
 }
 
 /// Async-signal-safe.
 [[noreturn]] void leave(int signal) {
-  if (removing) ::unlink(temporary);
+  remove_temporary();
   print_end(signal);
   ::_exit(128 + signal);
 }
@@ -133,6 +131,17 @@ int StopGuard::caught() { return caught_signal; }
 const char* StopGuard::caught_name() { return name_of(caught_signal); }
 
 void leave_as_caught() { leave(caught_signal); }
+
+void remove_temporary() {
+  if (removing) ::unlink(temporary);
+}
+
+void print_at_once(const char* line) {
+  char text[128] = "";
+  if (line_open) std::strcat(text, "\n");
+  std::strcat(text, line);
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
+}
 
 void set_written(const char* end) { end_of_line = end; }
 void set_line_open(bool open) { line_open = open; }

@@ -64,6 +64,11 @@ class StopGuard {
 /// the line says instead, a literal such as "the picture had been written".
 void set_written(const char* end);
 
+/// Removes the temporary file of a RemovalGuard, and writes a line to standard error: what a
+/// signal's handler may do, and needs no memory.
+void remove_temporary();
+void print_at_once(const char* line);
+
 /// Says whether a line without its end stands on the terminal: a signal's message ends it first.
 void set_line_open(bool open);
 

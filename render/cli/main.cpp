@@ -1,8 +1,10 @@
 #include <exception>
+#include <new>
 
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/own_memory.h"
 
 namespace {
 
@@ -21,9 +23,13 @@ struct Run {
 
 int main(int argc, char** argv) {
   install_interrupt_handlers();
+  install_no_memory_handler();
   try {
+    if (const auto bad = take_stack()) return report(*bad, failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
-  } catch (const std::exception& error) {  // out of memory, in practice
+  } catch (const std::bad_alloc&) {
+    return report_no_memory();
+  } catch (const std::exception& error) {
     return report({error.what(), {}, {}, 0, 0}, failed);
   }
 }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "render/cli/commands.h"
-#include "render/cli/fitting_scene.h"
 #include "render/cli/frames.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
@@ -18,6 +17,7 @@
 #include "render/image/output_file.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
+#include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
 namespace {
@@ -75,9 +75,10 @@ ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
   return report(error, code);
 }
 
-/// A size that the scene asks for is the scene's fault, one from the command line the caller's.
+/// A size that the scene asks for, or too many objects, are the scene's fault, a size from the
+/// command line the caller's.
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
-  const bool of_scene = error.key == "image.size" && !command.size;
+  const bool of_scene = error.key == "instance" || (error.key == "image.size" && !command.size);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
   return refuse(std::move(error), command,
@@ -123,11 +124,13 @@ ExitCode Rendering::run() {
 }
 
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
-  auto loaded = load_fitting_scene(command_.scene, {command_.polygons, command_.frame});
+  report_.start_stage("reading");
+  auto loaded = load_scene(command_.scene, {command_.polygons, command_.frame});
   if (!loaded) return refuse(loaded.error(), command_, invalid_input);
   Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
+  report_.start_stage("preparing");
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);
@@ -144,6 +147,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 }
 
 ExitCode Rendering::render(Renderer& renderer) {
+  report_.end_stage();
   report_.prepared(renderer.statistics());
   const StopGuard guard(command_.time_limit, command_.partial ? OnSignal::stop : OnSignal::leave);
   std::vector<ImageChannel> channels;

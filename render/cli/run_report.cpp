@@ -81,7 +81,16 @@ void RunReport::prepared(const RunStatistics& run) const {
                      solver_name(run.solver)));
 }
 
+void RunReport::start_stage(const std::string& what) {
+  stage_.reset();
+  const bool quiet = options_.verbosity == Verbosity::quiet;
+  const ProgressStyle style = options_.progress;
+  if (quiet || style == ProgressStyle::none || style == ProgressStyle::json) return;
+  stage_.emplace("boule: " + what + " " + options_.scene + " ...");
+}
+
 void RunReport::start_progress() {
+  end_stage();
   const bool quiet = options_.verbosity == Verbosity::quiet;
   bar_.emplace(quiet ? ProgressStyle::none : options_.progress);
 }

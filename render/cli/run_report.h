@@ -8,6 +8,7 @@
 #include "render/cli/exit_code.h"
 #include "render/cli/options.h"
 #include "render/cli/progress_bar.h"
+#include "render/cli/slow_stage.h"
 #include "render/cli/stats.h"
 #include "render/frame/progress.h"
 #include "render/scene_file/scene_file.h"
@@ -41,6 +42,11 @@ class RunReport {
   void loaded(const LoadedScene& loaded, double seconds) const;
   void prepared(const RunStatistics& run) const;
 
+  /// What is done before there is progress to tell: "reading", "preparing". Told where it takes its
+  /// time; ends with the next stage, with the progress bar, or with end_stage().
+  void start_stage(const std::string& what);
+  void end_stage() { stage_.reset(); }
+
   /// The progress bar, from start to end.
   void start_progress();
   void progress(const Progress& progress);
@@ -51,6 +57,7 @@ class RunReport {
 
  private:
   const RunOptions& options_;
+  std::optional<SlowStage> stage_;
   std::optional<ProgressBar> bar_;
 };
 

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "render/cli/commands.h"
-#include "render/cli/fitting_scene.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/run_report.h"
 #include "render/frame/stopwatch.h"
 #include "render/renderer/tracer.h"
+#include "render/scene_file/scene_file.h"
 #include "render/trace_file/hit_file.h"
 #include "render/trace_file/ray_file.h"
 
@@ -64,12 +64,14 @@ class Tracing {
 
 ExitCode Tracing::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
-  auto loaded = load_fitting_scene(command_.scene);
+  report_.start_stage("reading");
+  auto loaded = load_scene(command_.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
   auto rays = RayFile::open(command_.rays);
   if (!rays) return report(rays.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
+  report_.start_stage("preparing");
 
   TraceOptions options;
   options.solver = command_.solver;
@@ -80,6 +82,7 @@ ExitCode Tracing::run() {
   };
   auto tracer = Tracer::create(std::move(loaded.value().scene), options);
   if (!tracer) return report(tracer.error(), failed);
+  report_.end_stage();
   report_.prepared(tracer.value().statistics());
   return write(rays.value(), tracer.value());
 }

@@ -116,6 +116,9 @@ int fsync(int descriptor) {
 int rename(const char* from, const char* to) {
   return fails("rename") ? -1 : static_cast<int>(syscall(SYS_rename, from, to));
 }
+int linkat(int from, const char* old, int to, const char* name, int flags) {
+  return fails("linkat") ? -1 : static_cast<int>(syscall(SYS_linkat, from, old, to, name, flags));
+}
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
                    void* argument) {
   static const auto create =

@@ -1,0 +1,71 @@
+#include "render/cli/own_memory.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "render/cli/exit_code.h"
+#include "render/cli/interrupt.h"
+#include "render/memory/available.h"
+
+namespace boule::cli {
+namespace {
+
+constexpr std::size_t kibibyte = 1024;
+constexpr std::size_t taken = 3072 * kibibyte, least_limit = 4096 * kibibyte;
+
+/// From the top: the stack grows down.
+[[gnu::noinline]] void touch_stack() {
+  constexpr std::size_t page = 4 * kibibyte;
+  [[maybe_unused]] volatile char stack[taken];
+  for (std::size_t i = taken; i >= page; i -= page) stack[i - page] = 0;
+}
+
+Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
+
+[[noreturn]] void end_without_memory() {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    remove_temporary();
+    std::_Exit(report_no_memory());
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+Status take_stack() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < least_limit) {
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, least_limit);
+    setrlimit(RLIMIT_STACK, &limit);
+    if (limit.rlim_cur < least_limit) {
+      return Diagnostic{"the stack is limited to " + std::to_string(limit.rlim_cur / kibibyte) +
+                            " KiB (ulimit -s), " + std::to_string(least_limit / kibibyte) +
+                            " are needed",
+                        {},
+                        {},
+                        0,
+                        0};
+    }
+  }
+  if (address_room() < least_limit) return no_memory();
+  touch_stack();
+  return std::nullopt;
+}
+
+int report_no_memory() {
+  print_at_once("boule: error: out of memory\n");
+  return failed;
+}
+
+void install_no_memory_handler() { std::set_terminate(end_without_memory); }
+
+}  // namespace boule::cli
