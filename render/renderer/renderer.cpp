@@ -1,6 +1,7 @@
 #include "render/renderer/renderer.h"
 
 #include <atomic>
+#include <functional>
 #include <new>
 #include <utility>
 
@@ -136,7 +137,7 @@ Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   if (status) return status;
   if (done != blocks_.size()) return failure("rendering was cancelled");
   rays = count_rays().total() - rays_before;
-  return diagnose(report);
+  return diagnose(std::cref(report));  // no memory for it
 }
 
 Result<std::vector<ImageChannel>> Renderer::render_views() {
