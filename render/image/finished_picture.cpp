@@ -1,26 +1,14 @@
 #include "render/image/finished_picture.h"
 
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 #include <system_error>
 
 #include "core/base/float_environment.h"
 #include "render/image/image_format.h"
 #include "render/image/image_loader.h"
+#include "render/image/whole_file.h"
 
 namespace boule {
-
-namespace {
-
-/// libjpeg fills up what is missing of a file; a whole one ends with the marker EOI.
-bool is_whole_jpeg(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  char end[2] = {};
-  return file.seekg(-2, std::ios::end).read(end, 2) && end[0] == '\xff' && end[1] == '\xd9';
-}
-
-}  // namespace
 
 bool is_finished_picture(const std::string& path, int width, int height) {
   const FloatEnvironment environment;
@@ -28,7 +16,7 @@ bool is_finished_picture(const std::string& path, int width, int height) {
   const ImageFormat* const format = find_image_format(path);
   // First: without a file nothing needs to be loaded.
   if (format == nullptr || !std::filesystem::is_regular_file(path, ignored)) return false;
-  if (format->writer == std::string_view("jpeg") && !is_whole_jpeg(path)) return false;
+  if (!is_whole_file(path, *format)) return false;
   const auto loaded = load_image_module(*format);
   if (!loaded) return false;
   image_module::FoundPicture found{};

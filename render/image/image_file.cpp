@@ -288,20 +288,37 @@ void inspect_picture(const char* path, const char* format, FoundPicture& picture
 float number_of(unsigned short code) { return static_cast<float>(code) / 65535.0F; }
 float number_of(float number) { return number; }
 
+/// The first channels of rows [begin, end), counted from the top, as `type`.
+bool read_band(OIIO::ImageInput& input, int begin, int end, int channels, OIIO::TypeDesc type,
+               void* to) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const int y = spec.y + begin, y_end = spec.y + end;
+  if (spec.tile_width == 0) {
+    return input.read_scanlines(0, 0, y, y_end, 0, 0, channels, type, to);
+  }
+  return input.read_tiles(0, 0, spec.x, spec.x + spec.width, y, y_end, 0, 1, 0, channels, type, to);
+}
+
 /// Reads the first channels as `Sample` and spreads them to three numbers a pixel.
 template <class Sample>
-bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, float* to) {
+bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, const PictureFile& file) {
   const OIIO::ImageSpec& spec = input.spec();
   const int channels = std::min(spec.nchannels, 3);
+  const int band = spec.tile_height > 0 ? spec.tile_height : 64;
   const auto stride = static_cast<size_t>(channels);
-  const auto pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  std::vector<Sample> samples(pixels * stride);
-  if (!input.read_image(0, 0, 0, channels, type, samples.data())) return false;
-  for (size_t i = 0; i < pixels; ++i, to += 3) {
-    const Sample* pixel = samples.data() + i * stride;
-    to[0] = number_of(pixel[0]);
-    to[1] = channels == 1 ? to[0] : number_of(pixel[1]);
-    to[2] = channels == 1 ? to[0] : channels == 2 ? 0.0F : number_of(pixel[2]);
+  std::vector<Sample> samples;
+  for (int begin = 0, end = 0; begin < spec.height; begin = end) {
+    end = std::min(begin + band, spec.height);
+    const auto pixels = static_cast<size_t>(end - begin) * static_cast<size_t>(spec.width);
+    samples.resize(pixels * stride);
+    if (!read_band(input, begin, end, channels, type, samples.data())) return false;
+    float* to = file.next(file.context, end - begin);
+    for (size_t i = 0; i < pixels; ++i, to += 3) {
+      const Sample* pixel = samples.data() + i * stride;
+      to[0] = number_of(pixel[0]);
+      to[1] = channels == 1 ? to[0] : number_of(pixel[1]);
+      to[2] = channels == 1 ? to[0] : channels == 2 ? 0.0F : number_of(pixel[2]);
+    }
   }
   return true;
 }
@@ -321,14 +338,13 @@ void read_picture(PictureFile& file, Report* report) {
       spec.height != spec.full_height) {
     return fail(report, "it is a part of a picture: its data window is not its display window");
   }
-  float* room = file.room(file.context, spec.width, spec.height);
-  if (room == nullptr) {
+  if (!file.begin(file.context, spec.width, spec.height)) {
     report->outcome = Outcome::stopped;
     return;
   }
   const bool done = spec.format.is_floating_point()
-                        ? read_samples<float>(*input, OIIO::TypeDesc::FLOAT, room)
-                        : read_samples<unsigned short>(*input, OIIO::TypeDesc::UINT16, room);
+                        ? read_samples<float>(*input, OIIO::TypeDesc::FLOAT, file)
+                        : read_samples<unsigned short>(*input, OIIO::TypeDesc::UINT16, file);
   if (!done) return fail(report, reason_of(input->geterror()));
   file.is_integer = !spec.format.is_floating_point();
 }

@@ -8,7 +8,7 @@
 namespace boule::image_module {
 
 /// Changes with any change of this file; the loader refuses a module of another version.
-inline constexpr std::uint32_t version = 3;
+inline constexpr std::uint32_t version = 4;
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
@@ -50,8 +50,11 @@ struct Picture {
 struct PictureFile {
   const char* path;
   const char* format;  ///< OpenImageIO's name of the format
-  /// Gives memory for width x height x 3 floats once the header is known; null gives up.
-  float* (*room)(void* context, int width, int height);
+  /// Told the size once the header is known; false gives up.
+  bool (*begin)(void* context, int width, int height);
+  /// Gives memory for the next `rows` rows of three floats a pixel. A header costs nothing to
+  /// write: memory is taken as rows are found in the file.
+  float* (*next)(void* context, int rows);
   void* context;
   bool is_integer;  ///< written: its numbers are codes, not floats
 };

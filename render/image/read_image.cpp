@@ -9,6 +9,7 @@
 #include "render/image/image_loader.h"
 #include "render/image/tone.h"
 #include "render/memory/available.h"
+#include "render/image/whole_file.h"
 
 namespace boule {
 namespace {
@@ -26,27 +27,37 @@ struct Room {
 };
 
 /// No exception may cross the module's border.
-float* make_room(void* context, int width, int height) {
+bool begin(void* context, int width, int height) {
   auto& room = *static_cast<Room*>(context);
   if (width > max_image_side || height > max_image_side) {
     room.refusal = "it has more than " + std::to_string(max_image_side) + " pixels a side";
-    return nullptr;
+    return false;
   }
   // Readers hold as much again.
   const std::uint64_t bytes =
       2 * sizeof(Color) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (const auto bad = check_memory(bytes, "it needs")) {
     room.refusal = bad->message;
-    return nullptr;
+    return false;
   }
   try {
-    room.image = Image(width, height);
+    room.image.width = width;
+    room.image.height = height;
+    room.image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   } catch (const std::bad_alloc&) {
     room.refusal = "it needs more memory than there is";
-    return nullptr;
+    return false;
   }
+  return true;
+}
+
+float* next_rows(void* context, int rows) {
+  Image& image = static_cast<Room*>(context)->image;
+  const std::size_t done = image.pixels.size();
+  image.pixels.resize(done +
+                      static_cast<std::size_t>(rows) * static_cast<std::size_t>(image.width));
   static_assert(sizeof(Color) == 3 * sizeof(float));
-  return &room.image.pixels.data()->r;
+  return &image.pixels[done].r;
 }
 
 void make_linear(Image& image) {
@@ -61,10 +72,11 @@ Result<Image> read(const std::string& path, PictureContent content) {
   if (format == nullptr) {
     return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
   }
+  if (!is_whole_file(path, *format)) return cannot_read(path, "the file ends within the picture");
   const Result<const module::Table*> loaded = load_image_module(*format);
   if (!loaded) return cannot_read(path, loaded.error().message);
   Room room;
-  module::PictureFile file{path.c_str(), format->writer, make_room, &room, false};
+  module::PictureFile file{path.c_str(), format->writer, begin, next_rows, &room, false};
   module::Report report{};
   loaded.value()->read(&file, &report);
   if (report.outcome == module::Outcome::stopped) return cannot_read(path, room.refusal);

@@ -118,11 +118,32 @@ TEST_F(ReadImage, APartOfAPictureIsRefused) {
 }
 
 TEST_F(ReadImage, AFileCutShortIsRefused) {
-  for (const char* name : {"cut.exr", "cut.png", "cut.tif"}) {
+  for (const char* name : {"cut.exr", "cut.png", "cut.tif", "cut.jpg", "cut.hdr", "cut.ppm"}) {
     const std::string bytes = read_bytes(written(noise(64, 64), name));
-    write_bytes(path(name), bytes.substr(0, bytes.size() / 2));
-    expect_refused(name, "cannot read it: ");
+    for (const std::size_t left : {bytes.size() / 4, bytes.size() / 2}) {
+      write_bytes(path(name), bytes.substr(0, left));
+      expect_refused(name, "cannot read it: ");
+    }
   }
+}
+
+/// libpng and libjpeg would say so on standard error, or make up the rest.
+TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
+  for (const char* name : {"cut.png", "cut.jpg"}) {
+    const std::string bytes = read_bytes(written(noise(20, 20), name));
+    for (std::size_t left = 8; left < bytes.size(); left += 11) {
+      write_bytes(path(name), bytes.substr(0, left));
+      expect_refused(name, "the file ends within the picture");
+    }
+    write_bytes(path(name), bytes + "what some cameras put behind it");
+    EXPECT_EQ(read(path(name), PictureContent::colors).width, 20);
+  }
+}
+
+/// Its header alone would take 48 GiB.
+TEST_F(ReadImage, AHeaderWithoutPixelsTakesNoMemory) {
+  write_bytes(path("header.ppm"), "P6 65535 65535 255\n");
+  expect_refused("header.ppm", "cannot read it: ");
 }
 
 }  // namespace
