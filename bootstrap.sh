@@ -5,8 +5,9 @@ set -euo pipefail
 # openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
 readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
-readonly test_packages=(binutils clang-format libgmock-dev libgtest-dev libmpfr-dev
-  librapidcheck-dev qemu-user)
+# libclang-rt-14-dev: libFuzzer and the sanitizers.
+readonly test_packages=(binutils clang clang-format libclang-rt-14-dev libgmock-dev libgtest-dev
+  libmpfr-dev librapidcheck-dev qemu-user)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
 usage() {

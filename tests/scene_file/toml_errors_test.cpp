@@ -60,6 +60,7 @@ const Refusal syntax[] = {
     {"MultiLineString", scene("a = \"\"\"b\"\"\"\n"), 2, 5, "a", "multi-line strings are not"},
     {"MultiLineLiteral", scene("a = \'\'\'b\'\'\'\n"), 2, 5, "a", "multi-line strings are not"},
     {"EscapedQuote", scene("a = \"\\\"\xc3\xa9\" \xc3\xa9\n"), 2, 12, "a", "only strings"},
+    {"TableNameAt", scene("[@a]\n"), 2, 2, "@a", "bare key starting character"},
     {"EndsInString", scene("a = \"b\n"), 2, 7, "a", "not valid TOML"},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, TomlErrors, testing::ValuesIn(syntax), test::refusal_name);
