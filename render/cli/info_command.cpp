@@ -1,8 +1,10 @@
+#include <optional>
 #include <utility>
 
 #include "render/cli/commands.h"
 #include "render/cli/messages.h"
 #include "render/cli/scene_info.h"
+#include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
@@ -40,17 +42,29 @@ std::string as_text(const Json& info) {
   return text;
 }
 
-}  // namespace
-
-ExitCode run(const InfoCommand& command) {
-  auto loaded = load_scene(command.scene);
+/// One scene, or one frame of a series.
+ExitCode tell(const std::string& scene, std::optional<int> frame, bool json) {
+  SceneFileOptions options;
+  options.frame = frame;
+  auto loaded = load_scene(scene, options);
   if (!loaded) return report(loaded.error(), invalid_input);
-  const Json info = scene_info(std::move(loaded).value(), command.scene);
+  const Json info = scene_info(std::move(loaded).value(), scene);
   // A file name may hold any bytes: what is not UTF-8 is replaced rather than refused.
   const auto as_json = [&] {
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   };
-  return print_as_result(command.json ? as_json() : as_text(info));
+  return print_as_result(json ? as_json() : as_text(info));
+}
+
+}  // namespace
+
+ExitCode run(const InfoCommand& command) {
+  if (!command.frames) return tell(command.scene, std::nullopt, command.json);
+  for (int frame = command.frames->first; frame <= command.frames->last; ++frame) {
+    const ExitCode code = tell(frame_name(command.scene, frame), frame, command.json);
+    if (code != done) return code;
+  }
+  return done;
 }
 
 }  // namespace boule::cli

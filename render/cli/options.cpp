@@ -83,6 +83,10 @@ void add_output(CLI::App& app, std::string& output, const std::string& type,
   app.add_option("-o,--output", output, help)->required()->type_name(type);
 }
 
+void add_frames(CLI::App& app, std::optional<FrameRange>& frames, const std::string& help) {
+  add_parsed(app, "--frames", frames, parse_frames, "A-B with 0 <= A <= B", "A-B", help);
+}
+
 /// What shows in the picture, and how it is stored.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_scene(app, command.scene);
@@ -103,7 +107,7 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
-  add_parsed(app, "--frames", command.frames, parse_frames, "A-B with 0 <= A <= B", "A-B",
+  add_frames(app, command.frames,
              "Render a series: #### in the names of scene, data and output is the frame's number");
   app.add_flag("--skip-existing", command.skip_existing,
                "Leave a picture alone that is there already, finished, readable, of this size");
@@ -222,6 +226,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   add_report_options(*trace_app, trace);
   CLI::App* const info_app = app.add_subcommand("info", "Tell what a scene holds");
   add_scene(*info_app, info.scene);
+  add_frames(*info_app, info.frames,
+             "Tell of these frames: #### in the names of scene and data is the frame's number");
   info_app->add_flag("--json", info.json, "As JSON, for programs");
   CLI::App* const isa_app = app.add_subcommand("isa", "List the instruction sets");
   isa_app->add_flag("--json", isa.json, "As JSON, for programs");

@@ -81,6 +81,7 @@ struct TraceCommand : RunOptions {
 /// `boule info`.
 struct InfoCommand {
   std::string scene;
+  std::optional<FrameRange> frames;
   bool json = false;
 };
 

@@ -41,6 +41,11 @@ Status check(const RenderCommand& command) {
                             " file cannot say that it is partial: it would be skipped",
                         "--skip-existing");
   }
+  if (command.skip_existing && command.crop && !format->channels) {
+    return wrong_option(std::string("a .") + format->extension +
+                            " file cannot say which crop it is: another one would be skipped",
+                        "--skip-existing");
+  }
   const auto date = source_date();
   if (!date) return date.error();
   return check_run(command, "picture", {command.scene});
@@ -67,6 +72,11 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.isa = command.isa;
   options.solver = command.solver;
   return options;
+}
+
+CropPlace place_of(const RenderOptions& options) {
+  if (!options.crop) return {};
+  return {options.width, options.height, options.crop->x0, options.crop->y0};
 }
 
 /// report(), the frame named where there is one.
@@ -127,6 +137,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   report_.start_stage("reading");
   auto loaded = load_scene(command_.scene, {command_.polygons, command_.frame});
   if (!loaded) return refuse(loaded.error(), command_, invalid_input);
+  if (auto bad = check_data_files(command_, "picture", loaded.value().data_files))
+    return refuse(*bad, command_, wrong_usage);
   Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
@@ -135,7 +147,9 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 
   RenderOptions options = combine(scene, command_);
   const PixelRect rect = rendered_rect(options);
-  if (command_.skip_existing && is_finished_picture(command_.output, rect.width(), rect.height())) {
+  const PictureShape shape{rect.width(), rect.height(), place_of(options),
+                           ViewChannels::names(options.views)};
+  if (command_.skip_existing && is_finished_picture(command_.output, shape)) {
     report_.note("boule: " + command_.output + ": is there already, skipped");
     return done;
   }
@@ -198,9 +212,7 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   ImageFileOptions file;
   file.compression = command_.compression;
   file.exposure_stops = command_.exposure_stops;
-  if (options.crop) {
-    file.crop = {options.width, options.height, options.crop->x0, options.crop->y0};
-  }
+  file.crop = place_of(options);
   file.date_time = source_date().value();  // check() has seen it
   file.metadata = picture_header(renderer, scene_hash_, partial_);
   file.threads = static_cast<int>(renderer.statistics().threads);
@@ -210,10 +222,14 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
 ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   const Stopwatch watch;
   Status status;
+  // Rendering is over: a signal that would have stopped it stops the waiting for a pipe's reader.
+  const auto caught = [before = StopGuard::caught()] { return StopGuard::caught() != before; };
   {
     const WriteGuard guard;
     std::optional<RemovalGuard> removal;
-    options.stop = [] { return WriteGuard::interrupted(); };
+    options.stop = [&caught, stream = is_stream(command_.output)] {
+      return WriteGuard::interrupted() || (stream && caught());
+    };
     options.temporary = [&removal](const std::string& path) {
       path.empty() ? removal.reset() : static_cast<void>(removal.emplace(path));
     };
@@ -222,6 +238,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
     tell_outcome(!status, command_.output, "the picture had been written");
   }
   exit_if_interrupted();
+  if (status && caught()) leave_as_caught();
   stats_.write_seconds = watch.seconds();
   return status ? refuse(*status, command_, failed) : done;
 }

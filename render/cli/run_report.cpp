@@ -37,22 +37,32 @@ Status check_run(const RunOptions& options, const std::string& output,
     return wrong_option("statistics would replace the " + output + ", expected another file",
                         "--stats");
   }
-  for (const std::string& input : inputs) {
-    if (!is_one_file(stats, input)) continue;
-    return wrong_option("statistics would replace " + quote(input) + ", expected another file",
-                        "--stats");
-  }
+  if (auto bad = check_data_files(options, output, inputs)) return bad;
   const auto kernels = select_kernels(options.isa);
   if (!kernels) return kernels.error();
   return std::nullopt;
 }
 
-void tell_outcome(bool written, const std::string& output, const char* end) {
+bool is_stream(const std::string& output) {
   std::error_code ignored;
+  return std::filesystem::exists(output, ignored) &&
+         !std::filesystem::is_regular_file(output, ignored);
+}
+
+Status check_data_files(const RunOptions& options, const std::string& output,
+                        const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const std::string would = " would replace " + quote(file) + ", expected another file";
+    if (is_one_file(options.output, file)) return wrong_option("the " + output + would, "--output");
+    if (is_one_file(options.stats.file, file)) return wrong_option("statistics" + would, "--stats");
+  }
+  return std::nullopt;
+}
+
+void tell_outcome(bool written, const std::string& output, const char* end) {
   if (written) {
     set_written(end);
-  } else if (std::filesystem::exists(output, ignored) &&
-             !std::filesystem::is_regular_file(output, ignored)) {
+  } else if (is_stream(output)) {
     set_written("the output is incomplete");
   }
 }

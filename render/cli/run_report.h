@@ -19,9 +19,17 @@ namespace boule::cli {
 Diagnostic wrong_option(const std::string& message, const char* option);
 
 /// What is wrong with the options that render and trace share, without reading the scene: above
-/// all, statistics that would replace `output` ("picture"), the scene or one of `inputs`.
+/// all, that the `output` ("picture") or the statistics would replace one of `inputs`, or each
+/// other.
 Status check_run(const RunOptions& options, const std::string& output,
                  const std::vector<std::string>& inputs = {});
+
+/// Whether the output is a pipe or device, which is written to instead of being replaced.
+bool is_stream(const std::string& output);
+
+/// What would be lost: the output, or the statistics, would replace one of the scene's data files.
+Status check_data_files(const RunOptions& options, const std::string& output,
+                        const std::vector<std::string>& files);
 
 /// What a signal's message says from now on: `end` where the output is in place; that it is
 /// incomplete where a pipe or device has got a part of it.

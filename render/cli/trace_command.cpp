@@ -67,6 +67,8 @@ ExitCode Tracing::run() {
   report_.start_stage("reading");
   auto loaded = load_scene(command_.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
+  if (auto bad = check_data_files(command_, "hits", loaded.value().data_files))
+    return report(*bad, wrong_usage);
   auto rays = RayFile::open(command_.rays);
   if (!rays) return report(rays.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
@@ -101,7 +103,7 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
 
 std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
   auto file = HitFile::create(command_.output, command_.any_hit ? HitKind::any : HitKind::closest,
-                              rays.size());
+                              rays.size(), [] { return WriteGuard::interrupted(); });
   if (!file) return Failure{file.error(), failed};
   {
     const RemovalGuard removal(file.value().temporary());

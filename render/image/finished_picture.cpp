@@ -10,7 +10,22 @@
 
 namespace boule {
 
-bool is_finished_picture(const std::string& path, int width, int height) {
+namespace {
+
+/// Whether the file's frame and channels are those of the shape, where the format holds such.
+bool has_shape(const image_module::FoundPicture& found, const PictureShape& shape,
+               const ImageFormat& format) {
+  if (found.partial || found.width != shape.width || found.height != shape.height) return false;
+  if (!format.channels) return true;
+  const bool cropped = shape.crop.frame_width != 0;
+  const CropPlace place = cropped ? shape.crop : CropPlace{shape.width, shape.height, 0, 0};
+  return found.has_channels && found.x == place.x && found.y == place.y &&
+         found.frame_width == place.frame_width && found.frame_height == place.frame_height;
+}
+
+}  // namespace
+
+bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   const FloatEnvironment environment;
   std::error_code ignored;
   const ImageFormat* const format = find_image_format(path);
@@ -19,11 +34,14 @@ bool is_finished_picture(const std::string& path, int width, int height) {
   if (!is_whole_file(path, *format)) return false;
   const auto loaded = load_image_module(*format);
   if (!loaded) return false;
+  std::vector<const char*> names = {"R", "G", "B"};
+  for (const std::string& name : shape.channels) names.push_back(name.c_str());
+  const image_module::WantedPicture wanted{path.c_str(), format->writer, names.data(),
+                                           names.size()};
   image_module::FoundPicture found{};
   image_module::Report report{};
-  loaded.value()->inspect(path.c_str(), format->writer, &found, &report);
-  return report.outcome == image_module::Outcome::done && found.width == width &&
-         found.height == height && !found.partial;
+  loaded.value()->inspect(&wanted, &found, &report);
+  return report.outcome == image_module::Outcome::done && has_shape(found, shape, *format);
 }
 
 }  // namespace boule

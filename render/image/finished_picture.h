@@ -1,13 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "render/image/image_file.h"
 
 namespace boule {
 
+/// What a picture has that write_image() makes.
+struct PictureShape {
+  int width, height;                    ///< of a crop, where it is one
+  CropPlace crop;                       ///< where that lies, if the format can say so
+  std::vector<std::string> channels{};  ///< beside R, G and B
+};
+
 /// True if there is a picture of that name already, as write_image() leaves it: a regular file that
-/// can be read to its end, of `width` x `height` pixels (of a crop, where it is one), and does not
-/// say in its ImageDescription that it is partial. False as well where the module that reads
-/// pictures cannot be loaded. Throws std::bad_alloc.
-bool is_finished_picture(const std::string& path, int width, int height);
+/// can be read to its end, of this shape, and does not say in its ImageDescription that it is
+/// partial. False as well where the module that reads pictures cannot be loaded. Throws
+/// std::bad_alloc.
+bool is_finished_picture(const std::string& path, const PictureShape& shape);
 
 }  // namespace boule

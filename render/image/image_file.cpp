@@ -268,14 +268,28 @@ void check_picture(const Picture& picture, const char* path, Report* report) {
   }
 }
 
-void inspect_picture(const char* path, const char* format, FoundPicture& picture, Report* report) {
-  const auto input = make_input(format);
+bool has_channels(const OIIO::ImageSpec& found, const WantedPicture& wanted) {
+  const auto* const end = wanted.channels + wanted.channel_count;
+  return static_cast<size_t>(found.nchannels) == wanted.channel_count &&
+         std::all_of(wanted.channels, end,
+                     [&](const char* name) { return found.channelindex(name) >= 0; });
+}
+
+void inspect_picture(const WantedPicture& wanted, FoundPicture& picture, Report* report) {
+  const auto input = make_input(wanted.format);
   OIIO::ImageSpec found;
-  if (!input || !input->open(path, found)) {
+  if (!input || !input->open(wanted.path, found)) {
     return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
   }
   const std::string description = found.get_string_attribute("ImageDescription");
-  picture = {found.width, found.height, description.rfind("partial: ", 0) == 0};
+  picture = {found.width,
+             found.height,
+             found.x,
+             found.y,
+             found.full_width,
+             found.full_height,
+             has_channels(found, wanted),
+             description.rfind("partial: ", 0) == 0};
   std::vector<unsigned char> row(static_cast<size_t>(found.scanline_bytes(true)));
   for (int y = found.y; y < found.y + found.height; ++y) {
     if (!input->read_scanline(y, 0, OIIO::TypeUnknown, row.data())) {
@@ -370,8 +384,8 @@ void check(const Picture* picture, const char* path, Report* report) {
   guarded(report, [&] { check_picture(*picture, path, report); });
 }
 
-void inspect(const char* path, const char* format, FoundPicture* found, Report* report) {
-  guarded(report, [&] { inspect_picture(path, format, *found, report); });
+void inspect(const WantedPicture* wanted, FoundPicture* found, Report* report) {
+  guarded(report, [&] { inspect_picture(*wanted, *found, report); });
 }
 
 void read(PictureFile* file, Report* report) {

@@ -68,10 +68,20 @@ struct Report {
   char text[400];
 };
 
-/// What a file on the disk holds.
+/// A file on the disk, and the channels that are asked for.
+struct WantedPicture {
+  const char* path;
+  const char* format;  ///< OpenImageIO's name of the format
+  const char* const* channels;
+  std::size_t channel_count;
+};
+
+/// What it holds.
 struct FoundPicture {
-  int width, height;  ///< of the data window
-  bool partial;       ///< its ImageDescription begins with "partial: "
+  int width, height, x, y;        ///< the data window
+  int frame_width, frame_height;  ///< the display window
+  bool has_channels;              ///< exactly those that were asked for, in any order
+  bool partial;                   ///< its ImageDescription begins with "partial: "
 };
 
 /// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
@@ -82,7 +92,7 @@ struct Table {
   std::uint32_t version;
   void (*write)(const Picture* picture, int descriptor, Report* report);
   void (*check)(const Picture* picture, const char* path, Report* report);
-  void (*inspect)(const char* path, const char* format, FoundPicture* found, Report* report);
+  void (*inspect)(const WantedPicture* wanted, FoundPicture* found, Report* report);
   void (*read)(PictureFile* file, Report* report);
 };
 

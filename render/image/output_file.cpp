@@ -66,11 +66,27 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
+/// How long something slow is waited for before `stop` is asked again.
+constexpr int patience_ms = 100;
+
+/// Opens a pipe or device so that it does not block; waits for the reader of a FIFO that has none.
+/// The descriptor, or -1 and errno: ECANCELED where `stop` says so.
+int open_stream(const std::string& path, bool is_fifo, const std::function<bool()>& stop) {
+  for (;;) {
+    const int stream = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    if (stream >= 0 || errno != ENXIO || !is_fifo) return stream;
+    if (stop && stop()) {
+      errno = ECANCELED;
+      return -1;
+    }
+    poll(nullptr, 0, patience_ms);
+  }
+}
+
 /// Writes all bytes to a pipe or device that does not block, as its reader takes them; 0 or an
 /// errno code, ECANCELED where `stop` says so.
 int stream_all(int stream, const char* bytes, std::size_t count,
                const std::function<bool()>& stop) {
-  constexpr int patience_ms = 100;
   while (count > 0) {
     if (stop && stop()) return ECANCELED;
     pollfd ready{stream, POLLOUT, 0};
@@ -108,10 +124,16 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason) {
   return {"cannot write " + quote(name, PATH_MAX) + ": " + reason, {}, {}, 0, 0};
 }
 
-Result<OutputFile> OutputFile::create(const std::string& target) {
+Result<OutputFile> OutputFile::create(const std::string& target,
+                                      const std::function<bool()>& stop) {
   OutputFile file;
   file.name_ = target;
   std::string real = target;
+  struct stat stream {};
+  // By its own name: what /dev/stdout leads to may have no other.
+  if (stat(target.c_str(), &stream) == 0 && !S_ISREG(stream.st_mode) && !S_ISDIR(stream.st_mode)) {
+    return create_stream(std::move(file), S_ISFIFO(stream.st_mode), stop);
+  }
   if (const int code = follow_links(real)) return cannot_write(target, system_reason(code));
   struct stat old {};
   const bool exists = stat(real.c_str(), &old) == 0;
@@ -121,7 +143,6 @@ Result<OutputFile> OutputFile::create(const std::string& target) {
   if (exists ? S_ISDIR(old.st_mode) : real.ends_with('/')) {
     return cannot_write(target, system_reason(EISDIR));
   }
-  if (exists && !S_ISREG(old.st_mode)) return create_stream(std::move(file), real);
   // Renaming could replace a write-protected file; writing to it could not.
   if (exists && faccessat(AT_FDCWD, real.c_str(), W_OK, AT_EACCESS) != 0) {
     return cannot_write(target, system_reason(errno));
@@ -174,10 +195,10 @@ int OutputFile::give_name() {
   return errno;
 }
 
-Result<OutputFile> OutputFile::create_stream(OutputFile file, const std::string& real_target) {
-  file.stream_ = open(real_target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
-  // A slow reader must not hold up a signal. (The flag is this opening's own, nobody shares it.)
-  if (file.stream_ >= 0) fcntl(file.stream_, F_SETFL, O_WRONLY | O_NONBLOCK);
+Result<OutputFile> OutputFile::create_stream(OutputFile file, bool is_fifo,
+                                             const std::function<bool()>& stop) {
+  file.stream_ = open_stream(file.name_, is_fifo, stop);
+  if (file.stream_ < 0 && errno == ECANCELED) return cannot_write(file.name_, "interrupted");
   if (file.stream_ >= 0) file.descriptor_ = memfd_create("boule", MFD_CLOEXEC);
   if (file.descriptor_ < 0) return cannot_write(file.name_, system_reason(errno));
   file.path_ = "/proc/self/fd/" + std::to_string(file.descriptor_);

@@ -20,8 +20,10 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason);
 /// replaced: the data are gathered in memory and copied into it by commit().
 class OutputFile {
  public:
-  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason.
-  static Result<OutputFile> create(const std::string& target);
+  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason. A FIFO's
+  /// reader is waited for: `stop` is asked ten times a second then, true gives up.
+  static Result<OutputFile> create(const std::string& target,
+                                   const std::function<bool()>& stop = {});
 
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
@@ -49,7 +51,8 @@ class OutputFile {
  private:
   OutputFile() = default;
   static Result<OutputFile> create_beside(OutputFile file, const std::string& real_target);
-  static Result<OutputFile> create_stream(OutputFile file, const std::string& real_target);
+  static Result<OutputFile> create_stream(OutputFile file, bool is_fifo,
+                                          const std::function<bool()>& stop);
   bool open_unnamed();
   int give_name();
   Status commit_stream(const std::function<bool()>& stop);

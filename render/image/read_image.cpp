@@ -8,8 +8,8 @@
 #include "render/image/image_format.h"
 #include "render/image/image_loader.h"
 #include "render/image/tone.h"
-#include "render/memory/available.h"
 #include "render/image/whole_file.h"
+#include "render/memory/available.h"
 
 namespace boule {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 namespace boule {
@@ -49,6 +50,39 @@ bool is_whole_png(std::istream& file) {
   return false;
 }
 
+/// The text up to a NUL, which a header's names are.
+std::string exr_name(std::istream& file) {
+  std::string name;
+  std::getline(file, name, '\0');
+  return name;
+}
+
+/// Attribute by attribute through the headers: OpenEXR makes room for any size that one declares.
+bool has_whole_exr_headers(std::istream& file) {
+  constexpr std::uint32_t magic = 0x762f3101, many_parts = 0x00100000;
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  file.seekg(0);
+  if (big_endian(file, 4) != magic) return true;
+  const bool in_parts = (big_endian(file, 4) & many_parts) != 0;
+  for (bool header_began = false; file;) {
+    if (exr_name(file).empty()) {  // the end of a header; of all of them, where nothing was in it
+      if (!in_parts || !header_began) return file.good();
+      header_began = false;
+      continue;
+    }
+    header_began = true;
+    exr_name(file);  // the type
+    std::array<unsigned char, 4> low_first{};
+    for (unsigned char& byte : low_first) byte = static_cast<unsigned char>(file.get());
+    std::streamoff length = 0;
+    for (std::size_t i = 4; i-- > 0;) length = length << 8 | low_first[i];
+    if (!file || length > size - file.tellg()) return false;
+    file.seekg(length, std::ios::cur);
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_whole_file(const std::string& path, const ImageFormat& format) {
@@ -56,6 +90,7 @@ bool is_whole_file(const std::string& path, const ImageFormat& format) {
   std::ifstream file(path, std::ios::binary);
   if (writer == "jpeg") return is_whole_jpeg(file);
   if (writer == "png") return is_whole_png(file);
+  if (writer == "openexr") return has_whole_exr_headers(file);
   return true;
 }
 

@@ -190,7 +190,7 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
     return cannot_write(path, reason);
   }
   // The file first: a missing folder is reported without loading anything.
-  Result<OutputFile> created = OutputFile::create(path);
+  Result<OutputFile> created = OutputFile::create(path, options.stop);
   if (!created.ok()) return created.error();
   OutputFile& file = created.value();
   if (options.temporary) options.temporary(file.path());

@@ -59,6 +59,14 @@ void ViewChannels::set(int x, int y, const View& view) {
 
 std::vector<ImageChannel> ViewChannels::release() { return std::exchange(channels_, {}); }
 
+std::vector<std::string> ViewChannels::names(const ViewSelection& selection) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) {
+    if (selection.*kind.wanted) names.emplace_back(kind.name);
+  }
+  return names;
+}
+
 std::uint64_t ViewChannels::bytes(const ViewSelection& selection, const PixelRect& rect) {
   std::uint64_t numbers = 0;
   for (const Kind& kind : kinds) numbers += selection.*kind.wanted ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "render/frame/pixel_rect.h"
@@ -30,6 +31,9 @@ class ViewChannels {
 
   /// Gives the channels away, in the order of ViewSelection; nothing is left.
   std::vector<ImageChannel> release();
+
+  /// The names of the channels, in the order of ViewSelection.
+  static std::vector<std::string> names(const ViewSelection& selection);
 
   /// Bytes that the views of so many pixels take.
   static std::uint64_t bytes(const ViewSelection& selection, const PixelRect& rect);

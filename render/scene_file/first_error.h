@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "render/scene_file/text_place.h"
@@ -27,6 +28,10 @@ class FirstError {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] std::optional<int> frame() const { return frame_; }
 
+  /// Keeps the path of a data file that the file names.
+  void add_data_file(std::string path) { data_files_.push_back(std::move(path)); }
+  [[nodiscard]] const std::vector<std::string>& data_files() const { return data_files_; }
+
   /// The first error, or nothing so far.
   [[nodiscard]] const Status& status() const { return status_; }
 
@@ -34,6 +39,7 @@ class FirstError {
   std::string file_;
   std::optional<int> frame_;
   Status status_;
+  std::vector<std::string> data_files_;
 };
 
 }  // namespace boule

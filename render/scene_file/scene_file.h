@@ -18,10 +18,12 @@ struct SceneFileOptions {
   std::optional<int> frame{};  ///< of a series: where the camera is, and which data files are meant
 };
 
-/// A scene that passed validate(), and remarks for the user that are not errors.
+/// A scene that passed validate(), remarks for the user that are not errors, and the data files
+/// that it was read from beside its own.
 struct LoadedScene {
   Scene scene;
   std::vector<std::string> warnings;  ///< each "FILE:LINE: warning: TEXT"
+  std::vector<std::string> data_files{};
 };
 
 /// Reads a scene by its extension: .toml, or .nff (Haines' SPD). Anything wrong is a Diagnostic

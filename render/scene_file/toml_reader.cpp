@@ -59,7 +59,7 @@ Result<LoadedScene> TomlReader::read() {
   reader.check_instances();
   validate_whole();
   if (error_.status()) return *error_.status();
-  return LoadedScene{std::move(scene_), {}};
+  return LoadedScene{std::move(scene_), {}, error_.data_files()};
 }
 
 void TomlReader::check_schema() {

@@ -32,8 +32,10 @@ TomlTable::TomlTable(const TomlMembers& members, TextPlace place, std::string pa
                      FirstError& error)
     : members_(&members), place_(place), path_(std::move(path)), error_(&error) {}
 
-std::string TomlTable::file_path(const std::string& name) const {
-  return (std::filesystem::path(error_->file()).parent_path() / name).string();
+std::string TomlTable::file_path(const std::string& name) {
+  std::string path = (std::filesystem::path(error_->file()).parent_path() / name).string();
+  error_->add_data_file(path);
+  return path;
 }
 
 void TomlTable::read_file_name(std::string_view key, std::string& name) {

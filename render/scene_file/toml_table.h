@@ -66,8 +66,9 @@ class TomlTable {
 
   /// True if nothing was reported about the file so far.
   [[nodiscard]] bool ok() const { return !error_->status(); }
-  /// A file name in this table as a path: it is relative to the scene file.
-  [[nodiscard]] std::string file_path(const std::string& name) const;
+  /// A file name in this table as a path: it is relative to the scene file. It counts as one of the
+  /// scene's data files.
+  [[nodiscard]] std::string file_path(const std::string& name);
 
   /// Where the table begins, and where the value under `key` does (the table, if it is absent).
   [[nodiscard]] TextPlace place() const { return place_; }

@@ -49,8 +49,9 @@ unsigned char* put(unsigned char* to, const TracedHit& hit) {
 
 HitFile::HitFile(OutputFile file) : file_(std::move(file)) {}
 
-Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count) {
-  Result<OutputFile> file = OutputFile::create(path);
+Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count,
+                                const std::function<bool()>& stop) {
+  Result<OutputFile> file = OutputFile::create(path, stop);
   if (!file) return file.error();
   const std::string start = npy_start(
       kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",

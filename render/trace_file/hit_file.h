@@ -20,8 +20,9 @@ enum class HitKind { closest, any };
 /// under its name when it is complete (OutputFile). Errors: "cannot write 'NAME': REASON".
 class HitFile {
  public:
-  /// Begins the file of `count` hits.
-  static Result<HitFile> create(const std::string& path, HitKind kind, std::uint64_t count);
+  /// Begins the file of `count` hits; `stop` as for OutputFile::create().
+  static Result<HitFile> create(const std::string& path, HitKind kind, std::uint64_t count,
+                                const std::function<bool()>& stop = {});
 
   /// The temporary file.
   [[nodiscard]] const std::string& temporary() const { return file_.path(); }

@@ -127,6 +127,33 @@ TEST_F(Errors, PartialPicturesThatDoNotSaySoCannotBeSkipped) {
   }
 }
 
+TEST_F(Errors, AnOutputDoesNotReplaceWhatItIsMadeOf) {
+  const std::string map = path("map.exr"), link = path("link.exr"), sky = path("sky.png");
+  ASSERT_EQ(boule_run({"render", small_scene(), "-o", map, "-q"}).exit_code, 0);
+  ASSERT_EQ(boule_run({"render", small_scene(), "-o", sky, "-q"}).exit_code, 0);
+  std::filesystem::create_hard_link(map, link);
+  const std::string scene = write("map.toml",
+                                  "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"
+                                  "[camera.distortion]\nfile = \"map.exr\"\n"
+                                  "[background]\ntype = \"environment\"\nfile = \"./sky.png\"\n");
+  for (const std::string& output : {map, link, sky}) {
+    const ProgramRun run = refused({scene, "-o", output, "-q"}, 2);
+    EXPECT_THAT(run.err, HasSubstr("the picture would replace '"));
+    EXPECT_THAT(run.err, HasSubstr("(key '--output')"));
+    refused({scene, "-o", path("x.png"), "-q", "--stats", "json:" + output}, 2);
+  }
+  std::filesystem::create_symlink("scene.toml", path("scene.png"));
+  refused({small_scene(), "-o", path("scene.png"), "-q"}, 2);
+}
+
+TEST_F(Errors, CropsThatCannotSayWhichTheyAreCannotBeSkipped) {
+  for (const char* name : {"x.png", "x.tif"}) {
+    const ProgramRun run = refused(
+        {path("missing.toml"), "-o", path(name), "--crop", "0,0,4,4", "--skip-existing"}, 2);
+    EXPECT_THAT(run.err, HasSubstr("(key '--skip-existing')"));
+  }
+}
+
 TEST_F(Errors, TheSourceDateIsParsedStrictly) {
   for (const char* date :
        {"", "-1", "1.5", "1e9", " 1", "1 ", "0x1", "now", "253402300800", "99999999999999999999"}) {

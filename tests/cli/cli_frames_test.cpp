@@ -130,6 +130,33 @@ TEST_F(Frames, APartialPictureIsNotSkipped) {
   }
 }
 
+TEST_F(Frames, AnotherCropOrOtherChannelsAreNotSkipped) {
+  const std::vector<std::vector<std::string>> shapes = {{"--crop", "0,0,4,4"},
+                                                        {"--crop", "0,1,4,5"},
+                                                        {"--crop", "0,1,4,5", "--aov", "depth"},
+                                                        {"--crop", "0,1,4,5", "--aov", "id"},
+                                                        {"--size", "4x4"},
+                                                        {"--size", "4x4", "--aov", "depth,id"}};
+  for (const auto& shape : shapes) {
+    std::vector<std::string> arguments = {"render", moving_scene(), "-o", path("o.exr"),
+                                          "--skip-existing"};
+    arguments.insert(arguments.end(), shape.begin(), shape.end());
+    EXPECT_THAT(boule_run(arguments).err, testing::Not(HasSubstr("is there already")));
+    EXPECT_THAT(boule_run(arguments).err, HasSubstr("is there already, skipped"));
+  }
+}
+
+TEST_F(Frames, InfoTellsOfEach) {
+  write("a.0007.toml", scene_text("eye = [0, 0, 4]\n"));
+  write("a.0008.toml", scene_text("eye = [0, 2, 4]\n"));
+  const ProgramRun run = boule_run({"info", path("a.####.toml"), "--frames", "7-8"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("eye 0.0 0.0 4.0"));
+  EXPECT_THAT(run.out, HasSubstr("eye 0.0 2.0 4.0"));
+  const ProgramRun key = boule_run({"info", moving_scene(), "--frames", "9"});
+  EXPECT_THAT(key.out, HasSubstr("eye 4.0 0.0 0.0"));
+}
+
 TEST_F(Frames, WrongRangesAndNamesAreRefused) {
   for (const char* range : {"", "a", "4-2", "-1-2", "1-", "1-2-3", "1.5", "0-1000000000"}) {
     const ProgramRun run = refused_run(

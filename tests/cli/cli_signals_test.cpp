@@ -9,6 +9,7 @@
 
 #include "tests/cli/program.h"
 #include "tests/cli/running_program.h"
+#include "tests/render/npy_files.h"
 
 namespace boule::test {
 namespace {
@@ -39,6 +40,43 @@ TEST_F(Signals, WhileRenderingEndTheBarsLineFirst) {
     EXPECT_THAT(run.out, EndsWith("\r\n" + message(name)));
     EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 2) << run.out;
     EXPECT_THAT(files(), ElementsAre("scene.toml"));
+  }
+}
+
+TEST_F(Signals, WhileAFifoHasNoReaderEndIt) {
+  for (const char* name : {"out.png", "hits.npy"}) {
+    ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+  }
+  write("rays.npy", npy_file(npy_dict("'<f4'", "(0, 8)"), ""));
+  const std::vector<std::string> render = {"render", small_scene(), "-o", path("out.png"), "-q"};
+  std::vector<std::string> partial = render;
+  partial.emplace_back("--partial");
+  const std::vector<std::string> trace = {"trace", small_scene(),    "--rays", path("rays.npy"),
+                                          "-o",    path("hits.npy"), "-q"};
+  for (const auto& arguments : {render, partial, trace}) {
+    RunningProgram program(arguments);
+    program.wait(500);
+    const Watch watch;
+    program.send(SIGTERM);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, 143);
+    EXPECT_THAT(run.out, testing::StartsWith("boule: interrupted (SIGTERM), "));
+  }
+}
+
+/// A reader that comes late, and a link to what has no name of its own.
+TEST_F(Signals, PipesGetThePictureWhenTheyAreRead) {
+  ASSERT_EQ(boule_run({"render", small_scene(), "-o", path("whole.png"), "-q"}).exit_code, 0);
+  std::filesystem::create_symlink("/dev/stdout", path("stdout.png"));
+  ASSERT_EQ(mkfifo(path("fifo.png").c_str(), 0600), 0);
+  const std::string program = "cd " + path("") + "; \"" BOULE_PROGRAM "\" render scene.toml -q -o ";
+  for (const std::string& line :
+       {program + "stdout.png | cat > copy.png",
+        program + "fifo.png & sleep 0.5; cat fifo.png > copy.png; wait"}) {
+    write("copy.png", "");
+    EXPECT_EQ(run_program("/bin/sh", {{"-c", line}, {}}).err, "");
+    EXPECT_TRUE(read("copy.png") == read("whole.png")) << line;
   }
 }
 

@@ -130,14 +130,13 @@ TEST_F(Trace, PlanesHaveTheIdsAfterTheSpheresAndNormalsFaceTheRay) {
   EXPECT_TRUE(hits(small_scene()) == hit_file(expected));
 }
 
-TEST_F(Trace, TheRaysFileMayBeTheTarget) {
-  const std::string scene = cloud_scene(20);
-  const std::vector<Ray> rays = ray_cloud(300'000);
-  const std::string name = write("r.npy", ray_file(rays));
-  const ProgramRun run = boule_run({"trace", scene, "--rays", name, "-o", name});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_TRUE(read("r.npy") == hit_file(kernel_hits(cloud(20), rays, "auto", Solver::robust)));
-  EXPECT_THAT(files(), ElementsAre("cloud.npy", "cloud.toml", "r.npy"));
+TEST_F(Trace, TheHitsDoNotReplaceWhatTheyAreMadeOf) {
+  const std::string scene = cloud_scene(20), rays = write("r.npy", ray_file(ray_cloud(3)));
+  std::filesystem::create_hard_link(rays, path("link.npy"));
+  for (const std::string& output : {rays, path("link.npy"), path("cloud.npy")}) {
+    const ProgramRun run = refused_run({"trace", scene, "--rays", rays, "-o", output}, 2);
+    EXPECT_THAT(run.err, testing::HasSubstr("the hits would replace '"));
+  }
 }
 
 TEST_F(Trace, ASceneNeedsNeitherCameraNorLightAndIsNotToldSo) {
