@@ -62,20 +62,34 @@ class PixelKeys {
   std::uint64_t seed_;
 };
 
+/// What a pixel's and a set's points are scrambled by.
+struct SobolSeeds {
+  std::uint32_t shuffle, u, v;
+};
+
+inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
+  const std::uint64_t seeds = mix64(key + static_cast<std::uint64_t>(set) * golden_step);
+  const std::uint64_t more = mix64(seeds + golden_step);
+  return {static_cast<std::uint32_t>(seeds), static_cast<std::uint32_t>(seeds >> 32),
+          static_cast<std::uint32_t>(more)};
+}
+
+/// simd/kernel/sobol.h does the same W at a time.
+inline UnitPair sobol_point(const SobolSeeds& seeds, std::uint32_t sample) {
+  const std::uint32_t index =
+      detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), seeds.shuffle));
+  const auto u = detail::scramble(index, seeds.u);
+  const auto v = detail::scramble(detail::pascal(index), seeds.v);
+  return {unit_interval(detail::reverse_bits(u)), unit_interval(detail::reverse_bits(v))};
+}
+
 /// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel
 /// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). The first n samples
 /// of a pixel have, for any n, in every rectangle of 2^-a by 2^-b that tiles the unit square,
 /// n 2^-(a+b) points, rounded up or down: no direction, no n and no early stop is worse off. Sets
 /// have nothing to do with each other. Same bits on every machine, in any order.
 inline UnitPair sobol_pair(std::uint64_t key, RandomSet set, std::uint32_t sample) {
-  const std::uint64_t seeds = mix64(key + static_cast<std::uint64_t>(set) * golden_step);
-  const std::uint64_t more = mix64(seeds + golden_step);
-  const auto shuffle = static_cast<std::uint32_t>(seeds);
-  const std::uint32_t index =
-      detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), shuffle));
-  const auto u = detail::scramble(index, static_cast<std::uint32_t>(seeds >> 32));
-  const auto v = detail::scramble(detail::pascal(index), static_cast<std::uint32_t>(more));
-  return {unit_interval(detail::reverse_bits(u)), unit_interval(detail::reverse_bits(v))};
+  return sobol_point(sobol_seeds(key, set), sample);
 }
 
 }  // namespace boule

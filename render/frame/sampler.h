@@ -12,11 +12,6 @@ struct RasterPoint {
   double x, y;
 };
 
-/// A place on a lens, 0 .. 1 each; (0.5, 0.5) is its centre.
-struct LensPoint {
-  double x, y;
-};
-
 /// Where a pixel is sampled (lecture "Sampling"): one sample at the centre, or any number of them
 /// spread evenly, as sobol_pair() says, whenever one stops. The filter shapes where they lie, not
 /// what they count, so a sample is of one pixel only (Ernst, Stamminger, Greiner, "Filter
@@ -29,11 +24,17 @@ class Sampler {
   Sampler(int spp, std::uint64_t seed, PixelFilter filter = PixelFilter::box)
       : single_(spp == 1), keys_(seed), filter_(filter) {}
 
+  /// One sample a pixel: it needs no numbers.
+  [[nodiscard]] bool single() const { return single_; }
+
+  /// What the numbers of pixel (x, y) depend on.
+  [[nodiscard]] std::uint64_t key(int x, int y) const { return keys_.of(x, y); }
+
+  /// The place in pixel (x, y) of a sample of several, by its numbers: those of RandomSet::film.
+  [[nodiscard]] RasterPoint place(int x, int y, const UnitPair& numbers) const;
+
   /// The place of sample 0 <= sample < spp of pixel (x, y).
   [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
-
-  /// The place on the lens of the same sample; a single one passes through its centre.
-  [[nodiscard]] LensPoint lens_position(int x, int y, int sample) const;
 
  private:
   bool single_;

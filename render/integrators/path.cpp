@@ -31,6 +31,14 @@ Color multiply(const Color& a, const Color& b, double scale) {
   return {product(a.r, b.r), product(a.g, b.g), product(a.b, b.b)};
 }
 
+/// False only if a line along `dir` certainly passes the sphere: no root, no quotient. Its distance
+/// from the centre is compared with twice the radius, and a little for what rounding takes from it.
+bool may_meet(const Vec3d& dir, const Vec3d& to_center, double radius) {
+  const Vec3d aside = cross(dir, to_center);
+  return !(dot(aside, aside) >
+           dot(dir, dir) * (4 * radius * radius + 1e-29 * dot(to_center, to_center)));
+}
+
 /// Veach's power heuristic with exponent 2: the share of the way with density a, beside one with b.
 double power_heuristic(double a, double b) {
   const double ratio = b / a;
@@ -53,7 +61,14 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
     use_light(light);
     delta_lights_ = true;
   }
-  points_.reserve(Surfaces::block_size);
+  constexpr std::size_t most = Surfaces::block_size;
+  met_.reserve(most);
+  points_.reserve(most);
+  seekers_.reserve(most);
+  choices_.resize(most);
+  numbers_.resize(most);
+  seek_.resize(most);
+  turns_.resize(most);
 }
 
 void Path::start(const CameraRays& camera) {
@@ -71,104 +86,162 @@ void Path::make_room(std::size_t rays) {
   arrivals_.reserve(rays);
 }
 
+/// In steps that go through the whole block: what they calculate goes W at a time.
 void Path::shade(const Block& block) {
+  met_.clear();
   points_.clear();
   for (std::size_t k = block.first; k < block.end; ++k) {
-    const auto index = static_cast<std::uint32_t>(k);
-    if (meet(block.stream, index)) points_.push_back(index);
+    const auto ray = static_cast<std::uint32_t>(k);
+    if (meet(block.stream, ray)) met_.push_back(ray);
   }
-  if (points_.empty()) return;
+  if (met_.empty()) return;
   find_surfaces(block);
-  for (const std::uint32_t index : points_) {
-    shade_hit(block.stream, index, surfaces_.get(index - block.first));
-  }
+  for (const std::uint32_t ray : met_) add_point(block, ray);
+  if (seeks_) seek_lights(block.stream);
+  if (!ends(block.stream)) go_on(block.stream);
 }
 
 /// Finds the radiance that a ray comes upon. True if its path may go on from a surface.
 bool Path::meet(const PathStream& stream, std::uint32_t index) {
   const Hit met = hit(index);
-  const Ray ray = stream.rays->get(index);
   const double density = stream.density[index];
   Color& sum = radiance(index);
-  sum = crossed_lights(ray, density, met.t);
+  sum = density > 0 ? crossed_lights(stream.rays->get(index), density, met.t) : Color{};
   if (met.id == no_primitive) {
-    sum = sum + seen_background(ray, density);
+    sum = sum + seen_background(stream.rays->dir(index), density);
     return false;
   }
   const FlatMaterial& material = scene_.material_of(met.id);
   if (is_black(material.constant)) return takes_direct_light(material) || scatters(material);
   // Emissive: nothing else.
-  const auto sphere = static_cast<std::size_t>(met.id);
-  double light_density = 0;
-  if (density > 0 && sphere < scene_.spheres.size()) {
-    const AreaLight light = scene_.area_lights.light_of(scene_.spheres[sphere], material.constant);
-    light_density = (1 - environment_share_) * light.share *
-                    LightCone(ray.org, light.center, light.radius).density();
-  }
-  sum = sum + material.constant * static_cast<float>(weight_of_hit(density, light_density));
+  const double sought = density > 0 ? sought_density(stream.rays->org(index), met.id) : 0;
+  sum = sum + material.constant * static_cast<float>(weight_of_hit(density, sought));
   return false;
 }
 
-void Path::shade_hit(const PathStream& stream, std::uint32_t index, const Surface& surface) {
-  const FlatMaterial& material = scene_.material_of(surface.id);
-  const Lobes lobes(material, surface);
-  if (lobes.black()) return;
-  const bool lit = takes_direct_light(material);
-  if (lit && delta_lights_) illumination_.add_point(index, material);
-  if (lit && seeks_) seek_light(stream, index, surface, lobes);
-  if (!ends(stream)) go_on(stream, index, surface, lobes);
+/// The density with which an emissive primitive is sought, in any direction that meets it.
+double Path::sought_density(const Vec3d& org, std::int32_t id) const {
+  const auto sphere = static_cast<std::size_t>(id);
+  if (sphere >= scene_.spheres.size()) return 0;
+  const AreaLight light =
+      scene_.area_lights.light_of(scene_.spheres[sphere], scene_.material_of(id).constant);
+  return (1 - environment_share_) * light.share *
+         LightCone(org, light.center, light.radius).density();
 }
 
-/// Picks a light and a direction to it: the environment, or one of the spheres.
-void Path::seek_light(const PathStream& stream, std::uint32_t index, const Surface& surface,
-                      const Lobes& lobes) {
-  UnitPair numbers = this->numbers(stream, index, Use::light);
-  const Departure departure = depart(surface, Side::viewer);
-  if (numbers.u < environment_share_) {
-    numbers.u /= environment_share_;
-    const auto [to_light, density] = scene_.environment.sample(numbers);
-    const Ray way{departure.org, vec_cast<float>(to_light)};
-    const Color radiance = background_radiance(scene_.background, way.dir);
-    seek({stream, index, surface, lobes}, from_surface(way, departure),
-         {to_light, environment_share_ * density, radiance});
-    return;
+void Path::add_point(const Block& block, std::uint32_t ray) {
+  const FlatMaterial& material = scene_.material_of(hit(ray).id);
+  const Point& point = points_.emplace_back(ray, material, surfaces_.get(ray - block.first));
+  if (point.lobes.black()) {
+    points_.pop_back();
+  } else if (point.lit && delta_lights_) {
+    illumination_.add_point(ray, material);
   }
+}
+
+/// Picks a light and a direction to it for each point: the environment, or one of the spheres.
+void Path::seek_lights(const PathStream& stream) {
+  find_numbers(stream, Use::light);
+  seekers_.clear();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    if (!point.lit) continue;
+    UnitPair numbers = numbers_.get(i);
+    if (seek_environment(stream, point, numbers)) continue;
+    const AreaLight& light = scene_.area_lights.pick(numbers.u);
+    seek_.set(seekers_.size(), surfaces_.departure(point.ray).org, light.center, light.radius,
+              numbers.u, numbers.v);
+    seekers_.push_back({&point, &light});
+  }
+  seek_spheres(stream);
+}
+
+/// Seeks the environment if it is its turn; else the numbers become such for spheres.
+bool Path::seek_environment(const PathStream& stream, const Point& point, UnitPair& numbers) {
+  if (!(numbers.u < environment_share_)) {
+    numbers.u = (numbers.u - environment_share_) / (1 - environment_share_);
+    return false;
+  }
+  numbers.u /= environment_share_;
+  const auto [to_light, density] = scene_.environment.sample(numbers);
+  const Departure departure = surfaces_.departure(point.ray);
+  const Ray way{departure.org, vec_cast<float>(to_light)};
+  const Color radiance = background_radiance(scene_.background, way.dir);
+  seek(stream, point, from_surface(way, departure),
+       {to_light, environment_share_ * density, radiance});
+  return true;
+}
+
+void Path::seek_spheres(const PathStream& stream) {
+  kernels_.seek(seek_.view(seekers_.size()));
   const double sphere_share = 1 - environment_share_;
-  numbers.u = (numbers.u - environment_share_) / sphere_share;
-  const AreaLight& light = scene_.area_lights.pick(numbers.u);
-  const LightCone cone(departure.org, light.center, light.radius);
-  if (!(cone.density() > 0)) return;
-  const Vec3d to_light = cone.direction(numbers);
-  seek({stream, index, surface, lobes}, from_surface(cone.way(to_light), departure),
-       {to_light, sphere_share * light.share * cone.density(), light.radiance});
+  for (std::size_t i = 0; i < seekers_.size(); ++i) {
+    const auto& [point, light] = seekers_[i];
+    const Sought sought{seek_.direction(i), sphere_share * light->share * seek_.density(i),
+                        light->radiance};
+    if (!(seek_.density(i) > 0)) continue;
+    Ray way{seek_.org(i), vec_cast<float>(sought.direction)};
+    way.tmax = seek_.tmax(i);
+    seek(stream, *point, from_surface(way, surfaces_.departure(point->ray)), sought);
+  }
 }
 
 /// Makes the shadow ray that decides whether a light arrives, unless none of it would count.
-void Path::seek(const Seeker& seeker, const Ray& way, const Sought& light) {
-  const double cosine = dot(seeker.surface.normal, light.direction);
+void Path::seek(const PathStream& stream, const Point& point, const Ray& way, const Sought& light) {
+  const double cosine = dot(point.surface.normal, light.direction);
   if (!(cosine > 0) || !(light.density > 0)) return;
-  const double density = seeker.lobes.density(cosine, light.direction);
-  const bool last = ends(seeker.stream);
-  const double weight = weight_of_light(light.density, density, last);
-  const Color reflected = seeker.lobes.reflected(cosine, light.direction);
+  const double density = point.lobes.density(cosine, light.direction);
+  const double weight = weight_of_light(light.density, density, ends(stream));
+  const Color reflected = point.lobes.reflected(cosine, light.direction);
   shadow_rays_.set(arrivals_.size(), way);
   arrivals_.push_back(
-      {seeker.ray, multiply(reflected, light.radiance, weight / (elementary::pi * light.density))});
+      {point.ray, multiply(reflected, light.radiance, weight / (elementary::pi * light.density))});
 }
 
-/// Sends the path on, unless the roulette ends it.
-void Path::go_on(const PathStream& stream, std::uint32_t index, const Surface& surface,
-                 const Lobes& lobes) {
-  Bounce bounce = lobes.bounce(numbers(stream, index, Use::bounce));
-  if (is_black(bounce.weight)) return;
-  if (stream.depth >= roulette_depth) {
-    const Color left = stream.throughput[index] * bounce.weight;
-    const float survival = std::min(std::max({left.r, left.g, left.b}), most_likely);
-    if (!(numbers(stream, index, Use::roulette).u < static_cast<double>(survival))) return;
-    bounce.weight = bounce.weight * (1 / survival);
+/// Sends all paths on, unless the roulette ends them.
+void Path::go_on(const PathStream& stream) {
+  choose_ways(stream);
+  const bool may_end = stream.depth >= roulette_depth;
+  if (may_end) find_numbers(stream, Use::roulette);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    Bounce bounce = point.lobes.bounce(choices_[i], turns_.direction(i));
+    if (is_black(bounce.weight)) continue;
+    if (may_end && !survives(stream, point, numbers_.get(i), bounce)) continue;
+    wavefront_.spawn(point.ray, leave(point.surface, bounce.side, bounce.direction), bounce.weight,
+                     static_cast<float>(bounce.density));
   }
-  wavefront_.spawn(index, leave(surface, bounce.side, bounce.direction), bounce.weight,
-                   static_cast<float>(bounce.density));
+}
+
+/// Chooses each point's lobe and, where that is wide, the direction in it.
+void Path::choose_ways(const PathStream& stream) {
+  find_numbers(stream, Use::bounce);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Lobes& lobes = points_[i].lobes;
+    const Lobes::Choice& choice = choices_[i] = lobes.choose(numbers_.get(i));
+    turns_.set(i, lobes.axis(choice), choice.from.cosine, choice.from.sine, choice.turns);
+  }
+  kernels_.turn(turns_.view(points_.size()));
+}
+
+/// Roulette: what survives counts more by as much as others are lost.
+bool Path::survives(const PathStream& stream, const Point& point, UnitPair numbers,
+                    Bounce& bounce) {
+  const Color left = stream.throughput[point.ray] * bounce.weight;
+  const float survival = std::min(std::max({left.r, left.g, left.b}), most_likely);
+  if (!(numbers.u < static_cast<double>(survival))) return false;
+  bounce.weight = bounce.weight * (1 / survival);
+  return true;
+}
+
+/// The numbers of all points for this use.
+void Path::find_numbers(const PathStream& stream, Use use) {
+  const RandomSet set = random_set(stream.depth, static_cast<unsigned>(use));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const RandomKey& key = random_keys_[stream.sample[points_[i].ray]];
+    numbers_.ask(i, key.pixel, set, key.sample);
+  }
+  numbers_.find(kernels_, points_.size());
 }
 
 void Path::add_more_light() {
@@ -184,23 +257,24 @@ void Path::add_more_light() {
 }
 
 /// The background, weighted where an image of it is sought too.
-Color Path::seen_background(const Ray& ray, double density) const {
-  const Color radiance = background_radiance(scene_.background, ray.dir);
+Color Path::seen_background(const Vec3f& dir, double density) const {
+  const Color radiance = background_radiance(scene_.background, dir);
   if (!(environment_share_ > 0) || !(density > 0)) return radiance;
-  const double sought = scene_.environment.density(normalize(vec_cast<double>(ray.dir)));
+  const double sought = scene_.environment.density(normalize(vec_cast<double>(dir)));
   return radiance * static_cast<float>(weight_of_hit(density, environment_share_ * sought));
 }
 
 /// The sphere lights that a ray passes before t: they are no objects, no ray ends there. Seen by
-/// rays that a diffuse lobe or a highlight sent there, and by no others.
+/// rays that a diffuse lobe or a highlight sent there with this density, and by no others.
 Color Path::crossed_lights(const Ray& ray, double density, double t) const {
   Color sum;
   const AreaLights& lights = scene_.area_lights;
-  if (!(density > 0) || lights.sphere_light_count() == 0) return sum;
+  if (lights.sphere_light_count() == 0) return sum;
   const Vec3d dir = vec_cast<double>(ray.dir);
   const double size = length(dir);
   for (std::size_t i = 0; i < lights.sphere_light_count(); ++i) {
     const AreaLight& light = lights.sphere_lights()[i];
+    if (!may_meet(dir, light.center - ray.org, light.radius)) continue;
     const LightCone cone(ray.org, light.center, light.radius);
     if (!cone.meets(dir * (1 / size), t * size)) continue;
     const double weight =
@@ -222,11 +296,6 @@ double Path::weight_of_hit(double density, double light_density) const {
 double Path::weight_of_light(double light_density, double density, bool last) const {
   if (last || settings_.light_search == LightSearch::lights) return 1;
   return power_heuristic(light_density, density);
-}
-
-UnitPair Path::numbers(const PathStream& stream, std::uint32_t index, Use use) const {
-  const RandomKey& key = random_keys_[stream.sample[index]];
-  return sobol_pair(key.pixel, random_set(stream.depth, static_cast<unsigned>(use)), key.sample);
 }
 
 }  // namespace boule

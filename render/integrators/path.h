@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/light_cone.h"
 #include "core/math/sobol.h"
+#include "render/integrators/random_numbers.h"
 #include "render/integrators/stream_integrator.h"
-#include "render/shading/light_cone.h"
 #include "render/shading/lobes.h"
 
 namespace boule {
@@ -28,12 +29,20 @@ class Path final : public StreamIntegrator {
     std::uint32_t ray;
     Color radiance;
   };
-  /// A ray's hit that seeks light.
-  struct Seeker {
-    const PathStream& stream;
+  /// A ray's hit from which light is sent on.
+  struct Point {
     std::uint32_t ray;
-    const Surface& surface;
-    const Lobes& lobes;
+    bool lit;  ///< light sources shine on it
+    Surface surface;
+    Lobes lobes;
+
+    Point(std::uint32_t met_by, const FlatMaterial& material, const Surface& met)
+        : ray(met_by), lit(takes_direct_light(material)), surface(met), lobes(material, met) {}
+  };
+  /// A point that seeks a sphere.
+  struct Seeker {
+    const Point* point;
+    const AreaLight* light;
   };
   /// Light in a direction that was chosen with a density.
   struct Sought {
@@ -53,18 +62,21 @@ class Path final : public StreamIntegrator {
   void make_room(std::size_t rays) override;
   void shade(const Block& block) override;
   void add_more_light() override;
-  bool meet(const PathStream& stream, std::uint32_t index);
-  void shade_hit(const PathStream& stream, std::uint32_t index, const Surface& surface);
-  void seek_light(const PathStream& stream, std::uint32_t index, const Surface& surface,
-                  const Lobes& lobes);
-  void go_on(const PathStream& stream, std::uint32_t index, const Surface& surface,
-             const Lobes& lobes);
-  void seek(const Seeker& seeker, const Ray& way, const Sought& light);
-  [[nodiscard]] Color seen_background(const Ray& ray, double density) const;
+  bool meet(const PathStream& stream, std::uint32_t ray);
+  void add_point(const Block& block, std::uint32_t ray);
+  void seek_lights(const PathStream& stream);
+  bool seek_environment(const PathStream& stream, const Point& point, UnitPair& numbers);
+  void seek_spheres(const PathStream& stream);
+  void seek(const PathStream& stream, const Point& point, const Ray& way, const Sought& light);
+  void go_on(const PathStream& stream);
+  void choose_ways(const PathStream& stream);
+  bool survives(const PathStream& stream, const Point& point, UnitPair numbers, Bounce& bounce);
+  void find_numbers(const PathStream& stream, Use use);
+  [[nodiscard]] Color seen_background(const Vec3f& dir, double density) const;
+  [[nodiscard]] double sought_density(const Vec3d& org, std::int32_t id) const;
   [[nodiscard]] Color crossed_lights(const Ray& ray, double density, double t) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
   [[nodiscard]] double weight_of_light(double light_density, double density, bool last) const;
-  [[nodiscard]] UnitPair numbers(const PathStream& stream, std::uint32_t index, Use use) const;
 
   PixelKeys keys_;
   double environment_share_;            ///< how often the environment is sought, not a sphere
@@ -72,9 +84,17 @@ class Path final : public StreamIntegrator {
   bool delta_lights_ = false;           ///< there are point or directional lights
   std::vector<RandomKey> random_keys_;  ///< by sample
 
-  RayBuffer shadow_rays_;              ///< of a stream: to what is sought
-  std::vector<Arrival> arrivals_;      ///< by shadow ray
-  std::vector<std::uint32_t> points_;  ///< of a block: rays whose surface matters
+  // Working memory of a stream.
+  RayBuffer shadow_rays_;          ///< to what is sought
+  std::vector<Arrival> arrivals_;  ///< by shadow ray
+  // Working memory of a block.
+  std::vector<std::uint32_t> met_;  ///< rays that met what may send light on
+  std::vector<Point> points_;
+  RandomNumbers numbers_;  ///< by point
+  std::vector<Seeker> seekers_;
+  SeekBuffer seek_;                     ///< by seeker
+  std::vector<Lobes::Choice> choices_;  ///< by point
+  TurnBuffer turns_;                    ///< by point
 };
 
 }  // namespace boule

@@ -16,18 +16,10 @@ template <class Wanted>
 bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
                                 const Wanted& wanted) {
   pixels_.clear();
-  const CameraView& camera = setup_.scene.camera_view;
-  samples_.resize(setup_.stream_size, camera);
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
-      const RasterPoint place = setup_.sampler.position(x, y, sample);
-      samples_.set(pixels_.size(), place.x, place.y);
-      if (has_lens(camera.kind)) {
-        const LensPoint on_lens = setup_.sampler.lens_position(x, y, sample);
-        samples_.set_lens(pixels_.size(), on_lens.x, on_lens.y);
-      }
       pixels_.push_back({x, y, sample});
       if (pixels_.size() == setup_.stream_size && !trace(film)) return false;
     }
@@ -55,14 +47,43 @@ bool BlockWorker::render(const PixelRect& block, int until, Image& image, const 
 bool BlockWorker::trace(Film& film) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
-  samples_.resize(count);
+  place_samples();
   rays_.resize(count);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (!(camera.weighs ? trace_weighted(film) : trace_all(film))) return false;
   pixels_.clear();
-  samples_.resize(setup_.stream_size);
   return true;
+}
+
+/// Finds where the samples gathered so far lie, on the film and on the lens.
+void BlockWorker::place_samples() {
+  const Sampler& sampler = setup_.sampler;
+  const CameraView& camera = setup_.scene.camera_view;
+  samples_.resize(setup_.stream_size, camera);
+  samples_.resize(pixels_.size());
+  if (!sampler.single()) find_numbers(RandomSet::film);
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    const auto& [x, y, sample] = pixels_[k];
+    const RasterPoint place =
+        sampler.single() ? sampler.position(x, y, sample) : sampler.place(x, y, numbers_.get(k));
+    samples_.set(k, place.x, place.y);
+  }
+  if (!has_lens(camera.kind)) return;
+  if (!sampler.single()) find_numbers(RandomSet::lens);
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    const UnitPair on_lens = sampler.single() ? UnitPair{0.5, 0.5} : numbers_.get(k);
+    samples_.set_lens(k, on_lens.u, on_lens.v);
+  }
+}
+
+void BlockWorker::find_numbers(RandomSet set) {
+  numbers_.resize(setup_.stream_size);
+  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+    const auto& [x, y, sample] = pixels_[k];
+    numbers_.ask(k, setup_.sampler.key(x, y), set, static_cast<std::uint32_t>(sample));
+  }
+  numbers_.find(setup_.kernels, pixels_.size());
 }
 
 bool BlockWorker::trace_all(Film& film) {

@@ -9,6 +9,7 @@
 #include "render/frame/pixel_order.h"
 #include "render/frame/sampler.h"
 #include "render/integrators/integrator.h"
+#include "render/integrators/random_numbers.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/build/stream_buffer.h"
@@ -47,6 +48,8 @@ class BlockWorker {
  private:
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
+  void place_samples();
+  void find_numbers(RandomSet set);
   bool trace(Film& film);
   bool trace_all(Film& film);
   bool trace_weighted(Film& film);
@@ -55,6 +58,7 @@ class BlockWorker {
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> pixels_;  ///< whose samples the stream holds
   std::vector<SampleId> live_;    ///< those of them that have a ray, of a camera that weighs
+  RandomNumbers numbers_;
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;

@@ -19,8 +19,9 @@ double spread(double u, double first, double share) {
 }  // namespace
 
 Lobes::Lobes(const FlatMaterial& material, const Surface& surface)
-    : material_(material),
-      surface_(surface),
+    : material_(&material),
+      normal_(surface.normal),
+      mirrored_(surface.mirrored),
       diffuse_(mean(material.diffuse)),
       highlight_(highlight_albedo(material)),
       reflection_(0),
@@ -36,42 +37,54 @@ Lobes::Lobes(const FlatMaterial& material, const Surface& surface)
 double Lobes::density(double cosine, const Vec3d& to_light) const {
   double density = diffuse_ * cosine_density(cosine);
   if (highlight_ > 0) {
-    const double r_dot_l = std::min(dot(surface_.mirrored, to_light), 1.0);
+    const double r_dot_l = std::min(dot(mirrored_, to_light), 1.0);
     if (r_dot_l > 0) {
       density +=
-          highlight_ * power_density(highlight_power(material_, r_dot_l), material_.shininess);
+          highlight_ * power_density(highlight_power(*material_, r_dot_l), material_->shininess);
     }
   }
   return density / sum_;
 }
 
-Bounce Lobes::bounce(UnitPair numbers) const {
-  const double u = numbers.u * sum_, v = numbers.v;
+Lobes::Choice Lobes::choose(UnitPair numbers) const {
+  const double u = numbers.u * sum_;
   double first = 0;
   if (u < first + diffuse_) {
-    const double inner = spread(u, first, diffuse_);
-    const Angle from = warp_to_cosine(inner);
-    const Vec3d direction = direction_about(surface_.normal, from, v);
-    if (diffuse_ < sum_) return scattered(direction);
-    return {direction, Side::viewer, material_.diffuse, cosine_density(from.cosine)};
+    return {Lobe::diffuse, warp_to_cosine(spread(u, first, diffuse_)), numbers.v};
   }
   first += diffuse_;
   if (u < first + highlight_) {
-    const Angle from = warp_to_power(spread(u, first, highlight_), material_.shininess);
-    return scattered(direction_about(surface_.mirrored, from, v));
+    const double inner = spread(u, first, highlight_);
+    return {Lobe::highlight, warp_to_power(inner, material_->shininess), numbers.v};
   }
   first += highlight_;
   if (u < first + reflection_ || !(refraction_ > 0)) {
-    if (!(reflection_ > 0)) return {};
-    return {surface_.mirrored, Side::viewer,
-            way_.reflection * static_cast<float>(sum_ / reflection_)};
+    return {reflection_ > 0 ? Lobe::reflection : Lobe::none};
   }
-  return {way_.refracted, Side::beyond, way_.refraction * static_cast<float>(sum_ / refraction_)};
+  return {Lobe::refraction};
+}
+
+Bounce Lobes::bounce(const Choice& choice, const Vec3d& direction) const {
+  switch (choice.lobe) {
+    case Lobe::diffuse:
+      if (diffuse_ < sum_) return scattered(direction);
+      return {direction, Side::viewer, material_->diffuse, cosine_density(choice.from.cosine)};
+    case Lobe::highlight:
+      return scattered(direction);
+    case Lobe::reflection:
+      return {mirrored_, Side::viewer, way_.reflection * static_cast<float>(sum_ / reflection_)};
+    case Lobe::refraction:
+      return {way_.refracted, Side::beyond,
+              way_.refraction * static_cast<float>(sum_ / refraction_)};
+    case Lobe::none:
+      break;
+  }
+  return {};
 }
 
 /// Light from this direction by both lobes, over their density.
 Bounce Lobes::scattered(const Vec3d& direction) const {
-  const double cosine = dot(surface_.normal, direction);
+  const double cosine = dot(normal_, direction);
   if (!(cosine > 0)) return {};
   const double density = this->density(cosine, direction);
   if (!(density > 0)) return {};

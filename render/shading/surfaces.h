@@ -37,6 +37,11 @@ class Surfaces {
   [[nodiscard]] Vec3d point(std::size_t k) const { return points_.get(k); }
   [[nodiscard]] Vec3d mirrored(std::size_t k) const { return mirrored_.get(k); }
 
+  /// Where rays leave the point of ray k of the stream, to the viewer's side.
+  [[nodiscard]] Departure departure(std::size_t k) const {
+    return {orgs_.get(k), ids_[k], inside_[k] != 0};
+  }
+
   /// The points of the first `size` rays; lit[k]: 1 where light may fall on that of ray k, 0 for
   /// all others up to padded(size).
   LitStream lit(const std::uint8_t* lit, std::size_t size);

@@ -38,6 +38,11 @@ struct KernelTable {
 
   /// Makes the shadow rays of all lit points that face the light, in their order. How many.
   std::size_t (*aim)(const LightPlace& light, const LitStream& points, const AimedStream& aimed);
+
+  /// Random numbers, directions by them, and spheres sought by them: see the streams.
+  void (*sobol_points)(const SobolStream& points);
+  void (*turn)(const TurnStream& turns);
+  void (*seek)(const SeekStream& seekers);
 };
 
 }  // namespace boule

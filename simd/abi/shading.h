@@ -66,4 +66,41 @@ struct AimedStream {
   std::uint32_t* point;
 };
 
+/// Places in Sobol's sequence by sample and seeds, as core/math/sobol.h has them. Arrays as in
+/// RayStream.
+struct SobolStream {
+  const std::uint32_t* sample;
+  const std::uint32_t* shuffle;
+  const std::uint32_t* seed_u;
+  const std::uint32_t* seed_v;
+  double* u;  ///< written, with v
+  double* v;
+  std::size_t size;
+};
+
+/// Directions at an angle from an axis, given by its cosine and sine, and so many turns around it,
+/// 0 <= turns <= 1: direction_about() of core/math/warp.h. Arrays as in RayStream.
+struct TurnStream {
+  VectorStream axis;
+  const double* cosine;
+  const double* sine;
+  const double* turns;
+  VectorStream direction;  ///< written
+  std::size_t size;
+};
+
+/// Spheres that are sought from points, each in a direction by two numbers: a LightCone
+/// (core/light_cone.h). Arrays as in RayStream.
+struct SeekStream {
+  VectorStream org;
+  VectorStream center;
+  const double* radius;
+  const double* u;
+  const double* v;
+  VectorStream direction;  ///< written: unit length; anything where the density is 0
+  double* density;         ///< written
+  float* tmax;             ///< written: of the shadow ray that way
+  std::size_t size;
+};
+
 }  // namespace boule

@@ -1,6 +1,9 @@
 #include <vector>
 
+#include "core/light_cone.h"
 #include "core/math/geometry.h"
+#include "core/math/sobol.h"
+#include "core/math/warp.h"
 #include "core/reference.h"
 #include "core/scene/lens_optics.h"
 #include "core/surface.h"
@@ -204,11 +207,37 @@ std::size_t aim(const LightPlace& light, const LitStream& points, const AimedStr
   return count;
 }
 
+void sobol_points(const SobolStream& points) {
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const SobolSeeds seeds{points.shuffle[i], points.seed_u[i], points.seed_v[i]};
+    const auto [u, v] = sobol_point(seeds, points.sample[i]);
+    points.u[i] = u;
+    points.v[i] = v;
+  }
+}
+
+void turn(const TurnStream& turns) {
+  for (std::size_t i = 0; i < turns.size; ++i) {
+    const Angle from{turns.cosine[i], turns.sine[i]};
+    set(turns.direction, i, direction_about(get(turns.axis, i), from, turns.turns[i]));
+  }
+}
+
+void seek(const SeekStream& seekers) {
+  for (std::size_t i = 0; i < seekers.size; ++i) {
+    const LightCone cone(get(seekers.org, i), get(seekers.center, i), seekers.radius[i]);
+    const Vec3d direction = cone.direction({seekers.u[i], seekers.v[i]});
+    set(seekers.direction, i, direction);
+    seekers.density[i] = cone.density();
+    seekers.tmax[i] = cone.way(direction).tmax;
+  }
+}
+
 }  // namespace
 
 const KernelTable& reference_kernels() {
-  static const KernelTable table = {Isa::scalar,   1,  primary_rays, closest_hit, any_hit,
-                                    find_surfaces, aim};
+  static const KernelTable table = {Isa::scalar,   1,   primary_rays, closest_hit, any_hit,
+                                    find_surfaces, aim, sobol_points, turn,        seek};
   return table;
 }
 

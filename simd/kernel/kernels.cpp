@@ -5,7 +5,9 @@
 #include "simd/kernel/packet_stream.h"
 #include "simd/kernel/primary_rays.h"
 #include "simd/kernel/scattered_stream.h"
+#include "simd/kernel/sobol.h"
 #include "simd/kernel/surfaces.h"
+#include "simd/kernel/warp.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -70,10 +72,15 @@ std::size_t shadow_rays(const LightPlace& light, const LitStream& points,
   return aim(light, points, aimed);
 }
 
+void numbers(const SobolStream& points) { sobol_points(points); }
+void directions(const TurnStream& turns) { turn(turns); }
+void light_cones(const SeekStream& seekers) { seek(seekers); }
+
 }  // namespace
 
 extern const KernelTable kernel_table;
 const KernelTable kernel_table = {
-    Isa::BOULE_KERNEL_ISA, width, camera_rays, closest_hit, any_hit, surfaces_of_hits, shadow_rays};
+    Isa::BOULE_KERNEL_ISA, width,       camera_rays, closest_hit, any_hit,
+    surfaces_of_hits,      shadow_rays, numbers,     directions,  light_cones};
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -31,6 +31,22 @@ struct Wide {
   BOULE_INLINE Wide(double x) : v(x) {}
 };
 
+/// An unsigned integer of 32 bits, modulo 2^32.
+struct Bits {
+  std::uint32_t v;
+  Bits() = default;
+  BOULE_INLINE explicit Bits(std::uint32_t x) : v(x) {}
+};
+BOULE_INLINE Bits load_integers(const std::uint32_t* p) { return Bits(*p); }
+BOULE_INLINE Bits operator+(Bits a, Bits b) { return Bits(a.v + b.v); }
+BOULE_INLINE Bits operator*(Bits a, Bits b) { return Bits(a.v * b.v); }
+BOULE_INLINE Bits operator^(Bits a, Bits b) { return Bits(a.v ^ b.v); }
+BOULE_INLINE Bits operator&(Bits a, Bits b) { return Bits(a.v & b.v); }
+BOULE_INLINE Bits operator|(Bits a, Bits b) { return Bits(a.v | b.v); }
+BOULE_INLINE Bits operator<<(Bits a, int by) { return Bits(a.v << by); }
+BOULE_INLINE Bits operator>>(Bits a, int by) { return Bits(a.v >> by); }
+BOULE_INLINE Wide to_wide(Bits a) { return static_cast<double>(a.v); }
+
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
 /// The bits of integers, not to be calculated with.

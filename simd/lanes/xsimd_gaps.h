@@ -23,6 +23,7 @@ using Arch = xsimd::neon64;
 
 using Floats = xsimd::batch<float, Arch>;
 using Doubles = xsimd::batch<double, Arch>;
+using Integers = xsimd::batch<std::uint32_t, Arch>;
 using FloatMask = xsimd::batch_bool<float, Arch>;
 using DoubleMask = xsimd::batch_bool<double, Arch>;
 
@@ -287,6 +288,37 @@ BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
 BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest) {
   store_chosen(p, xsimd::select(chosen, a, rest), bits(chosen));
 }
+#endif
+
+// Unsigned integers as doubles. Without an instruction: less 2^31, as signed ones, and that back.
+#if defined(__AVX512F__)
+BOULE_INLINE Doubles to_double_low(Integers a) {
+  return _mm512_cvtepu32_pd(_mm512_castsi512_si256(a));
+}
+BOULE_INLINE Doubles to_double_high(Integers a) {
+  return _mm512_cvtepu32_pd(_mm512_extracti64x4_epi64(a, 1));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Doubles to_double(__m128i a) {
+  const __m128i less = _mm_xor_si128(a, _mm_set1_epi32(-0x7fffffff - 1));
+  return _mm256_add_pd(_mm256_cvtepi32_pd(less), _mm256_set1_pd(0x1p31));
+}
+BOULE_INLINE Doubles to_double_low(Integers a) { return to_double(_mm256_castsi256_si128(a)); }
+BOULE_INLINE Doubles to_double_high(Integers a) {
+  return to_double(_mm256_extracti128_si256(a, 1));
+}
+#elif defined(__SSE4_2__)
+BOULE_INLINE Doubles to_double_low(Integers a) {
+  const __m128i less = _mm_xor_si128(a, _mm_set1_epi32(-0x7fffffff - 1));
+  return _mm_add_pd(_mm_cvtepi32_pd(less), _mm_set1_pd(0x1p31));
+}
+BOULE_INLINE Doubles to_double_high(Integers a) {
+  const __m128i high = _mm_unpackhi_epi64(a, a);
+  return to_double_low(high);
+}
+#else
+BOULE_INLINE Doubles to_double_low(Integers a) { return vcvtq_f64_u64(vmovl_u32(vget_low_u32(a))); }
+BOULE_INLINE Doubles to_double_high(Integers a) { return vcvtq_f64_u64(vmovl_high_u32(a)); }
 #endif
 
 // Rows of four floats: lanes 4k .. 4k + 3 are the row at p[4k], any address, or at p + 16k.

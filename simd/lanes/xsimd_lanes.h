@@ -32,6 +32,24 @@ struct Wide {
   BOULE_INLINE Wide(Doubles l, Doubles h) : lo(l), hi(h) {}
 };
 
+/// Unsigned integers of 32 bits, modulo 2^32.
+struct Bits {
+  Integers v;
+  Bits() = default;
+  BOULE_INLINE explicit Bits(std::uint32_t x) : v(x) {}
+  BOULE_INLINE Bits(Integers x) : v(x) {}
+};
+BOULE_INLINE Bits load_integers(const std::uint32_t* p) { return Integers::load_aligned(p); }
+BOULE_INLINE Bits operator+(Bits a, Bits b) { return a.v + b.v; }
+BOULE_INLINE Bits operator*(Bits a, Bits b) { return a.v * b.v; }
+BOULE_INLINE Bits operator^(Bits a, Bits b) { return a.v ^ b.v; }
+BOULE_INLINE Bits operator&(Bits a, Bits b) { return a.v & b.v; }
+BOULE_INLINE Bits operator|(Bits a, Bits b) { return a.v | b.v; }
+BOULE_INLINE Bits operator<<(Bits a, int by) { return a.v << by; }
+BOULE_INLINE Bits operator>>(Bits a, int by) { return a.v >> by; }
+/// Exactly.
+BOULE_INLINE Wide to_wide(Bits a) { return {gaps::to_double_low(a.v), gaps::to_double_high(a.v)}; }
+
 BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};

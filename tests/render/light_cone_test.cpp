@@ -1,4 +1,4 @@
-#include "render/shading/light_cone.h"
+#include "core/light_cone.h"
 
 #include <gtest/gtest.h>
 

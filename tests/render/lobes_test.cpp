@@ -29,6 +29,12 @@ const Material materials[] = {Matte{{0.2f, 0.5f, 0.8f}},
 
 constexpr std::uint32_t samples = 16384;
 
+/// Bounce i of many.
+Bounce bounce_by_chance(const Lobes& lobes, std::uint32_t i) {
+  const Lobes::Choice choice = lobes.choose(sobol_pair(1, RandomSet::film, i));
+  return lobes.bounce(choice, direction_about(lobes.axis(choice), choice.from, choice.turns));
+}
+
 /// What all bounces are worth in white light is what the lobes send on, one by one: a quadrature of
 /// the first two, and the weights of the mirror and the refracted ray.
 TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
@@ -39,8 +45,7 @@ TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
       const Lobes lobes(flat, surface);
       Color by_chance, expected;
       for (std::uint32_t i = 0; i < samples; ++i) {
-        by_chance =
-            by_chance + lobes.bounce(sobol_pair(1, RandomSet::film, i)).weight * (1.0f / samples);
+        by_chance = by_chance + bounce_by_chance(lobes, i).weight * (1.0f / samples);
         const auto [u, v] = sobol_pair(2, RandomSet::film, i);
         const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
         expected = expected + lobes.reflected(w.z, w) * (2.0f / samples);
@@ -66,7 +71,7 @@ TEST(Lobes, BouncesFollowTheirDensity) {
       return std::pair{static_cast<int>(w.z * 3.999), (w.x > 0 ? 1 : 0) + (w.y > 0 ? 2 : 0)};
     };
     for (std::uint32_t i = 0; i < samples; ++i) {
-      const Bounce bounce = lobes.bounce(sobol_pair(1, RandomSet::film, i));
+      const Bounce bounce = bounce_by_chance(lobes, i);
       const auto [u, v] = sobol_pair(2, RandomSet::film, i);
       const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
       const auto [row, column] = cell(w);

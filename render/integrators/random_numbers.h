@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/sobol.h"
+#include "simd/abi/kernel_table.h"
+#include "simd/build/aligned_array.h"
+
+namespace boule {
+
+/// Many samples' pairs of random numbers at once: sobol_pair() of each.
+class RandomNumbers {
+ public:
+  /// Makes room for so many. Throws std::bad_alloc.
+  void resize(std::size_t size) {
+    for (auto* numbers : {&sample_, &shuffle_, &seed_u_, &seed_v_}) numbers->resize(size);
+    u_.resize(size);
+    v_.resize(size);
+  }
+
+  /// Asks for pair i: of this pixel's sample, and set.
+  void ask(std::size_t i, std::uint64_t key, RandomSet set, std::uint32_t sample) {
+    const SobolSeeds seeds = sobol_seeds(key, set);
+    sample_[i] = sample;
+    shuffle_[i] = seeds.shuffle;
+    seed_u_[i] = seeds.u;
+    seed_v_[i] = seeds.v;
+  }
+
+  /// Finds the first `size` pairs, all of which were asked for.
+  void find(const KernelTable& kernels, std::size_t size) {
+    kernels.sobol_points({sample_.data(), shuffle_.data(), seed_u_.data(), seed_v_.data(),
+                          u_.data(), v_.data(), size});
+  }
+
+  [[nodiscard]] UnitPair get(std::size_t i) const { return {u_[i], v_[i]}; }
+
+ private:
+  AlignedArray<std::uint32_t> sample_, shuffle_, seed_u_, seed_v_;
+  AlignedArray<double> u_, v_;
+};
+
+}  // namespace boule
