@@ -125,17 +125,17 @@ CameraRay camera_ray(const CameraBasis& camera, const CameraSample& asked) {
   const double x = film_coordinate(camera.film_x, sample.raster_x);
   const double y = film_coordinate(camera.film_y, sample.raster_y);
   const Vec3d on_film = camera.right * x + camera.up * y;
-  switch (camera.projection) {
-    case Projection::parallel:
+  switch (camera.kind) {
+    case CameraKind::parallel:
       // Lecture "Orthographic camera": every ray has the view's direction and starts on the film.
       return {Ray{camera.eye + on_film, vec_cast<float>(camera.forward)}};
-    case Projection::equidistant:
+    case CameraKind::equidistant:
       return fisheye_ray(camera, on_film);
-    case Projection::thin_lens:
+    case CameraKind::thin_lens:
       return {thin_lens_ray(camera, on_film, disc_point(sample.lens_x, sample.lens_y))};
-    case Projection::lens:
+    case CameraKind::lens:
       return lens_ray(camera, x, y, sample.lens_x, sample.lens_y);
-    case Projection::perspective:
+    case CameraKind::perspective:
       break;
   }
   // Lecture "Pinhole camera": every ray starts at the eye and passes through the film point.

@@ -40,15 +40,15 @@ HalfExtent half_extent(const OrthographicCamera& camera, double width, double he
 /// Its film has sizes of its own: LensOptics.
 HalfExtent half_extent(const LensCamera&, double, double) { return {1, 1}; }
 
-Projection projection_of(const PinholeCamera&) { return Projection::perspective; }
-Projection projection_of(const OrthographicCamera&) { return Projection::parallel; }
-Projection projection_of(const FisheyeCamera&) { return Projection::equidistant; }
+CameraKind kind_of(const PinholeCamera&) { return CameraKind::perspective; }
+CameraKind kind_of(const OrthographicCamera&) { return CameraKind::parallel; }
+CameraKind kind_of(const FisheyeCamera&) { return CameraKind::equidistant; }
 /// A lens without extent is a pinhole, bit for bit.
-Projection projection_of(const ThinLensCamera& camera) {
-  return camera.aperture == 0 ? Projection::perspective : Projection::thin_lens;
+CameraKind kind_of(const ThinLensCamera& camera) {
+  return camera.aperture == 0 ? CameraKind::perspective : CameraKind::thin_lens;
 }
 
-Projection projection_of(const LensCamera&) { return Projection::lens; }
+CameraKind kind_of(const LensCamera&) { return CameraKind::lens; }
 
 Vec3d view_direction(const CameraPose& pose) {
   return normalize(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
@@ -75,7 +75,7 @@ CameraBasis camera_basis(const Camera& camera, int width, int height) {
         const HalfExtent half = half_extent(any, width, height);
         basis.right = u * half.width;
         basis.up = v * half.height;
-        basis.projection = projection_of(any);
+        basis.kind = kind_of(any);
         basis.film_x = raster_to_film_x(width);
         basis.film_y = raster_to_film_y(height);
         if (const auto* lens = std::get_if<ThinLensCamera>(&camera)) {

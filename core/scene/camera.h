@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/math/vec.h"
+#include "core/scene/camera_kind.h"
 #include "core/scene/camera_pose.h"
 #include "core/scene/distortion.h"
 #include "core/scene/lens.h"
@@ -54,15 +55,6 @@ struct RasterToFilm {
   double scale, offset, extent;
 };
 
-/// How the film point (x, y), each about -1..1, becomes a ray: by the vector p = x right + y up.
-enum class Projection {
-  perspective,  ///< from the eye along forward + p
-  parallel,     ///< along forward from eye + p
-  equidistant,  ///< from the eye, |p| radians from forward towards p; no ray where |p| > pi
-  thin_lens,    ///< from eye + o along forward + p - o / focus, o on the lens
-  lens,         ///< through the elements of a lens: LensOptics
-};
-
 struct LensOptics;
 
 /// A camera ready for an image of W x H square pixels.
@@ -71,7 +63,7 @@ struct CameraBasis {
   Vec3d forward;  ///< L, unit length
   Vec3d right;    ///< u times half the film's width
   Vec3d up;       ///< v times half the film's height
-  Projection projection;
+  CameraKind kind;
   RasterToFilm film_x, film_y;
   Vec3d lens_right, lens_up;  ///< thin lens: u and v times its radius
   double inverse_focus;       ///< thin lens: 1 / distance of what is sharp

@@ -45,10 +45,9 @@ CameraMatrices camera_matrices(const Camera& camera, int width, int height) {
   const Column z = along(basis, basis.forward, 1), one = {{}, 1};
   const Column film_x = along(basis, u, 1 / half_width), film_y = along(basis, v, 1 / half_height);
   CameraMatrices matrices{matrix_of({along(basis, u, 1), along(basis, v, 1), z, one}), {}};
-  if (basis.projection == Projection::parallel) {
+  if (basis.kind == CameraKind::parallel) {
     matrices.world_to_screen = matrix_of({film_x, film_y, z, one});
-  } else if (basis.projection == Projection::perspective ||
-             basis.projection == Projection::thin_lens) {
+  } else if (basis.kind == CameraKind::perspective || basis.kind == CameraKind::thin_lens) {
     matrices.world_to_screen = matrix_of({film_x, film_y, one, z});
   }
   return matrices;

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstdint>
+#include "core/scene/camera_kind.h"
 
 namespace boule {
-
-/// How a film point becomes a ray: see CameraView.
-enum class CameraKind : std::uint8_t { perspective, parallel, equidistant, thin_lens, lens };
 
 /// One surface of a lens, and a box of its exit pupil: see LensElement, PupilBox.
 struct LensElementView {

@@ -12,29 +12,13 @@ void store(const Vec3d& v, double (&out)[3]) {
   out[2] = v.z;
 }
 
-CameraKind kind_of(Projection projection) {
-  switch (projection) {
-    case Projection::parallel:
-      return CameraKind::parallel;
-    case Projection::equidistant:
-      return CameraKind::equidistant;
-    case Projection::thin_lens:
-      return CameraKind::thin_lens;
-    case Projection::lens:
-      return CameraKind::lens;
-    case Projection::perspective:
-      break;
-  }
-  return CameraKind::perspective;
-}
-
 /// Whether the corners of the film are more than 180 degrees from the view, where there is nothing;
 /// or so close to it that rounding may decide.
 bool has_dark_corners(const CameraBasis& basis) {
   constexpr double almost_pi = elementary::pi * (1 - 1e-9);
   // Filters reach beyond the frame by less than a pixel.
   const double x = 1 + 2 / basis.film_x.extent, y = 1 + 2 / basis.film_y.extent;
-  return basis.projection == Projection::equidistant &&
+  return basis.kind == CameraKind::equidistant &&
          !(length(basis.right * x + basis.up * y) < almost_pi);
 }
 
@@ -80,14 +64,14 @@ CameraView build_camera(const Camera& camera, int width, int height, const Disto
   store(basis.lens_right, view.lens_right);
   store(basis.lens_up, view.lens_up);
   view.inverse_focus = basis.inverse_focus;
-  view.kind = kind_of(basis.projection);
-  view.weighs = has_dark_corners(basis) || basis.projection == Projection::lens;
+  view.kind = basis.kind;
+  view.weighs = has_dark_corners(basis) || basis.kind == CameraKind::lens;
   if (lens != nullptr) view.lens = lens->view;
   if (map != nullptr) {
     view.map = map->st.data();
     view.map_width = map->width;
     view.map_height = map->height;
-    view.weighs = view.weighs || basis.projection == Projection::equidistant;  // it leads anywhere
+    view.weighs = view.weighs || basis.kind == CameraKind::equidistant;  // it leads anywhere
   }
   return view;
 }

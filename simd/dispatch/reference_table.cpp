@@ -60,29 +60,13 @@ void set_ray(const RayStream& rays, std::size_t i, const Ray& ray) {
   rays.inside[i] = ray.inside ? 1 : 0;
 }
 
-Projection projection_of(CameraKind kind) {
-  switch (kind) {
-    case CameraKind::parallel:
-      return Projection::parallel;
-    case CameraKind::equidistant:
-      return Projection::equidistant;
-    case CameraKind::thin_lens:
-      return Projection::thin_lens;
-    case CameraKind::lens:
-      return Projection::lens;
-    case CameraKind::perspective:
-      break;
-  }
-  return Projection::perspective;
-}
-
 CameraBasis basis_of(const CameraView& view) {
   const auto vec = [](const double(&v)[3]) { return Vec3d{v[0], v[1], v[2]}; };
   return {vec(view.eye),
           vec(view.forward),
           vec(view.right),
           vec(view.up),
-          projection_of(view.kind),
+          view.kind,
           {view.scale_x, view.offset_x, view.extent_x},
           {view.scale_y, view.offset_y, view.extent_y},
           vec(view.lens_right),

@@ -11,7 +11,7 @@ BEGIN {
   narrow = "^(core|simd/(abi|build|dispatch))/"
 
   layer("^core/", "^core/", plain_std)
-  layer("^simd/abi/", "^(simd/abi/|core/base/platform\\.h$)", kernel_std)
+  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|scene/camera_kind)\\.h$)", kernel_std)
   layer("^simd/build/", "^(core|simd/(abi|build))/", plain_std)
   layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)

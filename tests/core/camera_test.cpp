@@ -46,7 +46,7 @@ TEST(CameraBasis, IsRightHanded) {
   EXPECT_EQ(basis.forward, (Vec3d{0, 0, -1}));
   EXPECT_EQ(basis.right, (Vec3d{t, 0, 0}));
   EXPECT_EQ(basis.up, (Vec3d{0, t, 0}));
-  EXPECT_EQ(basis.projection, Projection::perspective);
+  EXPECT_EQ(basis.kind, CameraKind::perspective);
   EXPECT_NEAR(t, 1, 0x1p-52);
 }
 
@@ -115,7 +115,7 @@ TEST(CameraBasis, PixelsAreSquare) {
 TEST(CameraBasis, OrthographicFilmHasTheStatedHeight) {
   const OrthographicCamera camera{{{1, 2, 3}, {1, 2, 0}, {0, 1, 0}}, 6};
   const CameraBasis basis = camera_basis(camera, 400, 200);
-  EXPECT_EQ(basis.projection, Projection::parallel);
+  EXPECT_EQ(basis.kind, CameraKind::parallel);
   EXPECT_EQ(basis.eye, (Vec3d{1, 2, 3}));
   EXPECT_EQ(basis.forward, (Vec3d{0, 0, -1}));
   EXPECT_EQ(basis.right, (Vec3d{6, 0, 0}));
