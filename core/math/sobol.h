@@ -49,7 +49,8 @@ inline std::uint32_t pascal(std::uint32_t x) {
 enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
 /// The seed of all random numbers of one pixel, 0 <= x, y: different pixels and different seeds of
-/// pictures have different ones.
+/// pictures have different ones. Any key is as good as any other: 0 too, that of pixel (0, 0) under
+/// seed 0, whose first point lies at u = 0 as that of any other key lies somewhere.
 class PixelKeys {
  public:
   explicit PixelKeys(std::uint64_t seed) : seed_(mix64(seed)) {}
@@ -87,7 +88,10 @@ inline UnitPair sobol_point(const SobolSeeds& seeds, std::uint32_t sample) {
 /// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). The first n samples
 /// of a pixel have, for any n, in every rectangle of 2^-a by 2^-b that tiles the unit square,
 /// n 2^-(a+b) points, rounded up or down: no direction, no n and no early stop is worse off. Sets
-/// have nothing to do with each other. Same bits on every machine, in any order.
+/// are padded: one sample's points in two of them are independent, but two samples' are not quite,
+/// for every shuffle keeps samples together that differ in their last bits only. So a mean over
+/// several sets is right, its error a little off that of sets wholly apart, and what depends on two
+/// of them is spread about as random numbers are. Same bits on every machine, in any order.
 inline UnitPair sobol_pair(std::uint64_t key, RandomSet set, std::uint32_t sample) {
   return sobol_point(sobol_seeds(key, set), sample);
 }
