@@ -99,8 +99,8 @@ void move(float& number, const CameraTrack& track, double frame) {
 /// What is wrong with a camera at a frame; `sharp` is the point that it keeps in focus.
 std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame, Camera camera,
                                        const std::optional<Vec3f>& sharp) {
-  const auto& [eye, look_at, fov, aperture, focus] = motion.tracks;
   const auto move_it = [&](auto& kind) {
+    const auto& [eye, look_at, fov, aperture, focus] = motion.tracks;
     move(kind.pose.eye, eye, frame);
     move(kind.pose.look_at, look_at, frame);
     if constexpr (requires { kind.fov; }) move(kind.fov, fov, frame);
