@@ -143,6 +143,29 @@ TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
   }
 }
 
+class SurfacesOfSpecks : public OnEachIsa {};
+
+/// A sphere too small for its place: the point is its centre, and the normal faces the viewer.
+TEST_P(SurfacesOfSpecks, FaceTheViewer) {
+  const std::vector<Sphere> specks{{{1, 2, 3}, 1e-30F, 0}};
+  const std::vector<Ray> all(ray_count, Ray{{1, 2, -1}, {0, 0, 2}});
+  const Geometry geometry(specks, {});
+  RayBuffer rays = to_stream(all);
+  HitBuffer hits(ray_count);
+  for (std::size_t k = 0; k < ray_count; ++k) {
+    hits.view().t[k] = 2;
+    hits.view().id[k] = 0;
+  }
+  SurfaceArrays wide;
+  kernels->find_surfaces(geometry.view(), {&specks[0].center.x, 5}, rays.view(), hits.view(),
+                         wide.stream());
+  for (std::size_t k = 0; k < ray_count; ++k) {
+    ASSERT_EQ(wide.point.get(k), (Vec3d{1, 2, 3}));
+    ASSERT_EQ(wide.normal.get(k), (Vec3d{0, 0, -1}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, SurfacesOfSpecks, each_isa(), isa_name);
 INSTANTIATE_TEST_SUITE_P(Tables, SurfacesOfHardCases, each_hard_case(), hard_case_name);
 
 }  // namespace
