@@ -10,19 +10,23 @@ namespace boule {
 /// Zimmerman, "Monte Carlo techniques for direct lighting calculations", 1996), chosen from evenly.
 class LightCone {
  public:
+  /// Of any numbers: without a radius, or with NaN, it is seen from nowhere; a negative radius
+  /// counts as its size.
   LightCone(const Vec3d& point, const Vec3d& center, double radius);
 
   /// Per solid angle, of every direction that meets the sphere; 0 where the point is not outside.
   [[nodiscard]] double density() const { return density_; }
 
-  /// A direction within the cone of a density above 0, of unit length.
+  /// A direction within the cone, of unit length; anything where the density is 0. The numbers lie
+  /// in [0, 1).
   [[nodiscard]] Vec3d direction(const UnitPair& numbers) const;
 
   /// True if the sphere lies in this direction, of unit length, before `distance`.
   [[nodiscard]] bool meets(const Vec3d& direction, double distance) const;
 
   /// From the point along a direction within the cone as far as the sphere: not so far that the
-  /// ray, whose direction is rounded to float, can meet the sphere itself.
+  /// ray, whose direction is rounded to float, can meet the sphere itself. Anything where the
+  /// density is 0.
   [[nodiscard]] Ray way(const Vec3d& direction) const;
 
  private:

@@ -10,7 +10,8 @@ namespace boule::reference {
 
 /// The scalar path: the lecture's maths in double, one ray and one primitive at a time, every pair.
 /// It shares no code with the kernels and must equal solver `robust` bit for bit. Takes any
-/// numbers: what is NaN, infinite or without a direction is a miss. Throws nothing.
+/// numbers: what is NaN, infinite or without a direction is a miss. Throws nothing. Preconditions:
+/// max_primitives at most; of a camera with a lens its optics, not null.
 
 /// Where a camera is sampled: the raster point, and the lens, 0 .. 1 each, (0.5, 0.5) its centre.
 struct CameraSample {

@@ -10,7 +10,7 @@ namespace boule {
 
 /// Where a ray met a primitive, all in double. This file says how a ray's origin is moved off a
 /// surface, and simd/kernel/surfaces.h does the same W at a time; there is no epsilon anywhere
-/// (lecture "Shadow acne").
+/// (lecture "Shadow acne"). Nothing here throws; numbers that are not finite make such numbers.
 struct Surface {
   Vec3d point;      ///< org + t dir
   Vec3d normal;     ///< geometric, unit length, turned towards the viewer
@@ -26,11 +26,12 @@ struct Surface {
 /// Which way a ray leaves a surface: back to the viewer's side, or through it.
 enum class Side { viewer, beyond };
 
-/// The surface of the primitive that a ray met. `hit` is a hit, not a miss.
+/// The surface of the primitive that a ray met. Precondition: `hit` is a hit of this ray, no miss.
 Surface find_surface(const Sphere& sphere, const Ray& ray, const Hit& hit);
 Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit);
 
-/// The same among these primitives, by id: the spheres, then the planes.
+/// The same among these primitives, by id: the spheres, then the planes. Precondition, not checked:
+/// there is one of that id.
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
                      const Hit& hit);
 

@@ -3,26 +3,34 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 namespace boule {
 
 /// What went wrong, and where. Lines and columns count from 1; 0 means "not in a file's text".
+///
+/// Functions that can fail return one, in a Result or a Status, and throw nothing else unless they
+/// say so: but std::bad_alloc, where there is no memory even for the Diagnostic.
 struct Diagnostic {
-  std::string message;  ///< what is wrong, and what was expected
+  std::string message;  ///< what is wrong, and what was expected; may repeat bytes of a file
   std::string key;      ///< dotted path of the offending key ("camera.fov"), or empty
   std::string file;     ///< file it was read from, or empty
   int line = 0;
   int column = 0;
 };
 
-/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", leaving out what is not known.
+/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", leaving out what is not known: one line that is
+/// safe to print, control bytes escaped. Throws std::bad_alloc.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-/// Text from outside made safe to print: cut to 40 characters (or another limit), control bytes
-/// escaped.
-std::string quote(const std::string& text, std::size_t longest = 40);
+/// Text from outside made safe to print: control bytes, which could end a line or steer a terminal,
+/// as \xNN; cut to `longest` characters. Throws std::bad_alloc.
+std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
+
+/// The same in quotation marks. Throws std::bad_alloc.
+std::string quote(std::string_view text, std::size_t longest = 40);
 
 /// A value, or the Diagnostic that explains why there is none.
 template <class T>

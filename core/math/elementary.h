@@ -9,7 +9,8 @@
 namespace boule::elementary {
 
 /// Elementary functions with the same bits on every machine: only + - * / and bit patterns, no
-/// libm. Errors are measured against MPFR in the tests; the bounds stated here are tested.
+/// libm. Errors are measured against MPFR in the tests; the bounds stated here are tested. What a
+/// function says of its arguments is a precondition: beyond it the result is any number, or NaN.
 
 inline constexpr double pi = 3.141592653589793;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace boule {
@@ -12,7 +13,8 @@ struct TimedValue {
   double time, value;
 };
 
-/// The last of `values` that is not after `time`, or the first; their times grow strictly.
+/// The last of `values` that is not after `time`, or the first; 0 where there are none.
+/// Precondition of both functions: their times grow strictly.
 inline std::size_t value_before(std::span<const TimedValue> values, double time) {
   const auto after =
       std::upper_bound(values.begin(), values.end(), time,
@@ -46,9 +48,10 @@ inline double steffen_slope(std::span<const TimedValue> values, std::size_t i) {
 
 /// The cubic interpolation of Steffen ("A simple method for monotonic interpolation in one
 /// dimension", Astronomy and Astrophysics 239, 1990): smooth (C1), exactly the value at each time,
-/// between two values never beyond them; before the first and after the last it stays. `values` is
-/// not empty, its times grow strictly.
+/// between two values never beyond them; before the first and after the last it stays. NaN where
+/// there are no values.
 inline double monotone_cubic(std::span<const TimedValue> values, double time) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::size_t i = value_before(values, time);
   const TimedValue& from = values[i];
   if (i + 1 == values.size() || time <= from.time) return from.value;

@@ -14,7 +14,9 @@ inline constexpr double unit_roundoff = 0x1p-24;
 inline constexpr std::int32_t no_primitive = -1;
 
 /// A bounded ray: the points org + t dir with tmin < t <= tmax (lecture "Rays").
-/// dir need not be of unit length. Origins are double because secondary rays start on surfaces.
+/// dir need not be of unit length. Origins are double because secondary rays start on surfaces. Any
+/// numbers are a ray: with NaN, an infinite origin or direction, or without a direction it meets
+/// nothing, and likewise where tmin < tmax does not hold.
 struct Ray {
   Vec3d org;
   Vec3f dir;

@@ -35,7 +35,8 @@ struct Turn {
   double cosine, sine;
 };
 
-/// Of a finite angle in degrees, the same bits on every machine; exact at multiples of 90.
+/// Of an angle in degrees, the same bits on every machine; exact at multiples of 90. NaN where it
+/// is not finite.
 inline Turn turn_of(double degrees) {
   double rest = std::fmod(degrees, 360.0);  // exact, as IEEE 754 wants it
   int quarters = 0;

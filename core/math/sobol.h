@@ -48,7 +48,7 @@ inline std::uint32_t pascal(std::uint32_t x) {
 /// has some, from first_bounce on.
 enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
-/// The seed of all random numbers of one pixel, 0 <= x, y: different pixels and different seeds of
+/// The seed of all random numbers of one pixel: different pixels, 0 <= x, y, and different seeds of
 /// pictures have different ones. Any key is as good as any other: 0 too, that of pixel (0, 0) under
 /// seed 0, whose first point lies at u = 0 as that of any other key lies somewhere.
 class PixelKeys {

@@ -4,7 +4,8 @@
 
 namespace boule {
 
-/// Three components over any lane type: float, double, or a register of either.
+/// Three components over any lane type: float, double, or a register of either. Any numbers will
+/// do: everything here is as IEEE 754 has it, NaN and overflow too.
 template <class T>
 struct Vec3 {
   T x{}, y{}, z{};

@@ -31,7 +31,8 @@ struct EnvironmentBackground {
 
 using Background = std::variant<ConstantBackground, GradientBackground, EnvironmentBackground>;
 
-/// The first Problem of a background: anything not finite or negative, a zero up.
+/// The first Problem of a background: anything not finite or negative, a zero up, an image without
+/// width x height pixels.
 std::optional<Problem> find_problem(const Background& background);
 
 }  // namespace boule

@@ -81,7 +81,9 @@ CameraBasis camera_basis(const Camera& camera, int width, int height);
 inline RasterToFilm raster_to_film_x(int width) { return {2.0, -1.0 * width, 1.0 * width}; }
 inline RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1.0 * height}; }
 
-/// The first Problem of a camera: see the scene file's rules for its keys.
+/// The first Problem of a camera: anything not finite, eye = look_at, up within 1e-6 rad of the
+/// view or zero, fov, height, film_width, scale, aperture or focus outside of what is said above, a
+/// lens that does not gather light, or not to the film at this focus.
 std::optional<Problem> find_problem(const Camera& camera);
 
 }  // namespace boule

@@ -14,7 +14,7 @@ struct CameraPose {
   Vec3f up{0, 1, 0};
 };
 
-/// The distance of a point from the eye along L; negative behind it.
+/// The distance of a point from the eye along L; negative behind it, NaN where there is no L.
 double depth_of(const CameraPose& pose, const Vec3f& point);
 
 /// How far along L a lens is sharp: at `focus`; none: where look_at is.

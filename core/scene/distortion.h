@@ -23,7 +23,7 @@ struct DistortionView {
   int width = 0, height = 0;
 };
 
-/// The first Problem of a map.
+/// The first Problem of a map: fewer than 2 x 2 pixels, not two numbers for each, any not finite.
 std::optional<Problem> find_problem(const DistortionMap& map);
 
 }  // namespace boule

@@ -33,11 +33,12 @@ struct Group {
 /// The first Problem of an instance by itself: anything not finite, scale <= 0.
 std::optional<Problem> find_problem(const Instance& instance);
 
-/// Where a valid instance puts what is in its group.
+/// Where a valid instance puts what is in its group; NaN or infinite where it is not.
 Similarity transform_of(const Instance& instance);
 
 /// A sphere or plane under a transformation, every number computed in double and rounded to float
-/// once; with another material where one is given.
+/// once; with another material where one is given. What leaves float's range is infinite:
+/// find_problem() of what comes out tells.
 Sphere place(const Sphere& sphere, const Similarity& transform,
              std::optional<std::uint32_t> material);
 Plane place(const Plane& plane, const Similarity& transform, std::optional<std::uint32_t> material);

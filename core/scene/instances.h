@@ -37,11 +37,12 @@ struct PrimitiveCount {
 
   [[nodiscard]] std::uint64_t total() const { return spheres + planes; }
 };
+/// Precondition, as of all below: find_reference_problem() finds nothing, which they do not check.
 PrimitiveCount count_primitives(const Scene& scene);
 
 /// Calls the function with every sphere or plane that the instances of a valid scene show, in the
 /// order of their ids, which follow those of the scene's own: instance by instance, in each the
-/// group's own before its instances (depth first).
+/// group's own before its instances (depth first). What the function throws reaches the caller.
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
 void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
 

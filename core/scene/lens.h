@@ -32,7 +32,8 @@ struct LensCamera {
   std::optional<float> focus{};       ///< in world units, > 0; none: the distance of look_at
 };
 
-/// The focal length of a lens for rays close to its axis, in its own unit.
+/// The focal length of a lens for rays close to its axis, in its own unit. As of all functions
+/// here: takes any surfaces; infinite or NaN where they are no lens, or none.
 double focal_length(const std::vector<LensSurface>& surfaces);
 
 /// How far behind the last surface the rays close to the axis meet again that come from a point at
@@ -45,7 +46,8 @@ std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces);
 
 /// How wide a stop is at an f-number: N = f / D, D the diameter of the beam along the axis that
 /// passes it. A ray close to the axis that comes in parallel at the height 1 passes the stop at y,
-/// so its diameter is |y| f / N. It goes the other way as well: from a diameter to N.
+/// so its diameter is |y| f / N. It goes the other way as well: from a diameter to N. NaN for a
+/// number that no surface has.
 double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number);
 
 }  // namespace boule

@@ -9,6 +9,8 @@
 namespace boule {
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 /// A ray close to the axis: its height, and its slope times the index of refraction.
 struct ParaxialRay {
   double height, slope;
@@ -131,6 +133,7 @@ double focal_length(const std::vector<LensSurface>& surfaces) {
 }
 
 double image_distance(const std::vector<LensSurface>& surfaces, double distance) {
+  if (surfaces.empty()) return nan;
   const ParaxialRay out = trace_paraxial(surfaces, {1, 1 / distance});
   return -out.height / out.slope * double{surfaces.back().index};
 }
@@ -149,6 +152,7 @@ std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces) {
 }
 
 double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number) {
+  if (stop >= surfaces.size()) return nan;
   const std::span<const LensSurface> before(surfaces.data(), stop + 1);
   return std::fabs(trace_paraxial(before, {1, 0}).height) * focal_length(surfaces) / f_number;
 }
@@ -183,6 +187,11 @@ bool trace_lens(std::span<const LensElement> elements, Vec3d& org, Vec3d& dir) {
 
 LensOptics make_optics(const LensCamera& camera, int width, int height) {
   LensOptics optics{};
+  optics.pupil.reserve(ring_count);
+  if (camera.surfaces.empty()) {
+    optics.pupil.push_back({});
+    return optics;
+  }
   optics.elements = elements_of(camera.surfaces, optics.rear);
   optics.scale = camera.scale;
   optics.half_width = double{camera.film_width} / 2;

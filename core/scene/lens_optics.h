@@ -38,11 +38,13 @@ struct LensOptics {
   double exposure;
 };
 
-/// A valid camera's lens, focused, its exit pupil found, for a picture of these pixels.
+/// A valid camera's lens (find_problem()), focused, its exit pupil found, for a picture of these
+/// pixels, 1 or more. Of other lenses and sizes: numbers that may be NaN, rays that are stopped.
+/// Throws std::bad_alloc.
 LensOptics make_optics(const LensCamera& camera, int width, int height);
 
 /// Sends a ray of unit direction from the film through the elements; false if it is stopped: by a
-/// rim, beside a sphere or by total reflection.
+/// rim, beside a sphere, by total reflection, or because a number is NaN.
 bool trace_lens(std::span<const LensElement> elements, Vec3d& org, Vec3d& dir);
 
 }  // namespace boule

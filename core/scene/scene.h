@@ -67,8 +67,9 @@ struct Scene {
 
 /// The first thing wrong with a scene, its key a dotted path as in the scene file
 /// ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"), or nothing. Whoever renders
-/// a scene made in memory calls this first; the readers return only scenes that pass. Takes any
-/// values. Throws std::bad_alloc.
+/// a scene made in memory need not call it, Renderer, Tracer and prepare() do; the readers return
+/// only scenes that pass. Takes any values; an enumerator that has no name counts as one that has.
+/// Throws std::bad_alloc.
 Status validate(const Scene& scene);
 
 /// As validate(), for readers that have checked each sphere and plane when they read it, and given
@@ -77,7 +78,7 @@ Status validate(const Scene& scene);
 Status validate_all_but_primitives(const Scene& scene);
 
 /// Nothing, or a Diagnostic with this key that says which whole numbers would do: low to high, or
-/// low and above where `high` is max_count.
+/// low and above where `high` is max_count. Throws std::bad_alloc.
 Status check_range(const char* key, int value, int low, int high);
 
 }  // namespace boule
