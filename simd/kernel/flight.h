@@ -21,11 +21,12 @@ class PendingStack {
     store_chosen(child_ + size_, child, in);
     size_ += static_cast<std::size_t>(std::popcount(in));
   }
-  /// Takes the last; false if nothing is left.
+  /// Takes the last; false if nothing is left, and `child` is then anything.
   BOULE_INLINE bool pop(float, std::uint32_t& child) {
-    if (size_ == 0) return false;
-    child = std::bit_cast<std::uint32_t>(child_[--size_]);
-    return true;
+    const bool left = size_ != 0;
+    size_ -= static_cast<std::size_t>(left);
+    child = std::bit_cast<std::uint32_t>(child_[size_]);
+    return left;
   }
 
  private:
@@ -36,69 +37,62 @@ class PendingStack {
 };
 
 /// The same where the nearest hit is wanted, as an unsorted array: the nearest comes first, and is
-/// looked for when it is.
+/// looked for when it is. Of where a box is entered 16 bits are kept, rounded down: eight of
+/// exponent and eight of mantissa.
 class PendingNearest {
  public:
   PendingNearest() {
-    for (std::size_t at = 0; at < most_sorted; at += lanes)
-      store(near_ + at, Real(static_cast<float>(no_hit)));
+    size_ = most_sorted;
+    clear();
   }
 
   BOULE_INLINE void clear() {
-    for (std::size_t at = 0; at < size_; at += lanes)
-      store(near_ + at, Real(static_cast<float>(no_hit)));
+    std::size_t at = 0;
+    do {  // once, for nearly every ray
+      __builtin_memset(near_ + at, 0xff, step * sizeof near_[0]);
+      at += step;
+    } while (at < size_);
     size_ = 0;
   }
-  /// Adds the children of some lanes; `near`: lower bounds of where they are entered.
+  /// Adds the children of some lanes; `near`: lower bounds of where they are entered, not negative.
   BOULE_INLINE void push(const Real& near, const Real& child, RealMask chosen) {
     const unsigned in = bits(chosen);
-    store_chosen(near_ + size_, near, chosen, Real(static_cast<float>(no_hit)));
+    store_chosen_halves(near_ + size_, near, chosen, Real(std::bit_cast<float>(0xffffffff)));
     store_chosen(child_ + size_, child, in);
     size_ += static_cast<std::size_t>(std::popcount(in));
   }
 
-  /// Takes the nearest; false, and nothing is left, if none is entered before `reach`.
+  /// Takes the nearest; false if none is entered before `reach`, and `child` is then anything. No
+  /// branch: neither can be foretold.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
-    while (size_ > most_sorted && reach < near_[size_ - 1]) --size_;
+    const unsigned end = half_of(reach);
+    while (size_ > most_sorted && end < near_[size_ - 1]) --size_;
     const std::size_t place = size_ <= most_sorted ? nearest() : size_ - 1;
-    const float near = near_[place];
-    if (static_cast<int>(size_ == 0) | static_cast<int>(reach < near)) {
-      clear();
-      return false;
-    }
+    const bool left = near_[place] <= end;
     child = std::bit_cast<std::uint32_t>(child_[place]);
-    --size_;
+    size_ -= static_cast<std::size_t>(left);
     near_[place] = near_[size_];
     child_[place] = child_[size_];
-    near_[size_] = static_cast<float>(no_hit);
-    return true;
+    near_[size_] = none;
+    return left;
   }
 
  private:
   /// Entries that are looked at in one go.
   static constexpr std::size_t step = 16;
+  /// Beyond everything: infinity is 0xff00.
+  static constexpr std::uint16_t none = 0xffff;
 
+  BOULE_INLINE static std::uint16_t half_of(float near) {
+    return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(near) << 1 >> 16);
+  }
   BOULE_INLINE std::size_t nearest() const {
-    Real least = least_of(0);
-    for (std::size_t first = step; first < size_; first += step)
-      least = filter_min(least, least_of(first));
-    const Real nearest(least_lane(least));
-    std::size_t first = 0;
-    unsigned equal = equal_to(nearest, 0);
-    while (equal == 0) equal = equal_to(nearest, first += step);
-    return first + static_cast<std::size_t>(std::countr_zero(equal));
-  }
-  BOULE_INLINE Real least_of(std::size_t first) const {
-    Real least = load(near_ + first);
-    for (std::size_t at = lanes; at < step; at += lanes)
-      least = filter_min(least, load(near_ + first + at));
-    return least;
-  }
-  BOULE_INLINE unsigned equal_to(const Real& near, std::size_t first) const {
-    unsigned equal = 0;
-    for (std::size_t at = 0; at < step; at += lanes)
-      equal |= bits(load(near_ + first + at) <= near) << at;
-    return equal;
+    std::size_t place = place_of_least(near_);
+    for (std::size_t first = step; first < size_; first += step) {
+      const std::size_t other = first + place_of_least(near_ + first);
+      place = near_[other] < near_[place] ? other : place;
+    }
+    return place;
   }
 
   /// Of more than these the last one is taken, whatever it is: a way down the tree then bounds what
@@ -108,7 +102,7 @@ class PendingNearest {
   /// A push writes W.
   static constexpr std::size_t capacity = (most + lanes + step - 1) / step * step;
 
-  alignas(64) float near_[capacity];  ///< inf behind the last, as far as it is looked at
+  alignas(64) std::uint16_t near_[capacity];  ///< none behind the last, as far as it is looked at
   alignas(64) float child_[capacity];
   std::size_t size_ = 0;
 };
@@ -230,22 +224,41 @@ struct Flight {
 
   /// A step: the children that the ray enters become pending.
   BOULE_INLINE void visit_node() {
+    constexpr std::size_t parts = bvh_width / lanes;
     const BvhNode& node = *static_cast<const BvhNode*>(next);
-    static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
-    const auto* const rows = reinterpret_cast<const float*>(&node);
-    const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
-    for (std::size_t at = 0; at < bvh_width; at += lanes) {
-      const auto meet = [&](const std::uint32_t* row, const float* moved, int axis) {
-        return filter_fma(load(rows + row[axis] + at), Real(ray.inverse[axis]), Real(moved[axis]));
-      };
-      const auto near_of = [&](int axis) { return meet(near_at, ray.near, axis); };
-      const auto far_of = [&](int axis) { return meet(far_at, ray.far, axis); };
-      const Real near =
-          filter_max(filter_max(near_of(0), near_of(1)), filter_max(near_of(2), Real(0.0F))) * less;
-      const Real far =
-          filter_min(filter_min(far_of(0), far_of(1)), filter_min(far_of(2), Real(ray.reach)));
-      pending.push(near, load_bits(node.child + at), near <= far);
+    if constexpr (parts == 2) {  // what both have in common is found once
+      const auto [near, in] = enter(node, 0);
+      const auto [other_near, other_in] = enter(node, lanes);
+      pending.push(near, load_bits(node.child), in);
+      pending.push(other_near, load_bits(node.child + lanes), other_in);
+    } else {
+      for (std::size_t first = 0; first < bvh_width; first += lanes) {
+        const auto [near, in] = enter(node, first);
+        pending.push(near, load_bits(node.child + first), in);
+      }
     }
+  }
+
+ private:
+  struct Entered {
+    Real near;  ///< lower bound
+    RealMask in;
+  };
+  /// Which of W children are entered, and where.
+  [[nodiscard]] BOULE_INLINE Entered enter(const BvhNode& node, std::size_t first) const {
+    static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
+    const auto* const rows = reinterpret_cast<const float*>(&node) + first;
+    const auto meet = [&](const std::uint32_t* row, const float* moved, int axis) {
+      return filter_fma(load(rows + row[axis]), Real(ray.inverse[axis]), Real(moved[axis]));
+    };
+    const auto near_of = [&](int axis) { return meet(near_at, ray.near, axis); };
+    const auto far_of = [&](int axis) { return meet(far_at, ray.far, axis); };
+    const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
+    const Real near =
+        filter_max(filter_max(near_of(0), near_of(1)), filter_max(near_of(2), Real(0.0F))) * less;
+    const Real far =
+        filter_min(filter_min(far_of(0), far_of(1)), filter_min(far_of(2), Real(ray.reach)));
+    return {near, near <= far};
   }
 };
 

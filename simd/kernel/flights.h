@@ -6,12 +6,13 @@
 
 #include "simd/kernel/flight.h"
 
-/// Rays that have nothing in common, sixteen in flight at a time: every round each takes a step,
-/// and asks for the memory of its next one. A ray that is done makes room for the next of the
+/// Rays that have nothing in common, many in flight at a time: every round twelve take a step,
+/// and ask for the memory of their next one. A ray that is done makes room for the next of the
 /// stream. Which is where when is a question of time only.
 namespace boule::BOULE_KERNEL_ISA {
 
-inline constexpr std::size_t most_flights = 16;
+/// What a small tree's steps read need not be waited for. Fewer than 24 would leave rounds short.
+inline constexpr std::size_t flights_nearby = 24, most_flights = 32;
 
 /// A hit among the nearest ones so far.
 BOULE_INLINE void answer(const HitStream& hits, std::size_t ray, double t, std::int32_t id) {
@@ -63,7 +64,9 @@ class PairQueue {
       slot_[k] = slot_[from];
     }
     const SphereLanes spheres = gather_spheres(spheres_, load(slot_));
-    const Roots roots = solve_robust(load_exact(gathered_.view(lanes), 0), spheres);
+    ExactRays rays;
+    load_exact(gathered_.view(lanes), 0, rays);
+    const Roots roots = solve_robust(rays, spheres);
     alignas(64) double t[lanes], id[lanes];
     store(t, roots.t);
     store(id, spheres.id);
@@ -142,51 +145,89 @@ class Flights {
 
   /// Returns how many steps were taken, or what took as long.
   std::size_t run(std::size_t begin, std::size_t end) {
-    std::size_t steps = 0;
-    extra_steps_ = 0;
+    steps_ = 0;
     first_ = begin;
     departed_ = ready_ = 0;
     end_ = end;
-    for (Flight& flight : flights_) {
-      if (!depart(flight)) break;
-      flying_[count_++] = at_node_[node_count_++] = &flight;
+    const std::size_t places = blocks_.is_far() ? most_flights : flights_nearby;
+    for (std::size_t k = 0; k < places && depart(flights_[k]); ++k)
+      waiting_[node].push(flights_[k]);
+    while (round()) {
     }
-    for (; count_ > 0; round()) steps += count_;
     pairs_.finish();
-    return steps + extra_steps_;
+    return steps_;
   }
 
  private:
-  BOULE_INLINE void round() {
-    for (std::size_t k = 0; k < node_count_; ++k) at_node_[k]->visit_node();
-    for (std::size_t k = 0; k < leaf_count_; ++k) visit_leaf(*at_leaf_[k]);
-    // Only now: what was just stored in pieces cannot be loaded as a whole at once.
-    node_count_ = leaf_count_ = 0;
-    for (std::size_t k = 0; k < count_;) {
-      if (go_on(*flying_[k])) {
-        ++k;
-      } else {
-        flying_[k] = flying_[--count_];
-      }
+  /// Steps taken together, at most.
+  static constexpr std::size_t most_together = 12;
+
+  /// What flights wait for: a node, a leaf, or another ray.
+  enum Kind : std::size_t { node, leaf, departure, kinds };
+
+  /// Flights whose next step is of one kind: first in, first out, for what a step reads to come.
+  class Waiting {
+   public:
+    [[nodiscard]] BOULE_INLINE std::size_t size() const { return end_ - begin_; }
+    /// `count`: 1, or 0 for one that does not wait here. No branch: which cannot be foretold.
+    BOULE_INLINE void push(Flight& flight, std::size_t count = 1) {
+      flights_[end_ % places] = &flight;
+      end_ += count;
     }
+    BOULE_INLINE Flight& pop() { return *flights_[begin_++ % places]; }
+
+   private:
+    static constexpr std::size_t places = 2 * most_flights;
+    static_assert(std::has_single_bit(places));
+    Flight* flights_[places];
+    std::size_t begin_ = 0, end_ = 0;
+  };
+
+  /// Steps of the kind that most flights wait for; false if none waits.
+  BOULE_INLINE bool round() {
+    Kind kind = waiting_[node].size() < waiting_[leaf].size() ? leaf : node;
+    if (waiting_[kind].size() < waiting_[departure].size()) kind = departure;
+    const std::size_t size = waiting_[kind].size();
+    if (size >= most_together) {
+      step_together(kind, most_together);
+    } else {
+      step_together(kind, size);
+    }
+    return size > 0;
+  }
+  BOULE_INLINE void step_together(Kind kind, std::size_t count) {
+    Flight* together[most_together];
+    for (std::size_t k = 0; k < count; ++k) together[k] = &waiting_[kind].pop();
+    if (kind == departure) {
+      for (std::size_t k = 0; k < count; ++k) arrive(*together[k]);
+      return;
+    }
+    if (kind == node) {
+      for (std::size_t k = 0; k < count; ++k) together[k]->visit_node();
+    } else {
+      visit_leaves(together, count);
+    }
+    steps_ += count;
+    // Only now: what was just stored in pieces cannot be loaded as a whole at once.
+    for (std::size_t k = 0; k < count; ++k) go_on(*together[k]);
   }
 
-  /// Finds a flight's next step; a ray that has none makes room for another. False if there is
-  /// none.
-  BOULE_INLINE bool go_on(Flight& flight) {
+  /// Finds a flight's next step. No branch: nothing can be foretold.
+  BOULE_INLINE void go_on(Flight& flight) {
     std::uint32_t child = 0;
-    if (!flight.pending.pop(flight.ray.reach, child)) {
-      pairs_.add(flight.index, flight.candidates, flight.ray.reach);
-      if (!depart(flight)) return false;
-      at_node_[node_count_++] = &flight;
-      return true;
-    }
+    const bool left = flight.pending.pop(flight.ray.reach, child);
+    child &= 0U - static_cast<std::uint32_t>(left);
     flight.next = blocks_.fetch(child);
-    const std::size_t leaf = child >> 31;  // no branch here, either
-    at_node_[node_count_] = at_leaf_[leaf_count_] = &flight;
-    node_count_ += 1 - leaf;
-    leaf_count_ += leaf;
-    return true;
+    const auto is_leaf = static_cast<std::size_t>(child >> 31),
+               goes_on = static_cast<std::size_t>(left);
+    waiting_[node].push(flight, goes_on - is_leaf);
+    waiting_[leaf].push(flight, is_leaf);
+    waiting_[departure].push(flight, 1 - goes_on);
+  }
+  /// A ray's way has come to its end: it makes room for another, if there is one.
+  BOULE_INLINE void arrive(Flight& flight) {
+    pairs_.add(flight.index, flight.candidates, flight.ray.reach);
+    if (depart(flight)) waiting_[node].push(flight);
   }
 
   /// W rays more: what is in no tree is met at once, by all of them together.
@@ -196,7 +237,9 @@ class Flights {
     if (first_ >= end_) return false;
     ready_ = stream_.live(first_);
     const PacketPlace place = stream_.packet(first_);
-    const RayLanes rays = load_packet(*place.rays, place.first);
+    prefetch_packet(stream_.rays(), first_ + prefetch_distance);
+    RayLanes rays;
+    load_packet(*place.rays, place.first, rays);
     if constexpr (seeks_any) {
       AnyHit<false> best(rays);
       meet_scanned(rays, best);
@@ -242,50 +285,89 @@ class Flights {
     flight.source = stream_.rays().source[flight.index];
     flight.inside = stream_.rays().inside[flight.index] != 0;
     flight.candidates.size = 0;
+    flight.pending.clear();
     flight.next = geometry_.bvh.nodes;
     return true;
   }
   /// A ray that floats cannot judge, or that looks behind its origin.
   BOULE_NOINLINE void go_alone(std::size_t index) {
-    const RayLanes ray = load_single(stream_.rays(), index);
+    RayLanes ray;
+    load_single(stream_.rays(), index, ray);
     if constexpr (seeks_any) {
       AnyHit<true> best(ray);
-      extra_steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
       answers_[index] = best.hit != 0 ? 1 : 0;
     } else {
       ClosestHit best(ray);
-      extra_steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
       store_single(best, answers_, index);
     }
   }
 
-  /// A step: the spheres of a leaf that may be hit become candidates.
-  BOULE_INLINE void visit_leaf(Flight& flight) {
-    const auto& leaf = *static_cast<const SphereBlock*>(flight.next);
-    const auto slot = static_cast<std::uint32_t>(&leaf - geometry_.spheres.blocks) *
-                      static_cast<std::uint32_t>(bvh_leaf_size);
-    const FilterRays rays = flight.ray.filter();
-    const Real reach(flight.ray.reach), none(static_cast<float>(no_hit));
-    Real least = reach;
-    for (std::uint32_t at = 0; at < bvh_leaf_size; at += lanes) {
-      const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
-                              load(leaf.center_z + at)};
-      const RealMask own = source_in(flight, slot + at);
-      const NextRoots roots(find_approach(rays, center, load(leaf.radius + at)), rays, reach, own);
-      if constexpr (seeks_any) {
-        if (any(roots.sure & (roots.high <= rays.live_to))) {
-          answers_[flight.index] = 1;
-          flight.pending.clear();
-          flight.candidates.size = 0;
-          return;
-        }
-      } else {
-        least = lesser_or(select(roots.sure, roots.high, none), least);
-      }
-      flight.candidates.add(roots.low, count_from(slot + at), bits(roots.in));
+  /// Spheres of leaves, W a part.
+  static constexpr std::size_t parts = bvh_leaf_size / lanes;
+
+  /// Steps: the spheres of leaves that may be hit become candidates. Few parts have any: which,
+  /// cannot be foretold, and all are looked at before the first branch.
+  BOULE_INLINE void visit_leaves(Flight* const* together, std::size_t count) {
+    constexpr std::size_t at_once = 64 / parts;  // bits; all of them, but of scalar lanes
+    for (std::size_t first = 0; first < count; first += at_once)
+      visit_leaves_at_once(together + first, count - first < at_once ? count - first : at_once);
+  }
+  BOULE_INLINE void visit_leaves_at_once(Flight* const* together, std::size_t count) {
+    Approach approaches[most_together * parts];
+    std::uint64_t met = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      met |= std::uint64_t{approach_leaf(*together[k], approaches + k * parts)} << k * parts;
+    for (; met != 0; met &= met - 1) {
+      const auto part = static_cast<std::size_t>(std::countr_zero(met));
+      meet_leaf(*together[part / parts], part % parts * lanes, approaches[part]);
     }
-    if constexpr (!seeks_any) flight.ray.reach = least_lane(least);
+  }
+  /// Returns the parts of its leaf in which a flight may hit something, bit by bit.
+  BOULE_INLINE unsigned approach_leaf(Flight& flight, Approach* approaches) {
+    const auto& block = *static_cast<const SphereBlock*>(flight.next);
+    const std::uint32_t slot = slot_of(block);
+    const FilterRays rays = flight.ray.filter();
+    const Real reach(flight.ray.reach);
+    unsigned met = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t at = part * lanes;
+      const Vec3<Real> center{load(block.center_x + at), load(block.center_y + at),
+                              load(block.center_z + at)};
+      const Real radius = load(block.radius + at);
+      approaches[part] = find_approach(rays, center, radius);
+      const RealMask may = may_meet(approaches[part], radius, reach);
+      const RealMask own = source_in(flight, slot + static_cast<std::uint32_t>(at));
+      met |= static_cast<unsigned>(any(may & ~own)) << part;
+    }
+    return met;
+  }
+  /// W spheres of its leaf, from `first` on.
+  BOULE_INLINE void meet_leaf(Flight& flight, std::size_t first, const Approach& approach) {
+    const std::uint32_t slot =
+        slot_of(*static_cast<const SphereBlock*>(flight.next)) + static_cast<std::uint32_t>(first);
+    const FilterRays rays = flight.ray.filter();
+    const RealMask own = equal(geometry_.spheres.id + slot, flight.source);
+    const NextRoots roots(approach, rays, Real(flight.ray.reach), own);
+    flight.candidates.add(roots.low, count_from(slot), bits(roots.in));
+    if constexpr (seeks_any) {
+      if (any(roots.sure & (roots.high <= rays.live_to))) {
+        answers_[flight.index] = 1;
+        flight.pending.clear();
+        flight.candidates.size = 0;
+      }
+    } else {
+      const Real none(static_cast<float>(no_hit));
+      flight.ray.reach =
+          least_lane(lesser_or(select(roots.sure, roots.high, none), Real(flight.ray.reach)));
+    }
     if (flight.candidates.size > FlightCandidates::most) make_room(flight);
+  }
+  /// A leaf's first sphere.
+  [[nodiscard]] BOULE_INLINE std::uint32_t slot_of(const SphereBlock& block) const {
+    return static_cast<std::uint32_t>(&block - geometry_.spheres.blocks) *
+           static_cast<std::uint32_t>(bvh_leaf_size);
   }
   /// The lane of the sphere that a ray leaves: it is met again only from the inside, and only
   /// double tells where.
@@ -302,14 +384,15 @@ class Flights {
     FlightCandidates& candidates = flight.candidates;
     candidates.drop_beyond(flight.ray.reach);
     if (candidates.size <= FlightCandidates::most) return;
-    const RayLanes ray = load_single(stream_.rays(), flight.index);
+    RayLanes ray;
+    load_single(stream_.rays(), flight.index, ray);
     for (unsigned first = 0; first < candidates.size; first += lanes) {
       for (unsigned k = candidates.size; k < first + lanes; ++k)
         candidates.slot[k] = candidates.slot[first];
       const SphereLanes spheres = gather_spheres(geometry_.spheres, load(candidates.slot + first));
       take(flight, ray, solve_robust(ray.exact, spheres), spheres.id);
     }
-    extra_steps_ += candidates.size / 2;
+    steps_ += candidates.size / 2;
     candidates.size = 0;
   }
   /// Hits of one ray: nothing beyond them is of interest any more.
@@ -336,14 +419,10 @@ class Flights {
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.
   Departures departures_;
   std::size_t first_ = 0, departed_ = 0, ready_ = 0, end_ = 0;
-  std::size_t extra_steps_ = 0;
+  std::size_t steps_ = 0;
 
   Flight flights_[most_flights];
-  Flight* flying_[most_flights];
-  std::size_t count_ = 0;
-  /// Those whose next step is a node, or a leaf; the last place is for one that is not one of them.
-  Flight *at_node_[most_flights + 1], *at_leaf_[most_flights + 1];
-  std::size_t node_count_ = 0, leaf_count_ = 0;
+  Waiting waiting_[kinds];
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -15,6 +15,26 @@ struct PacketPlace {
   std::size_t first;
 };
 
+/// So many rays ahead a stream's next packets are asked for.
+inline constexpr std::size_t prefetch_distance = 4 * static_cast<std::size_t>(width);
+
+/// Asks for the packet at `first`, unless the stream ends before it: rays come once, and from
+/// memory.
+BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
+  if (first >= rays.size) return;
+  for (int line = 0; line * 8 < width; ++line) {
+    __builtin_prefetch(rays.org_x + first + line * 8);
+    __builtin_prefetch(rays.org_y + first + line * 8);
+    __builtin_prefetch(rays.org_z + first + line * 8);
+  }
+  __builtin_prefetch(rays.dir_x + first);
+  __builtin_prefetch(rays.dir_y + first);
+  __builtin_prefetch(rays.dir_z + first);
+  __builtin_prefetch(rays.tmin + first);
+  __builtin_prefetch(rays.tmax + first);
+  __builtin_prefetch(rays.source + first);
+}
+
 /// Some rays of a stream side by side, wherever they are in it.
 template <std::size_t capacity>
 class GatheredRays {

@@ -170,25 +170,20 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
                                   Candidates<capacity>& candidates, Best& best) {
   for (std::size_t k = 0; k < survivors.count; ++k) {
     const std::size_t step = begin + survivors.offset[k];
-    WideMask own = Wide(0.0) < Wide(0.0);  // rays that leave this very sphere
-    if (rays.exact.has_source) {
-      own = rays.exact.source == spheres.id(step);
-      if (any(own & rays.exact.inside)) {  // only the solver knows where it is met again
-        candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
-        continue;
-      }
+    const RealMask own = spheres.own(rays, step);  // rays that leave this very sphere
+    const unsigned leaving = bits(own);
+    if ((leaving & rays.inside) != 0) {  // only the solver knows where it is met again
+      candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
+      continue;
     }
     if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), 0))
       continue;
     RootBounds roots =
         bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
     Real low = lowest(roots, rays.filter);
-    const unsigned leaving = bits(own);
-    if (leaving != 0) {  // from the outside it is never met again
-      const RealMask leaves = narrow(own);
-      roots.certain = roots.certain & ~leaves;
-      low = select(leaves, Real(static_cast<float>(no_hit)), low);
-    }
+    // From the outside it is never met again.
+    roots.certain = roots.certain & ~own;
+    low = select(own, Real(static_cast<float>(no_hit)), low);
     unsigned out = bits(dead(roots, rays.filter)) | leaving;
     if (best.consider(roots, low, out, spheres.slot(step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);

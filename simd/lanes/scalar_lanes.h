@@ -49,6 +49,9 @@ BOULE_INLINE Wide to_wide(Bits a) { return static_cast<double>(a.v); }
 
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
+/// Integers as doubles, and the lanes whose byte is not 0.
+BOULE_INLINE Wide load_as_wide(const std::int32_t* p) { return static_cast<double>(*p); }
+BOULE_INLINE WideMask load_set(const std::uint8_t* p) { return {*p != 0}; }
 /// The bits of integers, not to be calculated with.
 BOULE_INLINE Real load_bits(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
 BOULE_INLINE Real count_from(std::uint32_t first) { return std::bit_cast<float>(first); }
@@ -58,6 +61,14 @@ BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
   *p = chosen.m ? a.v : rest.v;
+}
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen, Real rest) {
+  *p = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(chosen.m ? a.v : rest.v) << 1 >> 16);
+}
+BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) {
+  std::size_t place = 0;
+  for (std::size_t k = 1; k < 16; ++k) place = p[k] < p[place] ? k : place;
+  return place;
 }
 BOULE_INLINE void store_chosen(double* p, Wide a, unsigned) { *p = a.v; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }

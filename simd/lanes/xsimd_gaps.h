@@ -256,9 +256,12 @@ constexpr ChosenLanes list_chosen_lanes() {
   return lanes;
 }
 inline constexpr ChosenLanes chosen_lanes = list_chosen_lanes();
-BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+BOULE_INLINE Floats chosen_first(Floats a, unsigned chosen) {
   const __m128i lanes = _mm_cvtsi64_si128(static_cast<long long>(chosen_lanes.of[chosen]));
-  _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a, _mm256_cvtepu8_epi32(lanes)));
+  return _mm256_permutevar8x32_ps(a, _mm256_cvtepu8_epi32(lanes));
+}
+BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
+  _mm256_storeu_ps(p, chosen_first(a, chosen));
 }
 BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
   // As pairs of floats.
@@ -290,7 +293,54 @@ BOULE_INLINE void store_chosen(float* p, Floats a, FloatMask chosen, Floats rest
 }
 #endif
 
+// The same, but of each the 16 bits behind the sign.
+#if defined(__AVX512F__)
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen, Floats rest) {
+  const __m512i whole = _mm512_castps_si512(_mm512_mask_compress_ps(rest, chosen, a));
+  const __m512i half = _mm512_srli_epi32(whole, 15);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtusepi32_epi16(half));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen, Floats rest) {
+  const __m256i whole =
+      _mm256_castps_si256(chosen_first(xsimd::select(chosen, a, rest), bits(chosen)));
+  const __m256i half = _mm256_srli_epi32(whole, 15);
+  const __m128i low = _mm256_castsi256_si128(half), high = _mm256_extracti128_si256(half, 1);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_packus_epi32(low, high));
+}
+#else
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen, Floats rest) {
+  alignas(16) float whole[Floats::size];
+  store_chosen(whole, a, chosen, rest);
+  for (std::size_t k = 0; k < Floats::size; ++k)
+    p[k] = static_cast<std::uint16_t>(__builtin_bit_cast(std::uint32_t, whole[k]) << 1 >> 16);
+}
+#endif
+
+// A place of the least of 16 numbers.
+#if defined(__SSE4_2__)
+BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) {
+  const auto* const eights = reinterpret_cast<const __m128i*>(p);
+  const __m128i less = _mm_min_epu16(_mm_load_si128(eights), _mm_load_si128(eights + 1));
+  const auto found = static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(less)));
+  const std::size_t place = found >> 16;
+  return place + (p[place] == (found & 0xffff) ? 0 : 8);
+}
+#else
+BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) {
+  const std::uint16_t least = vminvq_u16(vminq_u16(vld1q_u16(p), vld1q_u16(p + 8)));
+  std::size_t place = 0;
+  while (p[place] != least) ++place;
+  return place;
+}
+#endif
+
 // Unsigned integers as doubles. Without an instruction: less 2^31, as signed ones, and that back.
+#if defined(__SSE4_2__) && !defined(__AVX512F__)
+BOULE_INLINE __m128i less_two_to_31(__m128i a) {
+  return _mm_xor_si128(a, _mm_set1_epi32(-0x7fffffff - 1));
+}
+#endif
 #if defined(__AVX512F__)
 BOULE_INLINE Doubles to_double_low(Integers a) {
   return _mm512_cvtepu32_pd(_mm512_castsi512_si256(a));
@@ -300,8 +350,7 @@ BOULE_INLINE Doubles to_double_high(Integers a) {
 }
 #elif defined(__AVX2__)
 BOULE_INLINE Doubles to_double(__m128i a) {
-  const __m128i less = _mm_xor_si128(a, _mm_set1_epi32(-0x7fffffff - 1));
-  return _mm256_add_pd(_mm256_cvtepi32_pd(less), _mm256_set1_pd(0x1p31));
+  return _mm256_add_pd(_mm256_cvtepi32_pd(less_two_to_31(a)), _mm256_set1_pd(0x1p31));
 }
 BOULE_INLINE Doubles to_double_low(Integers a) { return to_double(_mm256_castsi256_si128(a)); }
 BOULE_INLINE Doubles to_double_high(Integers a) {
@@ -309,8 +358,7 @@ BOULE_INLINE Doubles to_double_high(Integers a) {
 }
 #elif defined(__SSE4_2__)
 BOULE_INLINE Doubles to_double_low(Integers a) {
-  const __m128i less = _mm_xor_si128(a, _mm_set1_epi32(-0x7fffffff - 1));
-  return _mm_add_pd(_mm_cvtepi32_pd(less), _mm_set1_pd(0x1p31));
+  return _mm_add_pd(_mm_cvtepi32_pd(less_two_to_31(a)), _mm_set1_pd(0x1p31));
 }
 BOULE_INLINE Doubles to_double_high(Integers a) {
   const __m128i high = _mm_unpackhi_epi64(a, a);
@@ -319,6 +367,41 @@ BOULE_INLINE Doubles to_double_high(Integers a) {
 #else
 BOULE_INLINE Doubles to_double_low(Integers a) { return vcvtq_f64_u64(vmovl_u32(vget_low_u32(a))); }
 BOULE_INLINE Doubles to_double_high(Integers a) { return vcvtq_f64_u64(vmovl_high_u32(a)); }
+#endif
+
+// As many signed integers as doubles; and the lanes whose byte is not 0.
+#if defined(__AVX512F__)
+BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
+  return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
+}
+BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
+  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
+  return static_cast<__mmask8>(_mm_test_epi8_mask(bytes, bytes));
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
+  return _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
+  const __m256i bytes = _mm256_cvtepu8_epi64(_mm_loadu_si32(p));
+  return _mm256_castsi256_pd(_mm256_cmpgt_epi64(bytes, _mm256_setzero_si256()));
+}
+#elif defined(__SSE4_2__)
+BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
+  return _mm_cvtepi32_pd(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+}
+BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
+  const __m128i bytes = _mm_cvtepu8_epi64(_mm_loadu_si16(p));
+  return _mm_castsi128_pd(_mm_cmpgt_epi64(bytes, _mm_setzero_si128()));
+}
+#else
+BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
+  return vcvtq_f64_s64(vmovl_s32(vld1_s32(p)));
+}
+BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
+  const uint64x2_t bytes = {p[0], p[1]};
+  return vtstq_u64(bytes, bytes);
+}
 #endif
 
 // Rows of four floats: lanes 4k .. 4k + 3 are the row at p[4k], any address, or at p + 16k.

@@ -54,6 +54,13 @@ BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
 }
+/// Integers as doubles, and the lanes whose byte is not 0.
+BOULE_INLINE Wide load_as_wide(const std::int32_t* p) {
+  return {gaps::load_as_doubles(p), gaps::load_as_doubles(p + width / 2)};
+}
+BOULE_INLINE WideMask load_set(const std::uint8_t* p) {
+  return {gaps::load_set(p), gaps::load_set(p + width / 2)};
+}
 /// The bits of integers, not to be calculated with.
 BOULE_INLINE Real load_bits(const std::uint32_t* p) { return gaps::load_bits(p); }
 /// The bits of first, first + 1, ..
@@ -71,6 +78,12 @@ BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
 BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
   gaps::store_chosen(p, a.v, chosen.m, rest.v);
 }
+/// Of each the 16 bits behind the sign.
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen, Real rest) {
+  gaps::store_chosen_halves(p, a.v, chosen.m, rest.v);
+}
+/// A place of the least of 16 numbers; `p`: 32 bytes aligned.
+BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) { return gaps::place_of_least(p); }
 BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
   const unsigned lo = chosen & ((1U << (width / 2)) - 1);
   gaps::store_chosen(p, a.lo, lo);
