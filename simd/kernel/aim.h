@@ -39,7 +39,7 @@ BOULE_INLINE std::size_t aim_at(const LightPlace& light, const LitStream& points
   constexpr float tmax = directional ? std::numeric_limits<float>::infinity() : point_tmax;
   std::size_t count = 0;
   for (std::size_t first = 0; first < points.size; first += width) {
-    const WideMask lit = Wide(0.0) < load_as_wide(points.lit + first);
+    const WideMask lit = load_set(points.lit + first);
     if (!any(lit)) continue;
     const Vec3<Wide> org = load(points.org, first);
     const ToLight to = to_light<directional>(light, load(points.point, first), org);

@@ -250,20 +250,22 @@ class BundleAny {
   /// Of those that leave their sphere the ones on its outside: they cannot meet it again.
   BOULE_INLINE unsigned leaves_outside(int ray, unsigned own) const {
     if (own == 0) return 0;
-    return own & ~bits(Wide(0.0) < load_as_wide(source_.insides(ray)));
+    return own & ~bits(load_set(source_.insides(ray)));
   }
 
   /// Solves a sphere for those of W rays that `lanes` names.
   BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned lanes) {
     const PacketPlace place = source_.packet(p * width, lanes);
-    const ExactRays rays = load_exact(*place.rays, place.first);
+    ExactRays rays;
+    load_exact(*place.rays, place.first, rays);
     hit_[p] |= lanes & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
   }
 
   BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
     const unsigned open = all_lanes & ~hit_[p];
     const PacketPlace place = source_.packet(p * width, open);
-    const ExactRays rays = load_exact(*place.rays, place.first);
+    ExactRays rays;
+    load_exact(*place.rays, place.first, rays);
     for (std::size_t k = 0; k < planes.size; ++k)
       hit_[p] |= open & bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
   }

@@ -124,23 +124,6 @@ class SharedByRays {
   Vec3d dir_, org_;
 };
 
-/// Asks for the packet at `first`, unless the stream ends before it: a bundle's rays come once, and
-/// from memory.
-BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
-  if (first >= rays.size) return;
-  for (int line = 0; line * 8 < width; ++line) {
-    __builtin_prefetch(rays.org_x + first + line * 8);
-    __builtin_prefetch(rays.org_y + first + line * 8);
-    __builtin_prefetch(rays.org_z + first + line * 8);
-  }
-  __builtin_prefetch(rays.dir_x + first);
-  __builtin_prefetch(rays.dir_y + first);
-  __builtin_prefetch(rays.dir_z + first);
-  __builtin_prefetch(rays.tmin + first);
-  __builtin_prefetch(rays.tmax + first);
-  __builtin_prefetch(rays.source + first);
-}
-
 /// Where a bundle's rays come from, asked packet by packet: here neighbours in a stream, in
 /// ray_pool.h those of a pool.
 template <Common common>

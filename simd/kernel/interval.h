@@ -52,6 +52,14 @@ BOULE_INLINE Approach find_approach(const FilterRays& rays, const Vec3<Real>& ce
   return {b, discriminant, spread, filter_fma(square, Real(unit_spread), width_doubt)};
 }
 
+/// Lanes that may have a root between 0 and `reach`, by less than roots: see before_roots().
+BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radius,
+                               const Real& reach) {
+  const auto& [b, discriminant, spread, doubt] = approach;
+  const Real most = filter_fma(Real(4.0F), spread, abs(signed_radius));
+  return (Real(0.0F) <= discriminant + doubt) & (Real(0.0F) <= b + most) & (b - most <= reach);
+}
+
 BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
   const auto& [b, discriminant, spread, doubt] = approach;
   RootBounds bounds;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "core/math/vec.h"
@@ -40,15 +41,9 @@ struct FilterRays {
 struct RayLanes {
   ExactRays exact;
   FilterRays filter;
+  alignas(64) std::int32_t source[width];  ///< exact.source
+  unsigned inside;                         ///< exact.inside, bit by bit
 };
-
-/// Converts W values to lanes of double.
-template <class T>
-BOULE_INLINE Wide load_as_wide(const T* p) {
-  alignas(64) double lanes[width];
-  for (int i = 0; i < width; ++i) lanes[i] = static_cast<double>(p[i]);
-  return load(lanes);
-}
 
 BOULE_INLINE Wide sum_abs(const Vec3<Wide>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 BOULE_INLINE Vec3<Wide> widen(const Vec3<Real>& v) { return {widen(v.x), widen(v.y), widen(v.z)}; }
@@ -56,17 +51,12 @@ BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
   return {narrow(v.x), narrow(v.y), narrow(v.z)};
 }
 
-BOULE_INLINE RealMask narrow(const WideMask& m) {
-  return Real(0.0F) < narrow(select(m, Wide(1.0), Wide(0.0)));
-}
-
 /// a.b for filters, fused where the ISA can.
 BOULE_INLINE Real filter_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return filter_fma(a.z, b.z, filter_fma(a.y, b.y, a.x * b.x));
 }
 
-BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
-  FilterRays out;
+BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
   out.org = narrow(rays.org);
   const Wide error = sum_abs(rays.org - widen(out.org));
   out.origins_exact = !any(Wide(0.0) < error);
@@ -90,46 +80,47 @@ BOULE_INLINE FilterRays make_filter(const ExactRays& rays) {
   out.live_from = from;
   out.live_to = to;
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
-  return out;
 }
 
 /// Finishes lanes whose org, dir, tmin, tmax, source and inside are set.
-BOULE_INLINE ExactRays finish(ExactRays rays) {
+BOULE_INLINE void finish(ExactRays& rays) {
   rays.a = dot(rays.dir, rays.dir);
   rays.inverse_a = Wide(1.0) / rays.a;
   const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
   rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
   rays.has_source = any(Wide(-1.0) < rays.source);
-  return rays;
 }
 
 /// Rays first .. first + W - 1.
-BOULE_INLINE ExactRays load_exact(const RayStream& s, std::size_t first) {
-  ExactRays r;
+BOULE_INLINE void load_exact(const RayStream& s, std::size_t first, ExactRays& r) {
   r.org = {load(s.org_x + first), load(s.org_y + first), load(s.org_z + first)};
   r.dir = widen(Vec3<Real>{load(s.dir_x + first), load(s.dir_y + first), load(s.dir_z + first)});
   r.tmin = widen(load(s.tmin + first));
   r.tmax = widen(load(s.tmax + first));
   r.source = load_as_wide(s.source + first);
-  r.inside = Wide(0.0) < load_as_wide(s.inside + first);
-  return finish(r);
+  r.inside = load_set(s.inside + first);
+  finish(r);
 }
-BOULE_INLINE RayLanes load_packet(const RayStream& s, std::size_t first) {
-  const ExactRays rays = load_exact(s, first);
-  return {rays, make_filter(rays)};
+BOULE_INLINE void load_packet(const RayStream& s, std::size_t first, RayLanes& rays) {
+  load_exact(s, first, rays.exact);
+  make_filter(rays.exact, rays.filter);
+  __builtin_memcpy(rays.source, s.source + first, sizeof rays.source);
+  rays.inside = bits(rays.exact.inside);
 }
 
 /// Ray `index` in every lane.
-BOULE_INLINE RayLanes load_single(const RayStream& s, std::size_t index) {
-  ExactRays r;
+BOULE_INLINE void load_single(const RayStream& s, std::size_t index, RayLanes& rays) {
+  ExactRays& r = rays.exact;
   r.org = {Wide(s.org_x[index]), Wide(s.org_y[index]), Wide(s.org_z[index])};
   r.dir = widen(Vec3<Real>{Real(s.dir_x[index]), Real(s.dir_y[index]), Real(s.dir_z[index])});
   r.tmin = widen(Real(s.tmin[index]));
   r.tmax = widen(Real(s.tmax[index]));
   r.source = Wide(static_cast<double>(s.source[index]));
   r.inside = Wide(0.0) < Wide(static_cast<double>(s.inside[index]));
-  r = finish(r);
-  return {r, make_filter(r)};
+  finish(r);
+  make_filter(r, rays.filter);
+  for (std::int32_t& source : rays.source) source = s.source[index];
+  rays.inside = bits(r.inside);
 }
 
 /// Roots found, and the lanes in which they count.

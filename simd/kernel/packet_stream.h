@@ -23,14 +23,18 @@ BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
 template <class Packet, class Single>
 BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end,
                                  Form form, const Packet& packet, const Single& single) {
+  RayLanes rays;
   std::size_t first = begin;
   while (first < end) {
     if (goes_single(form, end - first)) {
-      single(load_single(stream.rays(), first), first);
+      load_single(stream.rays(), first, rays);
+      single(rays, first);
       ++first;
     } else {
       const PacketPlace place = stream.packet(first);
-      packet(load_packet(*place.rays, place.first), first, stream.live(first));
+      prefetch_packet(stream.rays(), first + prefetch_distance);
+      load_packet(*place.rays, place.first, rays);
+      packet(rays, first, stream.live(first));
       first += lanes;
     }
   }

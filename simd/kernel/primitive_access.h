@@ -26,6 +26,11 @@ struct OneForAll {
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return static_cast<double>(ids[step]);
   }
+  /// Lanes whose ray leaves their primitive.
+  BOULE_INLINE static RealMask own(const std::int32_t* ids, std::size_t step,
+                                   const RayLanes& rays) {
+    return equal(rays.source, ids[step]);
+  }
 };
 
 /// Step i is primitives iW .. iW + W - 1, one a lane, the last step padded: for single rays.
@@ -43,6 +48,10 @@ struct OnePerLane {
   }
   BOULE_INLINE static Wide get(const std::int32_t* ids, std::size_t step) {
     return load_as_wide(ids + step * width);
+  }
+  BOULE_INLINE static RealMask own(const std::int32_t* ids, std::size_t step,
+                                   const RayLanes& rays) {
+    return equal(ids + step * width, rays.source[0]);
   }
 };
 
@@ -90,6 +99,10 @@ struct ScannedSpheres {
     return Access::get(spheres.id, step);
   }
   [[nodiscard]] BOULE_INLINE Real slot(std::size_t step) const { return Access::slots(0, step); }
+  /// Lanes whose ray leaves its sphere.
+  [[nodiscard]] BOULE_INLINE RealMask own(const RayLanes& rays, std::size_t step) const {
+    return Access::own(spheres.id, step, rays);
+  }
 
   /// Lanes that certainly miss.
   template <bool origins_exact>
@@ -123,6 +136,10 @@ struct LeafSpheres {
   [[nodiscard]] BOULE_INLINE Wide id(std::size_t step) const { return Access::get(ids, step); }
   [[nodiscard]] BOULE_INLINE Real slot(std::size_t step) const {
     return Access::slots(first_slot, step);
+  }
+  /// Lanes whose ray leaves its sphere.
+  [[nodiscard]] BOULE_INLINE RealMask own(const RayLanes& rays, std::size_t step) const {
+    return Access::own(ids, step, rays);
   }
 
   /// Lanes that certainly miss, or hold no sphere.

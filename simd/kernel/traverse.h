@@ -20,14 +20,18 @@ class TreeBlocks {
   BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
       : first_{as_bytes(geometry.bvh.nodes),
                as_bytes(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size)},
-        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)} {}
+        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)},
+        is_far_(geometry.spheres.block_count > near_blocks) {}
 
-  /// The node or the leaf that a child is. Asks for what its visit will read: a large tree is not
-  /// in the cache.
+  /// Whether the tree is larger than the caches near by.
+  [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
+  /// The node or the leaf that a child is. Asks for what its visit will read, unless the tree is
+  /// small enough for a cache near by.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
     const std::size_t leaf = child >> 31, place = place_of(child);
     static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
     const char* const block = first_[leaf] + (place << (9 - leaf));
+    if (!is_far_) return block;
     prefetch(block);
     prefetch(block + (256 - 256 * leaf));
     static_assert(bvh_leaf_size * sizeof(std::int32_t) == 64);
@@ -36,6 +40,9 @@ class TreeBlocks {
   }
 
  private:
+  /// Leaves, with their part of the nodes 400 bytes each, of a quarter of a MiB.
+  static constexpr std::size_t near_blocks = 640;
+
   template <class T>
   BOULE_INLINE static const char* as_bytes(const T* p) {
     return reinterpret_cast<const char*>(p);
@@ -50,6 +57,7 @@ class TreeBlocks {
 
   const char* first_[2];  ///< the first node, and the first leaf
   const char* ids_[2];    ///< the first leaf's ids; a node has none, and asks for itself once more
+  bool is_far_;           ///< what is fetched has some way to go
 };
 
 /// A child to visit: where the first ray enters it.
@@ -71,12 +79,15 @@ class VisitStack {
       visits_[place] = visits_[place - 1];
     visits_[place] = visit;
   }
-  /// Where any order will do.
-  void push(const Visit& visit) { visits_[count_++] = visit; }
+  /// Where any order will do. No branch: whether it is pushed cannot be foretold.
+  void push_if(bool really, const Visit& visit) {
+    visits_[count_] = visit;
+    count_ += really ? 1 : 0;
+  }
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  Visit visits_[bvh_max_depth * (bvh_width - 1) + 1];
+  Visit visits_[bvh_max_depth * (bvh_width - 1) + 2];  ///< one for what is not really pushed
   int count_ = 0;
 };
 
@@ -98,23 +109,25 @@ class PacketWalk {
   BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float farthest,
                                    VisitStack& stack) const {
     const int base = stack.count();
+    alignas(64) float near[bvh_width];
     unsigned in = (1U << node.size) - 1;
-    if (beam_.is_beam()) in &= beam_.enter(node, farthest);
+    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
     if (beam_.is_straight()) {
       const Beam::Rows rows = beam_.rows_of(node);
       for (; in != 0; in &= in - 1) {
         const int k = std::countr_zero(in);
-        visit(node, k,
-              enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
-                            {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit),
-              base, stack);
+        const Entry entry =
+            enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
+                          {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit);
+        push(node, k, entry, near + k, base, stack);
       }
     } else {
       for (; in != 0; in &= in - 1) {
         const int k = std::countr_zero(in);
         const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
                         {node.max_x[k], node.max_y[k], node.max_z[k]}};
-        visit(node, k, enter_boxes(box_rays_, box, limit), base, stack);
+        const Entry entry = enter_boxes(box_rays_, box, limit);
+        push(node, k, entry, nullptr, base, stack);
       }
     }
   }
@@ -135,13 +148,16 @@ class PacketWalk {
   }
 
  private:
-  BOULE_INLINE static void visit(const BvhNode& node, int k, const Entry& entry, int base,
-                                 VisitStack& stack) {
-    if (bits(entry.out) == all_lanes) return;
-    if constexpr (ordered) {
-      stack.push({first_entry(entry), node.child[k], node.leaf_size[k]}, base);
-    } else {
-      stack.push({-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]});
+  /// Unless all rays are out. `near`: where the beam enters, if that is known.
+  BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
+                                int base, VisitStack& stack) {
+    const bool in = bits(entry.out) != all_lanes;
+    Visit visit{-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]};
+    if constexpr (!ordered) {
+      stack.push_if(in, visit);
+    } else if (in) {
+      visit.near = near != nullptr ? *near : first_entry(entry);
+      stack.push(visit, base);
     }
   }
 
@@ -218,6 +234,7 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
     const LeafSpheres<Access> leaf(geometry.spheres, place_of(visit.child), visit.leaf_size);
     Survivors<bvh_leaf_size> survivors;
     walk.template list_survivors<origins_exact>(leaf, visit.leaf_size, limit, survivors);
+    if (survivors.count == 0) continue;
     meet_survivors<solver>(rays, geometry.spheres, leaf, 0, survivors, best);
     limit = limit_of_all<Access>(best.limit());
   }
