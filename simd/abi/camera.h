@@ -12,7 +12,8 @@ struct PupilBoxView {
   double x0, x1, y;
 };
 
-/// A lens ready to be traced, as plain numbers: see LensOptics.
+/// A lens ready to be traced, as plain numbers: see LensOptics. One ring or more, for a camera that
+/// has a lens.
 struct LensView {
   const LensElementView* elements;  ///< from the film to the scene
   int element_count;

@@ -13,7 +13,18 @@ namespace boule {
 
 /// What one ISA's kernel object exports, and all of it: nothing else crosses the border.
 /// Every function is thread-safe, allocates nothing and cannot fail; any_hit needs 1.5 MiB of the
-/// caller's stack. The rounding mode must be to nearest and denormals must not be flushed.
+/// caller's stack.
+///
+/// Any numbers will do, and any number of them, 0 too: a ray with NaN, with an infinite origin or
+/// direction, or without a direction is a miss and harms no other, and so is an interval with NaN
+/// or without extent. Preconditions, which nobody checks here: a CPU that runs `isa`
+/// (select_kernels()); arrays as long, aligned and padded as the streams say, those that are
+/// written as long as those that are read; a geometry of Geometry or its like, and ids of hits that
+/// are its own.
+///
+/// The thread must round to nearest, keep denormals and trap no floating-point exception: kernels
+/// divide by 0 and meet NaN as a matter of course. A FloatEnvironment (core/base) around the calls
+/// sees to that, whatever the caller has set; raised flags are left behind without one.
 struct KernelTable {
   Isa isa;
   int width;  ///< float lanes of a packet
@@ -23,7 +34,8 @@ struct KernelTable {
   void (*primary_rays)(const CameraView& camera, const SampleStream& samples,
                        const RayStream& rays);
 
-  /// hits[k] = the nearest hit of rays[k] with tmin < t <= tmax; equal t: the lower id.
+  /// hits[k] = the nearest hit of rays[k] with tmin < t <= tmax; equal t: the lower id. hits.size
+  /// is not asked.
   void (*closest_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
                       const HitStream& hits);
 

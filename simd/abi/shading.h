@@ -8,7 +8,8 @@
 namespace boule {
 
 /// Spheres by id, wherever they are: the centre's coordinates and the radius are the four floats
-/// from first + id stride on.
+/// from first + id stride on. A view, as all here: it owns nothing and checks nothing, what it
+/// points to is as long as it says (kernel_table.h).
 struct SphereRows {
   const float* first;
   std::size_t stride;

@@ -6,7 +6,7 @@
 namespace boule {
 
 /// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long and
-/// aligned to stream_alignment. Meanings as in Ray. A view: owns nothing.
+/// aligned to stream_alignment. Meanings as in Ray. A view: owns nothing, checks nothing.
 struct RayStream {
   double* org_x;
   double* org_y;
@@ -21,7 +21,7 @@ struct RayStream {
   std::size_t size;
 };
 
-/// Rays from `first`, a multiple of max_width, on.
+/// Rays from `first`, a multiple of max_width, on. Nobody checks that there are so many.
 inline RayStream part(const RayStream& r, std::size_t first, std::size_t size) {
   return {r.org_x + first,
           r.org_y + first,

@@ -5,13 +5,15 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include "simd/abi/isa.h"
 
 namespace boule {
 
-/// An owning array of plain values on a cache line, its length padded to the widest packet.
-/// Throws std::bad_alloc.
+/// An owning array of plain values on a cache line, its length padded to the widest packet. Places
+/// are not checked: preconditions. Throws std::bad_alloc, and is as it was then; one that was moved
+/// away is empty.
 template <class T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -19,13 +21,20 @@ class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(std::size_t size, T fill = T{}) { resize(size, fill); }
+  AlignedArray(AlignedArray&& other) noexcept
+      : data_(std::move(other.data_)), capacity_(std::exchange(other.capacity_, 0)) {}
+  AlignedArray& operator=(AlignedArray&& other) noexcept {
+    data_ = std::move(other.data_);
+    capacity_ = std::exchange(other.capacity_, 0);
+    return *this;
+  }
 
   /// Makes room for `size` values. Where that takes new memory all values are `fill`; where there
   /// is room already nothing changes.
   void resize(std::size_t size, T fill = T{}) {
+    if (size > most) throw std::bad_alloc();
     const std::size_t wanted = padded(size);
     if (wanted > capacity_) {
-      if (wanted > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
       void* memory = ::operator new (wanted * sizeof(T), std::align_val_t{stream_alignment});
       data_.reset(static_cast<T*>(memory));
       capacity_ = wanted;
@@ -39,6 +48,8 @@ class AlignedArray {
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
 
  private:
+  static constexpr std::size_t most = static_cast<std::size_t>(-1) / sizeof(T) - max_width;
+
   struct Release {
     void operator()(T* data) const { ::operator delete (data, std::align_val_t{stream_alignment}); }
   };

@@ -22,6 +22,9 @@ bool has_dark_corners(const CameraBasis& basis) {
          !(length(basis.right * x + basis.up * y) < almost_pi);
 }
 
+/// What a lens is seen through that is not there.
+constexpr PupilBoxView dark{};
+
 }  // namespace
 
 LensStack::LensStack(const LensOptics& optics) {
@@ -67,6 +70,7 @@ CameraView build_camera(const Camera& camera, int width, int height, const Disto
   view.kind = basis.kind;
   view.weighs = has_dark_corners(basis) || basis.kind == CameraKind::lens;
   if (lens != nullptr) view.lens = lens->view;
+  if (view.lens.ring_count < 1) view.lens.pupil = &dark, view.lens.ring_count = 1;
   if (map != nullptr) {
     view.map = map->st.data();
     view.map_width = map->width;

@@ -8,7 +8,7 @@
 
 namespace boule {
 
-/// What of a lens the kernels see, kept together.
+/// What of a lens the kernels see, kept together. Throws std::bad_alloc.
 struct LensStack {
   std::vector<LensElementView> elements;
   std::vector<PupilBoxView> pupil;
@@ -16,14 +16,19 @@ struct LensStack {
 
   LensStack() = default;
   explicit LensStack(const LensOptics& optics);
+  LensStack(LensStack&&) noexcept = default;
+  LensStack& operator=(LensStack&&) noexcept = default;
 };
 
-/// The lens of a valid camera for such an image; empty if it is no LensCamera.
+/// The lens of a valid camera for such an image; empty if it is no LensCamera. Throws
+/// std::bad_alloc.
 LensStack build_lens(const Camera& camera, int width, int height);
 
-/// The plain view of a valid camera for an image of `width` x `height` pixels. The map, if there is
-/// one, must outlive the view, and so must the lens, which build_lens() makes; only a LensCamera
-/// needs one. Neither checks the camera: find_problem() does. Both throw std::bad_alloc.
+/// The plain view of a valid camera for an image of `width` x `height` pixels, 1 or more. The map,
+/// if there is one, must outlive the view, and so must the lens, which build_lens() makes; only a
+/// LensCamera needs one, and has no rays without. Preconditions, which find_problem() checks and
+/// nobody here: of an invalid camera the rays may be NaN, which miss; with an invalid map they are
+/// made of foreign memory.
 CameraView build_camera(const Camera& camera, int width, int height,
                         const DistortionMap* map = nullptr, const LensStack* lens = nullptr);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -41,6 +42,13 @@ float extent_of(const std::vector<BvhNode>& nodes) {
 }
 
 }  // namespace
+
+SphereRows sphere_rows(std::span<const Sphere> spheres) {
+  static_assert(sizeof(Sphere) % sizeof(float) == 0 && offsetof(Sphere, center) == 0 &&
+                offsetof(Sphere, radius) == 3 * sizeof(float));
+  if (spheres.empty()) return {nullptr, 0};
+  return {&spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
+}
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
                    Structure structure, const ParallelFor& parallel_for)

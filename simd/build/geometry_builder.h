@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
+#include "simd/abi/shading.h"
 #include "simd/build/aligned_array.h"
 #include "simd/build/bvh_builder.h"
 
@@ -15,17 +17,20 @@ namespace boule {
 /// a few dozen.
 enum class Structure { automatic, scan, bvh };
 
+/// Spheres as find_surfaces reads them, where they are; null for none.
+SphereRows sphere_rows(std::span<const Sphere> spheres);
+
 /// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
-/// Immutable once built. Takes any floats, degenerate ones too, and max_primitives spheres and
-/// planes in all at most: nobody checks that here. Throws std::bad_alloc, and what `parallel_for`
-/// throws.
+/// Immutable once built. Takes any floats: what is NaN, infinite or without a normal is missed by
+/// every ray, a negative radius counts as its size. Precondition: max_primitives spheres and planes
+/// in all at most, which validate() checks. Throws std::bad_alloc, and what `parallel_for` throws.
 class Geometry {
  public:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
            Structure structure = Structure::automatic,
            const ParallelFor& parallel_for = serial_for);
 
-  /// What the kernels see; valid as long as this object.
+  /// What the kernels see; valid as long as this object, and not of one that was moved away.
   [[nodiscard]] GeometryView view() const;
 
  private:

@@ -11,7 +11,9 @@
 
 namespace boule {
 
-/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it.
+/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it. As of all
+/// buffers here, what places there are is not checked: i < size() is a precondition. resize()
+/// throws std::bad_alloc, and the size stays what it was. One that was moved away is resized first.
 class RayBuffer {
  public:
   RayBuffer() = default;
@@ -153,7 +155,6 @@ class SeekBuffer {
     u_[i] = u;
     v_[i] = v;
   }
-  [[nodiscard]] Vec3d org(std::size_t i) const { return org_.get(i); }
   [[nodiscard]] Vec3d direction(std::size_t i) const { return center_.get(i); }
   [[nodiscard]] double density(std::size_t i) const { return density_[i]; }
   [[nodiscard]] float tmax(std::size_t i) const { return tmax_[i]; }

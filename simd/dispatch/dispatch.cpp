@@ -55,8 +55,8 @@ std::string supported_names() {
 }
 
 Diagnostic refusal(std::string_view name, std::string_view origin, const std::string& reason) {
-  return {std::string(origin) + " " + quote(std::string(name)) + " " + reason +
-              ", expected one of " + supported_names(),
+  return {std::string(origin) + " " + quote(name) + " " + reason + ", expected one of " +
+              supported_names(),
           {},
           {},
           0,
