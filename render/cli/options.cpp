@@ -16,12 +16,6 @@ constexpr const char* description =
 /// "--threads" of "-t,--threads".
 std::string long_name(const std::string& names) { return names.substr(names.rfind(',') + 1); }
 
-/// CLI11 repeats what was typed: as quote() makes it, without the quotation marks.
-std::string printable(const std::string& message) {
-  const std::string quoted = quote(message, 400);
-  return quoted.substr(1, quoted.size() - 2);
-}
-
 CLI::ValidationError refuse(const std::string& names, const std::string& text,
                             const std::string& expected) {
   return CLI::ValidationError(long_name(names),
@@ -201,7 +195,7 @@ UsageError explain(const CLI::App& app, const CLI::ParseError& error) {
   if (!unknown.empty() && (extra || app.get_subcommands().empty())) {
     return {"argument not expected: " + quote(unknown.front())};
   }
-  return {printable(error.what())};
+  return {printable(error.what(), 400)};  // CLI11 repeats what was typed
 }
 
 }  // namespace

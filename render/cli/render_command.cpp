@@ -46,8 +46,6 @@ Status check(const RenderCommand& command) {
                             " file cannot say which crop it is: another one would be skipped",
                         "--skip-existing");
   }
-  const auto date = source_date();
-  if (!date) return date.error();
   return check_run(command, "picture", {command.scene});
 }
 
@@ -120,12 +118,16 @@ class Rendering {
   RunReport report_;
   Stopwatch watch_;
   Stats stats_;
+  std::string date_;  ///< that the file is stamped with
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
 };
 
 ExitCode Rendering::run() {
   if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
+  auto date = source_date();
+  if (!date) return refuse(date.error(), command_, wrong_usage);
+  date_ = std::move(date).value();
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   if (prepared != done || !renderer) return prepared;
@@ -213,7 +215,7 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.compression = command_.compression;
   file.exposure_stops = command_.exposure_stops;
   file.crop = place_of(options);
-  file.date_time = source_date().value();  // check() has seen it
+  file.date_time = date_;
   file.metadata = picture_header(renderer, scene_hash_, partial_);
   file.threads = static_cast<int>(renderer.statistics().threads);
   return file;
@@ -230,12 +232,13 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
     options.stop = [&caught, stream = is_stream(command_.output)] {
       return WriteGuard::interrupted() || (stream && caught());
     };
-    options.temporary = [&removal](const std::string& path) {
-      path.empty() ? removal.reset() : static_cast<void>(removal.emplace(path));
+    options.temporary = [&](const std::string& path) {
+      removal.reset();
+      path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
     };
     status = write_image(image, command_.output, options);
     removal.reset();
-    tell_outcome(!status, command_.output, "the picture had been written");
+    if (!status) set_written("the picture had been written");
   }
   exit_if_interrupted();
   if (status && caught()) leave_as_caught();

@@ -59,12 +59,8 @@ Status check_data_files(const RunOptions& options, const std::string& output,
   return std::nullopt;
 }
 
-void tell_outcome(bool written, const std::string& output, const char* end) {
-  if (written) {
-    set_written(end);
-  } else if (is_stream(output)) {
-    set_written("the output is incomplete");
-  }
+void tell_sending(const std::string& output) {
+  if (is_stream(output)) set_written("the output is incomplete");
 }
 
 void RunReport::note(const std::string& text) const {

@@ -31,9 +31,8 @@ bool is_stream(const std::string& output);
 Status check_data_files(const RunOptions& options, const std::string& output,
                         const std::vector<std::string>& files);
 
-/// What a signal's message says from now on: `end` where the output is in place; that it is
-/// incomplete where a pipe or device has got a part of it.
-void tell_outcome(bool written, const std::string& output, const char* end);
+/// A pipe or device gets the data now: a signal's message says that the output is incomplete.
+void tell_sending(const std::string& output);
 
 /// What one run of render or trace tells on standard error, as loud as its options say, and its
 /// statistics.

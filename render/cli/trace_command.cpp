@@ -94,7 +94,7 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
   {
     const WriteGuard guard;
     failure = trace_to_file(rays, tracer);
-    tell_outcome(!failure, command_.output, "the hits had been written");
+    if (!failure) set_written("the hits had been written");
   }
   exit_if_interrupted();
   report_.end_progress();
@@ -114,6 +114,7 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
     if (auto bad = file.value().sync()) return Failure{*bad, failed};
     stats_.write_seconds += watch.seconds();
   }
+  tell_sending(command_.output);
   const Stopwatch watch;
   if (auto bad = file.value().commit([] { return WriteGuard::interrupted(); })) {
     return Failure{*bad, failed};

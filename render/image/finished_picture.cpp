@@ -30,8 +30,9 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   std::error_code ignored;
   const ImageFormat* const format = find_image_format(path);
   // First: without a file nothing needs to be loaded.
-  if (format == nullptr || !std::filesystem::is_regular_file(path, ignored)) return false;
-  if (!is_whole_file(path, *format)) return false;
+  if (format == nullptr || path.find('\0') != std::string::npos) return false;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (!file_damage(path, *format).empty()) return false;
   const auto loaded = load_image_module(*format);
   if (!loaded) return false;
   std::vector<const char*> names = {"R", "G", "B"};

@@ -16,8 +16,8 @@ struct PictureShape {
 
 /// True if there is a picture of that name already, as write_image() leaves it: a regular file that
 /// can be read to its end, of this shape, and does not say in its ImageDescription that it is
-/// partial. False as well where the module that reads pictures cannot be loaded. Throws
-/// std::bad_alloc.
+/// partial. Any name and any shape will do. False as well where the module that reads pictures
+/// cannot be loaded. Throws std::bad_alloc.
 bool is_finished_picture(const std::string& path, const PictureShape& shape);
 
 }  // namespace boule

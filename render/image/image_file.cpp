@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/image/image_module.h"
@@ -184,6 +186,23 @@ void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned 
   }
 }
 
+/// Of a file that ends without pixels libpng tells standard error, and OpenImageIO lets it. Noise
+/// is what it cannot hold back: after these rows from `begin` on there are some.
+void write_noise(const Picture& picture, OIIO::ImageOutput& output, int begin) {
+  constexpr size_t enough_bytes = 1 << 16;
+  const auto row_bytes = static_cast<size_t>(output.spec().scanline_bytes(true));
+  const auto wanted = static_cast<int>(1 + enough_bytes / row_bytes);
+  const int end = std::min(picture.height, begin + wanted);
+  std::vector<unsigned char> noise(static_cast<size_t>(end - begin) * row_bytes);
+  std::uint32_t state = 1;
+  for (unsigned char& byte : noise) {
+    state = state * 1664525U + 1013904223U;  // Numerical Recipes 7.1
+    byte = static_cast<unsigned char>(state >> 24);
+  }
+  const int top = output.spec().y;
+  output.write_scanlines(top + begin, top + end, 0, output.spec().format, noise.data());
+}
+
 void write_bands(const Picture& picture, OIIO::ImageOutput& output, const DescriptorProxy& proxy,
                  Report* report) {
   std::vector<unsigned char> packed;
@@ -191,6 +210,7 @@ void write_bands(const Picture& picture, OIIO::ImageOutput& output, const Descri
   for (int begin = 0; begin < picture.height && proxy.code() == 0; begin += rows) {
     if (picture.stop(picture.context)) {
       report->outcome = Outcome::stopped;
+      if (output.format_name() == std::string_view("png")) write_noise(picture, output, begin);
       return;
     }
     const int end = std::min(begin + rows, picture.height);
@@ -276,6 +296,7 @@ bool has_channels(const OIIO::ImageSpec& found, const WantedPicture& wanted) {
 }
 
 void inspect_picture(const WantedPicture& wanted, FoundPicture& picture, Report* report) {
+  use_threads(1);
   const auto input = make_input(wanted.format);
   OIIO::ImageSpec found;
   if (!input || !input->open(wanted.path, found)) {
@@ -398,5 +419,6 @@ constexpr Table table = {version, write, check, inspect, read};
 }  // namespace boule::image_module
 
 extern "C" [[gnu::visibility("default")]] const boule::image_module::Table* boule_image_module() {
+  OIIO::attribute("debug", 0);  // or it tells the terminal of what it makes of a header
   return &boule::image_module::table;
 }

@@ -47,8 +47,8 @@ struct ImageFileOptions {
   std::vector<ImageChannel> channels;             ///< refused by formats without channels
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, EXIF notation
   Metadata metadata;                              ///< an entry replaces a standard one of its name
-  int threads = 1;                                ///< for compressing, if they can be had
-  std::function<bool()> stop;                     ///< asked now and then: true gives up
+  int threads = 1;  ///< 1 .. 256, others count as the nearest: for compressing, if they can be had
+  std::function<bool()> stop;  ///< asked now and then: true gives up
   /// Told the temporary file's name when it is there, and an empty one when all is in it and the
   /// renaming is next: so a signal's handler can remove it instead of waiting.
   std::function<void(const std::string&)> temporary;
@@ -59,8 +59,12 @@ struct ImageFileOptions {
 /// then renamed: a failure leaves an old file untouched and nothing behind. Equal arguments make
 /// equal files, byte for byte. The Diagnostic says "cannot write 'NAME': REASON", the reason being
 /// the system's where there is one: so it does for a picture without pixels or too large for the
-/// format, a crop outside its frame, channels without a name of their own or of another size.
-/// Throws what options.stop and options.temporary throw.
+/// format, a crop outside its frame, channels without a name of their own or of another size, an
+/// exception in options.stop or options.temporary. Any numbers are colours: NaN and what is below 0
+/// is 0 in LDR formats; EXR keeps them.
+///
+/// The first picture that is written or read loads OpenImageIO, with half a GiB of addresses: where
+/// allocations fail within that, libraries below it end the process by std::terminate().
 Status write_image(const Image& image, const std::string& path,
                    const ImageFileOptions& options = {});
 

@@ -15,7 +15,7 @@ struct ImageFormat {
 };
 
 /// The format that a file name's extension stands for, upper or lower case; null if it has none or
-/// an unknown one. Looks at the name only.
+/// an unknown one. Looks at the name only, which may be any; as all here it throws std::bad_alloc.
 const ImageFormat* find_image_format(const std::string& path);
 
 /// True if the file name's extension is that of a format write_image knows (".png", ".exr").

@@ -116,14 +116,15 @@ Result<const Table*> load_image_module(const ImageFormat& format) {
 }
 
 int image_threads(int wanted) {
-  if (wanted <= 1) return 1;
+  constexpr int most = 256;
+  const auto count = static_cast<unsigned>(std::clamp(wanted, 1, most));
+  if (count == 1) return 1;
   Loaded& one = loaded();
   const std::lock_guard lock(one.mutex);
-  const auto count = static_cast<unsigned>(wanted);
-  // The pool is resized to `wanted`; OpenEXR has one of its own.
+  // The pool is resized to `count`; OpenEXR has one of its own.
   if (!can_start_threads(std::max(count, pool_threads(one)) + count)) return 1;
   one.has_pool = true;
-  return wanted;
+  return static_cast<int>(count);
 }
 
 }  // namespace boule

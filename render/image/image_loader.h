@@ -13,8 +13,8 @@ namespace boule {
 /// anew by the next call.
 Result<const image_module::Table*> load_image_module(const ImageFormat& format);
 
-/// How many threads the module may be given of `wanted`: all, or one where OpenImageIO and OpenEXR
-/// could not have theirs.
+/// How many threads the module may be given of `wanted`: all, 256 at most, or one where OpenImageIO
+/// and OpenEXR could not have theirs.
 int image_threads(int wanted);
 
 }  // namespace boule

@@ -126,6 +126,9 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason) {
 
 Result<OutputFile> OutputFile::create(const std::string& target,
                                       const std::function<bool()>& stop) {
+  if (target.find('\0') != std::string::npos) {
+    return cannot_write(target, "its name holds a NUL byte");
+  }
   OutputFile file;
   file.name_ = target;
   std::string real = target;
@@ -211,7 +214,8 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       path_(std::exchange(other.path_, {})),
       temporary_(std::exchange(other.temporary_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      stream_(std::exchange(other.stream_, -1)) {}
+      stream_(std::exchange(other.stream_, -1)),
+      synced_(std::exchange(other.synced_, false)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(name_, other.name_);
@@ -220,6 +224,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(temporary_, other.temporary_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(stream_, other.stream_);
+  std::swap(synced_, other.synced_);
   return *this;
 }
 
@@ -235,14 +240,17 @@ void OutputFile::discard() {
 }
 
 Status OutputFile::write(const void* bytes, std::size_t count) {
+  synced_ = false;
   const int code = write_all(descriptor_, static_cast<const char*>(bytes), count);
   if (code != 0) return cannot_write(name_, system_reason(code));
   return {};
 }
 
 Status OutputFile::sync() {
-  if (stream_ >= 0 || fsync(descriptor_) == 0) return {};
-  return cannot_write(name_, system_reason(errno));
+  if (stream_ >= 0 || synced_) return {};
+  if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
+  synced_ = true;
+  return {};
 }
 
 Status OutputFile::commit(const std::function<bool()>& stop) {

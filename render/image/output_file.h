@@ -17,11 +17,13 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason);
 ///
 /// The new file has the old one's permissions, else 0666 less the umask. A symbolic link is
 /// followed: the file it names is replaced, the link stays. A device, pipe or socket is never
-/// replaced: the data are gathered in memory and copied into it by commit().
+/// replaced: the data are gathered in memory and copied into it by commit(). What was committed, or
+/// moved away, refuses all below.
 class OutputFile {
  public:
-  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason. A FIFO's
-  /// reader is waited for: `stop` is asked ten times a second then, true gives up.
+  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason. Any name will
+  /// do. A FIFO's reader is waited for: `stop` is asked ten times a second then, true gives up.
+  /// What `stop` throws reaches the caller, here and below.
   static Result<OutputFile> create(const std::string& target,
                                    const std::function<bool()>& stop = {});
 
@@ -37,10 +39,10 @@ class OutputFile {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
-  /// Appends bytes at the descriptor's position.
+  /// Appends `count` bytes at the descriptor's position.
   Status write(const void* bytes, std::size_t count);
 
-  /// Makes the data written so far durable, so that commit() takes no time for it.
+  /// Makes the data durable, after the last write, so that commit() takes no time for it.
   Status sync();
 
   /// Makes the data durable and gives the file its name; call it once, after the last write.
@@ -63,7 +65,8 @@ class OutputFile {
   std::string path_;         // of the temporary; under /proc while it has no name
   std::string temporary_;    // its name, if it has one
   int descriptor_ = -1;
-  int stream_ = -1;  // the device or pipe itself
+  int stream_ = -1;      // the device or pipe itself
+  bool synced_ = false;  // since the last write()
 };
 
 }  // namespace boule

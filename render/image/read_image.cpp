@@ -16,6 +16,8 @@ namespace {
 
 namespace module = image_module;
 
+constexpr const char* too_large = "it needs more memory than there is";
+
 Diagnostic cannot_read(const std::string& path, const std::string& reason) {
   return {"cannot read it: " + reason, "", path, 0, 0};
 }
@@ -23,12 +25,10 @@ Diagnostic cannot_read(const std::string& path, const std::string& reason) {
 /// What the module's reader is given to fill, and why it was not.
 struct Room {
   Image image;
-  std::string refusal;
+  std::string refusal = too_large;
 };
 
-/// No exception may cross the module's border.
-bool begin(void* context, int width, int height) {
-  auto& room = *static_cast<Room*>(context);
+bool begin_room(Room& room, int width, int height) {
   if (width > max_image_side || height > max_image_side) {
     room.refusal = "it has more than " + std::to_string(max_image_side) + " pixels a side";
     return false;
@@ -40,15 +40,19 @@ bool begin(void* context, int width, int height) {
     room.refusal = bad->message;
     return false;
   }
-  try {
-    room.image.width = width;
-    room.image.height = height;
-    room.image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  } catch (const std::bad_alloc&) {
-    room.refusal = "it needs more memory than there is";
-    return false;
-  }
+  room.image.width = width;
+  room.image.height = height;
+  room.image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   return true;
+}
+
+/// No exception may cross the module's border.
+bool begin(void* context, int width, int height) {
+  try {
+    return begin_room(*static_cast<Room*>(context), width, height);
+  } catch (const std::bad_alloc&) {
+    return false;  // the refusal says so from the start
+  }
 }
 
 float* next_rows(void* context, int rows) {
@@ -72,7 +76,9 @@ Result<Image> read(const std::string& path, PictureContent content) {
   if (format == nullptr) {
     return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
   }
-  if (!is_whole_file(path, *format)) return cannot_read(path, "the file ends within the picture");
+  if (path.find('\0') != std::string::npos) return cannot_read(path, "its name holds a NUL byte");
+  if (const auto damage = file_damage(path, *format); !damage.empty())
+    return cannot_read(path, damage);
   const Result<const module::Table*> loaded = load_image_module(*format);
   if (!loaded) return cannot_read(path, loaded.error().message);
   Room room;
@@ -92,7 +98,7 @@ Result<Image> read_image(const std::string& path, PictureContent content) {
   try {
     return read(path, content);
   } catch (const std::bad_alloc&) {
-    return cannot_read(path, "it needs more memory than there is");
+    return cannot_read(path, too_large);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "render/image/whole_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -9,6 +10,8 @@
 
 namespace boule {
 namespace {
+
+constexpr const char* too_short = "the file ends within the picture";
 
 /// The next bytes as one number, the highest first; 0 behind the end.
 std::uint32_t big_endian(std::istream& file, int bytes) {
@@ -35,19 +38,51 @@ bool is_whole_jpeg(std::istream& file) {
   return false;
 }
 
+/// The remainders of all bytes by PNG's polynomial (PNG specification, annex D).
+constexpr auto crc_table = [] {
+  constexpr std::uint32_t polynomial = 0xedb88320;
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t rest = byte;
+    for (int bit = 0; bit < 8; ++bit) rest = rest >> 1 ^ ((rest & 1) != 0 ? polynomial : 0);
+    table[byte] = rest;
+  }
+  return table;
+}();
+
+/// The checksum of the next bytes.
+std::uint32_t crc_of(std::istream& file, std::uint32_t bytes) {
+  std::uint32_t crc = ~std::uint32_t{0};
+  std::array<char, 1 << 14> block;
+  while (bytes > 0 && file) {
+    file.read(block.data(), std::min<std::streamsize>(bytes, block.size()));
+    const auto count = static_cast<std::uint32_t>(file.gcount());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      crc = crc >> 8 ^ crc_table[(crc ^ static_cast<unsigned char>(block[i])) & 255];
+    }
+    bytes -= count;
+  }
+  return ~crc;
+}
+
 /// From chunk to chunk to the end of IEND.
-bool is_whole_png(std::istream& file) {
+std::string png_damage(std::istream& file) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+  constexpr std::uint32_t optional = 0x20000000, end = 0x49454e44;  // in, and of, a chunk's type
   std::array<char, 8> start{};
   file.read(start.data(), start.size());
-  if (std::memcmp(start.data(), signature.data(), start.size()) != 0) return true;
-  while (file) {
-    const std::uint32_t length = big_endian(file, 4), type = big_endian(file, 4);
-    file.seekg(length, std::ios::cur);
-    big_endian(file, 4);  // its checksum is the reader's
-    if (type == 0x49454e44) return file.good();
+  if (std::memcmp(start.data(), signature.data(), start.size()) != 0) return {};
+  for (;;) {
+    const std::uint32_t length = big_endian(file, 4);
+    const auto chunk = file.tellg();
+    const std::uint32_t type = big_endian(file, 4);
+    file.seekg(chunk);
+    const std::uint32_t crc = crc_of(file, length + 4);
+    const std::uint32_t declared = big_endian(file, 4);
+    if (!file) return too_short;
+    if (crc != declared && (type & optional) == 0) return "a checksum in the file is wrong";
+    if (type == end) return {};
   }
-  return false;
 }
 
 /// The text up to a NUL, which a header's names are.
@@ -85,13 +120,14 @@ bool has_whole_exr_headers(std::istream& file) {
 
 }  // namespace
 
-bool is_whole_file(const std::string& path, const ImageFormat& format) {
+std::string file_damage(const std::string& path, const ImageFormat& format) {
   const std::string_view writer = format.writer;
   std::ifstream file(path, std::ios::binary);
-  if (writer == "jpeg") return is_whole_jpeg(file);
-  if (writer == "png") return is_whole_png(file);
-  if (writer == "openexr") return has_whole_exr_headers(file);
-  return true;
+  if (writer == "png") return png_damage(file);
+  const bool whole = writer == "jpeg"      ? is_whole_jpeg(file)
+                     : writer == "openexr" ? has_whole_exr_headers(file)
+                                           : true;
+  return whole ? "" : too_short;
 }
 
 }  // namespace boule

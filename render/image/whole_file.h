@@ -6,10 +6,10 @@
 
 namespace boule {
 
-/// False if a JPEG or PNG file has lost its end, or an EXR file that of its headers, as their own
-/// marks tell: libjpeg makes up what is missing, libpng complains on standard error, OpenEXR fills
-/// memory. Other files are left to their readers; so is what is wrong within a PNG, of which libpng
-/// tells standard error a line that OpenImageIO lets pass.
-bool is_whole_file(const std::string& path, const ImageFormat& format);
+/// What a JPEG or PNG file's own marks and checksums, or the headers of an EXR file, tell to be
+/// wrong with it: libjpeg makes up what is missing, libpng complains on standard error, OpenEXR
+/// fills memory. Empty where they tell nothing; other files are left to their readers, and so are
+/// PNG files that a writer has filled with nonsense and true checksums.
+std::string file_damage(const std::string& path, const ImageFormat& format);
 
 }  // namespace boule

@@ -1,5 +1,6 @@
 #include <cerrno>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <new>
@@ -24,7 +25,20 @@ struct Plan {
   Metadata metadata;
   std::vector<module::Attribute> attributes;
   module::Picture picture{};
+  const std::function<bool()>* stop = nullptr;
+  mutable std::exception_ptr thrown{};  // by `stop`
 };
+
+/// No exception may cross the module's border.
+bool ask_to_stop(const void* context) {
+  const auto& plan = *static_cast<const Plan*>(context);
+  try {
+    return *plan.stop && (*plan.stop)();
+  } catch (...) {
+    plan.thrown = std::current_exception();
+    return true;
+  }
+}
 
 const char* compression_name(Compression compression) {
   switch (compression) {
@@ -161,11 +175,9 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
   picture.attributes = plan->attributes.data();
   picture.attribute_count = plan->attributes.size();
   picture.threads = image_threads(options.threads);
-  picture.stop = [](const void* context) {
-    const auto& stop = static_cast<const ImageFileOptions*>(context)->stop;
-    return stop && stop();
-  };
-  picture.context = &options;
+  plan->stop = &options.stop;
+  picture.stop = ask_to_stop;
+  picture.context = plan.get();
   return plan;
 }
 
@@ -201,6 +213,7 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   const std::unique_ptr<Plan> plan = make_plan(image, options, *format);
   module::Report report{};
   table.write(&plan->picture, file.descriptor(), &report);
+  if (plan->thrown) std::rethrow_exception(plan->thrown);
   if (Status failure = status_of(report, path)) return failure;
   table.check(&plan->picture, file.path().c_str(), &report);
   if (Status failure = status_of(report, path)) return failure;
@@ -217,6 +230,10 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
     return write(image, path, options);
   } catch (const std::bad_alloc&) {
     return cannot_write(path, std::generic_category().message(ENOMEM));
+  } catch (const std::exception& other) {  // of a callback
+    return cannot_write(path, other.what());
+  } catch (...) {
+    return cannot_write(path, "an unknown exception");
   }
 }
 

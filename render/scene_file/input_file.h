@@ -12,7 +12,7 @@ namespace boule {
 /// is refused before it is opened, so that opening neither blocks nor acts.
 class InputFile {
  public:
-  /// Opens `path`; the error carries the system's reason.
+  /// Opens `path`, any name; the error carries the system's reason.
   static Result<InputFile> open(const std::string& path);
 
   InputFile(InputFile&& other) noexcept;
@@ -22,7 +22,8 @@ class InputFile {
   /// Its size in bytes when it was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Reads up to `count` bytes into `buffer`: how many, less than `count` only at the end.
+  /// Reads up to `count` bytes into `buffer`, which has room for them: how many, less than `count`
+  /// only at the end. An error of a file that was moved away.
   Result<std::size_t> read(void* buffer, std::size_t count);
 
  private:
@@ -34,7 +35,7 @@ class InputFile {
 };
 
 /// The whole text of a regular file, without a UTF-8 byte order mark. UTF-16 text and NUL bytes
-/// are refused, the latter with their place.
+/// are refused, the latter with their place; so is what does not fit into memory.
 Result<std::string> read_text(const std::string& path);
 
 }  // namespace boule

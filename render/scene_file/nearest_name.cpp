@@ -44,22 +44,18 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
     suggestion = candidate;
   }
   if (suggestion.empty()) return "";
-  return "; did you mean " + quote(std::string(suggestion)) + "?";
+  return "; did you mean " + quote(suggestion) + "?";
 }
 
 std::string list_names(const std::vector<std::string_view>& names) {
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
-    list += quote(std::string(names[i]));
+    list += quote(names[i]);
   }
   return list;
 }
 
-std::string safe_name(std::string_view name) {
-  // quote() needs no more than its 40 characters and one that says that there are more.
-  const std::string quoted = quote(std::string(name.substr(0, 41)));
-  return quoted.substr(1, quoted.size() - 2);
-}
+std::string safe_name(std::string_view name) { return printable(name, 40); }
 
 }  // namespace boule

@@ -101,7 +101,7 @@ bool NffCursor::take_unusual(const char* key, float& out) {
   double number = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), number);
   const bool is_number = code != std::errc::invalid_argument && end == word.data() + word.size();
-  if (!is_number) return report(word, key, "expected a number, got " + quote(std::string(word)));
+  if (!is_number) return report(word, key, "expected a number, got " + quote(word));
   if (!std::isfinite(number)) return report(word, key, "must be finite");
   const bool out_of_range = code == std::errc::result_out_of_range;
   if (out_of_range && is_tiny(word)) number = word[0] == '-' ? -0.0 : 0.0;
@@ -126,13 +126,13 @@ bool NffCursor::take(const char* key, int& out) {
   if (!take_number_word(key, "an integer", word)) return false;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out);
   if (code == std::errc{} && end == word.data() + word.size()) return true;
-  return report(word, key, "expected an integer of 32 bits, got " + quote(std::string(word)));
+  return report(word, key, "expected an integer of 32 bits, got " + quote(word));
 }
 
 bool NffCursor::take_line_end(const char* key) {
   if (at_line_end()) return true;
   const std::string_view word = take_word();
-  return report(word, key, "expected the end of the line, got " + quote(std::string(word)));
+  return report(word, key, "expected the end of the line, got " + quote(word));
 }
 
 bool NffCursor::report(std::string_view word, const char* key, std::string message) {
@@ -147,7 +147,7 @@ TextPlace NffCursor::place(std::size_t index) const {
 }
 
 TextPlace NffCursor::place_of(std::size_t offset) const {
-  return {static_cast<int>(number_), static_cast<int>(offset) + 1};
+  return {std::max(static_cast<int>(number_), 1), static_cast<int>(offset) + 1};
 }
 
 }  // namespace boule

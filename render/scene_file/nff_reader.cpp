@@ -95,7 +95,7 @@ void NffReader::read_entity(std::string_view name) {
   if (name == "b") return read_background();
   if (name == "v") return read_view();
   error_.report(line_.place(), safe_name(name),
-                "unknown entity " + quote(std::string(name)) +
+                "unknown entity " + quote(name) +
                     ", expected 'v', 'b', 'l', 'f', 's', 'p', 'pp' or a comment");
 }
 

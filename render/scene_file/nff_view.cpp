@@ -56,8 +56,7 @@ void NffView::end(Scene& scene, FirstError& error) {
   state_ = State::closed;
   for (int i = 0; i < member_count; ++i) {
     if (!members[i].is_required || places_[i].line > 0) continue;
-    error.report(start_, members[i].key,
-                 "the v block lacks its line " + quote(std::string(members[i].name)));
+    error.report(start_, members[i].key, "the v block lacks its line " + quote(members[i].name));
   }
   Scene alone;
   alone.camera = camera_;

@@ -28,8 +28,7 @@ struct LoadedScene {
 
 /// Reads a scene by its extension: .toml, or .nff (Haines' SPD). Anything wrong is a Diagnostic
 /// with file, line, column and key, and so is a scene that could not be prepared in the memory
-/// there is. Only regular files are read. Throws nothing but std::bad_alloc where there is no
-/// memory even for the Diagnostic, as all functions do that return one.
+/// there is. Any name will do, any text and any frame; only regular files are read.
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options = {});
 
 }  // namespace boule

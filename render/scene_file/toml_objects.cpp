@@ -1,5 +1,4 @@
 #include "render/scene_file/toml_objects.h"
-#include "render/memory/scene_memory.h"
 
 #include <algorithm>
 #include <string_view>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "render/memory/scene_memory.h"
 #include "render/scene_file/nearest_name.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/toml_entities.h"

@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-constexpr int most_key_parts = 32;
+constexpr int most_key_parts = 32, most_values = 1024;
 
 std::string_view trim(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -64,7 +64,7 @@ TextPlace place_at(std::string_view text, std::size_t offset) {
 }  // namespace
 
 Status refuse_untrusted(std::string_view text, const std::string& file) {
-  int parts = 1;
+  int parts = 1, values = 1;
   const char* fault = nullptr;
   std::size_t i = 0;
   while (i < text.size()) {
@@ -75,6 +75,8 @@ Status refuse_untrusted(std::string_view text, const std::string& file) {
       fault = "only strings and comments may hold such a character";
     // A number has one dot and any of these before the next: only a key collects more.
     if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
+    if (c == '=' || c == '{' || c == '}') values = 1;  // of tables there may be any number
+    if (c == ',' && ++values > most_values) fault = "an array has at most 1024 values";
     if (c == '.' && ++parts > most_key_parts) fault = "a key has at most 32 dotted parts";
     if (fault != nullptr) break;
     if (is_string) {

@@ -11,9 +11,10 @@ namespace boule {
 /// What the parser leaves to its caller: better places and keys for its errors, and bounds.
 
 /// Refuses what toml++ 3.3 must not see: dotted keys of more than 32 parts (it recurses once per
-/// part, and a hostile file must not overflow the stack), and characters beyond ASCII outside of
-/// strings and comments or in multi-line strings (undefined behaviour in its test for blanks). Only
-/// multi-line strings are legal TOML; no key of ours needs one.
+/// part, and a hostile file must not overflow the stack), arrays of more than 1024 values that are
+/// no tables (each takes 120 bytes; no key of ours needs more than a few), and characters beyond
+/// ASCII outside of strings and comments or in multi-line strings (undefined behaviour in its test
+/// for blanks). Only multi-line strings are legal TOML; no key of ours needs one.
 Status refuse_untrusted(std::string_view text, const std::string& file);
 
 /// The key that `line` (from 1) shows, with the header it stands under: "camera.fov",

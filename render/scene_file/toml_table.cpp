@@ -229,7 +229,7 @@ void TomlTable::finish(std::initializer_list<std::string_view> required) {
   }
   for (const std::string_view key : required) {
     if (find_member(*members_, key) == nullptr) {
-      return report_at(place_, key, "missing key " + quote(std::string(key)));
+      return report_at(place_, key, "missing key " + quote(key));
     }
   }
 }

@@ -47,7 +47,8 @@ unsigned char* put(unsigned char* to, const TracedHit& hit) {
 
 }  // namespace
 
-HitFile::HitFile(OutputFile file) : file_(std::move(file)) {}
+HitFile::HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t count)
+    : file_(std::move(file)), name_(std::move(name)), kind_(kind), left_(count) {}
 
 Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count,
                                 const std::function<bool()>& stop) {
@@ -57,10 +58,18 @@ Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint
       kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",
       count);
   if (auto bad = file.value().write(start.data(), start.size())) return *bad;
-  return HitFile(std::move(file).value());
+  return HitFile(std::move(file).value(), path, kind, count);
+}
+
+Status HitFile::take(HitKind kind, std::size_t hits) {
+  if (kind != kind_) return cannot_write(name_, "hits of the other kind");
+  if (hits > left_) return cannot_write(name_, "more hits than it is made for");
+  left_ -= hits;
+  return std::nullopt;
 }
 
 Status HitFile::append(std::span<const TracedHit> hits) {
+  if (auto bad = take(HitKind::closest, hits.size())) return bad;
   rows_.resize(rows_per_write * row_bytes);
   for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
     unsigned char* end = rows_.data();
@@ -75,12 +84,16 @@ Status HitFile::append(std::span<const TracedHit> hits) {
 }
 
 Status HitFile::append(std::span<const std::uint8_t> met) {
+  if (auto bad = take(HitKind::any, met.size())) return bad;
   return file_.write(met.data(), met.size());
 }
 
 Status HitFile::sync() { return file_.sync(); }
 
-Status HitFile::commit(const std::function<bool()>& stop) { return file_.commit(stop); }
+Status HitFile::commit(const std::function<bool()>& stop) {
+  if (left_ > 0) return cannot_write(name_, std::to_string(left_) + " hits are missing");
+  return file_.commit(stop);
+}
 
 bool is_npy_name(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -17,7 +17,8 @@ namespace boule {
 enum class HitKind { closest, any };
 
 /// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. It appears
-/// under its name when it is complete (OutputFile). Errors: "cannot write 'NAME': REASON".
+/// under its name when it is complete (OutputFile). Errors: "cannot write 'NAME': REASON". Like an
+/// OutputFile it refuses all once it was committed, or moved away.
 class HitFile {
  public:
   /// Begins the file of `count` hits; `stop` as for OutputFile::create().
@@ -27,20 +28,26 @@ class HitFile {
   /// The temporary file.
   [[nodiscard]] const std::string& temporary() const { return file_.path(); }
 
-  /// Writes the next hits, of the file's kind. Throws std::bad_alloc.
+  /// Writes the next hits; those of the other kind, or more than `count`, are an error. Throws
+  /// std::bad_alloc.
   Status append(std::span<const TracedHit> hits);
   Status append(std::span<const std::uint8_t> met);
 
   /// Makes what is written so far durable, which takes its time: commit() is quick after it.
   Status sync();
 
-  /// Gives the file its name, once `count` hits are in it. `stop` as for OutputFile.
+  /// Gives the file its name; an error if there are not `count` hits in it. `stop` as for
+  /// OutputFile.
   Status commit(const std::function<bool()>& stop = {});
 
  private:
-  explicit HitFile(OutputFile file);
+  HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t count);
+  Status take(HitKind kind, std::size_t hits);
 
   OutputFile file_;
+  std::string name_;
+  HitKind kind_;
+  std::uint64_t left_;               ///< hits that are not in it yet
   std::vector<unsigned char> rows_;  ///< as in the file
 };
 

@@ -15,14 +15,15 @@ namespace boule {
 /// tmin, direction x y z, tmax. Any numbers will do, NaN and Inf too, and N may be 0.
 class RayFile {
  public:
-  /// Opens a regular file and checks that it holds such rays and nothing else; the error names the
-  /// file and says what was expected.
+  /// Opens a regular file, of any name, and checks that it holds such rays and nothing else; the
+  /// error names the file and says what was expected.
   static Result<RayFile> open(const std::string& path);
 
   /// The number of rays in the file.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Reads the next rays.size() rays, not more than are left. Throws std::bad_alloc.
+  /// Reads the next rays.size() rays; an error if there are not so many left, and of a file that
+  /// was moved away. Throws std::bad_alloc.
   Status read(std::span<Ray> rays);
 
  private:
