@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/math/color.h"
@@ -14,21 +15,30 @@ namespace boule {
 /// may add at the same time to different pixels.
 class Film {
  public:
-  /// A film of the frame's pixels in `rect`, which is not empty; places outside it are nobody's:
-  /// what asks for them reads foreign memory. Throws std::bad_alloc.
-  explicit Film(const PixelRect& rect)
-      : rect_(rect), pixels_(static_cast<std::size_t>(rect.area())) {}
+  /// A film of the frame's pixels in `rect`, none where that is empty. Places outside it are
+  /// nobody's: precondition of all that take one. Throws std::bad_alloc, or std::length_error where
+  /// no memory could be enough.
+  explicit Film(const PixelRect& rect) { restart(rect); }
+  /// A film that was moved away is empty.
+  Film(Film&& other) noexcept
+      : rect_(std::exchange(other.rect_, {})), pixels_(std::move(other.pixels_)) {}
+  Film(const Film&) = default;
+  Film& operator=(Film other) noexcept {
+    std::swap(rect_, other.rect_);
+    std::swap(pixels_, other.pixels_);
+    return *this;
+  }
 
-  /// Begins afresh with other pixels, in the same memory where that suffices. Throws
-  /// std::bad_alloc.
+  /// Begins afresh with other pixels, in the same memory where that suffices. Throws likewise, and
+  /// the film is as it was.
   void restart(const PixelRect& rect) {
-    rect_ = rect;
     pixels_.assign(static_cast<std::size_t>(rect.area()), {});
+    rect_ = rect.empty() ? PixelRect{} : rect;
   }
 
   [[nodiscard]] const PixelRect& rect() const { return rect_; }
 
-  /// Adds a finite sample to pixel (x, y) of the frame.
+  /// Adds a finite sample to pixel (x, y) of the frame; 2147483647 of them at most.
   void add(int x, int y, const Color& sample) {
     Pixel& pixel = pixels_[index(x, y)];
     pixel.r += static_cast<double>(sample.r);
@@ -47,7 +57,8 @@ class Film {
   /// Throws std::bad_alloc.
   [[nodiscard]] Image to_image() const;
 
-  /// The same into a picture of the frame's pixels in `rect`, which holds this film's.
+  /// The same into a picture of the frame's pixels in `rect`, which holds this film's:
+  /// precondition.
   void copy_to(Image& image, const PixelRect& rect) const;
 
   /// Bytes a film of so many pixels takes.

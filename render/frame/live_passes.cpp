@@ -1,5 +1,6 @@
 #include "render/frame/live_passes.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace boule {
@@ -24,7 +25,7 @@ std::size_t first_passes(PixelOrder order) {
 }  // namespace
 
 LivePasses::LivePasses(PixelOrder order, const PixelRect& rect, int spp)
-    : order_(order), rect_(rect), spp_(spp) {}
+    : order_(order), rect_(rect), spp_(std::max(spp, 1)) {}
 
 std::size_t LivePasses::size() const {
   const std::size_t first = first_passes(order_);

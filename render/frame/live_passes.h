@@ -48,10 +48,11 @@ inline constexpr int coarsest_spacing = 16;
 /// SIGGRAPH 1994). rows, tiles: all samples in one step.
 class LivePasses {
  public:
-  /// A picture of the pixels in `rect`, `spp` samples each.
+  /// A picture of the pixels in `rect`, `spp` samples each; below 1 counts as 1.
   LivePasses(PixelOrder order, const PixelRect& rect, int spp);
 
   [[nodiscard]] std::size_t size() const;
+  /// Pass i < size(): precondition.
   [[nodiscard]] LivePass operator[](std::size_t i) const;
 
  private:

@@ -29,6 +29,9 @@ int coarseness(const Place& place) {
   return std::countr_zero(static_cast<unsigned>(place.x | place.y) | 0x10000u);
 }
 
+int legal(int tile) { return std::clamp(tile, 1, max_tile); }
+
+/// For a legal tile.
 std::size_t tiles_along(int pixels, int tile) {
   return static_cast<std::size_t>((pixels + tile - 1) / tile);
 }
@@ -69,10 +72,10 @@ void put_in_order(std::vector<Place>& places, PixelOrder order) {
 }  // namespace
 
 BlockOrder::BlockOrder(const PixelRect& rect, int tile, PixelOrder order)
-    : rect_(rect), tile_(tile) {
+    : rect_(rect), tile_(legal(tile)) {
   if (rect.empty()) return;
-  const std::size_t columns = tiles_along(rect.width(), tile);
-  const std::size_t rows = tiles_along(rect.height(), tile);
+  const std::size_t columns = tiles_along(rect.width(), tile_);
+  const std::size_t rows = tiles_along(rect.height(), tile_);
   places_.reserve(columns * rows);
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x) {
@@ -88,15 +91,17 @@ PixelRect BlockOrder::operator[](std::size_t i) const {
 }
 
 std::uint64_t BlockOrder::bytes(const PixelRect& rect, int tile) {
-  return std::uint64_t{tiles_along(rect.width(), tile)} * tiles_along(rect.height(), tile) *
-         sizeof(Place);
+  if (rect.empty()) return 0;
+  return std::uint64_t{tiles_along(rect.width(), legal(tile))} *
+         tiles_along(rect.height(), legal(tile)) * sizeof(Place);
 }
 
 std::vector<PixelOffset> block_pixels(int tile) {
+  const int side = legal(tile);
   std::vector<PixelOffset> pixels;
-  pixels.reserve(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile));
-  for (int y = 0; y < tile; ++y) {
-    for (int x = 0; x < tile; ++x) {
+  pixels.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
       pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
     }
   }

@@ -20,11 +20,13 @@ class BlockOrder {
  public:
   BlockOrder() = default;
 
-  /// Blocks of `tile` x `tile` pixels, 1 .. max_tile, clipped at the right and lower edge of
-  /// `rect`, whose sides are at most 65535. Throws std::bad_alloc.
+  /// Blocks of `tile` x `tile` pixels, 1 .. max_tile (others count as the nearest of these),
+  /// clipped at the right and lower edge of `rect`; none where that is empty. Precondition: its
+  /// sides are at most 65535. Throws std::bad_alloc.
   BlockOrder(const PixelRect& rect, int tile, PixelOrder order);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
+  /// Block i < size(): precondition.
   [[nodiscard]] PixelRect operator[](std::size_t i) const;
 
   /// Bytes that the order of so many pixels takes.
@@ -47,6 +49,7 @@ struct PixelOffset {
 
 /// All pixels of a `tile` x `tile` block along a Morton curve, x first: where `tile` is a multiple
 /// of 4, four pixels in a row are 2 x 2 of the picture, eight 4 x 2, sixteen 4 x 4: one packet.
+/// `tile` as for BlockOrder. Throws std::bad_alloc.
 std::vector<PixelOffset> block_pixels(int tile);
 
 }  // namespace boule

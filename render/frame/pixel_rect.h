@@ -4,7 +4,8 @@
 
 namespace boule {
 
-/// Pixels x0 <= x < x1, y0 <= y < y1 of a frame, row 0 on top.
+/// Pixels x0 <= x < x1, y0 <= y < y1 of a frame, row 0 on top. Any numbers will do, but only sides
+/// that an int holds have a width() and a height().
 struct PixelRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -12,7 +13,9 @@ struct PixelRect {
   [[nodiscard]] int height() const { return y1 - y0; }
   [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
   [[nodiscard]] std::uint64_t area() const {
-    return empty() ? 0 : static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
+    if (empty()) return 0;
+    return static_cast<std::uint64_t>(std::int64_t{x1} - x0) *
+           static_cast<std::uint64_t>(std::int64_t{y1} - y0);
   }
 };
 

@@ -20,7 +20,8 @@ struct RasterPoint {
 /// single sample.
 class Sampler {
  public:
-  /// spp: samples per pixel in all, >= 1.
+  /// spp: samples per pixel in all; 1: one at the centre. Nothing here throws or checks: any
+  /// numbers will do.
   Sampler(int spp, std::uint64_t seed, PixelFilter filter = PixelFilter::box)
       : single_(spp == 1), keys_(seed), filter_(filter) {}
 
@@ -33,7 +34,7 @@ class Sampler {
   /// The place in pixel (x, y) of a sample of several, by its numbers: those of RandomSet::film.
   [[nodiscard]] RasterPoint place(int x, int y, const UnitPair& numbers) const;
 
-  /// The place of sample 0 <= sample < spp of pixel (x, y).
+  /// The place of sample 0 <= sample < spp of pixel (x, y); others have places too.
   [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
 
  private:

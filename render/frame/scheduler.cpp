@@ -59,7 +59,7 @@ Diagnostic describe(const std::exception_ptr& error) {
   } catch (const std::exception& exception) {
     return {exception.what(), {}, {}, 0, 0};
   } catch (...) {
-    return {"unknown failure in a worker", {}, {}, 0, 0};
+    return {"unknown failure", {}, {}, 0, 0};
   }
 }
 

@@ -30,7 +30,8 @@ class Scheduler {
   [[nodiscard]] unsigned threads_used() const { return threads_used_; }
 
   /// Calls body for 0 .. count - 1, each index at most once. An exception in a worker stops the
-  /// others and becomes the Diagnostic; `*cancel` true stops them without one.
+  /// others and becomes the Diagnostic, an empty body is such a one; `*cancel` true stops them
+  /// without. Throws nothing else.
   Status run(std::size_t count, const Body& body, const std::atomic<bool>* cancel = nullptr);
 
   /// This scheduler as a ParallelFor; valid as long as it. Exceptions reach the caller.
@@ -43,7 +44,7 @@ class Scheduler {
   unsigned threads_used_ = 0;
 };
 
-/// Calls it: nothing, or the Diagnostic that its exception becomes.
+/// Calls it: nothing, or the Diagnostic that its exception, of any type, becomes.
 Status diagnose(const std::function<void()>& call);
 
 }  // namespace boule

@@ -49,11 +49,13 @@ struct SampleId {
 struct CameraRays {
   RayBuffer& rays;
   Coherence coherence;
-  const SampleId* samples;  ///< one per ray; only path tracing asks for them
+  const SampleId* samples;  ///< one per ray; only path tracing asks for them, else null will do
 };
 
 /// Turns camera rays into radiance. One integrator serves one thread: it keeps its working memory
-/// from call to call, so that in the steady state nothing is allocated.
+/// from call to call, so that in the steady state nothing is allocated. Any rays will do, those
+/// with NaN see the background. Preconditions, not checked: settings in their ranges, as many
+/// samples and places for radiance as rays.
 class Integrator {
  public:
   Integrator() = default;

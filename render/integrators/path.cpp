@@ -62,7 +62,6 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
     delta_lights_ = true;
   }
   constexpr std::size_t most = Surfaces::block_size;
-  met_.reserve(most);
   points_.reserve(most);
   seekers_.reserve(most);
   choices_.resize(most);
@@ -90,33 +89,34 @@ void Path::make_room(std::size_t rays) {
 void Path::shade(const Block& block) {
   met_.clear();
   points_.clear();
-  for (std::size_t k = block.first; k < block.end; ++k) {
-    const auto ray = static_cast<std::uint32_t>(k);
-    if (meet(block.stream, ray)) met_.push_back(ray);
+  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
+    if (const FlatMaterial* material = meet(block.stream, k)) met_.push_back({k, material});
   }
   if (met_.empty()) return;
   find_surfaces(block);
-  for (const std::uint32_t ray : met_) add_point(block, ray);
+  for (const Met& met : met_) add_point(met, surfaces_.get(met.ray - block.first));
   if (seeks_) seek_lights(block.stream);
   if (!ends(block.stream)) go_on(block.stream);
 }
 
-/// Finds the radiance that a ray comes upon. True if its path may go on from a surface.
-bool Path::meet(const PathStream& stream, std::uint32_t index) {
+/// Finds the radiance that a ray comes upon. The material from which its path may go on, or null.
+const FlatMaterial* Path::meet(const PathStream& stream, std::uint32_t index) {
   const Hit met = hit(index);
   const double density = stream.density[index];
   Color& sum = radiance(index);
   sum = density > 0 ? crossed_lights(stream.rays->get(index), density, met.t) : Color{};
   if (met.id == no_primitive) {
     sum = sum + seen_background(stream.rays->dir(index), density);
-    return false;
+    return nullptr;
   }
   const FlatMaterial& material = scene_.material_of(met.id);
-  if (is_black(material.constant)) return takes_direct_light(material) || scatters(material);
+  if (is_black(material.constant)) {
+    return takes_direct_light(material) || scatters(material) ? &material : nullptr;
+  }
   // Emissive: nothing else.
   const double sought = density > 0 ? sought_density(stream.rays->org(index), met.id) : 0;
   sum = sum + material.constant * static_cast<float>(weight_of_hit(density, sought));
-  return false;
+  return nullptr;
 }
 
 /// The density with which an emissive primitive is sought, in any direction that meets it.
@@ -129,13 +129,12 @@ double Path::sought_density(const Vec3d& org, std::int32_t id) const {
          LightCone(org, light.center, light.radius).density();
 }
 
-void Path::add_point(const Block& block, std::uint32_t ray) {
-  const FlatMaterial& material = scene_.material_of(hit(ray).id);
-  const Point& point = points_.emplace_back(ray, material, surfaces_.get(ray - block.first));
+void Path::add_point(const Met& met, const Surface& surface) {
+  const Point& point = points_.emplace_back(met.ray, *met.material, surface);
   if (point.lobes.black()) {
     points_.pop_back();
   } else if (point.lit && delta_lights_) {
-    illumination_.add_point(ray, material);
+    illumination_.add_point(met.ray, *met.material);
   }
 }
 
@@ -177,12 +176,12 @@ void Path::seek_spheres(const PathStream& stream) {
   const double sphere_share = 1 - environment_share_;
   for (std::size_t i = 0; i < seekers_.size(); ++i) {
     const auto& [point, light] = seekers_[i];
-    const Sought sought{seek_.direction(i), sphere_share * light->share * seek_.density(i),
-                        light->radiance};
-    if (!(seek_.density(i) > 0)) continue;
-    Ray way{seek_.org(i), vec_cast<float>(sought.direction)};
+    const Departure departure = surfaces_.departure(point->ray);
+    const Vec3d direction = seek_.direction(i);
+    Ray way{departure.org, vec_cast<float>(direction)};
     way.tmax = seek_.tmax(i);
-    seek(stream, *point, from_surface(way, surfaces_.departure(point->ray)), sought);
+    seek(stream, *point, from_surface(way, departure),
+         {direction, sphere_share * light->share * seek_.density(i), light->radiance});
   }
 }
 

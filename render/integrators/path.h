@@ -62,8 +62,8 @@ class Path final : public StreamIntegrator {
   void make_room(std::size_t rays) override;
   void shade(const Block& block) override;
   void add_more_light() override;
-  bool meet(const PathStream& stream, std::uint32_t ray);
-  void add_point(const Block& block, std::uint32_t ray);
+  const FlatMaterial* meet(const PathStream& stream, std::uint32_t ray);
+  void add_point(const Met& met, const Surface& surface);
   void seek_lights(const PathStream& stream);
   bool seek_environment(const PathStream& stream, const Point& point, UnitPair& numbers);
   void seek_spheres(const PathStream& stream);
@@ -88,7 +88,6 @@ class Path final : public StreamIntegrator {
   RayBuffer shadow_rays_;          ///< to what is sought
   std::vector<Arrival> arrivals_;  ///< by shadow ray
   // Working memory of a block.
-  std::vector<std::uint32_t> met_;  ///< rays that met what may send light on
   std::vector<Point> points_;
   RandomNumbers numbers_;  ///< by point
   std::vector<Seeker> seekers_;

@@ -9,7 +9,8 @@
 
 namespace boule {
 
-/// Many samples' pairs of random numbers at once: sobol_pair() of each.
+/// Many samples' pairs of random numbers at once: sobol_pair() of each. Precondition of all but
+/// resize(): there is room.
 class RandomNumbers {
  public:
   /// Makes room for so many. Throws std::bad_alloc.

@@ -14,7 +14,9 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       settings_(settings),
       wavefront_(settings.stream_size),
       surfaces_(scene, kernels),
-      geometry_(scene.geometry.view()) {}
+      geometry_(scene.geometry.view()) {
+  met_.reserve(Surfaces::block_size);
+}
 
 void StreamIntegrator::use_light(const Light& light) {
   lights_.push_back({&light, place_of(light)});

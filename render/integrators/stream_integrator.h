@@ -29,6 +29,12 @@ class StreamIntegrator : public Integrator {
     std::size_t first, end;
   };
 
+  /// A ray of the block that met what sends light on.
+  struct Met {
+    std::uint32_t ray;
+    const FlatMaterial* material;
+  };
+
   /// `scene` and `kernels` must outlive the integrator.
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                    const IntegratorSettings& settings);
@@ -65,6 +71,7 @@ class StreamIntegrator : public Integrator {
   Wavefront wavefront_;
   Illumination illumination_;
   Surfaces surfaces_;
+  std::vector<Met> met_;  ///< working memory of one block
 
  private:
   struct PlacedLight {

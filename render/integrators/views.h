@@ -32,7 +32,8 @@ class Views {
   Views(const PreparedScene& scene, const KernelTable& kernels, Solver solver)
       : scene_(scene), kernels_(kernels), solver_(solver), geometry_(scene.geometry.view()) {}
 
-  /// views[k] = what rays[k] meets. Throws std::bad_alloc.
+  /// views[k] = what rays[k] meets, of any rays; as many views as rays: precondition. Throws
+  /// std::bad_alloc.
   void trace(RayBuffer& rays, Coherence coherence, View* views);
 
   /// All rays traced so far.

@@ -9,15 +9,14 @@ Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
                  const IntegratorSettings& settings)
     : StreamIntegrator(scene, kernels, settings) {
   for (const Light& light : scene.lights) use_light(light);
-  points_.reserve(Surfaces::block_size);
 }
 
 /// The radiance that needs no light: background, emission, ambient; then the rays that go on.
 void Whitted::shade(const Block& block) {
   const bool last = ends(block.stream);
   bool any_lit = false;
-  points_.clear();
-  for (std::size_t k = block.first; k < block.end; ++k) {
+  met_.clear();
+  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const std::int32_t id = hit(k).id;
     if (id == no_primitive) {
       radiance(k) = background_radiance(scene_.background, block.stream.rays->dir(k));
@@ -29,23 +28,21 @@ void Whitted::shade(const Block& block) {
       illumination_.add_point(k, material);
       any_lit = true;
     }
-    if (!last && scatters(material)) points_.push_back({k, &material});
+    if (!last && scatters(material)) met_.push_back({k, &material});
   }
-  if (!any_lit && points_.empty()) return;
+  if (!any_lit && met_.empty()) return;
   find_surfaces(block);
-  for (const auto& [ray, material] : points_) {
-    go_on(ray, *material, surfaces_.get(ray - block.first));
-  }
+  for (const Met& met : met_) go_on(met, surfaces_.get(met.ray - block.first));
 }
 
 /// Reflection before refraction: the order is part of the picture's bits.
-void Whitted::go_on(std::size_t ray, const FlatMaterial& material, const Surface& surface) {
-  const Scatter way = scatter(material, surface);
+void Whitted::go_on(const Met& met, const Surface& surface) {
+  const Scatter way = scatter(*met.material, surface);
   if (!is_black(way.reflection)) {
-    wavefront_.spawn(ray, leave(surface, Side::viewer, surface.mirrored), way.reflection);
+    wavefront_.spawn(met.ray, leave(surface, Side::viewer, surface.mirrored), way.reflection);
   }
   if (!is_black(way.refraction)) {
-    wavefront_.spawn(ray, leave(surface, Side::beyond, way.refracted), way.refraction);
+    wavefront_.spawn(met.ray, leave(surface, Side::beyond, way.refracted), way.refraction);
   }
 }
 

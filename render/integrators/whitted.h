@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "render/integrators/stream_integrator.h"
 
 namespace boule {
@@ -16,16 +13,8 @@ class Whitted final : public StreamIntegrator {
           const IntegratorSettings& settings);
 
  private:
-  /// A ray of the current stream that goes on from what it hit.
-  struct Point {
-    std::size_t ray;
-    const FlatMaterial* material;
-  };
-
   void shade(const Block& block) override;
-  void go_on(std::size_t ray, const FlatMaterial& material, const Surface& surface);
-
-  std::vector<Point> points_;  ///< working memory of one block
+  void go_on(const Met& met, const Surface& surface);
 };
 
 }  // namespace boule

@@ -9,7 +9,7 @@ namespace boule {
 
 /// Bytes of memory that this process could have now without swapping: what the system has, what a
 /// limit on its addresses (RLIMIT_AS) and the control groups it is in (version 2) leave it. The
-/// largest number where nothing of that is known.
+/// largest number where nothing of that is known. All here throw std::bad_alloc.
 std::uint64_t available_memory();
 
 /// What is left below a limit on this process' addresses; the largest number without one.

@@ -16,7 +16,8 @@ constexpr std::uint64_t bytes_of_tree(std::uint64_t spheres) {
 }
 
 /// An error if preparing a scene, with what its instances show, needs more memory than there is:
-/// known in no time and before any is taken. Of a scene that validate() refuses it says nothing.
+/// known in no time and before any is taken. Takes any scene; of one that validate() refuses it
+/// says nothing.
 Status check_scene_memory(const Scene& scene);
 
 }  // namespace boule

@@ -17,10 +17,12 @@ struct AreaLight {
 };
 
 /// All of a scene's. Half of the time one is picked by its power, else any: what is strong but far
-/// away, or all around, must not leave nothing for the others. Black ones are none.
+/// away, or all around, must not leave nothing for the others. Black ones are none. Preconditions,
+/// not checked: of a valid scene; nothing is picked where there is nothing.
 class AreaLights {
  public:
   AreaLights() = default;
+  /// Throws std::bad_alloc.
   explicit AreaLights(const Scene& scene);
 
   [[nodiscard]] bool empty() const { return lights_.empty(); }

@@ -6,7 +6,8 @@
 
 namespace boule {
 
-/// The box around all spheres in double; low is inf and high -inf where there is none.
+/// The box around all spheres in double; low is inf and high -inf where there is none. Nothing here
+/// throws, whatever the numbers.
 struct SphereBounds {
   Vec3d low, high;
 };

@@ -17,7 +17,9 @@ UnitPair image_point(const Vec3d& d, float rotation) {
                        static_cast<double>(rotation) / 360;
   const double across = std::sqrt(d.x * d.x + d.z * d.z);
   const double v = elementary::atan2(across, d.y) / elementary::pi;
-  return {std::min(turns - std::floor(turns), below_one), std::clamp(v, 0.0, below_one)};
+  const double u = turns - std::floor(turns);
+  // NaN is none of these: it becomes the last.
+  return {u < below_one ? u : below_one, v < below_one ? std::max(v, 0.0) : below_one};
 }
 
 /// The interval of a running sum in which `at` lies; it becomes the share of the interval before.

@@ -9,7 +9,8 @@
 
 namespace boule {
 
-/// The image's radiance from a direction of unit length, bilinear between its pixels' centres.
+/// The image's radiance from a direction of unit length, bilinear between its pixels' centres; from
+/// one with NaN, of any of its pixels. The image is a valid one: precondition of all here.
 Color environment_radiance(const EnvironmentBackground& image, const Vec3d& direction);
 
 /// A direction that was chosen because of the light from there.
@@ -24,11 +25,13 @@ struct EnvironmentSample {
 class EnvironmentLight {
  public:
   EnvironmentLight() = default;
+  /// Throws std::bad_alloc.
   explicit EnvironmentLight(const EnvironmentBackground& image);
 
   /// True if there is any light.
   [[nodiscard]] bool shines() const { return !rows_.empty() && rows_.back() > 0; }
 
+  /// A direction by two numbers in [0, 1).
   [[nodiscard]] EnvironmentSample sample(const UnitPair& numbers) const;
 
   /// The density of this direction, of unit length, in sample().

@@ -1,22 +1,30 @@
 #include "render/prepare/flat_material.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace boule {
 namespace {
+
+constexpr float largest_float = std::numeric_limits<float>::max();
+
+/// A product of colours that no float holds is the largest there is.
+Color held(const Color& c) {
+  return {std::min(c.r, largest_float), std::min(c.g, largest_float), std::min(c.b, largest_float)};
+}
 
 struct Flatten {
   Color ambient;
 
   FlatMaterial operator()(const Matte& m) const {
     FlatMaterial flat;
-    flat.constant = m.color * ambient;
+    flat.constant = held(m.color * ambient);
     flat.diffuse = m.color;
     return flat;
   }
   FlatMaterial operator()(const Plastic& m) const {
     FlatMaterial flat;
-    flat.constant = m.color * ambient;
+    flat.constant = held(m.color * ambient);
     flat.diffuse = m.color;
     set_highlight(flat, m.specular, m.shininess);
     flat.mirror = gray(m.reflect);
@@ -42,8 +50,8 @@ struct Flatten {
   }
   FlatMaterial operator()(const Phong& m) const {
     FlatMaterial flat;
-    flat.constant = m.color * (gray(m.ka) + ambient);
-    flat.diffuse = m.color * m.kd;
+    flat.constant = held(m.color * held(gray(m.ka) + ambient));
+    flat.diffuse = held(m.color * m.kd);
     set_highlight(flat, m.ks, m.shininess);
     flat.mirror = gray(m.ks);
     flat.transmission = gray(m.transmission);
@@ -77,20 +85,29 @@ float largest_albedo(const FlatMaterial& m, float highlight) {
   return std::max({m.diffuse.r + r, m.diffuse.g + g, m.diffuse.b + b}) + highlight;
 }
 
+void scale(FlatMaterial& m, float factor) {
+  m.diffuse = m.diffuse * factor;
+  m.mirror = m.mirror * factor;
+  m.transmission = m.transmission * factor;
+}
+
 }  // namespace
 
 FlatMaterial flatten_for_paths(const Material& material) {
   FlatMaterial flat = flatten(material, Color{});
   if (!std::holds_alternative<Emissive>(material)) flat.constant = {};
   flat.shininess = std::min(flat.shininess, sharpest);
-  const float largest = largest_albedo(flat, static_cast<float>(flat.highlight));
+  float largest = largest_albedo(flat, static_cast<float>(flat.highlight));
+  if (largest > largest_float) {  // four shares, each of which a float holds
+    scale(flat, 0.125F);
+    flat.highlight *= 0.125;
+    largest = largest_albedo(flat, static_cast<float>(flat.highlight));
+  }
   flat.highlight *= (flat.shininess + 2) / 2;
   flat.cosine_highlight = true;
   if (!(largest > 1)) return flat;
-  flat.diffuse = flat.diffuse * (1 / largest);
+  scale(flat, 1 / largest);
   flat.highlight /= static_cast<double>(largest);
-  flat.mirror = flat.mirror * (1 / largest);
-  flat.transmission = flat.transmission * (1 / largest);
   return flat;
 }
 

@@ -21,7 +21,8 @@ struct FlatMaterial {
   bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
 };
 
-/// A valid material under the scene's ambient light.
+/// A valid material under the scene's ambient light. As of all functions here, numbers that are not
+/// make such numbers, and nothing is thrown.
 FlatMaterial flatten(const Material& material, const Color& ambient);
 
 /// A valid material for path tracing, its constant emission alone: ambient light stands for what

@@ -43,6 +43,9 @@ Coherence central_coherence(CameraKind kind) {
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
   const FloatEnvironment floats;
+  if (auto bad = check_range("image.size", width, 1, max_image_side)) return *bad;
+  if (auto bad = check_range("image.size", height, 1, max_image_side)) return *bad;
+  if (auto bad = validate(scene)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;
   const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);

@@ -36,7 +36,7 @@ struct PreparedScene {
   Coherence central_coherence;     ///< and those of them through the lens' centre
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
-  /// The material of the primitive with this id.
+  /// The material of the primitive with this id, of which there is one: precondition.
   [[nodiscard]] const FlatMaterial& material_of(std::int32_t id) const {
     const auto i = static_cast<std::size_t>(id);
     const std::size_t first_plane = spheres.size();
@@ -49,10 +49,10 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
   return find_surface(scene.spheres, scene.planes, ray, hit);
 }
 
-/// Prepares a valid scene for a picture of `width` x `height` pixels. An error if it has no camera
-/// and none can be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc; an
-/// invalid scene may end the program: validate() comes first.
-/// Instances become spheres and planes (expand_instances()).
+/// Prepares a scene for a picture of `width` x `height` pixels. Takes any values: an error if the
+/// scene is invalid (validate()), a side is not 1 .. 65535, or the scene has no camera and none can
+/// be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc, and what
+/// `parallel_for` throws. Instances become spheres and planes (expand_instances()).
 /// Spheres and planes are kept, not copied: move a scene here that is not needed any more. How the
 /// scene itself asks to be rendered does not matter.
 Result<PreparedScene> prepare(Scene scene, int width, int height,

@@ -25,7 +25,8 @@ struct BlockSetup {
   std::size_t stream_size;                ///< most camera rays in a stream, >= 1
 };
 
-/// Renders blocks on one thread, with memory of its own that it keeps from block to block.
+/// Renders blocks on one thread, with memory of its own that it keeps from block to block. Blocks
+/// lie in the film or picture, and are no larger than `block_pixels`: preconditions.
 class BlockWorker {
  public:
   /// `setup` must outlive it.

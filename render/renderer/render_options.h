@@ -31,16 +31,16 @@ struct RenderOptions {
   ViewSelection views;            ///< what render_views() finds
   PixelOrder order = PixelOrder::tiles;
   int tile = 0;                                   ///< pixels, side of a block, 1 .. 1024; 0: fits
-  unsigned threads = 0;                           ///< 0: as many as the hardware runs at once
+  unsigned threads = 0;                           ///< 0: as many as the hardware runs; at most 1024
   std::string isa = "auto";                       ///< a name that select_kernels() knows
-  const std::atomic<bool>* cancel = nullptr;      ///< rendering stops soon after it becomes true
+  const std::atomic<bool>* cancel = nullptr;      ///< true: rendering stops; outlives the renderer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
   /// Called by render_live() after each of its passes, on the thread that renders: shows what there
   /// is, as partial_picture() makes it of the film. What it throws reaches the caller.
   std::function<void(const Film&)> update;
 };
 
-/// The options a scene asks for.
+/// The options a scene asks for, whatever they are. Throws std::bad_alloc.
 RenderOptions options_of(const Scene& scene);
 
 /// The part of the frame that is rendered: the crop, or all.
@@ -48,11 +48,11 @@ PixelRect rendered_rect(const RenderOptions& options);
 
 /// The side of a block, in pixels: options.tile, or, where that is 0, what suits. Large blocks
 /// bring many rays together, a light's above all; but every worker needs some. `spheres`: of the
-/// scene.
+/// scene. Precondition: options that validate() passes.
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres);
 
-/// The first option out of range, its key as in RenderOptions, or a picture that needs more memory
-/// than there is.
+/// The first option out of range, its key as in the scene file ("image.size", "render.max_depth"),
+/// or as in RenderOptions, or a picture that needs more memory than there is. Takes any values.
 Status validate(const RenderOptions& options);
 
 }  // namespace boule

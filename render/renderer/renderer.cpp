@@ -18,6 +18,8 @@ namespace {
 
 Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
 
+Diagnostic moved_away() { return failure("the renderer was moved away"); }
+
 }  // namespace
 
 Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels)
@@ -45,7 +47,6 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
   const Stopwatch watch;
   try {
     if (auto bad = check_scene_memory(scene)) return *bad;
-    if (auto bad = validate(scene)) return *bad;
     if (auto bad = validate(options)) return *bad;
     const Result<const KernelTable*> selected = select_kernels(options.isa);
     if (!selected) return selected.error();
@@ -63,10 +64,13 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
     return renderer;
   } catch (const std::bad_alloc&) {
     return failure("out of memory while preparing the scene");
+  } catch (...) {  // of a callback that is copied
+    return *diagnose([] { throw; });
   }
 }
 
 Result<Image> Renderer::render() {
+  if (!scene_) return moved_away();
   const FloatEnvironment environment;
   try {
     const PixelRect whole = rect();
@@ -74,16 +78,22 @@ Result<Image> Renderer::render() {
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
-    if (auto bad = run_blocks(task, {})) return *bad;
+    if (auto bad = run_blocks(std::cref(task), {})) return *bad;
     return image;
   } catch (const std::bad_alloc&) {
     return failure("out of memory for the picture");
   }
 }
 
+Status Renderer::check_film(const Film& film) const {
+  if (!scene_) return moved_away();
+  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  return std::nullopt;
+}
+
 Status Renderer::render_pass(Film& film, int until) {
   const FloatEnvironment environment;
-  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  if (auto bad = check_film(film)) return bad;
   if (until < 1 || until > options_.spp) {
     return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
                    std::to_string(until));
@@ -91,12 +101,12 @@ Status Renderer::render_pass(Film& film, int until) {
   const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.render(block, until, film);
   };
-  return run_blocks(task, {});
+  return run_blocks(std::cref(task), {});
 }
 
 Status Renderer::render_live(Film& film) {
   const FloatEnvironment environment;
-  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  if (auto bad = check_film(film)) return bad;
   const std::uint64_t rays_before = count_rays().total();
   const LivePasses passes(options_.order, rect(), options_.spp);
   double share = 0;
@@ -106,13 +116,14 @@ Status Renderer::render_live(Film& film) {
       return worker.render(block, pass, film);
     };
     const std::uint64_t rays = count_rays().total() - rays_before;
-    if (auto bad = run_blocks(task, {share, pass.share, rays})) return bad;
+    if (auto bad = run_blocks(std::cref(task), {share, pass.share, rays})) return bad;
     share = pass.share;
     if (options_.update) options_.update(film);
   }
   return std::nullopt;
 }
 
+/// Closures go by reference, here and above: a copy would need memory, which throws.
 Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   const Stopwatch watch;
   const std::uint64_t rays_before = count_rays().total();
@@ -132,7 +143,7 @@ Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
     ++done;
     if (worker == 0) report();
   };
-  const Status status = scheduler_.run(blocks_.size(), body, options_.cancel);
+  const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
   if (status) return status;
   if (done != blocks_.size()) return failure("rendering was cancelled");
@@ -141,6 +152,7 @@ Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
 }
 
 Result<std::vector<ImageChannel>> Renderer::render_views() {
+  if (!scene_) return moved_away();
   const FloatEnvironment environment;
   const Stopwatch watch;
   try {
@@ -163,7 +175,7 @@ Status Renderer::find_views(ViewChannels& channels) {
     mine->render(blocks_[block], channels);
     ++done;
   };
-  const Status status = scheduler_.run(blocks_.size(), body, options_.cancel);
+  const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   for (const auto& worker : workers) {
     if (worker) view_rays_ += worker->counts();
   }

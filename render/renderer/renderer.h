@@ -27,11 +27,13 @@ struct RenderStatistics : RunStatistics {
 /// neither ISA, threads, order, tile size nor crop; the caller's rounding mode, denormal flags and
 /// traps do not matter and are left as they were (FloatEnvironment). Nothing here throws but what
 /// options.update throws: what fails, a progress callback too, is a Diagnostic. The calling thread
-/// needs 2 MiB of stack. One call at a time.
+/// needs 2 MiB of stack. One call at a time. Of a renderer that was moved away the calls below are
+/// errors, and what only tells (scene(), notes(), statistics()) must not be called.
 class Renderer {
  public:
-  /// Prepares the scene, which is not needed any more afterwards. An error if scene or options are
-  /// invalid, the ISA is not to be had, or the memory does not suffice.
+  /// Prepares the scene, which is not needed any more afterwards. Takes any values: an error if
+  /// scene or options are invalid (validate()), the ISA is not to be had, or the memory does not
+  /// suffice.
   static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
   /// The same without a copy of the spheres and planes.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
@@ -76,6 +78,7 @@ class Renderer {
     double begin = 0, end = 1;  ///< share of all work
     std::uint64_t rays = 0;     ///< traced before it
   };
+  Status check_film(const Film& film) const;
   Status run_blocks(const BlockTask& task, const PassPlace& place);
   Status find_views(ViewChannels& channels);
 

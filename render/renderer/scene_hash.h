@@ -10,7 +10,7 @@ namespace boule {
 /// camera, background, ambient light, materials, lights and objects in order, those of instances as
 /// if they were written out. Names, image and render settings are not in it, nor is the file's
 /// wording: a scene has the same hash from TOML, from .npy and from memory, on every machine. Not
-/// cryptographic. Of a valid scene (validate()). Throws std::bad_alloc.
+/// cryptographic. Precondition, not checked: a valid scene (validate()). Throws std::bad_alloc.
 std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace boule

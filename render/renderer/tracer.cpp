@@ -73,12 +73,14 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
     return tracer;
   } catch (const std::bad_alloc&) {
     return failure("out of memory while preparing the scene");
+  } catch (...) {  // of a callback that is copied
+    return *diagnose([] { throw; });
   }
 }
 
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
   const GeometryView geometry = geometry_.view();
-  return run(rays, hits.size(), [&](Worker& worker, std::size_t first) {
+  const auto body = [&](Worker& worker, std::size_t first) {
     const std::size_t count = worker.rays.size();
     worker.hits.resize(count);
     kernels_->closest_hit(geometry, worker.rays.view(), {options_.solver}, worker.hits.view());
@@ -90,20 +92,24 @@ Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
       const Surface surface = find_surface(spheres_, planes_, rays[first + k], hit);
       result.normal = vec_cast<float>(surface.normal);
     }
-  });
+  };
+  return run(rays, hits.size(), std::cref(body));
 }
 
 Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
   const GeometryView geometry = geometry_.view();
-  return run(rays, met.size(), [&](Worker& worker, std::size_t first) {
+  const auto body = [&](Worker& worker, std::size_t first) {
     const std::size_t count = worker.rays.size();
     worker.met.resize(count);
     kernels_->any_hit(geometry, worker.rays.view(), {options_.solver}, worker.met.data());
     std::copy_n(worker.met.data(), count, met.data() + first);
-  });
+  };
+  return run(rays, met.size(), std::cref(body));
 }
 
+/// Closures go by reference, here and above: a copy would need memory, which throws.
 Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& body) {
+  if (workers_.empty()) return failure("the tracer was moved away");
   if (results != rays.size()) {
     return failure("there are " + std::to_string(rays.size()) + " rays, but room for " +
                    std::to_string(results) + " results");
@@ -131,11 +137,12 @@ Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
     if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays.size()));
   };
   const std::size_t blocks = rays.size() / block_size + (rays.size() % block_size != 0 ? 1 : 0);
-  const Status status = scheduler_.run(blocks, work, options_.cancel);
+  const Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
   if (status) return status;
   if (done != rays.size()) return failure("tracing was cancelled");
-  return diagnose([&] { report(1); });
+  const auto end = [&] { report(1); };
+  return diagnose(std::cref(end));
 }
 
 Tracer::Worker& Tracer::worker(unsigned index) {

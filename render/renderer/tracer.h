@@ -24,9 +24,9 @@ namespace boule {
 /// How rays are traced. Of all this only solver fast shows in the hits.
 struct TraceOptions {
   Solver solver = Solver::robust;
-  unsigned threads = 0;                           ///< 0: as many as the hardware runs at once
+  unsigned threads = 0;                           ///< 0: as many as the hardware runs; at most 1024
   std::string isa = "auto";                       ///< a name that select_kernels() knows
-  const std::atomic<bool>* cancel = nullptr;      ///< tracing stops soon after it becomes true
+  const std::atomic<bool>* cancel = nullptr;      ///< true: tracing stops soon; outlives the tracer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that traces
 };
 
@@ -41,11 +41,13 @@ struct TraceStatistics : RunStatistics {
 /// nor the other rays; the caller's rounding mode, denormal flags and traps do not matter and are
 /// left as they were. Nothing here throws: what fails, a progress callback too, is a Diagnostic.
 /// The calling thread needs 2 MiB of stack. Any ray may be asked for: one with NaN, with an
-/// infinite origin or direction, or without a direction is a miss. One call at a time.
+/// infinite origin or direction, or without a direction is a miss. One call at a time. Of a tracer
+/// that was moved away closest() and any() are errors.
 class Tracer {
  public:
-  /// Prepares the objects; the scene is not needed any more afterwards. An error if the scene is
-  /// invalid, the ISA is not to be had, or the memory does not suffice.
+  /// Prepares the objects; the scene is not needed any more afterwards. Takes any values: an error
+  /// if the scene is invalid (validate()), the ISA is not to be had, or the memory does not
+  /// suffice.
   static Result<Tracer> create(const Scene& scene, const TraceOptions& options = {});
   /// The same without a copy of the spheres and planes.
   static Result<Tracer> create(Scene&& scene, const TraceOptions& options = {});

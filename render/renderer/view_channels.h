@@ -26,13 +26,14 @@ class ViewChannels {
   /// For the frame's pixels in `rect`, not empty. Throws std::bad_alloc.
   ViewChannels(const ViewSelection& selection, const PixelRect& rect);
 
-  /// Stores the view of pixel (x, y) of the frame.
+  /// Stores the view of pixel (x, y) of the frame, which lies in `rect`, before release():
+  /// preconditions.
   void set(int x, int y, const View& view);
 
   /// Gives the channels away, in the order of ViewSelection; nothing is left.
   std::vector<ImageChannel> release();
 
-  /// The names of the channels, in the order of ViewSelection.
+  /// The names of the channels, in the order of ViewSelection. Throws std::bad_alloc.
   static std::vector<std::string> names(const ViewSelection& selection);
 
   /// Bytes that the views of so many pixels take.

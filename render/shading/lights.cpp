@@ -10,29 +10,29 @@ LightPlace point_place(const Vec3f& p) {
 LightPlace place_of_any(const PointLight& light) { return point_place(light.position); }
 LightPlace place_of_any(const SphereLight& light) { return point_place(light.center); }
 LightPlace place_of_any(const DirectionalLight& light) {
-  const Vec3d to_light = direction_to(light, {});
+  const Vec3d to_light = normalize(-vec_cast<double>(light.direction));
   const Vec3f way = -light.direction;
   return {true, {to_light.x, to_light.y, to_light.z}, {way.x, way.y, way.z}};
 }
 
 }  // namespace
 
+LightPlace place_of(const Light& light) {
+  return std::visit([](const auto& any) { return place_of_any(any); }, light);
+}
+
 LightSample sample_light(const Light& light, const Vec3d& point) {
-  return std::visit(
-      [&](const auto& any) -> LightSample {
-        return {direction_to(any, point), intensity_at(any, point)};
-      },
-      light);
+  const LightPlace at = place_of(light);
+  const Vec3d place{at.place[0], at.place[1], at.place[2]};
+  return {at.directional ? place : normalize(place - point),
+          std::visit([&](const auto& any) { return intensity_at(any, point); }, light)};
 }
 
 Ray shadow_ray(const Light& light, const Surface& surface) {
+  const LightPlace at = place_of(light);
+  if (!at.directional) return shadow_ray_to(surface, {at.place[0], at.place[1], at.place[2]});
   const Departure departure = depart(surface, Side::viewer);
-  const auto way = [&](const auto& any) { return way_to(any, departure.org); };
-  return from_surface(std::visit(way, light), departure);
-}
-
-LightPlace place_of(const Light& light) {
-  return std::visit([](const auto& any) { return place_of_any(any); }, light);
+  return from_surface({departure.org, {at.way[0], at.way[1], at.way[2]}}, departure);
 }
 
 Coherence shadow_coherence(const Light& light) {

@@ -18,28 +18,6 @@ struct LightSample {
 /// The light as `point` sees it, if nothing is in between.
 LightSample sample_light(const Light& light, const Vec3d& point);
 
-/// The unit vector from `point` to the light, as LightSample has it.
-inline Vec3d direction_to(const PointLight& light, const Vec3d& point) {
-  return normalize(vec_cast<double>(light.position) - point);
-}
-inline Vec3d direction_to(const SphereLight& light, const Vec3d& point) {
-  return normalize(vec_cast<double>(light.center) - point);
-}
-inline Vec3d direction_to(const DirectionalLight& light, const Vec3d&) {
-  return normalize(-vec_cast<double>(light.direction));
-}
-
-/// From `org` as far as the light.
-inline Ray way_to(const PointLight& light, const Vec3d& org) {
-  return segment(org, vec_cast<double>(light.position));
-}
-inline Ray way_to(const SphereLight& light, const Vec3d& org) {
-  return segment(org, vec_cast<double>(light.center));
-}
-inline Ray way_to(const DirectionalLight& light, const Vec3d& org) {
-  return {org, -light.direction};
-}
-
 /// The intensity with its falloff over the distance.
 inline Color intensity_at(const PointLight& light, const Vec3d& point) {
   if (light.falloff == Falloff::none) return light.intensity;

@@ -1,19 +1,10 @@
 #include "render/shading/surfaces.h"
 
+#include "simd/build/geometry_builder.h"
+
 namespace boule {
-namespace {
-
-SphereRows rows_of(const std::vector<Sphere>& spheres) {
-  static_assert(sizeof(Sphere) % sizeof(float) == 0 && offsetof(Sphere, center) == 0 &&
-                offsetof(Sphere, radius) == 3 * sizeof(float));
-  if (spheres.empty()) return {nullptr, 0};
-  return {&spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
-}
-
-}  // namespace
-
 Surfaces::Surfaces(const PreparedScene& scene, const KernelTable& kernels)
-    : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(rows_of(scene.spheres)) {
+    : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(sphere_rows(scene.spheres)) {
   views_.resize(block_size);
   cosines_.resize(block_size);
   reaches_.resize(block_size);
