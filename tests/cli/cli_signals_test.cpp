@@ -30,7 +30,7 @@ class Signals : public ProgramTest {
 TEST_F(Signals, WhileRenderingEndTheBarsLineFirst) {
   for (const auto& [signal, code, name] : signals) {
     RunningProgram program(
-        {"render", small_scene(), "-o", path("out.png"), "--size", "2000x2000", "--spp", "1000"});
+        {"render", small_scene(), "-o", path("out.png"), "--size", "2000x2000", "--spp", "200"});
     ASSERT_TRUE(program.wait_for("Mray/s"));
     const Watch watch;
     program.send(signal);
@@ -55,13 +55,13 @@ TEST_F(Signals, WhileAFifoHasNoReaderEndIt) {
                                           "-o",    path("hits.npy"), "-q"};
   for (const auto& arguments : {render, partial, trace}) {
     RunningProgram program(arguments);
-    program.wait(500);
+    ASSERT_TRUE(program.wait_for_sleep());
     const Watch watch;
     program.send(SIGTERM);
     const ProgramRun run = program.finish();
     EXPECT_LT(watch.seconds(), 1);
     EXPECT_EQ(run.exit_code, 143);
-    EXPECT_THAT(run.out, testing::StartsWith("boule: interrupted (SIGTERM), "));
+    EXPECT_EQ(run.out, message("SIGTERM"));
   }
 }
 
@@ -86,7 +86,7 @@ TEST_F(Signals, WhileLoadingEndItAtOnce) {
   const std::string scene = write("long.toml", text);  // takes seconds to read
   for (const auto& [signal, code, name] : signals) {
     RunningProgram program({"render", scene, "-o", path("out.png"), "-v"});
-    program.wait(300);
+    ASSERT_TRUE(program.wait_for_work(0.3));
     const Watch watch;
     program.send(signal);
     const ProgramRun run = program.finish();
@@ -97,14 +97,34 @@ TEST_F(Signals, WhileLoadingEndItAtOnce) {
   }
 }
 
+TEST_F(Signals, WhileBuildingEndItAtOnce) {
+  constexpr std::uintmax_t spheres = 6'000'000;
+  const std::string cloud = write("cloud.npy", npy_file(npy_dict("'<f4'", "(6000000, 3)"), ""));
+  std::filesystem::resize_file(cloud, read("cloud.npy").size() + spheres * 12);
+  const std::string scene =
+      write("cloud.toml", "schema = 1\n[[spheres]]\nfile = \"cloud.npy\"\nradius = 1\n");
+  for (const auto& [signal, code, name] : signals) {
+    RunningProgram program({"render", scene, "-o", path("out.png"), "-v"});
+    const std::string told = "boule: preparing " + scene + " ...\r\n";
+    ASSERT_TRUE(program.wait_for(told));
+    const Watch watch;
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_LT(watch.seconds(), 1);
+    EXPECT_EQ(run.exit_code, code);
+    EXPECT_THAT(run.out, EndsWith(told + message(name)));  // not prepared yet
+    EXPECT_THAT(files(), ElementsAre("cloud.npy", "cloud.toml"));
+  }
+}
+
 TEST_F(Signals, WhileWritingRemoveTheTemporaryFile) {
   // Quick to render, seconds to pack.
   const std::string scene = write("sky.toml",
                                   "schema = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [1, 2, 3]\n"
                                   "[background]\ntype = \"gradient\"\n");
   for (const auto& [signal, code, name] : signals) {
-    RunningProgram program(
-        {"render", scene, "-o", path("out.exr"), "--size", "2000x3000", "--progress", "none"});
+    RunningProgram program({"render", scene, "-o", path("out.exr"), "--size", "3000x3000", "-t",
+                            "1", "--progress", "none"});
     ASSERT_TRUE(program.wait_for_output(path(""), 1 << 20));
     const Watch watch;
     program.send(signal);
@@ -124,7 +144,7 @@ TEST_F(Signals, WhilePackingInOneCallRemoveTheTemporaryFile) {
   RunningProgram program(
       {"render", scene, "-o", path("out.webp"), "--size", "8000x6000", "--progress", "none"});
   ASSERT_TRUE(program.wait_for_output(path(""), 0));
-  program.wait(700);  // the tone curve is over: it is packing
+  ASSERT_TRUE(program.wait_for_work(1.2));  // the tone curve is over: it is packing
   const Watch watch;
   program.send(SIGTERM);
   const ProgramRun run = program.finish();
@@ -143,7 +163,7 @@ TEST_F(Signals, WhileAPipesReaderIsSlowStopTheWait) {
         {"render", small_scene(), "-o", pipe, "--size", "640x480", "--progress", "none"});
     pollfd filled{reader, POLLIN, 0};
     ASSERT_EQ(poll(&filled, 1, 20'000), 1);
-    program.wait(100);  // by now the pipe is full
+    ASSERT_TRUE(program.wait_for_sleep());  // the pipe is full
     const Watch watch;
     program.send(signal);
     const ProgramRun run = program.finish();

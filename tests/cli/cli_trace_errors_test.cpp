@@ -187,13 +187,13 @@ TEST_F(TraceSignals, ASignalEndsTheWaitForAPipesReader) {
   ASSERT_EQ(mkfifo(path("h.npy").c_str(), 0600), 0);
   RunningProgram program(
       {"trace", scene, "--rays", path("r.npy"), "-o", path("h.npy"), "--progress", "none"});
-  program.wait(300);  // nobody opens the pipe
+  ASSERT_TRUE(program.wait_for_sleep());  // nobody opens the pipe
   const Watch watch;
   program.send(SIGTERM);
   const ProgramRun run = program.finish();
   EXPECT_LT(watch.seconds(), 1);
   EXPECT_EQ(run.exit_code, 143);
-  EXPECT_EQ(run.out, "boule: interrupted (SIGTERM), the output is incomplete\r\n");
+  EXPECT_EQ(run.out, "boule: interrupted (SIGTERM), nothing written\r\n");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Preloaded into the program: lets one call of the system fail, as it may on any day.
 //   BOULE_FAULT="CALL NUMBER CODE"  the NUMBER-th call, from 1, fails with errno CODE
 //   BOULE_FAULT_HIT=PATH            a file that then appears
+//   BOULE_ONLY_NAMED_FILES=1        a file system without O_TMPFILE
 // Allocations fail from that one on: where there is no memory there will be none at once. Of
 // threads there is no room for so many at once.
 #include <dlfcn.h>
@@ -86,6 +87,10 @@ int open(const char* path, int flags, ...) {
   va_start(rest, flags);
   const int mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, int) : 0;
   va_end(rest);
+  if ((flags & O_TMPFILE) == O_TMPFILE && std::getenv("BOULE_ONLY_NAMED_FILES") != nullptr) {
+    errno = EOPNOTSUPP;
+    return -1;
+  }
   if (fails("open")) return -1;
   return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }

@@ -9,9 +9,23 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace boule::test {
+namespace {
+
+/// What a file "NUMBER (NAME) ..." of /proc holds after the name, which may hold anything.
+std::string after_name(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string text;
+  std::getline(file, text, '\0');
+  const std::size_t end = text.rfind(") ");
+  return end == std::string::npos ? "" : text.substr(end + 2);
+}
+
+}  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, unsigned short columns) {
   std::vector<char*> argv = {const_cast<char*>(BOULE_PROGRAM)};
@@ -49,9 +63,11 @@ bool RunningProgram::read_some(int timeout_ms) {
 }
 
 bool RunningProgram::wait_for(const std::string& text) {
-  while (shown_.find(text) == std::string::npos) {
-    if (!read_some(1000)) return shown_.find(text) != std::string::npos;
-  }
+  std::size_t at = shown_.find(text, seen_);
+  while (at == std::string::npos && read_some(1000)) at = shown_.find(text, seen_);
+  if (at == std::string::npos) at = shown_.find(text, seen_);
+  if (at == std::string::npos) return false;
+  seen_ = at + text.size();
   return true;
 }
 
@@ -76,9 +92,39 @@ bool RunningProgram::wait_for_output(const std::string& folder, std::intmax_t by
   return false;
 }
 
-void RunningProgram::wait(int milliseconds) {
-  const Watch watch;
-  while (!ended_ && watch.seconds() * 1000 < milliseconds) read_some(10);
+/// Seconds of the processor, so far.
+double RunningProgram::work() const {
+  // "STATE PARENT ...": the 12th and 13th are ticks.
+  std::istringstream fields(after_name("/proc/" + std::to_string(child_) + "/stat"));
+  std::string ignored;
+  for (int i = 1; i < 12; ++i) fields >> ignored;
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+bool RunningProgram::wait_for_work(double seconds) {
+  const double end = work() + seconds;
+  while (!ended_ && work() < end) read_some(10);
+  return !ended_;
+}
+
+bool RunningProgram::sleeps() const {
+  std::error_code ended;
+  const std::string threads = "/proc/" + std::to_string(child_) + "/task";
+  for (const auto& thread : std::filesystem::directory_iterator(threads, ended)) {
+    if (!after_name(thread.path() / "stat").starts_with('S')) return false;
+  }
+  return !ended;
+}
+
+/// What is kept from running by others does not sleep.
+bool RunningProgram::wait_for_sleep() {
+  for (int times = 0; times < 20; times = sleeps() ? times + 1 : 0) {
+    read_some(10);
+    if (ended_) return false;
+  }
+  return true;
 }
 
 void RunningProgram::send(int signal) const { ::kill(child_, signal); }

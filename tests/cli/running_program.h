@@ -21,15 +21,20 @@ class RunningProgram {
   RunningProgram& operator=(const RunningProgram&) = delete;
   ~RunningProgram();
 
-  /// Reads until `text` has been shown on the terminal; false if the program ends before.
+  /// Reads until `text` has been shown on the terminal, after what was waited for before; false if
+  /// the program ends first.
   bool wait_for(const std::string& text);
 
   /// Reads until the program has a file of so many bytes open in `folder` that has no name (yet);
   /// false if it ends before.
   bool wait_for_output(const std::string& folder, std::intmax_t bytes);
 
-  /// Reads for so long.
-  void wait(int milliseconds);
+  /// Reads until the program has had the processor for so many seconds from now on, in all its
+  /// threads; false if it ends before.
+  bool wait_for_work(double seconds);
+
+  /// Reads until all of its threads wait for something, again and again; false if it ends before.
+  bool wait_for_sleep();
 
   void send(int signal) const;
 
@@ -39,11 +44,14 @@ class RunningProgram {
  private:
   bool read_some(int timeout_ms);
   [[nodiscard]] bool has_output(const std::string& folder, std::intmax_t bytes) const;
+  [[nodiscard]] double work() const;
+  [[nodiscard]] bool sleeps() const;
 
   pid_t child_ = -1;
   int terminal_ = -1;
   bool ended_ = false;
   std::string shown_;
+  std::size_t seen_ = 0;  ///< of it, by wait_for()
 };
 
 /// Seconds since its construction.
