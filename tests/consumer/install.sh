@@ -15,7 +15,8 @@ for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.s
   include/boule/{core/scene/scene.h,simd/dispatch/dispatch.h,render/renderer/renderer.h}; do
   [[ -f "$file" ]] || { echo "$file is not installed"; exit 1; }
 done
-if find include | grep -E '/(kernel|lanes|cli)(/|$)'; then
+if find include | grep -E '/(kernel|lanes|cli|shading|threads)(/|$)' ||
+  find include | grep -E '/(image_module|image_loader|wavefront|split|cpu)\.h$'; then
   echo "headers that are nobody's business outside"
   exit 1
 fi

@@ -23,6 +23,12 @@ TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
   for (const FormatCase& c : cases) EXPECT_EQ(format_diagnostic(c.diagnostic), c.text);
 }
 
+TEST(FormatDiagnostic, IsOneLineThatIsSafeToPrint) {
+  const Diagnostic hostile{"saw 'f\x03\n\x1b[31m'", "k\x7f", "a\nb.toml", 3, 9};
+  EXPECT_EQ(format_diagnostic(hostile),
+            "a\\x0ab.toml:3:9: error: saw 'f\\x03\\x0a\\x1b[31m' (key 'k\\x7f')");
+}
+
 struct QuoteCase {
   std::string text;
   std::string quoted;

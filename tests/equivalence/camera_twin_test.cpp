@@ -201,6 +201,17 @@ double map_twin(const DistortionMap& map, double x, double y, std::size_t compon
   return sum;
 }
 
+/// Where a map sends a raster point.
+struct MappedPoint {
+  double x, y;
+};
+MappedPoint mapped(const DistortionMap& map, const Frame& frame, double raster_x, double raster_y) {
+  const double x = raster_x * map.width / frame.width - 0.5;
+  const double y = raster_y * map.height / frame.height - 0.5;
+  const double s = map_twin(map, x, y, 0), t = map_twin(map, x, y, 1);
+  return {s * frame.width, (1 - t) * frame.height};
+}
+
 TEST_P(CameraTwin, Distortion) {
   const Frame frame{640, 361};
   const DistortionMap map = random_map(9, 6, 0.08);
@@ -211,10 +222,8 @@ TEST_P(CameraTwin, Distortion) {
   const RayBuffer rays = rays_of(*kernels, view, samples);
   const SampleStream at = samples.view();
   for (std::size_t i = 0; i < many; ++i) {
-    const double x = at.raster_x[i] * map.width / frame.width - 0.5;
-    const double y = at.raster_y[i] * map.height / frame.height - 0.5;
-    const double s = map_twin(map, x, y, 0), t = map_twin(map, x, y, 1);
-    const TwinRay twin = fisheye_twin(camera, frame, s * frame.width, (1 - t) * frame.height);
+    const auto [x, y] = mapped(map, frame, at.raster_x[i], at.raster_y[i]);
+    const TwinRay twin = fisheye_twin(camera, frame, x, y);
     ASSERT_TRUE(twin.there);
     ASSERT_EQ(samples.weight(i), 1);
     expect_close(rays.get(i), twin, i);
@@ -230,13 +239,8 @@ TEST_P(CameraTwin, DistortedThinLens) {
   const RayBuffer rays = rays_of(*kernels, view, samples);
   const SampleStream at = samples.view();
   for (std::size_t i = 0; i < many; ++i) {
-    const double x = at.raster_x[i] * map.width / frame.width - 0.5;
-    const double y = at.raster_y[i] * map.height / frame.height - 0.5;
-    const double s = map_twin(map, x, y, 0), t = map_twin(map, x, y, 1);
-    expect_close(rays.get(i),
-                 thin_lens_twin(camera, frame, s * frame.width, (1 - t) * frame.height,
-                                at.lens_x[i], at.lens_y[i]),
-                 i);
+    const auto [x, y] = mapped(map, frame, at.raster_x[i], at.raster_y[i]);
+    expect_close(rays.get(i), thin_lens_twin(camera, frame, x, y, at.lens_x[i], at.lens_y[i]), i);
   }
 }
 

@@ -1,29 +1,18 @@
 // Random numbers and directions by them, of every kernel table against the scalar path, bit for
 // bit.
-#include <bit>
 #include <cmath>
 
 #include "core/light_cone.h"
 #include "core/math/sobol.h"
 #include "core/math/warp.h"
 #include "tests/support/case_random.h"
+#include "tests/support/expect_same.h"
 #include "tests/support/kernel_runs.h"
 
 namespace boule::test {
 namespace {
 
 constexpr std::size_t count = 1003;  // the last packet is not whole
-
-/// Equal bits, or NaN both.
-void expect_same(double a, double b) {
-  if (a != a && b != b) return;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;
-}
-void expect_same(const Vec3d& a, const Vec3d& b) {
-  expect_same(a.x, b.x);
-  expect_same(a.y, b.y);
-  expect_same(a.z, b.z);
-}
 
 /// A number in [0, 1), at times one of its ends.
 double unit_number(CaseRandom& random, std::size_t i) {

@@ -1,8 +1,8 @@
 // Hit points, normals and shadow rays of every kernel table against the scalar path, bit for bit.
-#include <bit>
 #include <optional>
 
 #include "core/surface.h"
+#include "tests/support/expect_same.h"
 #include "tests/support/hard_case_runs.h"
 
 namespace boule::test {
@@ -38,17 +38,7 @@ struct AimedArrays {
   AimedStream stream() { return {rays.view(), to_light.view(), cosine.data(), point.data()}; }
 };
 
-/// Equal bits, or NaN both.
-void expect_same(double a, double b) {
-  if (a != a && b != b) return;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;
-}
-void expect_same(const Vec3d& a, const Vec3d& b) {
-  expect_same(a.x, b.x);
-  expect_same(a.y, b.y);
-  expect_same(a.z, b.z);
-}
-void expect_same(const Ray& a, const Ray& b) {
+void expect_same_ray(const Ray& a, const Ray& b) {
   expect_same(a.org, b.org);
   EXPECT_EQ(a.dir, b.dir);
   EXPECT_EQ(a.tmin, b.tmin);
@@ -71,9 +61,7 @@ class SurfacesOfHardCases : public OnEachHardCase {
     hits.resize(ray_count);
     reference_kernels().closest_hit(geometry->view(), rays.view(), {}, hits.view());
     for (std::size_t k = 0; k < ray_count; k += 7) rays.view().source[k] = hits.get(k).id;
-    if (!hard_case.spheres.empty()) {
-      rows = {&hard_case.spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
-    }
+    rows = sphere_rows(hard_case.spheres);
   }
 
   void find(const KernelTable& table, SurfaceArrays& found) {
@@ -134,7 +122,7 @@ TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
     ASSERT_EQ(reference_kernels().aim(light, points, scalar.stream()), count);
     for (std::size_t k = 0; k < count && !HasFailure(); ++k) {
       SCOPED_TRACE(k);
-      expect_same(wide.rays.get(k), scalar.rays.get(k));
+      expect_same_ray(wide.rays.get(k), scalar.rays.get(k));
       expect_same(wide.to_light.get(k), scalar.to_light.get(k));
       expect_same(wide.cosine[k], scalar.cosine[k]);
       EXPECT_EQ(wide.point[k], scalar.point[k]);
@@ -157,7 +145,7 @@ TEST_P(SurfacesOfSpecks, FaceTheViewer) {
     hits.view().id[k] = 0;
   }
   SurfaceArrays wide;
-  kernels->find_surfaces(geometry.view(), {&specks[0].center.x, 5}, rays.view(), hits.view(),
+  kernels->find_surfaces(geometry.view(), sphere_rows(specks), rays.view(), hits.view(),
                          wide.stream());
   for (std::size_t k = 0; k < ray_count; ++k) {
     ASSERT_EQ(wide.point.get(k), (Vec3d{1, 2, 3}));

@@ -178,6 +178,13 @@ TreeScene nearly_along_axes() {
   return scene;
 }
 
+/// Rays pass through the sphere that they are said to leave, wherever it is.
+TreeScene sources_ahead() {
+  TreeScene scene = cloud("sources ahead", {0, 0, 0}, 1, 0.3, 3);
+  for (Ray& ray : scene.rays) ray.source = reference::closest_hit(ray, scene.spheres, {}).id;
+  return scene;
+}
+
 TreeScene beyond_the_filter() {
   TreeScene scene = cloud("rays and spheres that float cannot judge", {0, 0, 0}, 1, 0.1, 3);
   for (std::size_t i = 0; i < 20; ++i) scene.spheres[i].center.x *= 1e19F;
@@ -204,6 +211,7 @@ std::vector<TreeScene> scenes() {
           between_floats(),
           row_of_specks(),
           nearly_along_axes(),
+          sources_ahead(),
           beyond_the_filter()};
 }
 

@@ -1,6 +1,7 @@
 #include "render/image/output_file.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -141,6 +142,27 @@ TEST_F(OutputFileTest, RefusalsCarryTheSystemsReason) {
     EXPECT_EQ(create_error(target), "cannot write '" + target + "': " + reason);
   }
   EXPECT_EQ(names(), (Names{"dir.png", "file", "loop"}));
+}
+
+TEST_F(OutputFileTest, NulBytesAreNoPartOfAName) {
+  const std::string name = at("a") + std::string("\0.png", 5);
+  EXPECT_THAT(create_error(name), testing::EndsWith("a\\x00.png': its name holds a NUL byte"));
+  EXPECT_EQ(names(), Names{});
+}
+
+TEST_F(OutputFileTest, WhatIsDoneOrMovedAwayRefuses) {
+  Result<OutputFile> file = OutputFile::create(at("a.npy"));
+  OutputFile moved = std::move(file).value();
+  for (OutputFile* gone : {&file.value(), &moved}) {
+    if (gone == &moved) {
+      ASSERT_FALSE(moved.commit());
+    }
+    EXPECT_TRUE(gone->write("hello", 5));
+    EXPECT_TRUE(gone->sync());
+    EXPECT_TRUE(gone->commit());
+  }
+  EXPECT_EQ(names(), Names{"a.npy"});
+  EXPECT_EQ(test::read_bytes(at("a.npy")), "");
 }
 
 TEST_F(OutputFileTest, FullDiskKeepsTheOldFile) {

@@ -140,6 +140,29 @@ TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
   }
 }
 
+/// libpng would say so on standard error. What it may do without is no reason to refuse.
+TEST_F(ReadImage, OurselvesWeSeeThatAPngIsDamagedInside) {
+  ImageFileOptions options;
+  options.date_time = "1970:01:01 00:00:00";
+  const std::string file = written(noise(200, 100), "bad.png", options), bytes = read_bytes(file);
+  const auto read_with_damage_at = [&](std::size_t at) {
+    std::string bad = bytes;
+    bad[at] = static_cast<char>(bad[at] ^ 4);
+    write_bytes(file, bad);
+    return read_image(file, PictureContent::colors).ok();
+  };
+  testing::internal::CaptureStderr();
+  const std::size_t data = bytes.find("IDAT");
+  for (const std::size_t at : {std::size_t{20}, data + 10, bytes.size() / 2, bytes.size() - 2}) {
+    EXPECT_FALSE(read_with_damage_at(at)) << at;
+    expect_refused("bad.png", "cannot read it: a checksum in the file is wrong");
+  }
+  const std::size_t text = bytes.find("tEXt");
+  ASSERT_NE(text, std::string::npos);
+  EXPECT_TRUE(read_with_damage_at(text + 5));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 /// Its header alone would take 48 GiB.
 TEST_F(ReadImage, AHeaderWithoutPixelsTakesNoMemory) {
   write_bytes(path("header.ppm"), "P6 65535 65535 255\n");

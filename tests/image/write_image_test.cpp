@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <climits>
+#include <limits>
+#include <stdexcept>
 #include <thread>
 
+#include "render/image/finished_picture.h"
 #include "render/image/image_file.h"
 #include "render/image/image_loader.h"
+#include "render/image/read_image.h"
 #include "tests/image/files.h"
 #include "tests/support/temp_dir.h"
 
@@ -173,6 +178,78 @@ TEST_F(WriteImage, ChannelsThatDoNotFit) {
   options.channels = {{"id", std::vector<std::uint32_t>(16)}, {"id", std::vector<float>(16)}};
   EXPECT_EQ(reason(Image(4, 4), at("a.exr"), options), "channel 'id' has no name of its own");
   EXPECT_EQ(names(), Names{});
+}
+
+TEST_F(WriteImage, NamesWithNulBytes) {
+  const std::string name = at("a") + std::string("\0.png", 5);
+  EXPECT_TRUE(write_image(test::noise(4, 3), name));
+  EXPECT_EQ(names(), Names{});
+  ASSERT_EQ(reason(test::noise(4, 3), at("a.png")), "");
+  const std::string longer = at("a.png") + std::string("\0.png", 5);
+  EXPECT_EQ(read_image(longer, PictureContent::colors).error().message,
+            "cannot read it: its name holds a NUL byte");
+  EXPECT_FALSE(is_finished_picture(longer, {4, 3, {}}));
+  EXPECT_TRUE(is_finished_picture(at("a.png"), {4, 3, {}}));
+  EXPECT_FALSE(is_finished_picture(at("a.png"), {-1, INT_MAX, {INT_MIN, -1, 0, 0}}));
+}
+
+/// Others print; libpng, of a file without pixels.
+class Silence {
+ public:
+  Silence() { testing::internal::CaptureStderr(); }
+  ~Silence() { EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); }
+};
+
+TEST_F(WriteImage, StoppedItIsSilent) {
+  const Silence silence;
+  for (const std::string extension : extensions) {
+    for (const int side : {1, 700}) {
+      for (int after = 0; after < 3; ++after) {
+        ImageFileOptions options;
+        int asked = 0;
+        options.stop = [&] { return asked++ == after; };
+        const std::string why = reason(Image(side, side), at("a." + extension), options);
+        EXPECT_EQ(why, asked > after ? "interrupted" : "");
+      }
+    }
+  }
+}
+
+TEST_F(WriteImage, WhatCallbacksThrowIsTheReason) {
+  const Silence silence;
+  for (const std::string extension : {"png", "exr"}) {
+    ImageFileOptions options;
+    int calls = 0;
+    options.stop = [&calls]() -> bool {
+      throw std::runtime_error("no " + std::to_string(++calls));
+    };
+    EXPECT_EQ(reason(test::noise(70, 130), at("a." + extension), options), "no 1");
+    options.stop = [] { return false; };
+    options.temporary = [](const std::string&) { throw 7; };
+    EXPECT_EQ(reason(test::noise(4, 3), at("a." + extension), options), "an unknown exception");
+    EXPECT_EQ(names(), Names{});
+  }
+}
+
+TEST_F(WriteImage, NumbersBeyondReasonAreBounded) {
+  constexpr auto nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr auto inf = std::numeric_limits<float>::infinity();
+  const Silence silence;
+  Image image(4, 3);
+  for (Color& c : image.pixels) c = {nan, inf, -inf};
+  ImageFileOptions options;
+  for (const int threads : {INT_MIN, 0, INT_MAX}) {
+    for (const float stops : {nan, inf, -inf}) {
+      for (const std::string extension : extensions) {
+        options.threads = threads;
+        options.exposure_stops = stops;
+        options.compression = static_cast<Compression>(9);
+        options.metadata = {
+            {"", 1}, {"DateTime", 7}, {"odd", nan}, {"text", std::string("\0a", 2)}};
+        EXPECT_EQ(reason(image, at("a." + extension), options), "") << threads << stops;
+      }
+    }
+  }
 }
 
 TEST_F(WriteImage, NamesOfAnyAlphabet) {

@@ -91,6 +91,14 @@ const Extreme extremes[] = {
        s.spheres = {{{0, 0, 0}, 1, 1}};
        light_from(s, {0, 3, 5});
      }},
+    {"GreatestShares",
+     [](Scene& s) {
+       add_material(s, Phong{{huge, 1, huge}, huge, huge, huge, 10, huge, 1.5F});
+       s.spheres = {{{0, 0, 0}, 1, 1}};
+       s.background = ConstantBackground{{1, 1, 1}};
+       s.ambient = {huge, huge, huge};
+       light_from(s, {0, 3, 5});
+     }},
     {"GreatAndSmallIndices",
      [](Scene& s) {
        add_material(s, Glass{{1, 1, 1}, huge});
@@ -174,22 +182,26 @@ TEST_P(ExtremeScenes, HaveNumbersInEveryPixel) {
   add_material(scene, Matte{});
   GetParam().make(scene);
   ASSERT_FALSE(validate(scene)) << format_diagnostic(*validate(scene));
-  Image first;
-  for (const IsaInfo& isa : list_isas()) {
-    if (!isa.supported) continue;
-    RenderOptions options = options_of(scene);
-    options.isa = isa.name;
-    const Image image = render(scene, options);
-    ASSERT_EQ(image.pixels.size(), 32u * 24u);
-    float brightest = 0;
-    for (const Color& c : image.pixels) {
-      ASSERT_TRUE(is_light(c.r) && is_light(c.g) && is_light(c.b))
-          << isa.name << ": " << c.r << " " << c.g << " " << c.b;
-      brightest = std::max({brightest, c.r, c.g, c.b});
+  for (const Method method : {Method::whitted, Method::path}) {
+    Image first;
+    for (const IsaInfo& isa : list_isas()) {
+      if (!isa.supported) continue;
+      const std::string what = std::string(isa.name) + (method == Method::path ? ", path" : "");
+      RenderOptions options = options_of(scene);
+      options.method = method;
+      options.isa = isa.name;
+      const Image image = render(scene, options);
+      ASSERT_EQ(image.pixels.size(), 32u * 24u);
+      float brightest = 0;
+      for (const Color& c : image.pixels) {
+        ASSERT_TRUE(is_light(c.r) && is_light(c.g) && is_light(c.b))
+            << what << ": " << c.r << " " << c.g << " " << c.b;
+        brightest = std::max({brightest, c.r, c.g, c.b});
+      }
+      EXPECT_TRUE(brightest > 0 || !GetParam().shows) << what;
+      if (first.pixels.empty()) first = image;
+      EXPECT_EQ(differing_pixels(image, first), 0) << what;
     }
-    EXPECT_TRUE(brightest > 0 || !GetParam().shows) << isa.name;
-    if (first.pixels.empty()) first = image;
-    EXPECT_EQ(differing_pixels(image, first), 0) << isa.name;
   }
 }
 

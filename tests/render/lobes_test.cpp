@@ -102,6 +102,13 @@ TEST(Lobes, EnergyIsConserved) {
   EXPECT_EQ(greedy.diffuse, (Color{0.5f, 0.25f, 0}));
   EXPECT_EQ(highlight_albedo(greedy), 0.25);
   EXPECT_EQ(greedy.mirror, gray(0.25f));
+  const FlatMaterial greatest = flatten_for_paths(Phong{gray(1), 0, 1, 3e38f, 10, 3e38f, 1});
+  EXPECT_NEAR(greatest.mirror.r, 1 / 3.0, 1e-6);
+  EXPECT_NEAR(greatest.transmission.r, 1 / 3.0, 1e-6);
+  EXPECT_NEAR(highlight_albedo(greatest), 1 / 3.0, 1e-6);
+  // Its colour times kd is more than a float holds.
+  const FlatMaterial brightest = flatten_for_paths(Phong{gray(3e38f), 0, 3e38f});
+  EXPECT_NEAR(brightest.diffuse.r, 1, 1e-6);
 }
 
 }  // namespace

@@ -98,6 +98,45 @@ TEST_F(TraceFiles, MetIsWrittenAsBytes) {
   EXPECT_TRUE(read("h.npy") == met_file(met));
 }
 
+TEST_F(TraceFiles, MoreRaysThanThereAreAreAnError) {
+  auto file = RayFile::open(write("r.npy", ray_file(ray_cloud(10))));
+  ASSERT_TRUE(file);
+  std::vector<Ray> rays(7);
+  EXPECT_FALSE(file.value().read({}));
+  EXPECT_FALSE(file.value().read(rays));
+  EXPECT_TRUE(file.value().read(rays));
+  RayFile kept = std::move(file).value();
+  EXPECT_TRUE(file.value().read(rays));
+}
+
+TEST_F(TraceFiles, HitsThatAreNotThoseOfTheFileAreAnError) {
+  const std::vector<TracedHit> hits(5);
+  const std::vector<std::uint8_t> met(5);
+  for (const HitKind kind : {HitKind::closest, HitKind::any}) {
+    auto file = HitFile::create(path("h.npy"), kind, 8);
+    ASSERT_TRUE(file);
+    const auto append = [&](std::size_t count) {
+      return kind == HitKind::any ? file.value().append(std::span(met).first(count))
+                                  : file.value().append(std::span(hits).first(count));
+    };
+    const std::string start = "cannot write '" + path("h.npy") + "': ";
+    EXPECT_EQ(kind == HitKind::any ? file.value().append(hits)->message
+                                   : file.value().append(met)->message,
+              start + "hits of the other kind");
+    EXPECT_FALSE(append(5));
+    EXPECT_EQ(append(4)->message, start + "more hits than it is made for");
+    EXPECT_EQ(file.value().commit()->message, start + "3 hits are missing");
+    EXPECT_EQ(file_count(), 0U);
+    EXPECT_FALSE(append(3));
+    HitFile moved = std::move(file).value();
+    EXPECT_TRUE(file.value().commit());
+    EXPECT_FALSE(moved.commit());
+    EXPECT_TRUE(moved.commit());
+    EXPECT_EQ(file_count(), 1U);
+    std::filesystem::remove(path("h.npy"));
+  }
+}
+
 TEST_F(TraceFiles, WithoutCommitNothingIsLeft) {
   (void)write("h.npy", "old");
   {

@@ -27,6 +27,22 @@ class Pictures : public testing::Test {
     EXPECT_THAT(loaded.error().message, testing::HasSubstr(words));
   }
 
+  /// What is wrong with the file of any picture, its key, or its name: the table begins in line
+  /// `table`, its keys in line `line`.
+  void expect_files_refused(const std::string& path, int table, int line) const {
+    const std::string key = path + ".file";
+    expect_refused("", table, 1, key, "missing key 'file'");
+    expect_refused("fiel = \"a\"\n", line, 1, path + ".fiel", "did you mean 'file'?");
+    expect_refused("file = 1\n", line, 8, key, "expected a string");
+    expect_refused("file = \"none.exr\"\n", line, 8, key,
+                   "'none.exr': cannot read it: No such file");
+    expect_refused("file = \".\"\n", line, 8, key, "it is a directory");
+    expect_refused("file = \"scene.toml\"\n", line, 8, key,
+                   "unknown extension, expected one of exr");
+    files_.write("text.exr", "no picture").size();
+    expect_refused("file = \"text.exr\"\n", line, 8, key, "'text.exr': cannot read it: ");
+  }
+
   SceneFiles files_;
 
  private:
@@ -73,14 +89,7 @@ TEST_F(Distortion, CodesAreNumbersFromZeroToOne) {
 
 TEST_F(Distortion, IsRefusedWithPlaceAndKey) {
   const std::string key = "camera.distortion.file";
-  expect_refused("", 5, 1, key, "missing key 'file'");
-  expect_refused("fiel = \"a\"\n", 6, 1, "camera.distortion.fiel", "did you mean 'file'?");
-  expect_refused("file = 1\n", 6, 8, key, "expected a string");
-  expect_refused("file = \"none.exr\"\n", 6, 8, key, "'none.exr': cannot read it: No such file");
-  expect_refused("file = \".\"\n", 6, 8, key, "it is a directory");
-  expect_refused("file = \"scene.toml\"\n", 6, 8, key, "unknown extension, expected one of exr");
-  files_.write("text.exr", "no picture").size();
-  expect_refused("file = \"text.exr\"\n", 6, 8, key, "'text.exr': cannot read it: ");
+  expect_files_refused("camera.distortion", 5, 6);
   write(Image(1, 4), "narrow.exr");
   expect_refused("file = \"narrow.exr\"\n", 6, 8, key, "2 x 2 pixels or more, has 1 x 4");
   Image holes = small_map();
@@ -124,14 +133,7 @@ TEST_F(Environment, CodesAreMadeLinear) {
 
 TEST_F(Environment, IsRefusedWithPlaceAndKey) {
   const std::string key = "background.file";
-  expect_refused("", 2, 1, key, "missing key 'file'");
-  expect_refused("fiel = \"a\"\n", 4, 1, "background.fiel", "did you mean 'file'?");
-  expect_refused("file = 1\n", 4, 8, key, "expected a string");
-  expect_refused("file = \"none.exr\"\n", 4, 8, key, "'none.exr': cannot read it: No such file");
-  expect_refused("file = \".\"\n", 4, 8, key, "it is a directory");
-  expect_refused("file = \"scene.toml\"\n", 4, 8, key, "unknown extension, expected one of exr");
-  files_.write("text.exr", "no picture").size();
-  expect_refused("file = \"text.exr\"\n", 4, 8, key, "'text.exr': cannot read it: ");
+  expect_files_refused("background", 2, 4);
   write(small_map(), "dark.exr");
   expect_refused("file = \"dark.exr\"\n", 4, 8, key, "'dark.exr': must have finite numbers of 0");
   Image holes(2, 2);

@@ -1,8 +1,8 @@
 // Lenses of real elements: the shipped prescriptions, and every kernel table against a twin that
 // traces them in long double by other formulas.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 #include "core/math/geometry.h"
@@ -304,9 +304,9 @@ TEST(Lens, NarrowStopsAreFoundInNoTime) {
   double last = 0;
   for (const float diameter : {1.0f, 0.1f, 0.01f, 1e-3f, 1e-6f}) {
     stop->aperture = diameter;
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     const LensOptics optics = make_optics(camera, 640, 480);
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    EXPECT_LT(std::clock() - begin, 5 * CLOCKS_PER_SEC);
     const double light = 1 / optics.exposure / std::pow(double{diameter}, 2);
     if (last > 0) {
       EXPECT_NEAR(light / last, 1, 0.02) << diameter;

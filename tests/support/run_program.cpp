@@ -4,13 +4,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "tests/support/temp_dir.h"
 
@@ -53,10 +50,6 @@ ProgramRun run_program(const std::string& path, const ProgramCall& call) {
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) become(path, call, folder.path());
-  if (call.signal_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(call.signal_after_ms));
-    ::kill(child, call.signal);
-  }
   int status = 0;
   ::waitpid(child, &status, 0);
   ProgramRun run;

@@ -12,12 +12,9 @@ struct ProgramRun {
 };
 
 /// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end.
-/// `signal_after_ms` > 0: sends it `signal` after so many milliseconds.
 struct ProgramCall {
   std::vector<std::string> arguments;
   std::vector<std::string> environment;
-  int signal = 0;
-  int signal_after_ms = 0;
 };
 ProgramRun run_program(const std::string& path, const ProgramCall& call);
 
