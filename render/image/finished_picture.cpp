@@ -12,11 +12,17 @@ namespace boule {
 
 namespace {
 
+struct Wanted {
+  const PictureShape& shape;
+  const ImageFormat& format;
+};
+
 /// Whether the file's frame and channels are those of the shape, where the format holds such.
-bool has_shape(const image_module::FoundPicture& found, const PictureShape& shape,
-               const ImageFormat& format) {
+bool has_shape(const void* context, const image_module::FoundPicture& found) {
+  const auto& [shape, format] = *static_cast<const Wanted*>(context);
   if (found.partial || found.width != shape.width || found.height != shape.height) return false;
-  if (!format.channels) return true;
+  constexpr int most_without_names = 4;  // red, green, blue and alpha
+  if (!format.channels) return found.channel_count <= most_without_names;
   const bool cropped = shape.crop.frame_width != 0;
   const CropPlace place = cropped ? shape.crop : CropPlace{shape.width, shape.height, 0, 0};
   return found.has_channels && found.x == place.x && found.y == place.y &&
@@ -37,12 +43,12 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   if (!loaded) return false;
   std::vector<const char*> names = {"R", "G", "B"};
   for (const std::string& name : shape.channels) names.push_back(name.c_str());
+  const Wanted shape_and_format{shape, *format};
   const image_module::WantedPicture wanted{path.c_str(), format->writer, names.data(),
-                                           names.size()};
-  image_module::FoundPicture found{};
+                                           names.size(), has_shape,      &shape_and_format};
   image_module::Report report{};
-  loaded.value()->inspect(&wanted, &found, &report);
-  return report.outcome == image_module::Outcome::done && has_shape(found, shape, *format);
+  loaded.value()->inspect(&wanted, &report);
+  return report.outcome == image_module::Outcome::done;
 }
 
 }  // namespace boule

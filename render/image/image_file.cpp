@@ -295,7 +295,7 @@ bool has_channels(const OIIO::ImageSpec& found, const WantedPicture& wanted) {
                      [&](const char* name) { return found.channelindex(name) >= 0; });
 }
 
-void inspect_picture(const WantedPicture& wanted, FoundPicture& picture, Report* report) {
+void inspect_picture(const WantedPicture& wanted, Report* report) {
   use_threads(1);
   const auto input = make_input(wanted.format);
   OIIO::ImageSpec found;
@@ -303,14 +303,19 @@ void inspect_picture(const WantedPicture& wanted, FoundPicture& picture, Report*
     return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
   }
   const std::string description = found.get_string_attribute("ImageDescription");
-  picture = {found.width,
-             found.height,
-             found.x,
-             found.y,
-             found.full_width,
-             found.full_height,
-             has_channels(found, wanted),
-             description.rfind("partial: ", 0) == 0};
+  const FoundPicture picture{found.width,
+                             found.height,
+                             found.x,
+                             found.y,
+                             found.full_width,
+                             found.full_height,
+                             found.nchannels,
+                             has_channels(found, wanted),
+                             description.rfind("partial: ", 0) == 0};
+  if (!wanted.accepts(wanted.context, picture)) {
+    report->outcome = Outcome::stopped;
+    return;
+  }
   std::vector<unsigned char> row(static_cast<size_t>(found.scanline_bytes(true)));
   for (int y = found.y; y < found.y + found.height; ++y) {
     if (!input->read_scanline(y, 0, OIIO::TypeUnknown, row.data())) {
@@ -405,8 +410,8 @@ void check(const Picture* picture, const char* path, Report* report) {
   guarded(report, [&] { check_picture(*picture, path, report); });
 }
 
-void inspect(const WantedPicture* wanted, FoundPicture* found, Report* report) {
-  guarded(report, [&] { inspect_picture(*wanted, *found, report); });
+void inspect(const WantedPicture* wanted, Report* report) {
+  guarded(report, [&] { inspect_picture(*wanted, report); });
 }
 
 void read(PictureFile* file, Report* report) {

@@ -8,7 +8,7 @@
 namespace boule::image_module {
 
 /// Changes with any change of this file; the loader refuses a module of another version.
-inline constexpr std::uint32_t version = 4;
+inline constexpr std::uint32_t version = 5;
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
@@ -68,31 +68,37 @@ struct Report {
   char text[400];
 };
 
+/// What the header of a file on the disk says.
+struct FoundPicture {
+  int width, height, x, y;        ///< the data window
+  int frame_width, frame_height;  ///< the display window
+  int channel_count;
+  bool has_channels;  ///< exactly those that were asked for, in any order
+  bool partial;       ///< its ImageDescription begins with "partial: "
+};
+
 /// A file on the disk, and the channels that are asked for.
 struct WantedPicture {
   const char* path;
   const char* format;  ///< OpenImageIO's name of the format
   const char* const* channels;
   std::size_t channel_count;
-};
-
-/// What it holds.
-struct FoundPicture {
-  int width, height, x, y;        ///< the data window
-  int frame_width, frame_height;  ///< the display window
-  bool has_channels;              ///< exactly those that were asked for, in any order
-  bool partial;                   ///< its ImageDescription begins with "partial: "
+  /// Told what the header says; false gives up. A header costs nothing to write: before this no
+  /// memory is taken for rows.
+  bool (*accepts)(const void* context, const FoundPicture& found);
+  const void* context;
 };
 
 /// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
-/// anew and reads its header, its first and its last row; `inspect` reads all of it. `read` reads a
+/// anew and reads its header, its first and its last row; `inspect` reads all of what
+/// is accepted. `read` reads a
 /// picture's pixels, row by row from the top, three floats each: its first three channels as they
 /// stand in the file (integers as 0..1), gray thrice, 0 for a third channel that is not there.
 struct Table {
   std::uint32_t version;
   void (*write)(const Picture* picture, int descriptor, Report* report);
   void (*check)(const Picture* picture, const char* path, Report* report);
-  void (*inspect)(const WantedPicture* wanted, FoundPicture* found, Report* report);
+  void (*inspect)(const WantedPicture* wanted, Report* report);
   void (*read)(PictureFile* file, Report* report);
 };
 
