@@ -344,7 +344,10 @@ template <class Sample>
 bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, const PictureFile& file) {
   const OIIO::ImageSpec& spec = input.spec();
   const int channels = std::min(spec.nchannels, 3);
-  const int band = spec.tile_height > 0 ? spec.tile_height : 64;
+  // Each call makes OpenImageIO reserve 64 MiB, however narrow the picture.
+  constexpr int least_rows = 64, enough_pixels = 1 << 16;
+  const int rows = std::max(least_rows, enough_pixels / spec.width);
+  const int band = spec.tile_height > 0 ? spec.tile_height : rows;
   const auto stride = static_cast<size_t>(channels);
   std::vector<Sample> samples;
   for (int begin = 0, end = 0; begin < spec.height; begin = end) {
