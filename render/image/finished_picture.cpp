@@ -32,6 +32,7 @@ bool has_shape(const void* context, const image_module::FoundPicture& found) {
 }  // namespace
 
 bool is_finished_picture(const std::string& path, const PictureShape& shape) {
+  if (shape.width < 1 || shape.height < 1) return false;  // though some headers say so
   const FloatEnvironment environment;
   std::error_code ignored;
   const ImageFormat* const format = find_image_format(path);

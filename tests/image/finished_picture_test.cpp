@@ -49,6 +49,16 @@ TEST_F(FinishedPicture, HasTheChannelsThatAreAskedFor) {
   EXPECT_FALSE(is_finished_picture(at("a.exr"), {4, 3, {}, {"Z", "id"}}));
 }
 
+/// A TGA without rows, says its header.
+TEST_F(FinishedPicture, HasPixels) {
+  ASSERT_FALSE(write_image(test::noise(4, 3), at("a.tga")));
+  std::string bytes = test::read_bytes(at("a.tga"));
+  ASSERT_EQ(bytes[14], 3);
+  bytes[14] = 0;
+  test::write_bytes(at("a.tga"), bytes);
+  EXPECT_FALSE(is_finished_picture(at("a.tga"), {4, 0, {}}));
+}
+
 long most_mebibytes() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
