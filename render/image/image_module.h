@@ -90,10 +90,10 @@ struct WantedPicture {
 };
 
 /// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
-/// anew and reads its header, its first and its last row; `inspect` reads all of what
-/// is accepted. `read` reads a
-/// picture's pixels, row by row from the top, three floats each: its first three channels as they
-/// stand in the file (integers as 0..1), gray thrice, 0 for a third channel that is not there.
+/// anew and reads its header, its first and its last row; `inspect` reads all of what is accepted.
+/// `read` reads a picture's pixels, row by row from the top, three floats each: its first three
+/// channels as they stand in the file (integers as 0..1), gray thrice, 0 for a third channel that
+/// is not there.
 struct Table {
   std::uint32_t version;
   void (*write)(const Picture* picture, int descriptor, Report* report);

@@ -7,6 +7,7 @@
 
 #include <climits>
 #include <string>
+#include <vector>
 
 #include "render/image/image_file.h"
 #include "tests/image/files.h"
