@@ -101,7 +101,8 @@ std::vector<IsaInfo> list_isas() {
 Result<const KernelTable*> select_kernels(std::string_view name) {
   if (name != "auto") return select_named(name, "isa");
   const char* forced = std::getenv("BOULE_ISA");
-  if (forced != nullptr && std::string_view(forced) != "auto") {
+  // Set to nothing is what scripts make of a variable that they have no value for.
+  if (forced != nullptr && *forced != '\0' && std::string_view(forced) != "auto") {
     return select_named(forced, "environment variable BOULE_ISA:");
   }
   const KernelTable* widest = nullptr;

@@ -23,9 +23,9 @@ std::vector<IsaInfo> list_isas();
 std::string_view isa_name(Isa isa);
 
 /// The kernels of one ISA by name, or for "auto" those that the environment variable BOULE_ISA
-/// names, or the widest supported ones; never null. Any text will do: an unknown name, one this
-/// build lacks or one the CPU cannot run is an error that says which names would do. Throws
-/// std::bad_alloc.
+/// names, or the widest supported ones, where it is not set, empty or "auto" itself; never null.
+/// Any text will do: an unknown name, one this build lacks or one the CPU cannot run is an error
+/// that says which names would do. Throws std::bad_alloc.
 Result<const KernelTable*> select_kernels(std::string_view name);
 
 /// The scalar reference path behind the same door: every query is answered by core/reference. Each

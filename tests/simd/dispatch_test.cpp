@@ -73,8 +73,14 @@ TEST_F(Dispatch, UnknownNamesAreErrorsThatSayWhatWouldDo) {
   const auto refused = select_kernels("auto");
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error().message, HasSubstr("BOULE_ISA: 'sse9'"));
+}
+
+TEST_F(Dispatch, AnEmptyVariableIsNone) {
+  const KernelTable* const chosen = select_kernels("auto").value();
   force("");
-  EXPECT_FALSE(select_kernels("auto").ok());
+  const auto kernels = select_kernels("auto");
+  ASSERT_TRUE(kernels.ok()) << kernels.error().message;
+  EXPECT_EQ(kernels.value(), chosen);
 }
 
 TEST_F(Dispatch, AnIsaOfAnotherArchitectureIsUnknown) {
