@@ -35,19 +35,31 @@ Status refuse_special(const std::string& path, const struct stat& info) {
                      std::string("it is ") + kind_of(info.st_mode) + ", expected a regular file");
 }
 
-/// Refuses what is no text, with the place of the first NUL byte.
-Status refuse_binary(const std::string& path, std::string_view text) {
+/// Refuses what is no text, with the place of the first NUL byte; none is before `checked`.
+Status refuse_binary(const std::string& path, std::string_view text, std::size_t checked) {
   const std::string_view start = text.substr(0, 2);
   if (start == "\xff\xfe" || start == "\xfe\xff") {
     return Diagnostic{"is UTF-16 text, expected UTF-8", "", path, 1, 1};
   }
-  const std::size_t nul = text.find('\0');
+  const std::size_t nul = text.find('\0', checked);
   if (nul == std::string_view::npos) return std::nullopt;
   const std::string_view before = text.substr(0, nul);
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
   return Diagnostic{"holds a NUL byte, expected UTF-8 text", "", path,
                     1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
                     1 + static_cast<int>(nul - line_start)};
+}
+
+/// Appends up to `count` bytes of the file: true if it ends with them. What is no text is refused.
+Result<bool> append_text(InputFile& file, const std::string& path, std::size_t count,
+                         std::string& text) {
+  const std::size_t begin = text.size();
+  text.resize(begin + count);
+  const auto got = file.read(text.data() + begin, count);
+  if (!got) return got.error();
+  text.resize(begin + got.value());
+  if (auto binary = refuse_binary(path, text, begin)) return *binary;
+  return got.value() < count;
 }
 
 }  // namespace
@@ -103,22 +115,22 @@ Result<std::string> read_text(const std::string& path) {
   constexpr std::size_t block_size = std::size_t{1} << 18;
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  if (const auto bad = check_memory(file.value().size(), "it needs")) {
-    return cannot_read(path, bad->message);
-  }
-  const auto size = static_cast<std::size_t>(file.value().size());
+  const std::uint64_t size = file.value().size();
   std::string text;
-  text.reserve(size);
-  prefer_huge_pages(text.data(), size);
-  for (bool at_end = false; !at_end;) {
-    const std::size_t done = text.size();
-    text.resize(std::min(size, done + block_size));
-    const auto got = file.value().read(text.data() + done, text.size() - done);
-    if (!got) return got.error();
-    at_end = got.value() < block_size;
-    text.resize(done + got.value());
+  // The first block before memory is asked for the rest: what is no text needs none.
+  auto at_end = append_text(file.value(), path, block_size, text);
+  if (!at_end) return at_end.error();
+  if (!at_end.value() && size > text.size()) {
+    if (const auto bad = check_memory(size, "it needs")) return cannot_read(path, bad->message);
+    text.reserve(static_cast<std::size_t>(size));
+    prefer_huge_pages(text.data(), static_cast<std::size_t>(size));
   }
-  if (auto binary = refuse_binary(path, text)) return *binary;
+  while (!at_end.value() && text.size() < size) {
+    const std::uint64_t left = size - text.size();
+    at_end = append_text(file.value(), path,
+                         static_cast<std::size_t>(std::min<std::uint64_t>(block_size, left)), text);
+    if (!at_end) return at_end.error();
+  }
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
   return text;
 }

@@ -35,7 +35,8 @@ class InputFile {
 };
 
 /// The whole text of a regular file, without a UTF-8 byte order mark. UTF-16 text and NUL bytes
-/// are refused, the latter with their place; so is what does not fit into memory.
+/// are refused, the latter with their place, as soon as they are read: of a file that is all zeros
+/// its first block. So is what does not fit into memory.
 Result<std::string> read_text(const std::string& path);
 
 }  // namespace boule

@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -62,6 +64,44 @@ TEST(ReadText, NulBytesAtTheBordersOfBlocksHaveTheirPlace) {
     EXPECT_EQ(read.error().line, 2);
     EXPECT_EQ(read.error().column, 3);
   }
+}
+
+/// A hole of this many bytes, behind a text.
+std::string sparse_file(const SceneFiles& files, const std::string& text, std::uintmax_t size) {
+  const std::string path = files.write("a.toml", text);
+  std::filesystem::resize_file(path, size);
+  return path;
+}
+
+TEST(ReadText, ZerosAreRefusedBeforeMemoryIsAskedForAllOfThem) {
+  const SceneFiles files;
+  const auto read = read_text(sparse_file(files, "schema = 1\n", std::uintmax_t{1} << 42));
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, testing::HasSubstr("holds a NUL byte"));
+  EXPECT_EQ(read.error().line, 2);
+  EXPECT_EQ(read.error().column, 1);
+}
+
+/// How many bytes this process has read, or none where the system does not count them.
+std::optional<std::uint64_t> bytes_read() {
+  std::ifstream file("/proc/self/io");
+  std::string name;
+  std::uint64_t bytes = 0;
+  if (!(file >> name >> bytes) || name != "rchar:") return std::nullopt;
+  return bytes;
+}
+
+TEST(ReadText, NothingIsReadBehindTheBlockOfANul) {
+  const SceneFiles files;
+  const std::string text(3 * text_block, '#');
+  const std::string path = sparse_file(files, text, 1000 * text_block);
+  const auto before = bytes_read();
+  const auto read = read_text(path);
+  const auto after = bytes_read();
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, testing::HasSubstr("holds a NUL byte"));
+  if (!before || !after) GTEST_SKIP() << "this system does not count what is read";
+  EXPECT_LT(*after - *before, 5 * text_block);
 }
 
 /// The position and length of a number relative to a block's end do not matter: each place has
