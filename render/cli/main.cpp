@@ -5,6 +5,7 @@
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/own_memory.h"
+#include "render/cli/standard_streams.h"
 
 namespace {
 
@@ -22,6 +23,7 @@ struct Run {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   install_interrupt_handlers();
   install_no_memory_handler();
   try {
