@@ -60,7 +60,8 @@ ExitCode tell(const std::string& scene, std::optional<int> frame, bool json) {
 
 ExitCode run(const InfoCommand& command) {
   if (!command.frames) return tell(command.scene, std::nullopt, command.json);
-  for (int frame = command.frames->first; frame <= command.frames->last; ++frame) {
+  const FrameRange& range = *command.frames;
+  for (int frame = range.first; frame <= range.last; frame += range.step) {
     const ExitCode code = tell(frame_name(command.scene, frame), frame, command.json);
     if (code != done) return code;
   }

@@ -48,13 +48,18 @@ bool* find_view(ViewSelection& views, const std::string& name) {
 std::optional<FrameRange> parse_frames(const std::string& text) {
   constexpr int last_frame = 999'999'999;
   if (const auto one = parse_number(text, 0, last_frame)) return FrameRange{*one, *one};
-  const auto ends = split_numbers(text, '-', 2, 0, last_frame);
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto ends = split_numbers(text.substr(0, colon), '-', 2, 0, last_frame);
   if (!ends || (*ends)[0] > (*ends)[1]) return std::nullopt;
-  return FrameRange{(*ends)[0], (*ends)[1]};
+  if (colon == text.size()) return FrameRange{(*ends)[0], (*ends)[1]};
+  const auto step = parse_number(text.substr(colon + 1), 1, last_frame);
+  if (!step) return std::nullopt;
+  return FrameRange{(*ends)[0], (*ends)[1], *step};
 }
 
 std::optional<Size> parse_size(const std::string& text) {
-  const auto sides = split_numbers(text, 'x', 2, 1, max_image_side);
+  const char cross = text.find('X') == std::string::npos ? 'x' : 'X';
+  const auto sides = split_numbers(text, cross, 2, 1, max_image_side);
   if (!sides) return std::nullopt;
   return Size{(*sides)[0], (*sides)[1]};
 }

@@ -18,10 +18,10 @@ std::optional<Number> parse_number(const std::string& text, Number low, Number h
   return good ? std::optional(number) : std::nullopt;
 }
 
-/// "A-B" with 0 <= A <= B, or "A" alone.
+/// "A-B" with 0 <= A <= B, or "A" alone; "A-B:N" is every Nth of them, from A on, N >= 1.
 std::optional<FrameRange> parse_frames(const std::string& text);
 
-/// "1280x720", each side 1 to 65535.
+/// "1280x720" or "1280X720", each side 1 to 65535.
 std::optional<Size> parse_size(const std::string& text);
 
 /// "X0,Y0,X1,Y1" with 0 <= X0 < X1 and 0 <= Y0 < Y1.

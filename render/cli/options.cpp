@@ -78,7 +78,8 @@ void add_output(CLI::App& app, std::string& output, const std::string& type,
 }
 
 void add_frames(CLI::App& app, std::optional<FrameRange>& frames, const std::string& help) {
-  add_parsed(app, "--frames", frames, parse_frames, "A-B with 0 <= A <= B", "A-B", help);
+  add_parsed(app, "--frames", frames, parse_frames,
+             "A-B with 0 <= A <= B, or A-B:N for every Nth of them", "A-B[:N]", help);
 }
 
 /// What shows in the picture, and how it is stored.

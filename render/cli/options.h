@@ -21,9 +21,13 @@ struct Size {
   int width, height;
 };
 
-/// Frames of a series, both ends among them.
+/// Frames of a series: first, first + step and so on, up to last.
 struct FrameRange {
   int first, last;
+  int step = 1;  ///< >= 1
+
+  /// How many they are.
+  [[nodiscard]] int count() const { return (last - first) / step + 1; }
 };
 
 /// How statistics are written: text for people, on standard error, or JSON.

@@ -281,7 +281,8 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
 ExitCode run(const RenderCommand& command) {
   if (!command.frames) return Rendering(command).run();
   if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
-  for (int frame = command.frames->first; frame <= command.frames->last; ++frame) {
+  for (int frame = command.frames->first; frame <= command.frames->last;
+       frame += command.frames->step) {
     const ExitCode code = Rendering(command_of_frame(command, frame)).run();
     if (code != done) return code;
     set_written("earlier frames had been written, this one not");

@@ -161,8 +161,19 @@ TEST_F(Frames, InfoTellsOfEach) {
   EXPECT_THAT(key.out, HasSubstr("eye 4.0 0.0 0.0"));
 }
 
+TEST_F(Frames, EveryFourth) {
+  const ProgramRun run =
+      boule_run({"render", moving_scene(), "-o", path("out.#.ppm"), "--frames", "1-12:4", "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(files(), ElementsAre("out.1.ppm", "out.5.ppm", "out.9.ppm", "scene.toml"));
+  for (const char* name : {"a.3.toml", "a.5.toml"}) write(name, scene_text("eye = [0, 0, 4]\n"));
+  const ProgramRun info = boule_run({"info", path("a.#.toml"), "--frames=3-5:2"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+}
+
 TEST_F(Frames, WrongRangesAndNamesAreRefused) {
-  for (const char* range : {"", "a", "4-2", "-1-2", "1-", "1-2-3", "1.5", "0-1000000000"}) {
+  for (const char* range : {"", "a", "4-2", "-1-2", "1-", "1-2-3", "1.5", "0-1000000000", "1-4:",
+                            "1-4:0", "1-4:-1", "1-4:x", "1-4:2:2", "1:2", ":2", "1-4:1000000000"}) {
     const ProgramRun run = refused_run(
         {"render", moving_scene(), "-o", path("o#.ppm"), std::string("--frames=") + range}, 2);
     EXPECT_THAT(run.err, HasSubstr("--frames")) << range;
