@@ -1,5 +1,6 @@
 #include "simd/build/binary_tree.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -8,6 +9,12 @@
 
 namespace boule {
 namespace {
+
+/// Of copies of one sphere, brings the one of the lowest id to the front: the one that rays hit.
+void keep_first(std::span<BuildSphere> copies) {
+  const auto by_id = [](const BuildSphere& a, const BuildSphere& b) { return a.id < b.id; };
+  std::swap(copies.front(), *std::min_element(copies.begin(), copies.end(), by_id));
+}
 
 class Builder {
  public:
@@ -31,6 +38,12 @@ class Builder {
     }
     const bool deep = depth + halving_levels(spheres.size()) > bvh_max_depth;
     const std::size_t middle = deep ? halve(spheres, extent_of(spheres)) : split(spheres, scratch_);
+    if (middle == 0) {
+      keep_first(spheres);
+      set_leaf(tree_.nodes[index], spheres.first(1));
+      tree_.nodes[index].copies = static_cast<std::uint32_t>(spheres.size() - 1);
+      return {};
+    }
     const CollapseCosts left = add(spheres.first(middle), depth + 1);
     const auto second = static_cast<std::uint32_t>(tree_.nodes.size());
     const CollapseCosts right = add(spheres.subspan(middle), depth + 1);

@@ -15,6 +15,8 @@ struct BinaryNode {
   BuildBox box;         ///< rounded outward
   std::uint32_t right;  ///< the second child; the first follows this node. Of a leaf: its number
   std::uint32_t size;   ///< spheres of a leaf; 0: no leaf
+  /// Spheres of the run behind those of a leaf, left out: exact copies of the leaf's only one.
+  std::uint32_t copies = 0;
   /// Of j places in the wide node, the first child's; 0: it takes one itself.
   std::uint8_t take[bvh_width + 1];
 };

@@ -1,6 +1,8 @@
 #include "simd/build/bvh_builder.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -105,6 +107,25 @@ std::vector<std::int32_t> find_apart(const std::vector<Sphere>& spheres,
   return apart;
 }
 
+/// The bits of a sphere's centre and radius: any floats, in an order.
+std::array<std::uint32_t, 4> bits_of(const Sphere& s) {
+  return {std::bit_cast<std::uint32_t>(s.center.x), std::bit_cast<std::uint32_t>(s.center.y),
+          std::bit_cast<std::uint32_t>(s.center.z), std::bit_cast<std::uint32_t>(s.radius)};
+}
+
+/// Of exact copies only the first, which is the one that rays hit. In order, as `ids` are.
+std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
+                                         const std::vector<Sphere>& spheres) {
+  const auto bits = [&](std::int32_t id) { return bits_of(spheres[static_cast<std::size_t>(id)]); };
+  std::sort(ids.begin(), ids.end(), [&](std::int32_t a, std::int32_t b) {
+    return std::pair(bits(a), a) < std::pair(bits(b), b);
+  });
+  const auto same = [&](std::int32_t a, std::int32_t b) { return bits(a) == bits(b); };
+  ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 /// Copies all other spheres.
 void gather(const std::vector<Sphere>& spheres, const std::vector<std::int32_t>& apart,
             const SphereBuffers& buffers, const ParallelFor& parallel_for) {
@@ -207,6 +228,7 @@ void fill_leaves(Bvh& bvh, const std::vector<Sphere>& spheres, const SphereBuffe
       block.center_z[k] = from->at[2];
       block.radius[k] = spheres[static_cast<std::size_t>(from->id)].radius;
     }
+    from += node.copies;
     ++leaf;
   }
 }
@@ -221,15 +243,15 @@ SphereBlock empty_block() {
 
 Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
   Bvh bvh;
-  bvh.slots = find_apart(spheres, parallel_for);
-  const std::size_t apart = bvh.slots.size();
-  bvh.scanned = padded(apart);
-  if (apart == spheres.size()) {
+  const std::vector<std::int32_t> apart = find_apart(spheres, parallel_for);
+  bvh.slots = without_copies(apart, spheres);
+  bvh.scanned = padded(bvh.slots.size());
+  if (apart.size() == spheres.size()) {
     bvh.slots.resize(bvh.scanned, -1);
     return bvh;
   }
-  SphereBuffers buffers(spheres.size() - apart);
-  gather(spheres, bvh.slots, buffers, parallel_for);
+  SphereBuffers buffers(spheres.size() - apart.size());
+  gather(spheres, apart, buffers, parallel_for);
   const BinaryForest forest(buffers, parallel_for);
   Collapse(forest, bvh.nodes).add(forest.root());
   bvh.slots.resize(bvh.scanned + forest.leaves() * bvh_leaf_size, -1);

@@ -99,7 +99,7 @@ std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent) {
     const bool longer = extent.high[k] - extent.low[k] > extent.high[axis] - extent.low[axis];
     if (longer && (k < 3 || extent.high[axis] == extent.low[axis])) axis = k;
   }
-  if (extent.high[axis] == extent.low[axis]) return middle;  // all are the same
+  if (extent.high[axis] == extent.low[axis]) return 0;
   std::nth_element(
       spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(middle), spheres.end(),
       [axis](const BuildSphere& a, const BuildSphere& b) { return a.at[axis] < b.at[axis]; });

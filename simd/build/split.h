@@ -73,11 +73,11 @@ BuildBox extent_of(std::span<const BuildSphere> spheres);
 
 /// Divides more spheres than fit into a leaf into two parts, by the surface area heuristic over
 /// binned centres (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007) and
-/// returns the size of the first, neither 0 nor all. `scratch` has as much room as there are
-/// spheres.
+/// returns the size of the first: never all, and 0 only where all are copies of one sphere.
+/// `scratch` has as much room as there are spheres.
 std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch);
 
-/// Divides them in the middle of the longest axis, to a whole number of leaves.
+/// Divides them in the middle of the longest axis, to a whole number of leaves. Returns the same.
 std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent);
 
 }  // namespace boule

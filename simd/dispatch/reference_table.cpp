@@ -1,3 +1,4 @@
+#include <limits>
 #include <vector>
 
 #include "core/light_cone.h"
@@ -18,13 +19,15 @@ Plane get_plane(const PlaneView& p, std::size_t i) {
 }
 
 /// The geometry back as plain primitives in the order of their ids: what the reference path reads.
+/// Copies of a sphere that the tree's builder left out have no radius: nothing hits them.
 struct Primitives {
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
 
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
-    spheres.resize(static_cast<std::size_t>(view.planes.first_id));
+    const Sphere nowhere{{0, 0, 0}, std::numeric_limits<float>::quiet_NaN(), 0};
+    spheres.resize(static_cast<std::size_t>(view.planes.first_id), nowhere);
     for (std::size_t slot = 0; slot < s.block_count * bvh_leaf_size; ++slot) {
       if (s.id[slot] < 0) continue;
       const SphereBlock& block = s.blocks[slot / bvh_leaf_size];

@@ -84,7 +84,10 @@ TEST(BinaryTree, IsNoDeeperThanTheKernelsStack) {
     const auto far = static_cast<float>(elementary::pow(17, i) * 1e-29);
     spheres.push_back({{far, 0, 0, 0.01F * far}, i});
   }
-  for (int i = 38; i < 20'038; ++i) spheres.push_back({{0, 0, 0, 1e-33F}, i});
+  for (int i = 38; i < 20'038; ++i) {
+    const double radius = 1e-33 * (1 + 1e-6 * i);  // no copies, which would be left out
+    spheres.push_back({{0, 0, 0, static_cast<float>(radius)}, i});
+  }
   for (const int depth : {1, 20, 30}) {
     auto run = spheres;
     const BinaryTree tree = build(run, depth);

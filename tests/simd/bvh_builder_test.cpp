@@ -101,7 +101,8 @@ std::vector<Hostile> hostile_sets() {
                   }),
           changed("points", [&](Sphere& s, std::size_t) { s.radius = 0; }),
           changed("a few places", [&](Sphere& s, std::size_t i) {
-            s = {at(static_cast<double>(i % 5), 0, 0), 0.1F, 0};
+            const double radius = 0.1 + static_cast<double>(i) * 1e-7;  // copies would be left out
+            s = {at(static_cast<double>(i % 5), 0, 0), static_cast<float>(radius), 0};
           })};
 }
 
@@ -114,6 +115,38 @@ TEST(BvhBuilder, HostileSetsFillTheirLeaves) {
     EXPECT_GT(static_cast<double>(walk.in_leaves) / static_cast<double>(walk.leaves), 13);
     EXPECT_LE(walk.depth, 16);
     EXPECT_LT(bvh.nodes.size(), walk.leaves / 2);
+  }
+}
+
+/// The ids of a tree's slots, in order.
+std::vector<std::int32_t> ids_of(const Bvh& bvh) {
+  std::vector<std::int32_t> ids = bvh.slots;
+  std::erase(ids, -1);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// However many there are, they cost what the first costs.
+TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstIsKept) {
+  std::vector<Sphere> spheres = cloud(3000);
+  spheres[5] = {{0.5F, 0.25F, -0.0F}, 0.01F, 0};
+  spheres.resize(100'000, {{0.5F, 0.25F, 0.0F}, 0.01F, 1});
+  const Bvh bvh = build_bvh(spheres);
+  check(bvh, spheres);
+  const std::vector<std::int32_t> ids = ids_of(bvh);
+  EXPECT_LE(ids.size(), 3000U + bvh_leaf_size);
+  EXPECT_EQ(std::count(ids.begin(), ids.end(), 5), 1);
+  EXPECT_LT(bvh.slots.size(), 8000U);
+}
+
+TEST(BvhBuilder, OfNothingButCopiesFewAreKept) {
+  for (const Sphere& sphere : {Sphere{{1, 2, 3}, 0.5F, 0}, Sphere{{2e18F, 0, 0}, 1, 0},
+                               Sphere{{0, 0, 0}, std::numeric_limits<float>::quiet_NaN(), 0}}) {
+    const std::vector<Sphere> spheres(100'000, sphere);
+    const Bvh bvh = build_bvh(spheres);
+    check(bvh, spheres);
+    EXPECT_EQ(ids_of(bvh).front(), 0);
+    EXPECT_LE(ids_of(bvh).size(), 2U);  // one is a giant, one is in the tree
   }
 }
 

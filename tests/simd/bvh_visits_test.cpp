@@ -57,7 +57,8 @@ TEST(BvhVisits, OfManyDomesTheSixteenLargestAreApart) {
     for (int i = 0; i < 40; ++i) {
       const bool is_large = growth > 1 ? i >= 40 - 16 : i < 16;
       if (is_large) largest.push_back(static_cast<std::int32_t>(spheres.size()));
-      spheres.push_back({{0.5F, 0.5F, 0.5F}, static_cast<float>(20 * std::pow(growth, i)), 0});
+      const float x = 0.5F + 0x1p-10F * static_cast<float>(i);  // no copies
+      spheres.push_back({{x, 0.5F, 0.5F}, static_cast<float>(20 * std::pow(growth, i)), 0});
     }
     const Bvh bvh = build_bvh(spheres);
     check(bvh, spheres);
@@ -67,7 +68,10 @@ TEST(BvhVisits, OfManyDomesTheSixteenLargestAreApart) {
 
 TEST(BvhVisits, NothingButGiantsIsNoTree) {
   for (const std::size_t count : {1U, 7U, 16U}) {
-    const Bvh bvh = build_bvh(std::vector<Sphere>(count, Sphere{{1, 2, 3}, 0.5F, 0}));
+    std::vector<Sphere> giants;
+    for (std::size_t i = 0; i < count; ++i)
+      giants.push_back({{1 + 0x1p-10F * static_cast<float>(i), 2, 3}, 0.5F, 0});
+    const Bvh bvh = build_bvh(giants);
     EXPECT_TRUE(bvh.nodes.empty());
     EXPECT_EQ(apart(bvh).size(), count);
   }
