@@ -16,6 +16,7 @@ BEGIN {
   layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
+  layer("^render/include/", "^(core|simd/(abi|build|dispatch)|render/(image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
   # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
   layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)

@@ -1,11 +1,7 @@
 // Boule as a library: a scene in memory, rays in and hits out, and the same scene as a picture.
-#include <cstdio>
+#include <boule/boule.h>
 
-#include "render/image/image_file.h"
-#include "render/renderer/renderer.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
-#include "simd/dispatch/dispatch.h"
+#include <cstdio>
 
 int fail(const boule::Diagnostic& diagnostic) {
   std::fprintf(stderr, "%s\n", boule::format_diagnostic(diagnostic).c_str());

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
 prefix="$1"
 
 build find_package -DCMAKE_PREFIX_PATH="$prefix"
-inherits example.cpp "-isystem $prefix/include/boule"
+inherits example.cpp "-isystem $prefix/include -isystem $prefix/include/boule"
 cd "$work"
 prints 'ray 0: primitive 0 at t = 5
 ray 1: primitive 1 at t = 0.5

@@ -11,7 +11,8 @@ cd "$prefix"
 
 lib="$(dirname "$(find . -name libboule.a)")"
 for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.so" \
-  "$lib"/cmake/boule/boule-config{,-version}.cmake \
+  "$lib"/cmake/boule/boule-config{,-version}.cmake "$lib/pkgconfig/boule.pc" \
+  include/boule/boule.h share/doc/boule/{README.md,LICENSE,examples/example.cpp} \
   include/boule/{core/scene/scene.h,simd/dispatch/dispatch.h,render/renderer/renderer.h}; do
   [[ -f "$file" ]] || { echo "$file is not installed"; exit 1; }
 done
@@ -20,7 +21,7 @@ if find include | grep -E '/(kernel|lanes|cli|shading|threads)(/|$)' ||
   echo "headers that are nobody's business outside"
   exit 1
 fi
-if grep -rnF -e "$source" -e "$build" -e "$prefix" include "$lib/cmake"; then
+if grep -rnF -e "$source" -e "$build" -e "$prefix" include "$lib/cmake" "$lib/pkgconfig" share; then
   echo "paths of the machine it was built on"
   exit 1
 fi
@@ -29,5 +30,9 @@ for word in boule_flags -Wall ffp-contract; do
     echo "flags that are ours alone"
     exit 1
   fi
+done
+# The scenes are all there: with their data, as they are here.
+for file in "$source"/scenes/*.{toml,npy,exr,lens} "$source/scenes/README.md"; do
+  cmp "$file" "share/boule/scenes/${file##*/}" || exit 1
 done
 echo "installed: $(find . -type f | wc -l) files"

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# pkg_config.sh CXX flags=FLAGS PREFIX: the installed example is compiled by what pkg-config says of
+# the installation, wherever that lies, and nothing else; its hits are exact, its picture is there.
+# Exit code 77: no pkg-config here.
+set -euo pipefail
+cxx="$1" flags="${2#flags=}" prefix="$3"
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+command -v pkg-config >/dev/null || { echo "pkg-config is missing"; exit 77; }
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+PKG_CONFIG_PATH="$(dirname "$(find "$prefix" -name boule.pc)")"
+export PKG_CONFIG_PATH
+pkg-config --validate boule
+read -ra options <<<"$flags $(pkg-config --cflags boule)"
+read -ra libraries <<<"$(pkg-config --libs boule)"
+"$cxx" -std=c++20 "${options[@]}" "$prefix/share/doc/boule/examples/example.cpp" -o example \
+  "${libraries[@]}"
+cp "$(pkg-config --variable=image_module boule)" .
+said="$("$here/module_used.sh" "$work/boule_image_io.so" ./example)"
+expected='ray 0: primitive 0 at t = 5
+ray 1: primitive 1 at t = 0.5
+ray 2: primitive -1 at t = inf'
+[[ "$said" == "$expected" ]] || { printf 'said\n%s\nexpected\n%s\n' "$said" "$expected"; exit 1; }
+[[ "$(head -c 8 example.png | od -An -tx1)" == ' 89 50 4e 47 0d 0a 1a 0a' ]] ||
+  { echo "example.png is no picture"; exit 1; }
