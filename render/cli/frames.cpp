@@ -1,5 +1,8 @@
 #include "render/cli/frames.h"
 
+#include <filesystem>
+#include <system_error>
+
 #include "render/cli/run_report.h"
 #include "render/scene_file/frame_name.h"
 
@@ -20,6 +23,25 @@ Status check_frames(const RenderCommand& command) {
         "--stats");
   }
   return std::nullopt;
+}
+
+Status check_single(const RenderCommand& command) {
+  const auto refuse = [](const std::string& name, const char* option) {
+    return wrong_option(quote(name) + " has a place for a frame's number: --frames is missing",
+                        option);
+  };
+  if (has_wide_frame_place(command.output)) return refuse(command.output, "--output");
+  if (has_wide_frame_place(command.stats.file)) return refuse(command.stats.file, "--stats");
+  return check_single_scene(command.scene);
+}
+
+Status check_single_scene(const std::string& scene) {
+  std::error_code ignored;
+  if (!has_wide_frame_place(scene) || std::filesystem::exists(scene, ignored)) return std::nullopt;
+  return wrong_option(quote(scene) +
+                          " is not there, but has a place for a frame's number: "
+                          "--frames is missing",
+                      "SCENE");
 }
 
 RenderCommand command_of_frame(const RenderCommand& command, int frame) {

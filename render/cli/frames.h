@@ -8,6 +8,13 @@ namespace boule::cli {
 /// What is wrong with the names of a series: each frame needs files of its own.
 Status check_frames(const RenderCommand& command);
 
+/// What is wrong with the names of a single picture: a place for a frame's number in that of the
+/// picture or its statistics, or in that of a scene that is not there.
+Status check_single(const RenderCommand& command);
+
+/// The latter.
+Status check_single_scene(const std::string& scene);
+
 /// The command that renders one frame of a series: the number stands in all names.
 RenderCommand command_of_frame(const RenderCommand& command, int frame);
 

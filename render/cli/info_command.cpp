@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "render/cli/commands.h"
+#include "render/cli/frames.h"
 #include "render/cli/messages.h"
 #include "render/cli/scene_info.h"
 #include "render/scene_file/frame_name.h"
@@ -59,7 +60,10 @@ ExitCode tell(const std::string& scene, std::optional<int> frame, bool json) {
 }  // namespace
 
 ExitCode run(const InfoCommand& command) {
-  if (!command.frames) return tell(command.scene, std::nullopt, command.json);
+  if (!command.frames) {
+    const auto bad = check_single_scene(command.scene);
+    return bad ? report(*bad, wrong_usage) : tell(command.scene, std::nullopt, command.json);
+  }
   const FrameRange& range = *command.frames;
   for (int frame = range.first; frame <= range.last; frame += range.step) {
     const ExitCode code = tell(frame_name(command.scene, frame), frame, command.json);

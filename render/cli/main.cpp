@@ -13,7 +13,9 @@ using namespace boule::cli;
 
 struct Run {
   ExitCode operator()(const TextCommand& text) const { return print_as_result(text.text); }
-  ExitCode operator()(const UsageError& error) const { return report_usage(error.text); }
+  ExitCode operator()(const UsageError& error) const {
+    return report_usage(error.text, error.help);
+  }
   template <class Command>
   ExitCode operator()(const Command& command) const {
     return run(command);

@@ -38,9 +38,9 @@ ExitCode report(const Diagnostic& error, ExitCode code) {
   return code;
 }
 
-ExitCode report_usage(const std::string& text) {
+ExitCode report_usage(const std::string& text, const std::string& help) {
   print_note("boule: error: " + text);
-  print_note("boule --help shows what it understands");
+  print_note(help + " shows what it understands");
   return wrong_usage;
 }
 

@@ -26,7 +26,7 @@ std::string counted(std::size_t count, const std::string& noun);
 /// The line of an error on standard error; returns `code`, for the caller to return.
 ExitCode report(const Diagnostic& error, ExitCode code);
 
-/// "boule: error: TEXT" and where help is to be found; returns wrong_usage.
-ExitCode report_usage(const std::string& text);
+/// "boule: error: TEXT" and the command that helps; returns wrong_usage.
+ExitCode report_usage(const std::string& text, const std::string& help);
 
 }  // namespace boule::cli

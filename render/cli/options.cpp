@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "core/scene/scene.h"
 #include "render/cli/option_values.h"
+#include "render/cli/usage.h"
 
 namespace boule::cli {
 namespace {
@@ -69,7 +71,7 @@ void add_choice(CLI::App& app, const std::string& name, Target& target,
 }
 
 void add_scene(CLI::App& app, std::string& scene) {
-  app.add_option("scene", scene, "Scene file, .toml or .nff")->required()->type_name("FILE");
+  app.add_option("SCENE", scene, "Scene: .toml or .nff")->required()->type_name("");
 }
 
 void add_output(CLI::App& app, std::string& output, const std::string& type,
@@ -82,10 +84,12 @@ void add_frames(CLI::App& app, std::optional<FrameRange>& frames, const std::str
              "A-B with 0 <= A <= B, or A-B:N for every Nth of them", "A-B[:N]", help);
 }
 
-/// What shows in the picture, and how it is stored.
+/// The options that are added from now on stand under this heading in the help.
+void start_group(CLI::App& app, const char* heading) { app.option_defaults()->group(heading); }
+
+/// What shows in the picture.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
-  add_scene(app, command.scene);
-  add_output(app, command.output, "IMAGE", "Picture to write; its extension names the format");
+  start_group(app, "Picture");
   add_parsed(app, "--size", command.size, parse_size,
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
@@ -95,79 +99,60 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
             std::numeric_limits<std::uint64_t>::max(), "Seed of the random numbers (0)");
-  add_choice(app, "--method", command.method,
-             std::array{Choice{"whitted", Method::whitted}, Choice{"path", Method::path}},
-             "How light is followed");
-  add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
-  add_frames(app, command.frames,
-             "Render a series: #### in the names of scene, data and output is the frame's number");
-  app.add_flag("--skip-existing", command.skip_existing,
-               "Leave a picture alone that is there already, finished, readable, of this size");
   add_parsed(app, "--aov", command.views, parse_views,
              "some of depth,normal,position,id,albedo, each once", "NAMES",
              "More channels in an EXR picture, each pixel's centre, unfiltered: any of "
              "depth,normal,position,id,albedo");
-}
-
-void add_file_options(CLI::App& app, RenderCommand& command) {
-  const auto parse_stops = [](const std::string& text) {
-    return parse_number(text, -100.0F, 100.0F);
-  };
-  add_parsed(app, "--exposure", command.exposure_stops, parse_stops, "a number from -100 to 100",
-             "STOPS", "Brighten 8-bit pictures by 2^STOPS (0)");
-  add_choice(app, "--compression", command.compression,
-             std::array{Choice{"none", Compression::none}, Choice{"rle", Compression::rle},
-                        Choice{"zip", Compression::zip}},
-             "Packing of EXR pictures (zip)");
   add_choice(app, "--polygons", command.polygons,
              std::array{Choice{"plane", PolygonPolicy::plane}, Choice{"skip", PolygonPolicy::skip},
                         Choice{"error", PolygonPolicy::error}},
              "What an NFF polygon becomes (plane)");
 }
 
-void add_block_options(CLI::App& app, RenderCommand& command) {
-  add_whole(app, "--tile", command.tile, 1, max_tile,
-            "Side of a tile in pixels (16 to 256, as fits)");
-  add_choice(app, "--order", command.order,
-             std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
-                        Choice{"progressive", PixelOrder::progressive},
-                        Choice{"frameless", PixelOrder::frameless}},
-             "Order of the pixels; never shows in a finished picture (tiles; with --partial: "
-             "progressive)");
+void add_light_options(CLI::App& app, RenderCommand& command) {
+  start_group(app, "Camera and light");
+  add_choice(app, "--method", command.method,
+             std::array{Choice{"whitted", Method::whitted}, Choice{"path", Method::path}},
+             "How light is followed");
+  add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
+  const auto parse_stops = [](const std::string& text) {
+    return parse_number(text, -100.0F, 100.0F);
+  };
+  add_parsed(app, "--exposure", command.exposure_stops, parse_stops, "a number from -100 to 100",
+             "STOPS", "Brighten 8-bit pictures by 2^STOPS (0)");
+}
+
+/// In which pieces the work is done, and how much of it.
+void add_work_options(CLI::App& app, RenderCommand& command) {
+  start_group(app, "Work");
+  add_frames(app, command.frames,
+             "Render a series: #### in the names of scene, data and output is the frame's number");
+  app.add_flag("--skip-existing", command.skip_existing,
+               "Leave a picture alone that is there already, finished, readable, of this size");
   add_parsed(
       app, "--time-limit", command.time_limit, parse_duration,
       "a time above 0 in ms, s, m or h, such as 90s", "TIME",
       "Stop rendering after so long, such as 90s, 500ms, 5m; loading and writing not counted");
   app.add_flag("--partial", command.partial,
                "Stopped by --time-limit or the first signal: write the picture as far as it is");
+  add_choice(app, "--order", command.order,
+             std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
+                        Choice{"progressive", PixelOrder::progressive},
+                        Choice{"frameless", PixelOrder::frameless}},
+             "Order of the pixels; never shows in a finished picture (tiles; with --partial: "
+             "progressive)");
+  add_whole(app, "--tile", command.tile, 1, max_tile,
+            "Side of a tile in pixels (16 to 256, as fits)");
 }
 
-/// What is traced, and where the hits go.
-void add_trace_options(CLI::App& app, TraceCommand& command) {
-  add_scene(app, command.scene);
-  app.add_option("--rays", command.rays,
-                 "Rays, .npy: float32, N x 8: origin x y z, tmin, direction x y z, tmax")
-      ->required()
-      ->type_name("RAYS.npy");
-  add_output(
-      app, command.output, "HITS.npy",
-      "Hits to write, .npy: N records of t (float64), id (int32), normal (3 float32); a miss "
-      "is inf, -1, 0");
-  app.add_flag("--any-hit", command.any_hit,
-               "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
-}
-
-void add_machine_options(CLI::App& app, RunOptions& command) {
-  app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
-      ->type_name("NAME");
-  add_choice(app, "--solver", command.solver,
-             std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
-                        Choice{"reference", Solver::reference}},
-             "How hits are found (robust)");
-  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+void add_compression(CLI::App& app, Compression& compression) {
+  add_choice(app, "--compression", compression,
+             std::array{Choice{"none", Compression::none}, Choice{"rle", Compression::rle},
+                        Choice{"zip", Compression::zip}},
+             "Packing of EXR pictures (zip)");
 }
 
 /// What is told while and after the work.
@@ -188,15 +173,71 @@ void add_report_options(CLI::App& app, RunOptions& command) {
   app.add_flag_function("-v,--verbose", set(Verbosity::verbose), "More notes")->excludes(quiet);
 }
 
-/// What is wrong with a command line that CLI11 refused. Unknown words come first: where there is
-/// no command CLI11 would only say that one is required.
-UsageError explain(const CLI::App& app, const CLI::ParseError& error) {
-  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  const auto unknown = app.remaining(true);
-  if (!unknown.empty() && (extra || app.get_subcommands().empty())) {
-    return {"argument not expected: " + quote(unknown.front())};
+void add_machine_options(CLI::App& app, RunOptions& command) {
+  start_group(app, "Machine");
+  app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
+      ->type_name("NAME");
+  add_choice(app, "--solver", command.solver,
+             std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
+                        Choice{"reference", Solver::reference}},
+             "How hits are found (robust)");
+  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+}
+
+void add_render(CLI::App& app, RenderCommand& command) {
+  add_scene(app, command.scene);
+  add_picture_options(app, command);
+  add_light_options(app, command);
+  add_work_options(app, command);
+  start_group(app, "Output");
+  add_output(app, command.output, "IMAGE", "Picture to write; its extension names the format");
+  add_compression(app, command.compression);
+  add_report_options(app, command);
+  add_machine_options(app, command);
+}
+
+void add_trace(CLI::App& app, TraceCommand& command) {
+  add_scene(app, command.scene);
+  start_group(app, "Rays");
+  app.add_option("--rays", command.rays,
+                 "Rays, .npy: float32, N x 8: origin x y z, tmin, direction x y z, tmax")
+      ->required()
+      ->type_name("RAYS.npy");
+  app.add_flag("--any-hit", command.any_hit,
+               "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
+  start_group(app, "Output");
+  add_output(
+      app, command.output, "HITS.npy",
+      "Hits to write, .npy: N records of t (float64), id (int32), normal (3 float32); a miss "
+      "is inf, -1, 0");
+  add_report_options(app, command);
+  add_machine_options(app, command);
+}
+
+void add_info(CLI::App& app, InfoCommand& command) {
+  add_scene(app, command.scene);
+  add_frames(app, command.frames,
+             "Tell of these frames: #### in the names of scene and data is the frame's number");
+  app.add_flag("--json", command.json, "As JSON, for programs");
+}
+
+/// A help text; CLI11 leaves two blank lines between groups.
+TextCommand help_text(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+  return {std::move(text)};
+}
+
+/// The help of the whole program, or of one command.
+Command help_on(const CLI::App& app, const std::string& name) {
+  // Not app.help(), which tells of the command that was chosen: help itself.
+  const auto all = [&] {
+    return app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
+  };
+  if (name.empty()) return help_text(all());
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == name) return help_text(command->help(app.get_name()));
   }
-  return {printable(error.what(), 400)};  // CLI11 repeats what was typed
+  return unknown_command(app, name);
 }
 
 }  // namespace
@@ -206,36 +247,39 @@ Command parse_command_line(int argc, const char* const* argv) {
   TraceCommand trace;
   InfoCommand info;
   IsaCommand isa;
+  std::string help_topic;
+  const std::string version = "boule " BOULE_VERSION;
   CLI::App app(description, "boule");
-  app.set_version_flag("--version", "boule " BOULE_VERSION);
+  app.set_version_flag("--version", version);
   app.require_subcommand(1);
-  CLI::App* const render_app = app.add_subcommand("render", "Render a scene to a picture");
-  add_picture_options(*render_app, render);
-  add_file_options(*render_app, render);
-  add_block_options(*render_app, render);
-  add_machine_options(*render_app, render);
-  add_report_options(*render_app, render);
-  CLI::App* const trace_app = app.add_subcommand("trace", "Trace the rays of a file to hits");
-  add_trace_options(*trace_app, trace);
-  add_machine_options(*trace_app, trace);
-  add_report_options(*trace_app, trace);
-  CLI::App* const info_app = app.add_subcommand("info", "Tell what a scene holds");
-  add_scene(*info_app, info.scene);
-  add_frames(*info_app, info.frames,
-             "Tell of these frames: #### in the names of scene and data is the frame's number");
-  info_app->add_flag("--json", info.json, "As JSON, for programs");
-  CLI::App* const isa_app = app.add_subcommand("isa", "List the instruction sets");
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  const auto add_command = [&app](const char* name, const char* what) {
+    CLI::App* const command = app.add_subcommand(name, what);
+    command->group("Commands");
+    return command;
+  };
+  CLI::App* const render_app = add_command("render", "Render a scene to a picture");
+  add_render(*render_app, render);
+  CLI::App* const trace_app = add_command("trace", "Trace the rays of a file to hits");
+  add_trace(*trace_app, trace);
+  CLI::App* const info_app = add_command("info", "Tell what a scene holds");
+  add_info(*info_app, info);
+  CLI::App* const isa_app = add_command("isa", "List the instruction sets");
   isa_app->add_flag("--json", isa.json, "As JSON, for programs");
+  CLI::App* const help_app = add_command("help", "Tell the options of a command");
+  help_app->add_option("COMMAND", help_topic, "One of these commands")->type_name("");
+  CLI::App* const version_app = add_command("version", "Tell the version");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = app.get_subcommands();
-    return TextCommand{chosen.empty() ? app.help() : chosen.front()->help()};
-  } catch (const CLI::CallForVersion& version) {
-    return TextCommand{std::string(version.what()) + "\n"};
+    return help_text(app.help());  // of the command that was chosen, if any
+  } catch (const CLI::CallForVersion&) {
+    return TextCommand{version + "\n"};
   } catch (const CLI::ParseError& error) {
-    return explain(app, error);
+    return explain_usage(app, error);
   }
+  if (help_app->parsed()) return help_on(app, help_topic);
+  if (version_app->parsed()) return TextCommand{version + "\n"};
   if (render_app->parsed()) return render;
   if (trace_app->parsed()) return trace;
   if (info_app->parsed()) return info;

@@ -99,9 +99,10 @@ struct TextCommand {
   std::string text;
 };
 
-/// A command line that is none, and why.
+/// A command line that is none, why, and the command that helps.
 struct UsageError {
   std::string text;
+  std::string help = "boule --help";
 };
 
 using Command =

@@ -279,7 +279,10 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
 }  // namespace
 
 ExitCode run(const RenderCommand& command) {
-  if (!command.frames) return Rendering(command).run();
+  if (!command.frames) {
+    const auto bad = check_single(command);
+    return bad ? report(*bad, wrong_usage) : Rendering(command).run();
+  }
   if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
   for (int frame = command.frames->first; frame <= command.frames->last;
        frame += command.frames->step) {

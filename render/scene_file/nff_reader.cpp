@@ -58,6 +58,7 @@ class NffReader {
   PolygonPolicy policy_;
   Scene scene_;
   NffView view_;
+  bool is_empty_ = true;
   bool has_background_ = false;
   std::vector<std::size_t> uncolored_lights_;
   std::vector<Vec3f> vertices_;  // of one polygon; kept for its memory
@@ -78,6 +79,7 @@ Result<LoadedScene> NffReader::read() {
 }
 
 void NffReader::read_line() {
+  is_empty_ = false;
   const std::string_view name = line_.take_word();
   if (view_.is_open()) {
     if (view_.read_member(name, line_, error_)) return;
@@ -207,6 +209,8 @@ std::uint32_t NffReader::material() {
 
 void NffReader::finish() {
   if (view_.is_open()) view_.end(scene_, error_);
+  if (is_empty_)
+    error_.report(line_.end_place(), "v", "the scene is empty: the file has no v block");
   if (!view_.is_there()) error_.report(line_.end_place(), "v", "the file has no v block");
   // Haines: lights without a colour share what one would give.
   const double share = 1 / std::sqrt(static_cast<double>(scene_.lights.size()));

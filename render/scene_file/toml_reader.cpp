@@ -44,7 +44,8 @@ Result<LoadedScene> TomlReader::read() {
   auto lights = root_.tables("light");
   auto objects = object_tables(root_);
   auto groups = root_.named_tables("group");
-  root_.finish({"schema"});
+  root_.finish();
+  if (!root_.has("schema")) root_.report("schema", "missing key 'schema': write schema = 1");
 
   if (image) scene_.image = read_image(*image);
   if (render) scene_.render = read_render(*render);
@@ -63,6 +64,7 @@ Result<LoadedScene> TomlReader::read() {
 }
 
 void TomlReader::check_schema() {
+  if (root_.is_empty()) root_.report("schema", "the scene is empty: begin with schema = 1");
   int schema = 1;
   root_.read("schema", schema);
   if (schema != 1) root_.report("schema", "must be 1, is " + std::to_string(schema));

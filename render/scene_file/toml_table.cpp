@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "render/scene_file/float32.h"
@@ -32,15 +33,26 @@ TomlTable::TomlTable(const TomlMembers& members, TextPlace place, std::string pa
                      FirstError& error)
     : members_(&members), place_(place), path_(std::move(path)), error_(&error) {}
 
+std::string TomlTable::beside_scene(const std::string& name) const {
+  return (std::filesystem::path(error_->file()).parent_path() / name).string();
+}
+
 std::string TomlTable::file_path(const std::string& name) {
-  std::string path = (std::filesystem::path(error_->file()).parent_path() / name).string();
+  std::string path = beside_scene(name);
   error_->add_data_file(path);
   return path;
 }
 
 void TomlTable::read_file_name(std::string_view key, std::string& name) {
   read(key, name);
-  if (const auto frame = error_->frame()) name = frame_name(name, *frame);
+  if (const auto frame = error_->frame()) {
+    name = frame_name(name, *frame);
+    return;
+  }
+  std::error_code ignored;
+  if (!has_wide_frame_place(name) || std::filesystem::exists(beside_scene(name), ignored)) return;
+  report(key,
+         quote(name) + " is not there, but has a place for a frame's number: --frames is missing");
 }
 
 bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }

@@ -22,6 +22,9 @@ class TomlTable {
   /// `members` and `error` must outlive it; `path` is the table's own ("camera", "sphere[3]").
   TomlTable(const TomlMembers& members, TextPlace place, std::string path, FirstError& error);
 
+  /// True if the table has no keys at all.
+  [[nodiscard]] bool is_empty() const { return members_->empty(); }
+
   /// True if the table has `key`, which becomes known.
   bool has(std::string_view key);
 
@@ -78,6 +81,7 @@ class TomlTable {
 
  private:
   const TomlValue* find(std::string_view key);
+  [[nodiscard]] std::string beside_scene(const std::string& name) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
   void report_type(const TomlValue& value, std::string_view key, const std::string& expected);
   const TomlArray* find_array(std::string_view key, std::size_t count, const char* of_what);

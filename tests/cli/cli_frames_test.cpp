@@ -171,6 +171,26 @@ TEST_F(Frames, EveryFourth) {
   EXPECT_EQ(info.exit_code, 0) << info.err;
 }
 
+TEST_F(Frames, PlacesForANumberAskForFrames) {
+  const std::string scene = moving_scene();
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"render", scene, "-o", path("o.####.ppm")},
+           {"render", scene, "-o", path("o.ppm"), "--stats=json:" + path("s##.json")},
+           {"render", path("a.####.toml"), "-o", path("o.ppm")},
+           {"info", path("a.####.toml")}}) {
+    EXPECT_THAT(refused_run(arguments, 2).err, HasSubstr(": --frames is missing (key '"));
+  }
+  const std::string dust = write("dust.toml", "schema = 1\n[[spheres]]\nfile = \"d.##.npy\"\n");
+  const ProgramRun run = refused_run({"render", dust, "-o", path("o.ppm")}, 3);
+  EXPECT_THAT(run.err, testing::StartsWith(dust + ":3:8: error: 'd.##.npy' is not there, "));
+  EXPECT_THAT(run.err, HasSubstr(": --frames is missing (key 'spheres[0].file')"));
+  // What is there is meant as it stands, and so is a single mark in a name.
+  std::filesystem::rename(scene, path("scene.##.toml"));
+  const ProgramRun hash = boule_run({"render", path("scene.##.toml"), "-o", path("c#.ppm"), "-q"});
+  EXPECT_EQ(hash.exit_code, 0) << hash.err;
+  EXPECT_THAT(files(), ElementsAre("c#.ppm", "dust.toml", "scene.##.toml"));
+}
+
 TEST_F(Frames, WrongRangesAndNamesAreRefused) {
   for (const char* range : {"", "a", "4-2", "-1-2", "1-", "1-2-3", "1.5", "0-1000000000", "1-4:",
                             "1-4:0", "1-4:-1", "1-4:x", "1-4:2:2", "1:2", ":2", "1-4:1000000000"}) {

@@ -17,7 +17,8 @@ std::string scene(const std::string& text) {
 }
 
 const Refusal views[] = {
-    {"EmptyFile", "", 1, 1, "v", "no v block"},
+    {"EmptyFile", "", 1, 1, "v", "the scene is empty: the file has no v block"},
+    {"OnlyComments", "# a\n\n", 2, 1, "v", "the scene is empty: the file has no v block"},
     {"NoView", "s 0 0 0 1\n", 1, 10, "v", "no v block"},
     {"Second", scene("v\n"), 7, 1, "v", "a second v block"},
     {"NoFrom", "v\nat 0 0 0\nup 0 1 0\nangle 45\nresolution 8 8\n", 1, 1, "v.from", "'from'"},

@@ -21,8 +21,9 @@ std::string material(const std::string& type, const std::string& text) {
 }
 
 const Refusal whole[] = {
-    {"EmptyFile", "", 1, 1, "schema", "missing key 'schema'"},
-    {"NoSchema", "[image]\n", 1, 1, "schema", "missing key 'schema'"},
+    {"EmptyFile", "", 1, 1, "schema", "the scene is empty: begin with schema = 1"},
+    {"OnlyComments", "# a\n\n# b\n", 1, 1, "schema", "the scene is empty: begin with schema = 1"},
+    {"NoSchema", "[image]\n", 1, 1, "schema", "missing key 'schema': write schema = 1"},
     {"OtherSchema", "schema = 2\n", 1, 10, "schema", "must be 1, is 2"},
     {"SchemaType", "schema = 1.0\n", 1, 10, "schema", "expected an integer, got a number"},
     {"SchemaSlip", "shcema = 1\n", 1, 1, "shcema", "did you mean 'schema'?"},
