@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "render/cli/commands.h"
 #include "render/cli/frames.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/output_check.h"
 #include "render/cli/picture_header.h"
 #include "render/cli/run_report.h"
 #include "render/cli/source_date.h"
@@ -47,6 +50,15 @@ Status check(const RenderCommand& command) {
                         "--skip-existing");
   }
   return check_run(command, "picture", {command.scene});
+}
+
+/// What can be told wrong with the files to be written. A picture that is there may be left alone:
+/// then it need not be writable.
+Status check_outputs(const RenderCommand& command) {
+  if (auto bad = check_stats_target(command.stats)) return bad;
+  std::error_code ignored;
+  const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
+  return may_stay ? std::nullopt : check_output(command.output);
 }
 
 RenderOptions combine(const Scene& scene, const RenderCommand& command) {
@@ -128,6 +140,7 @@ ExitCode Rendering::run() {
   auto date = source_date();
   if (!date) return refuse(date.error(), command_, wrong_usage);
   date_ = std::move(date).value();
+  if (auto bad = check_outputs(command_)) return refuse(*bad, command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   if (prepared != done || !renderer) return prepared;
@@ -155,6 +168,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
     report_.note("boule: " + command_.output + ": is there already, skipped");
     return done;
   }
+  if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
+    return refuse(*bad, command_, failed);
   options.progress = [this](const Progress& progress) { report_.progress(progress); };
   auto created = Renderer::create(std::move(scene), options);
   if (!created) return refuse_scene(created.error(), command_);

@@ -73,10 +73,11 @@ std::string as_json(const Stats& s) {
 }
 
 Status write_file(const std::string& text, const std::string& path) {
-  auto file = OutputFile::create(path);
+  const auto stop = [] { return WriteGuard::interrupted(); };
+  auto file = OutputFile::create(path, stop);
   if (!file) return file.error();
   if (auto bad = file.value().write(text.data(), text.size())) return bad;
-  return file.value().commit([] { return WriteGuard::interrupted(); });
+  return file.value().commit(stop);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/output_check.h"
 #include "render/cli/run_report.h"
 #include "render/frame/stopwatch.h"
 #include "render/renderer/tracer.h"
@@ -64,6 +65,8 @@ class Tracing {
 
 ExitCode Tracing::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
+  if (auto bad = check_stats_target(command_.stats)) return report(*bad, failed);
+  if (auto bad = check_output(command_.output)) return report(*bad, failed);
   report_.start_stage("reading");
   auto loaded = load_scene(command_.scene);
   if (!loaded) return report(loaded.error(), invalid_input);
