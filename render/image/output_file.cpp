@@ -218,13 +218,14 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       synced_(std::exchange(other.synced_, false)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
-  std::swap(name_, other.name_);
-  std::swap(real_target_, other.real_target_);
-  std::swap(path_, other.path_);
-  std::swap(temporary_, other.temporary_);
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(stream_, other.stream_);
-  std::swap(synced_, other.synced_);
+  OutputFile taken(std::move(other));  // takes along what this one had
+  std::swap(name_, taken.name_);
+  std::swap(real_target_, taken.real_target_);
+  std::swap(path_, taken.path_);
+  std::swap(temporary_, taken.temporary_);
+  std::swap(descriptor_, taken.descriptor_);
+  std::swap(stream_, taken.stream_);
+  std::swap(synced_, taken.synced_);
   return *this;
 }
 
@@ -241,13 +242,14 @@ void OutputFile::discard() {
 
 Status OutputFile::write(const void* bytes, std::size_t count) {
   synced_ = false;
-  const int code = write_all(descriptor_, static_cast<const char*>(bytes), count);
+  const int code =
+      descriptor_ < 0 ? EBADF : write_all(descriptor_, static_cast<const char*>(bytes), count);
   if (code != 0) return cannot_write(name_, system_reason(code));
   return {};
 }
 
 Status OutputFile::sync() {
-  if (stream_ >= 0 || synced_) return {};
+  if (stream_ >= 0 || (synced_ && descriptor_ >= 0)) return {};
   if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
   synced_ = true;
   return {};
@@ -285,6 +287,8 @@ Status OutputFile::commit_stream(const std::function<bool()>& stop) {
     if (code != 0) return cannot_write(name_, system_reason(code));
     position += count;
   }
+  close(std::exchange(descriptor_, -1));  // of the memory it was gathered in
+  path_.clear();
   if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, system_reason(errno));
   return {};
 }

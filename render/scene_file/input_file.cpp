@@ -73,9 +73,10 @@ InputFile::InputFile(InputFile&& other) noexcept
       size_(other.size_) {}
 
 InputFile& InputFile::operator=(InputFile&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(size_, other.size_);
+  InputFile taken(std::move(other));  // takes along what this one had
+  std::swap(path_, taken.path_);
+  std::swap(descriptor_, taken.descriptor_);
+  std::swap(size_, taken.size_);
   return *this;
 }
 
@@ -99,6 +100,7 @@ Result<InputFile> InputFile::open(const std::string& path) {
 }
 
 Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
+  if (descriptor_ < 0) return cannot_read(path_, "it was moved away");
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got = ::read(descriptor_, static_cast<char*>(buffer) + done, count - done);

@@ -59,6 +59,7 @@ Result<RayFile> RayFile::open(const std::string& path) {
 
 Status RayFile::read(std::span<Ray> rays) {
   const FloatEnvironment environment;
+  if (const auto here = file_.read(nullptr, 0); !here) return here.error();  // or moved away
   rows_.resize(rows_per_read * row_bytes);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {
     const std::size_t count = std::min(rows_per_read, rays.size() - first);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/scene/camera.h"
@@ -12,12 +13,21 @@ namespace boule {
 struct LensStack {
   std::vector<LensElementView> elements;
   std::vector<PupilBoxView> pupil;
-  LensView view{};  ///< of the two above, wherever this is moved to
+  LensView view{};  ///< of the two above, wherever this is moved to; empty of one moved away
 
   LensStack() = default;
   explicit LensStack(const LensOptics& optics);
-  LensStack(LensStack&&) noexcept = default;
-  LensStack& operator=(LensStack&&) noexcept = default;
+  LensStack(LensStack&& other) noexcept
+      : elements(std::move(other.elements)),
+        pupil(std::move(other.pupil)),
+        view(std::exchange(other.view, {})) {}
+  LensStack& operator=(LensStack&& other) noexcept {
+    LensStack taken(std::move(other));
+    elements.swap(taken.elements);
+    pupil.swap(taken.pupil);
+    std::swap(view, taken.view);
+    return *this;
+  }
 };
 
 /// The lens of a valid camera for such an image; empty if it is no LensCamera. Throws

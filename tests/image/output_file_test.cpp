@@ -165,6 +165,49 @@ TEST_F(OutputFileTest, WhatIsDoneOrMovedAwayRefuses) {
   EXPECT_EQ(test::read_bytes(at("a.npy")), "");
 }
 
+/// The other way round from above: it must not have what the other one had.
+TEST_F(OutputFileTest, WhatIsAssignedToAnotherRefusesAndDropsTheOthers) {
+  Result<OutputFile> one = OutputFile::create(at("one.npy"));
+  Result<OutputFile> two = OutputFile::create(at("two.npy"));
+  ASSERT_TRUE(one.ok() && two.ok());
+  const std::string dropped = one.value().path();
+  EXPECT_FALSE(one.value().write("1", 1));
+  EXPECT_FALSE(two.value().write("2", 1));
+  one.value() = std::move(two.value());
+  EXPECT_FALSE(fs::exists(dropped));
+  OutputFile& gone = two.value();  // NOLINT: that is the test
+  EXPECT_EQ(gone.descriptor(), -1);
+  EXPECT_EQ(gone.path(), "");
+  EXPECT_TRUE(gone.write("3", 1));
+  EXPECT_TRUE(gone.write("", 0));
+  EXPECT_TRUE(gone.sync());
+  EXPECT_TRUE(gone.commit());
+  EXPECT_EQ(names(), Names{});
+  EXPECT_FALSE(one.value().commit());
+  EXPECT_EQ(names(), Names{"two.npy"});
+  EXPECT_EQ(test::read_bytes(at("two.npy")), "2");
+}
+
+TEST_F(OutputFileTest, AssignedToItselfItStays) {
+  Result<OutputFile> file = OutputFile::create(at("a.npy"));
+  ASSERT_TRUE(file.ok());
+  OutputFile& same = file.value();
+  same = std::move(file.value());
+  EXPECT_FALSE(same.write("1", 1));
+  EXPECT_FALSE(same.commit());
+  EXPECT_EQ(test::read_bytes(at("a.npy")), "1");
+}
+
+TEST_F(OutputFileTest, AStreamThatIsDoneRefuses) {
+  Result<OutputFile> file = OutputFile::create("/dev/null");
+  ASSERT_TRUE(file.ok());
+  EXPECT_FALSE(file.value().write("1", 1));
+  EXPECT_FALSE(file.value().commit());
+  EXPECT_TRUE(file.value().write("2", 1));
+  EXPECT_TRUE(file.value().sync());
+  EXPECT_TRUE(file.value().commit());
+}
+
 TEST_F(OutputFileTest, FullDiskKeepsTheOldFile) {
   test::write_bytes(at("a"), "old");
   {

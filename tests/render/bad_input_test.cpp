@@ -180,6 +180,10 @@ TEST(BadInput, ARendererThatWasMovedAwayRefuses) {
   EXPECT_EQ(first.render_live(film)->message, "the renderer was moved away");
   first = std::move(second);
   EXPECT_TRUE(first.render());
+  Renderer third = Renderer::create(scene, options).value();
+  third = std::move(first);
+  EXPECT_EQ(first.render().error().message, "the renderer was moved away");  // NOLINT
+  EXPECT_TRUE(third.render());
 }
 
 TEST(BadInput, ATracerThatWasMovedAwayRefuses) {
@@ -193,6 +197,10 @@ TEST(BadInput, ATracerThatWasMovedAwayRefuses) {
   EXPECT_EQ(first.statistics().rays, 0U);
   first = std::move(second);
   EXPECT_FALSE(first.closest(rays, hits));
+  Tracer third = Tracer::create(mixed_scene(8, 8)).value();
+  third = std::move(first);
+  EXPECT_EQ(first.closest(rays, hits)->message, "the tracer was moved away");  // NOLINT
+  EXPECT_FALSE(third.any(rays, met));
 }
 
 TEST(BadInput, AFilmThatWasMovedAwayIsEmptyAndForeign) {

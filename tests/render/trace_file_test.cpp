@@ -109,6 +109,31 @@ TEST_F(TraceFiles, MoreRaysThanThereAreAreAnError) {
   EXPECT_TRUE(file.value().read(rays));
 }
 
+/// Not even what the other one had.
+TEST_F(TraceFiles, WhatIsAssignedToAnotherRefuses) {
+  const std::vector<Ray> cloud = ray_cloud(10);
+  auto one = RayFile::open(write("one.npy", ray_file(cloud)));
+  auto two = RayFile::open(write("two.npy", ray_file(cloud)));
+  ASSERT_TRUE(one && two);
+  std::vector<Ray> rays(3);
+  one.value() = std::move(two.value());
+  EXPECT_TRUE(two.value().read({}));  // NOLINT: that is the test, here and below
+  EXPECT_TRUE(two.value().read(rays));
+  EXPECT_FALSE(one.value().read(rays));
+
+  auto first = HitFile::create(path("first.npy"), HitKind::any, 0);
+  auto second = HitFile::create(path("second.npy"), HitKind::any, 0);
+  ASSERT_TRUE(first && second);
+  const auto before = file_count();
+  first.value() = std::move(second.value());
+  EXPECT_TRUE(second.value().append(std::vector<std::uint8_t>()));
+  EXPECT_TRUE(second.value().commit());
+  EXPECT_EQ(file_count(), before);
+  EXPECT_FALSE(first.value().commit());
+  EXPECT_TRUE(std::filesystem::exists(path("second.npy")));
+  EXPECT_FALSE(std::filesystem::exists(path("first.npy")));
+}
+
 TEST_F(TraceFiles, HitsThatAreNotThoseOfTheFileAreAnError) {
   const std::vector<TracedHit> hits(5);
   const std::vector<std::uint8_t> met(5);

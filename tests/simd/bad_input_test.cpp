@@ -120,5 +120,18 @@ TEST(BadInput, ALensMovesWithItsNumbers) {
   EXPECT_EQ(second.view.elements[0].radius, radius);
 }
 
+/// A view that stayed behind would be of memory that another owns, and gives back.
+TEST(BadInput, ALensThatWasMovedAwayIsEmpty) {
+  const LensCamera camera{
+      {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}}, {{50, 5, 1.5f, 20}, {-50, 0, 1, 20}}, 36, 0.01f, {}};
+  LensStack first = build_lens(camera, 64, 48), third = build_lens(camera, 32, 24);
+  LensStack second = std::move(first);
+  EXPECT_EQ(first.view.elements, nullptr);  // NOLINT: that is the test, here and below
+  third = std::move(second);
+  EXPECT_EQ(second.view.elements, nullptr);
+  EXPECT_TRUE(second.elements.empty() && second.pupil.empty());
+  EXPECT_EQ(third.view.elements, third.elements.data());
+}
+
 }  // namespace
 }  // namespace boule::test
