@@ -23,7 +23,9 @@ using MetadataMatrix = std::array<float, 16>;
 /// What one entry of a file's header holds.
 using MetadataValue = std::variant<std::string, std::int32_t, float, MetadataMatrix>;
 
-/// Names and values for the file's header, as far as the format has room for them (EXR: all).
+/// Names and values for the file's header, as far as the format has room for them (EXR: all). A
+/// text ends at its first NUL byte; an empty one means that there is no such entry, no standard one
+/// either. Names have 255 bytes at most, none of them control bytes.
 using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 /// One more value per pixel, beside R, G and B: "Z", "N.X", "id", ... Row 0 on top, as in Image.
@@ -59,7 +61,8 @@ struct ImageFileOptions {
 /// then renamed: a failure leaves an old file untouched and nothing behind. Equal arguments make
 /// equal files, byte for byte. The Diagnostic says "cannot write 'NAME': REASON", the reason being
 /// the system's where there is one: so it does for a picture without pixels or too large for the
-/// format, a crop outside its frame, channels without a name of their own or of another size, an
+/// format, a crop outside its frame, texts longer than the format has room for (JPEG: 60,000 bytes
+/// in all, others 16 MiB), channels without a name of their own or of another size, an
 /// exception in options.stop or options.temporary. Any numbers are colours: NaN and what is below 0
 /// is 0 in LDR formats; EXR keeps them.
 ///

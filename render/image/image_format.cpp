@@ -10,14 +10,25 @@ constexpr int any = std::numeric_limits<int>::max();
 
 // hdr stores shared-exponent colours (RGBE), the others what ImageFormat says. TIFF is 8 bit as
 // viewers and office programs expect it; who wants floats takes EXR.
+/// Of all texts: a JPEG file keeps them in a segment, less than 64 KiB. Others are as long as they
+/// like; more than this is no remark.
+constexpr int segment = 60'000, ample = 1 << 24;
+
 constexpr ImageFormat formats[] = {
-    {"exr", "openexr", any, true, true, true},  {"hdr", "hdr", any, true, false, false},
-    {"rgbe", "hdr", any, true, false, false},   {"png", "png", any, false, false, true},
-    {"jpg", "jpeg", 65500, false, false, true}, {"jpeg", "jpeg", 65500, false, false, true},
-    {"jpe", "jpeg", 65500, false, false, true}, {"tif", "tiff", any, false, false, true},
-    {"tiff", "tiff", any, false, false, true},  {"webp", "webp", 16383, false, false, false},
-    {"ppm", "pnm", any, false, false, false},   {"pnm", "pnm", any, false, false, false},
-    {"bmp", "bmp", any, false, false, false},   {"tga", "targa", 65535, false, false, true},
+    {"exr", "openexr", any, ample, true, true, true},
+    {"hdr", "hdr", any, ample, true, false, false},
+    {"rgbe", "hdr", any, ample, true, false, false},
+    {"png", "png", any, ample, false, false, true},
+    {"jpg", "jpeg", 65500, segment, false, false, true},
+    {"jpeg", "jpeg", 65500, segment, false, false, true},
+    {"jpe", "jpeg", 65500, segment, false, false, true},
+    {"tif", "tiff", any, ample, false, false, true},
+    {"tiff", "tiff", any, ample, false, false, true},
+    {"webp", "webp", 16383, ample, false, false, false},
+    {"ppm", "pnm", any, ample, false, false, false},
+    {"pnm", "pnm", any, ample, false, false, false},
+    {"bmp", "bmp", any, ample, false, false, false},
+    {"tga", "targa", 65535, ample, false, false, true},
 };
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }

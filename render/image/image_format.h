@@ -9,6 +9,7 @@ struct ImageFormat {
   const char* extension;  ///< lower case, without the dot
   const char* writer;     ///< OpenImageIO's name of the format
   int longest_side;       ///< pixels a side at most (libjpeg ends the process beyond its limit)
+  int text_room;          ///< bytes of all texts in its header (libjpeg ends the process likewise)
   bool hdr;               ///< linear float; else 8 bit with the sRGB curve
   bool channels;          ///< holds extra named channels, and a crop's place in its frame
   bool remarks;           ///< its header holds text: that a picture is partial, above all

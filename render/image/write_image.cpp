@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/base/float_environment.h"
+#include "render/image/header_texts.h"
 #include "render/image/image_file.h"
 #include "render/image/image_loader.h"
 #include "render/image/output_file.h"
@@ -135,31 +136,33 @@ module::Attribute attribute_of(const std::string& name, const MetadataValue& val
   return {name.c_str(), AttributeType::matrix, std::get<MetadataMatrix>(value).data()};
 }
 
-void plan_attributes(const ImageFileOptions& options, const ImageFormat& format, Plan& plan) {
+/// The standard entries, and those that were asked for.
+Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   const std::string writer = format.writer;
-  plan.metadata = {{"Software", "boule " BOULE_VERSION},
-                   {"DateTime", options.date_time},
-                   {"oiio:ColorSpace", format.hdr ? "Linear" : "sRGB"}};
+  Metadata header = {{"Software", "boule " BOULE_VERSION},
+                     {"DateTime", options.date_time},
+                     {"oiio:ColorSpace", format.hdr ? "Linear" : "sRGB"}};
   if (writer == "openexr") {
-    plan.metadata.emplace_back("compression", compression_name(options.compression));
+    header.emplace_back("compression", compression_name(options.compression));
   } else if (writer == "jpeg" || writer == "webp") {
-    plan.metadata.emplace_back("CompressionQuality", 95);
-    plan.metadata.emplace_back("jpeg:subsampling", "4:4:4");
+    header.emplace_back("CompressionQuality", 95);
+    header.emplace_back("jpeg:subsampling", "4:4:4");
   } else if (writer == "tiff") {
-    plan.metadata.emplace_back("tiff:write_exif", 0);  // libtiff would reread a half-written file
+    header.emplace_back("tiff:write_exif", 0);  // libtiff would reread a half-written file
   }
-  plan.metadata.insert(plan.metadata.end(), options.metadata.begin(), options.metadata.end());
-  for (const auto& [name, value] : plan.metadata) {
-    plan.attributes.push_back(attribute_of(name, value));
-  }
+  header.insert(header.end(), options.metadata.begin(), options.metadata.end());
+  return header;
 }
 
 /// The Plan stays where it is: the picture points into it.
 std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& options,
-                                const ImageFormat& format) {
+                                const ImageFormat& format, Metadata header) {
   auto plan = std::make_unique<Plan>();
   plan_channels(image, options, format, *plan);
-  plan_attributes(options, format, *plan);
+  plan->metadata = std::move(header);
+  for (const auto& [name, value] : plan->metadata) {
+    plan->attributes.push_back(attribute_of(name, value));
+  }
   const bool cropped = options.crop.frame_width != 0 && format.channels;
   const CropPlace place = cropped ? options.crop : CropPlace{image.width, image.height, 0, 0};
   module::Picture& picture = plan->picture;
@@ -201,6 +204,10 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (const std::string reason = find_reason(image, options, format); !reason.empty()) {
     return cannot_write(path, reason);
   }
+  Metadata header = header_of(options, *format);
+  if (const std::string reason = prepare_header_texts(header, *format); !reason.empty()) {
+    return cannot_write(path, reason);
+  }
   // The file first: a missing folder is reported without loading anything.
   Result<OutputFile> created = OutputFile::create(path, options.stop);
   if (!created.ok()) return created.error();
@@ -210,7 +217,7 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (!loaded.ok()) return cannot_write(path, loaded.error().message);
   const module::Table& table = *loaded.value();
 
-  const std::unique_ptr<Plan> plan = make_plan(image, options, *format);
+  const std::unique_ptr<Plan> plan = make_plan(image, options, *format, std::move(header));
   module::Report report{};
   table.write(&plan->picture, file.descriptor(), &report);
   if (plan->thrown) std::rethrow_exception(plan->thrown);

@@ -1,0 +1,80 @@
+#include "render/image/header_texts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace boule {
+namespace {
+
+using Entry = Metadata::value_type;
+
+const std::string* text_of(const Entry& entry) { return std::get_if<std::string>(&entry.second); }
+
+/// Bytes that an entry's text takes in a file that keeps it with its name, its length and its
+/// place.
+std::size_t room_of(const Entry& entry) {
+  constexpr std::size_t numbers = 32;
+  const std::string* const text = text_of(entry);
+  return text != nullptr ? numbers + entry.first.size() + text->size() : 0;
+}
+
+void end_at_nul(std::string& text) { text.resize(std::min(text.find('\0'), text.size())); }
+
+void end_texts_at_nul(Metadata& metadata) {
+  for (auto& [name, value] : metadata) {
+    end_at_nul(name);
+    if (auto* const text = std::get_if<std::string>(&value)) end_at_nul(*text);
+  }
+}
+
+/// Backwards: the last entry of a name is the one that counts.
+void leave_out_empty(Metadata& metadata) {
+  std::set<std::string> empty;
+  Metadata kept;
+  for (auto entry = metadata.rbegin(); entry != metadata.rend(); ++entry) {
+    const std::string* const text = text_of(*entry);
+    if (text != nullptr && text->empty()) empty.insert(entry->first);
+    const bool counts = !entry->first.empty() && empty.count(entry->first) == 0;
+    if (counts) kept.push_back(std::move(*entry));
+  }
+  metadata.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+}
+
+/// What is wrong with a name by itself. Formats keep an ICC profile's bytes under that name, and
+/// libpng says on standard error what it thinks of others.
+std::string name_problem(const std::string& name) {
+  constexpr std::size_t longest = 255;  // OpenEXR's
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (name.size() > longest) return "has a name longer than 255 bytes";
+  if (std::any_of(name.begin(), name.end(), is_control)) return "has control bytes in its name";
+  constexpr std::string_view profile = "iccprofile";
+  const bool is_profile = std::equal(name.begin(), name.end(), profile.begin(), profile.end(),
+                                     [](char a, char b) { return (a | ' ') == b; });
+  return is_profile ? "is neither a text nor a number" : "";
+}
+
+}  // namespace
+
+std::string prepare_header_texts(Metadata& metadata, const ImageFormat& format) {
+  end_texts_at_nul(metadata);
+  leave_out_empty(metadata);
+  const auto room = static_cast<std::size_t>(format.text_room);
+  std::size_t taken = 0, largest = 0;
+  for (const Entry& entry : metadata) {
+    const std::string problem = name_problem(entry.first);
+    if (!problem.empty()) return "metadata " + quote(entry.first) + " " + problem;
+    taken += room_of(entry);
+    largest = std::max(largest, room_of(entry));
+  }
+  if (taken <= room) return {};
+  const auto longest = std::find_if(metadata.begin(), metadata.end(),
+                                    [&](const Entry& entry) { return room_of(entry) == largest; });
+  return "metadata " + quote(longest->first) + " has " + std::to_string(text_of(*longest)->size()) +
+         " bytes of text, a ." + format.extension + " file has room for " + std::to_string(room) +
+         " in all";
+}
+
+}  // namespace boule
