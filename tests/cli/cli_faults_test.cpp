@@ -125,21 +125,17 @@ INSTANTIATE_TEST_SUITE_P(System, FaultsWithNames, testing::ValuesIn(of_named_fil
 
 /// The first is packed bit by bit, the second in one call: the signal's handler removes its file.
 TEST_F(FaultsWithNames, ASignalRemovesTheFile) {
-  const std::string scene = write("sky.toml",
-                                  "schema = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [1, 2, 3]\n"
-                                  "[background]\ntype = \"gradient\"\n");
+  const std::string scene = small_scene();
   ::setenv("LD_PRELOAD", BOULE_FAULT_INJECTOR, 1);
   for (const char* name : {"out.exr", "out.webp"}) {
-    RunningProgram program(
-        {"render", scene, "-o", path(name), "--size", "3000x3000", "-t", "1", "-q"});
-    while (files().size() == 1) ASSERT_TRUE(program.wait_for_work(0.01));
-    ASSERT_TRUE(program.wait_for_work(0.6));  // OpenImageIO is there, it is packing
+    RunningProgram program({"render", scene, "-o", path(name), "-q"}, Hold{"write", path("")});
+    EXPECT_TRUE(program.wait_for_hold());  // it is packing
     EXPECT_EQ(files().size(), 2u);
     program.send(SIGTERM);
     const ProgramRun run = program.finish();
     EXPECT_EQ(run.exit_code, 143);
     EXPECT_EQ(run.out, "boule: interrupted (SIGTERM), nothing written\r\n");
-    EXPECT_THAT(files(), testing::ElementsAre("sky.toml"));
+    EXPECT_THAT(files(), testing::ElementsAre("scene.toml"));
   }
   ::unsetenv("LD_PRELOAD");
 }

@@ -55,8 +55,8 @@ int share_of_drawn_line(const std::string& line) {
 }
 
 TEST_F(Progressing, ATerminalHasOneLineThatIsRewritten) {
-  RunningProgram program(command(half_a_second));
   const Watch watch;
+  RunningProgram program(command(half_a_second));
   const ProgramRun run = program.finish();
   const double seconds = watch.seconds();
   EXPECT_EQ(run.exit_code, 0);

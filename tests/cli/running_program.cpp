@@ -1,5 +1,7 @@
 #include "tests/cli/running_program.h"
 
+#include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
@@ -8,26 +10,53 @@
 #include <unistd.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace boule::test {
 namespace {
 
-/// What a file "NUMBER (NAME) ..." of /proc holds after the name, which may hold anything.
-std::string after_name(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string text;
-  std::getline(file, text, '\0');
-  const std::size_t end = text.rfind(") ");
-  return end == std::string::npos ? "" : text.substr(end + 2);
+/// What nothing here takes on the slowest of machines; what does has come to a standstill.
+constexpr std::chrono::minutes patience{2};
+
+void add_to_environment(const std::string& entry) {
+  const std::size_t equals = entry.find('=');
+  ::setenv(entry.substr(0, equals).c_str(), entry.substr(equals + 1).c_str(), 1);
+}
+
+/// ":" and what the variable holds, if it is set.
+std::string and_what_holds(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value == nullptr ? "" : ":" + std::string(value);
+}
+
+/// What makes the injector hold it there; what is preloaded already stays, and the sanitizer of
+/// addresses lets itself be loaded second.
+std::vector<std::string> environment_of(const Hold& hold, const std::string& gate) {
+  std::vector<std::string> environment = {
+      "LD_PRELOAD=" BOULE_HOLD_INJECTOR + and_what_holds("LD_PRELOAD"),
+      "ASAN_OPTIONS=verify_asan_link_order=0" + and_what_holds("ASAN_OPTIONS"),
+      "BOULE_HOLD_CALL=" + hold.call,
+      "BOULE_HOLD_FILE=" + hold.file,
+      "BOULE_HOLD_NUMBER=" + std::to_string(hold.number),
+      "BOULE_HOLD_AT=" + gate};
+  if (!hold.after.empty()) environment.push_back("BOULE_HOLD_AFTER=" + hold.after);
+  return environment;
 }
 
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, unsigned short columns) {
+  start(arguments, {}, columns);
+}
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const Hold& hold) {
+  if (::mkfifo(gate().c_str(), 0600) != 0) throw std::runtime_error("mkfifo failed");
+  start(arguments, environment_of(hold, gate()), 100);
+}
+
+void RunningProgram::start(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment, unsigned short columns) {
   std::vector<char*> argv = {const_cast<char*>(BOULE_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -35,6 +64,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, unsign
   child_ = forkpty(&terminal_, nullptr, nullptr, &size);
   if (child_ < 0) throw std::runtime_error("forkpty failed");
   if (child_ == 0) {
+    for (const std::string& entry : environment) add_to_environment(entry);
     ::execv(argv[0], argv.data());
     ::_exit(126);
   }
@@ -46,12 +76,23 @@ RunningProgram::~RunningProgram() {
     ::waitpid(child_, nullptr, 0);
   }
   ::close(terminal_);
+  let_go();
 }
 
-/// False once the program has closed its terminal.
-bool RunningProgram::read_some(int timeout_ms) {
+void RunningProgram::give_up() {
+  ADD_FAILURE() << "waited in vain; shown so far: " << shown_;
+  ::kill(child_, SIGKILL);
+  ended_ = true;
+}
+
+/// False once the program has closed its terminal, and behind the limit.
+bool RunningProgram::read_some(Clock::time_point limit, int timeout_ms) {
+  if (ended_) return false;
   pollfd waiting{terminal_, POLLIN, 0};
-  if (::poll(&waiting, 1, timeout_ms) <= 0) return true;
+  if (::poll(&waiting, 1, timeout_ms) <= 0) {
+    if (Clock::now() > limit) give_up();
+    return !ended_;
+  }
   std::array<char, 4096> buffer{};
   const ssize_t count = ::read(terminal_, buffer.data(), buffer.size());
   if (count > 0) {
@@ -59,78 +100,45 @@ bool RunningProgram::read_some(int timeout_ms) {
   } else {
     ended_ = true;  // a pty without a writer is an input error
   }
+  if (!ended_ && Clock::now() > limit) give_up();  // however much it says
   return !ended_;
+}
+
+bool RunningProgram::wait_until(
+    const std::function<std::size_t(const std::string& shown, std::size_t from)>& condition) {
+  const auto limit = Clock::now() + patience;
+  std::size_t end = condition(shown_, seen_);
+  while (end == std::string::npos && read_some(limit, 10)) end = condition(shown_, seen_);
+  if (end == std::string::npos) return false;
+  seen_ = end;
+  return true;
 }
 
 bool RunningProgram::wait_for(const std::string& text) {
-  std::size_t at = shown_.find(text, seen_);
-  while (at == std::string::npos && read_some(1000)) at = shown_.find(text, seen_);
-  if (at == std::string::npos) at = shown_.find(text, seen_);
-  if (at == std::string::npos) return false;
-  seen_ = at + text.size();
-  return true;
+  return wait_until([&text](const std::string& shown, std::size_t from) {
+    const std::size_t at = shown.find(text, from);
+    return at == std::string::npos ? at : at + text.size();
+  });
 }
 
-bool RunningProgram::has_output(const std::string& folder, std::intmax_t bytes) const {
-  std::error_code ended;
-  const std::string open_files = "/proc/" + std::to_string(child_) + "/fd";
-  for (const auto& entry : std::filesystem::directory_iterator(open_files, ended)) {
-    std::error_code closed;
-    const std::string name = std::filesystem::read_symlink(entry.path(), closed);
-    struct stat file {};
-    if (closed || !name.starts_with(folder) || ::stat(entry.path().c_str(), &file) != 0) continue;
-    if (S_ISREG(file.st_mode) && file.st_nlink == 0 && file.st_size >= bytes) return true;
-  }
-  return false;
+bool RunningProgram::wait_for_hold() {
+  const auto limit = Clock::now() + patience;
+  do {
+    gate_ = ::open(gate().c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // once it has a reader
+  } while (gate_ < 0 && read_some(limit, 1));
+  return gate_ >= 0;
 }
 
-bool RunningProgram::wait_for_output(const std::string& folder, std::intmax_t bytes) {
-  while (!ended_) {
-    if (has_output(folder, bytes)) return true;
-    read_some(1);
-  }
-  return false;
-}
-
-/// Seconds of the processor, so far.
-double RunningProgram::work() const {
-  // "STATE PARENT ...": the 12th and 13th are ticks.
-  std::istringstream fields(after_name("/proc/" + std::to_string(child_) + "/stat"));
-  std::string ignored;
-  for (int i = 1; i < 12; ++i) fields >> ignored;
-  double user = 0, system = 0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
-bool RunningProgram::wait_for_work(double seconds) {
-  const double end = work() + seconds;
-  while (!ended_ && work() < end) read_some(10);
-  return !ended_;
-}
-
-bool RunningProgram::sleeps() const {
-  std::error_code ended;
-  const std::string threads = "/proc/" + std::to_string(child_) + "/task";
-  for (const auto& thread : std::filesystem::directory_iterator(threads, ended)) {
-    if (!after_name(thread.path() / "stat").starts_with('S')) return false;
-  }
-  return !ended;
-}
-
-/// What is kept from running by others does not sleep.
-bool RunningProgram::wait_for_sleep() {
-  for (int times = 0; times < 20; times = sleeps() ? times + 1 : 0) {
-    read_some(10);
-    if (ended_) return false;
-  }
-  return true;
+void RunningProgram::let_go() {
+  if (gate_ >= 0) ::close(gate_);
+  gate_ = -1;
 }
 
 void RunningProgram::send(int signal) const { ::kill(child_, signal); }
 
 ProgramRun RunningProgram::finish() {
-  while (read_some(1000)) continue;
+  const auto limit = Clock::now() + patience;
+  while (read_some(limit, 1000)) continue;
   int status = 0;
   ::waitpid(child_, &status, 0);
   child_ = -1;

@@ -1,9 +1,12 @@
 #include "tests/support/run_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -28,6 +31,7 @@ std::string read_all(const std::filesystem::path& path) {
     const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(125);
   };
+  ::setpgid(0, 0);  // those that it starts can be killed with it
   redirect(folder / "out", STDOUT_FILENO);
   redirect(folder / "err", STDERR_FILENO);
   for (const std::string& entry : call.environment) {
@@ -43,6 +47,18 @@ std::string read_all(const std::filesystem::path& path) {
   ::_exit(126);
 }
 
+/// Waits for the end of a child, but not for ever.
+int wait_for(pid_t child) {
+  constexpr int patience_ms = 15 * 60 * 1000;
+  const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
+  pollfd ended{descriptor, POLLIN, 0};
+  if (descriptor >= 0 && ::poll(&ended, 1, patience_ms) == 0) ::kill(-child, SIGKILL);
+  if (descriptor >= 0) ::close(descriptor);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
 }  // namespace
 
 ProgramRun run_program(const std::string& path, const ProgramCall& call) {
@@ -50,8 +66,7 @@ ProgramRun run_program(const std::string& path, const ProgramCall& call) {
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) become(path, call, folder.path());
-  int status = 0;
-  ::waitpid(child, &status, 0);
+  const int status = wait_for(child);
   ProgramRun run;
   run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   run.out = read_all(folder.path() / "out");

@@ -11,7 +11,9 @@ struct ProgramRun {
   std::string out, err;
 };
 
-/// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end.
+/// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end. One
+/// that takes a quarter of an hour has come to a standstill: it is killed, with all that it
+/// started.
 struct ProgramCall {
   std::vector<std::string> arguments;
   std::vector<std::string> environment;
