@@ -6,13 +6,22 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/report/chart_colors.h"
+#include "bench/report/chart_labels.h"
+
 namespace boule::bench {
 namespace {
 
 // Pixels of the drawing's own; it is scaled to the page.
 constexpr double width = 720, height = 430;
 constexpr double left = 92, right = 16, top = 34, bottom = 68;
-constexpr double legend_line = 20, legend_column = 225;
+constexpr double legend_line = 20;
+
+constexpr const ChartColors& colors = light_colors;
+
+const char* color_of(const Look& look) {
+  return colors.series[static_cast<std::size_t>(look.color) % colors.series.size()];
+}
 
 /// From values to places along one axis.
 class Scale {
@@ -90,9 +99,9 @@ class Scale {
 };
 
 std::string marker(double x, double y, const Look& look, const std::string& tip) {
-  const std::string attributes =
-      fmt::format("class=\"m c{}\"{}", look.color % 10,
-                  tip.empty() ? "" : fmt::format(" tabindex=\"0\" data-tip=\"{}\"", escaped(tip)));
+  const std::string attributes = fmt::format(
+      "class=\"m c{}\" fill=\"{}\" stroke=\"{}\"{}", look.color % 10, color_of(look), colors.page,
+      tip.empty() ? "" : fmt::format(" tabindex=\"0\" data-tip=\"{}\"", escaped(tip)));
   switch (look.shape % 5) {
     case 0:
       return fmt::format("<circle {} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>", attributes, x, y);
@@ -114,12 +123,18 @@ std::string text(double x, double y, const char* anchor, const std::string& cont
                      more, content);
 }
 
-std::string open_svg(const std::string& title, double full_height) {
+/// `background`: what is drawn first.
+std::string open_svg(const std::string& title, double full_height,
+                     const std::string& background = "") {
   return fmt::format(
              "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" "
-             "role=\"img\" aria-label=\"{}\">\n",
-             width, full_height, escaped(title)) +
-         text(left, 18, "start", escaped(title), " class=\"title\"") + "\n";
+             "role=\"img\" aria-label=\"{}\" fill=\"{}\" font-size=\"12\" "
+             "font-family=\"system-ui, sans-serif\">\n",
+             width, full_height, escaped(title), colors.ink) +
+         background +
+         text(left, 18, "start", escaped(title),
+              " class=\"title\" font-weight=\"600\" font-size=\"14\"") +
+         "\n";
 }
 
 std::string axis_labels(const std::string& x, const std::string& y) {
@@ -129,14 +144,18 @@ std::string axis_labels(const std::string& x, const std::string& y) {
               fmt::format(" transform=\"rotate(-90 18 {})\"", middle));
 }
 
+std::string grid_line(const std::string& path) {
+  return fmt::format("<path class=\"grid\" stroke=\"{}\" d=\"{}\"/>", colors.faint, path);
+}
+
 std::string grid(const Scale& x, const Scale& y) {
   std::string svg;
   for (const auto& [at, label] : x.ticks()) {
-    svg += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/>", at, top, height - bottom);
+    svg += grid_line(fmt::format("M{:.1f} {}V{}", at, top, height - bottom));
     svg += text(at, height - bottom + 28, "middle", label);
   }
   for (const auto& [at, label] : y.ticks()) {
-    svg += fmt::format("<path class=\"grid\" d=\"M{0} {1:.1f}H{2}\"/>", left, at, width - right);
+    svg += grid_line(fmt::format("M{} {:.1f}H{}", left, at, width - right));
     svg += text(left - 8, at + 4, "end", label);
   }
   return svg + "\n";
@@ -151,16 +170,68 @@ std::string draw_series(const Series& series, const Scale& x, const Scale& y) {
     markers += marker(px, py, series.look, point.tip);
   }
   if (!series.line) return markers + "\n";
-  return fmt::format("<path class=\"line c{}\" d=\"{}\"/>", series.look.color % 10, line) +
+  return fmt::format(
+             "<path class=\"line c{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" "
+             "d=\"{}\"/>",
+             series.look.color % 10, color_of(series.look), line) +
          markers + "\n";
 }
 
-/// Below the axes, three a row.
+/// What is within an <svg>, and the labels that it shows.
+struct Drawing {
+  std::string svg;
+  std::vector<std::string> labels;
+};
+
+/// The labels of all points, beside them; a line leads to those that had to go farther.
+void draw_labels(const Chart& chart, const Scale& x, const Scale& y, Drawing& drawing) {
+  std::vector<LabelledPoint> points;
+  std::vector<ChartBox> taken;
+  for (const Series& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      if (!x.shows(point.x) || !y.shows(point.y)) continue;
+      const double px = x.place(point.x), py = y.place(point.y);
+      taken.push_back({px - 6, py - 6, px + 6, py + 6});
+      points.push_back({px, py, point.label});
+    }
+  }
+  for (const PlacedLabel& label :
+       place_labels(points, taken, {left, top, width - right, height - bottom})) {
+    if (label.is_far()) {
+      drawing.svg += fmt::format(
+          "<path class=\"leader\" fill=\"none\" stroke=\"{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>",
+          colors.faint, label.point.x, label.point.y, label.x, label.y);
+    }
+    drawing.svg += text(label.x, label.y + 4, label.anchor, escaped(label.point.text),
+                        fmt::format(" class=\"label\" font-size=\"{}\"", label_size));
+    drawing.labels.push_back(label.point.text);
+  }
+}
+
+/// What the chart itself does not name.
+std::vector<LegendEntry> not_labelled(const std::vector<LegendEntry>& legend,
+                                      const std::vector<std::string>& labels) {
+  std::vector<LegendEntry> rest;
+  for (const LegendEntry& entry : legend) {
+    if (std::find(labels.begin(), labels.end(), entry.name) == labels.end()) rest.push_back(entry);
+  }
+  return rest;
+}
+
+/// Entries in a row of the legend: as many as the longest leaves room for.
+std::size_t legend_columns(const std::vector<LegendEntry>& entries) {
+  std::size_t longest = 0;
+  for (const LegendEntry& entry : entries) longest = std::max(longest, entry.name.size());
+  return longest <= 18 ? 4 : 3;
+}
+
+/// Below the axes.
 std::string legend_lines(const std::vector<LegendEntry>& entries) {
   std::string svg;
-  constexpr std::size_t columns = 3;
+  const std::size_t columns = legend_columns(entries);
+  const double column = (width - left) / static_cast<double>(columns);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const double x = left + legend_column * static_cast<double>(i % columns) - 40;
+    const double x = left + column * static_cast<double>(i % columns);
     const double y = height + 8 + legend_line * static_cast<double>(i / columns);
     svg +=
         marker(x, y, entries[i].look, "") + text(x + 12, y + 4, "start", escaped(entries[i].name));
@@ -168,8 +239,7 @@ std::string legend_lines(const std::vector<LegendEntry>& entries) {
   return svg;
 }
 
-/// What is within the <svg>.
-std::string drawing(const Chart& chart) {
+Drawing draw_points(const Chart& chart) {
   Scale x(chart.x, left, width - right), y(chart.y, height - bottom, top);
   for (const Series& series : chart.series) {
     for (const ChartPoint& point : series.points) {
@@ -179,9 +249,10 @@ std::string drawing(const Chart& chart) {
   }
   x.finish();
   y.finish();
-  std::string svg = axis_labels(chart.x.label, chart.y.label) + grid(x, y);
-  for (const Series& series : chart.series) svg += draw_series(series, x, y);
-  return svg;
+  Drawing drawing{axis_labels(chart.x.label, chart.y.label) + grid(x, y), {}};
+  for (const Series& series : chart.series) drawing.svg += draw_series(series, x, y);
+  draw_labels(chart, x, y, drawing);
+  return drawing;
 }
 
 }  // namespace
@@ -210,7 +281,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string draw(const Chart& chart) {
-  return open_svg(chart.title, height) + drawing(chart) + "</svg>\n";
+  return open_svg(chart.title, height) + draw_points(chart).svg + "\n</svg>\n";
 }
 
 std::string draw_legend(const Chart& chart) {
@@ -223,10 +294,16 @@ std::string draw_legend(const Chart& chart) {
 }
 
 std::string draw_alone(const Chart& chart) {
-  const double rows = std::ceil(static_cast<double>(chart.legend.size()) / 3);
-  return open_svg(chart.title, height + legend_line * rows) + "<style>" + chart_style() +
-         ".chart { background: var(--page); }</style>\n" + drawing(chart) +
-         legend_lines(chart.legend) + "</svg>\n";
+  const Drawing drawing = draw_points(chart);
+  const std::vector<LegendEntry> legend = not_labelled(chart.legend, drawing.labels);
+  const double columns = static_cast<double>(legend_columns(legend));
+  const double rows = std::ceil(static_cast<double>(legend.size()) / columns);
+  const double full_height = height + legend_line * rows;
+  const std::string background =
+      fmt::format("<rect class=\"page\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", width,
+                  full_height, colors.page);
+  return open_svg(chart.title, full_height, background) + "<style>" + chart_style() + "</style>\n" +
+         drawing.svg + "\n" + legend_lines(legend) + "</svg>\n";
 }
 
 std::string draw(const HeatMap& map) {
@@ -238,12 +315,14 @@ std::string draw(const HeatMap& map) {
     svg += text(left - 8, y + cell_y / 2 + 4, "end", escaped(map.rows[row]));
     for (std::size_t column = 0; column < map.columns.size(); ++column) {
       const std::size_t at = row * map.columns.size() + column;
+      const bool some = map.values[at] > 0;
       svg += fmt::format(
-          "<rect class=\"{}\" style=\"--v:{:.3f}\" tabindex=\"0\" x=\"{:.1f}\" y=\"{:.1f}\" "
+          "<rect class=\"{}\" fill=\"{}\" fill-opacity=\"{:.3f}\" tabindex=\"0\" x=\"{:.1f}\" "
+          "y=\"{:.1f}\" "
           "width=\"{:.1f}\" height=\"{:.1f}\" data-tip=\"{}\"/>",
-          map.values[at] > 0 ? "cell some" : "cell", map.values[at],
-          left + cell_x * static_cast<double>(column), y, cell_x - 1, cell_y - 1,
-          escaped(map.tips[at]));
+          some ? "cell some" : "cell", some ? colors.hot : colors.cold,
+          some ? 0.15 + 0.85 * map.values[at] : 1.0, left + cell_x * static_cast<double>(column), y,
+          cell_x - 1, cell_y - 1, escaped(map.tips[at]));
     }
     svg += "\n";
   }
@@ -251,36 +330,6 @@ std::string draw(const HeatMap& map) {
     svg += text(left + cell_x * (static_cast<double>(column) + 0.5), height - bottom + 28, "middle",
                 escaped(map.columns[column]));
   return svg + "\n</svg>\n";
-}
-
-std::string chart_style() {
-  return R"(
-.chart { --ink: #222; --faint: #d8d8d8; --page: #fff; --hot: 213, 94, 0; --cold: #eef1f4;
-  --c0: #0072b2; --c1: #d55e00; --c2: #009e73; --c3: #cc79a7; --c4: #e69f00; --c5: #56b4e9;
-  --c6: #6b6b6b; --c7: #9a8a00; --c9: #8b4a1c; font: 12px system-ui, sans-serif; }
-@media (prefers-color-scheme: dark) {
-  .chart { --ink: #e6e6e6; --faint: #3c4043; --page: #15181b; --cold: #23282d;
-    --c0: #4aa8e0; --c1: #f07b2c; --c2: #2bc79a; --c6: #a8a8a8; --c7: #d8cc3a; --c9: #c98c5a; } }
-.chart text { fill: var(--ink); }
-.chart .title { font-weight: 600; font-size: 14px; }
-.chart .grid { stroke: var(--faint); stroke-width: 1; }
-.chart .line { stroke-width: 1.8; }
-.chart .m { stroke: var(--page); stroke-width: 1; }
-.chart .m[data-tip]:hover, .chart .m:focus { stroke: var(--ink); stroke-width: 2; outline: none; }
-.chart .cell { fill: var(--cold); }
-.chart .some { fill: rgba(var(--hot), calc(0.15 + 0.85 * var(--v))); }
-.chart .cell:hover, .chart .cell:focus { stroke: var(--ink); stroke-width: 2; outline: none; }
-.chart .c0 { fill: var(--c0); } .chart .c1 { fill: var(--c1); } .chart .c2 { fill: var(--c2); }
-.chart .c3 { fill: var(--c3); } .chart .c4 { fill: var(--c4); } .chart .c5 { fill: var(--c5); }
-.chart .c6 { fill: var(--c6); } .chart .c7 { fill: var(--c7); } .chart .c8 { fill: var(--ink); } .chart .c9 { fill: var(--c9); }
-.chart .line.c0 { stroke: var(--c0); } .chart .line.c1 { stroke: var(--c1); }
-.chart .line.c2 { stroke: var(--c2); } .chart .line.c3 { stroke: var(--c3); }
-.chart .line.c4 { stroke: var(--c4); } .chart .line.c5 { stroke: var(--c5); }
-.chart .line.c6 { stroke: var(--c6); } .chart .line.c7 { stroke: var(--c7); }
-.chart .line.c4 { stroke: var(--c4); } .chart .line.c5 { stroke: var(--c5); }
-.chart .line.c6 { stroke: var(--c6); } .chart .line.c7 { stroke: var(--c7); }
-.chart .line.c8 { stroke: var(--ink); } .chart .line.c9 { stroke: var(--c9); } .chart .line[class] { fill: none; }
-)";
 }
 
 }  // namespace boule::bench

@@ -12,11 +12,11 @@ struct Axis {
 
 struct ChartPoint {
   double x, y;
-  std::string tip;  ///< shown where one points at it
+  std::string tip;         ///< shown where one points at it
+  std::string label = {};  ///< written beside it; none: the empty one
 };
 
-/// How points look: one of 10 colours, which the colour-blind can tell apart as well (Okabe and Ito
-/// 2008; 8 is the text's), one of 5 shapes.
+/// How points look: one of 10 colours (chart_colors.h), one of 5 shapes.
 struct Look {
   int color = 0, shape = 0;
 };
@@ -41,14 +41,14 @@ struct Chart {
   std::vector<LegendEntry> legend;
 };
 
-/// A whole <svg>, its colours left to chart_style(), its legend to draw_legend(). Points that are
-/// not finite are left out, and on logarithmic axes those below 0.
+/// A whole <svg> in light colours (chart_style() has the dark ones), its legend left to
+/// draw_legend(). Points that are not finite are left out, and on logarithmic axes those below 0.
 std::string draw(const Chart& chart);
 
 /// HTML that wraps as the page does.
 std::string draw_legend(const Chart& chart);
 
-/// Both as one SVG file.
+/// Both as one SVG file; the legend leaves out what labels beside the points name.
 std::string draw_alone(const Chart& chart);
 
 /// Values from 0 to 1 in columns and rows, dark where large.
@@ -59,9 +59,6 @@ struct HeatMap {
   std::vector<std::string> tips;           ///< of each value
 };
 std::string draw(const HeatMap& map);
-
-/// The colours of both, light and dark, as a style sheet.
-std::string chart_style();
 
 /// Text as it may stand in HTML, attributes included.
 std::string escaped(const std::string& text);

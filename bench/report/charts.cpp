@@ -52,7 +52,7 @@ void add_isas(const Rows& rows, std::vector<LegendEntry>& legend) {
   for (const char* isa : isas) {
     const bool there =
         std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.isa == isa; });
-    if (there) legend.push_back({isa, {8, shape_of(isa)}});
+    if (there) legend.push_back({isa, {6, shape_of(isa)}});
   }
 }
 
@@ -95,6 +95,18 @@ Series path_series(const char* name, Look look, const std::vector<PathError>& er
                                          name, e.samples, e.error, e.seconds)});
   }
   return series;
+}
+
+/// Leaves of each label the one at its fastest point.
+void label_fastest(std::vector<Series>& series) {
+  for (Series& one : series) {
+    ChartPoint& point = one.points.front();
+    const auto outruns = [&](const Series& other) {
+      const ChartPoint& rival = other.points.front();
+      return rival.label == point.label && rival.y > point.y;
+    };
+    if (std::any_of(series.begin(), series.end(), outruns)) point.label.clear();
+  }
 }
 
 }  // namespace
@@ -140,9 +152,12 @@ Chart speed_chart(const Figures& figures, const std::string& scene, const std::s
     const std::string tip = fmt::format(
         "{}, {}: {:.3g} Mray/s ({:.3g} to {:.3g}), {:.0f} wrong in a million",
         solver_name(speed.solver), speed.isa, speed.mrays_per_s, speed.least, speed.most, wrong);
-    chart.series.push_back(
-        {tip, solver_look(speed.solver, speed.isa), false, {{wrong, speed.mrays_per_s, tip}}});
+    chart.series.push_back({tip,
+                            solver_look(speed.solver, speed.isa),
+                            false,
+                            {{wrong, speed.mrays_per_s, tip, solver_name(speed.solver)}}});
   }
+  label_fastest(chart.series);
   for (const Named& solver : solvers) chart.legend.push_back({solver.name, {solver.color, 0}});
   add_isas(shown, chart.legend);
   return chart;

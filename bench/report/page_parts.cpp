@@ -1,6 +1,7 @@
 #include "bench/report/page_parts.h"
 
 #include "bench/report/chart.h"
+#include "bench/report/chart_colors.h"
 
 namespace boule::bench {
 namespace {
@@ -40,6 +41,7 @@ th { background: var(--soft); } .number { text-align: right; white-space: nowrap
   background: var(--ink); color: var(--page); font-size: 0.85rem; border-radius: 0.25rem;
   pointer-events: none; z-index: 1; }
 @media (max-width: 40rem) { .chart { font-size: 19px; } .chart .title { font-size: 21px; }
+  .chart .label, .chart .leader { display: none; }
   body { padding: 0.7rem; } }
 )";
 

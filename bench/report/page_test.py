@@ -18,7 +18,8 @@ except ImportError:
 OVERLAPS = """
 const found = [];
 for (const chart of document.querySelectorAll('figure > svg.chart')) {
-  const texts = [...chart.querySelectorAll('text')].map(t => [t, t.getBoundingClientRect()]);
+  const shown = [...chart.querySelectorAll('text')].filter(t => t.getClientRects().length > 0);
+  const texts = shown.map(t => [t, t.getBoundingClientRect()]);
   const page = chart.getBoundingClientRect();
   texts.forEach(([a, p], i) => {
     if (p.left < page.left - 1 || p.right > page.right + 1 || p.bottom > page.bottom + 1)
