@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "render/frame/film.h"
+#include "render/frame/live_progress.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/frame/progress.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
   std::string isa = "auto";                       ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;      ///< true: rendering stops; outlives the renderer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
+  LiveProgress* live = nullptr;  ///< kept up to date by all threads; outlives the renderer
   /// Called by render_live() after each of its passes, on the thread that renders: shows what there
   /// is, as partial_picture() makes it of the film. What it throws reaches the caller.
   std::function<void(const Film&)> update;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "render/frame/live_progress.h"
 #include "render/frame/stopwatch.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
@@ -126,28 +127,25 @@ Status Renderer::render_live(Film& film) {
 /// Closures go by reference, here and above: a copy would need memory, which throws.
 Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   const Stopwatch watch;
-  const std::uint64_t rays_before = count_rays().total();
-  std::atomic<std::uint64_t> rays{0};
-  std::atomic<std::size_t> done{0};
+  LiveProgress own;
+  LiveProgress& live = options_.live != nullptr ? *options_.live : own;
+  live.begin_pass(blocks_.size(), place.begin, place.end, place.rays);
   const auto report = [&] {
-    if (!options_.progress) return;
-    const double share = static_cast<double>(done) / static_cast<double>(blocks_.size());
-    options_.progress({place.begin + (place.end - place.begin) * share, place.rays + rays});
+    if (options_.progress) options_.progress(live.read());
   };
   const auto body = [&](unsigned worker, std::size_t block) {
     if (!workers_[worker]) workers_[worker] = make_worker();
     BlockWorker& mine = *workers_[worker];
     const std::uint64_t before = mine.counts().total();
-    if (!task(mine, blocks_[block])) return;
-    rays += mine.counts().total() - before;
-    ++done;
+    live.begin_block();
+    if (!task(mine, blocks_[block])) return live.drop_block();
+    live.end_block(mine.counts().total() - before);
     if (worker == 0) report();
   };
   const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
   if (status) return status;
-  if (done != blocks_.size()) return failure("rendering was cancelled");
-  rays = count_rays().total() - rays_before;
+  if (live.ended() != blocks_.size()) return failure("rendering was cancelled");
   return diagnose(std::cref(report));  // no memory for it
 }
 
