@@ -4,6 +4,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/frames.h"
 #include "render/cli/messages.h"
+#include "render/cli/reading_limit.h"
 #include "render/cli/scene_info.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_file.h"
@@ -44,17 +45,22 @@ std::string as_text(const Json& info) {
 }
 
 /// One scene, or one frame of a series.
-ExitCode tell(const std::string& scene, std::optional<int> frame, bool json) {
+ExitCode tell(const InfoCommand& command, const std::string& scene, std::optional<int> frame) {
   SceneFileOptions options;
   options.frame = frame;
-  auto loaded = load_scene(scene, options);
+  const auto load = [&] {
+    ReadingLimit limit(command.load_limit);
+    const ReadingLimit::Reading reading(limit, scene);
+    return load_scene(scene, options);
+  };
+  auto loaded = load();
   if (!loaded) return report(loaded.error(), invalid_input);
   const Json info = scene_info(std::move(loaded).value(), scene);
   // A file name may hold any bytes: what is not UTF-8 is replaced rather than refused.
   const auto as_json = [&] {
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   };
-  return print_as_result(json ? as_json() : as_text(info));
+  return print_as_result(command.json ? as_json() : as_text(info));
 }
 
 }  // namespace
@@ -62,11 +68,11 @@ ExitCode tell(const std::string& scene, std::optional<int> frame, bool json) {
 ExitCode run(const InfoCommand& command) {
   if (!command.frames) {
     const auto bad = check_single_scene(command.scene);
-    return bad ? report(*bad, wrong_usage) : tell(command.scene, std::nullopt, command.json);
+    return bad ? report(*bad, wrong_usage) : tell(command, command.scene, std::nullopt);
   }
   const FrameRange& range = *command.frames;
   for (int frame = range.first; frame <= range.last; frame += range.step) {
-    const ExitCode code = tell(frame_name(command.scene, frame), frame, command.json);
+    const ExitCode code = tell(command, frame_name(command.scene, frame), frame);
     if (code != done) return code;
   }
   return done;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
 #include <string>
 
 namespace boule::cli {
@@ -37,19 +36,20 @@ class RemovalGuard {
 /// Whether a signal ends the program, or only what it does.
 enum class OnSignal { leave, stop };
 
-/// While it lives, the end of a time limit raises a flag that rendering watches; with
-/// OnSignal::stop so does the first signal, so that what there is can still be written: the next
-/// one is treated as if there were no StopGuard. One at a time.
+/// While it lives there is a flag that rendering watches. With OnSignal::stop the first signal
+/// raises it, so that what there is can still be written: the next one is treated as if there were
+/// no StopGuard. One at a time.
 class StopGuard {
  public:
-  /// `time_limit` is in seconds from now, above 0.
-  StopGuard(std::optional<double> time_limit, OnSignal on_signal);
+  /// Lowers the flag.
+  explicit StopGuard(OnSignal on_signal);
   ~StopGuard();
   StopGuard(const StopGuard&) = delete;
   StopGuard& operator=(const StopGuard&) = delete;
 
-  /// What rendering watches; lowered when a StopGuard begins.
   static const std::atomic<bool>& flag();
+  /// Raises it, on any thread: a time limit has ended.
+  static void stop();
 
   /// The signal that was caught since then, or 0.
   static int caught();
@@ -64,13 +64,10 @@ class StopGuard {
 /// the line says instead, a literal such as "the picture had been written".
 void set_written(const char* end);
 
-/// Removes the temporary file of a RemovalGuard, and writes a line to standard error: what a
-/// signal's handler may do, and needs no memory.
-void remove_temporary();
-void print_at_once(const char* line);
-
-/// Says whether a line without its end stands on the terminal: a signal's message ends it first.
-void set_line_open(bool open);
+/// Ends the program at once, on any thread: removes the temporary file of a RemovalGuard, writes
+/// the line to standard error, and leaves with that code. The first of those who call it wins. What
+/// a signal's handler may do; needs no memory.
+[[noreturn]] void leave_at_once(const char* line, int code);
 
 /// Ends the program as the handler would have, if a signal came while a WriteGuard lived.
 void exit_if_interrupted();

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
     if (const auto bad = take_stack()) return report(*bad, failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
   } catch (const std::bad_alloc&) {
-    return report_no_memory();
+    leave_without_memory();
   } catch (const std::exception& error) {
     return report({error.what(), {}, {}, 0, 0}, failed);
   }

@@ -1,16 +1,16 @@
 #include "render/cli/messages.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
 
+#include "render/cli/standard_error.h"
 #include "render/image/output_file.h"
 
 namespace boule::cli {
 
 Status print_data(const std::string& text) {
+  write_lines("");  // both may be one terminal
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return std::nullopt;
   return cannot_write("standard output", std::generic_category().message(errno));
@@ -21,12 +21,7 @@ ExitCode print_as_result(const std::string& text) {
   return bad ? report(*bad, failed) : done;
 }
 
-void print_note(const std::string& text) { print_raw(text + "\n"); }
-
-void print_raw(const std::string& text) {
-  // Nobody could be told that standard error is gone.
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
-}
+void print_note(const std::string& text) { write_lines(text + "\n"); }
 
 std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

@@ -17,9 +17,6 @@ ExitCode print_as_result(const std::string& text);
 /// A line for people, on standard error.
 void print_note(const std::string& text);
 
-/// Text on standard error as it is, in one piece.
-void print_raw(const std::string& text);
-
 /// "1 sphere", "2 spheres".
 std::string counted(std::size_t count, const std::string& noun);
 

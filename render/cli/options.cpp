@@ -84,6 +84,17 @@ void add_frames(CLI::App& app, std::optional<FrameRange>& frames, const std::str
              "A-B with 0 <= A <= B, or A-B:N for every Nth of them", "A-B[:N]", help);
 }
 
+void add_duration(CLI::App& app, const std::string& name, std::optional<double>& seconds,
+                  const std::string& help) {
+  add_parsed(app, name, seconds, parse_duration, "a time above 0 in ms, s, m or h, such as 90s",
+             "TIME", help);
+}
+
+void add_load_limit(CLI::App& app, std::optional<double>& seconds) {
+  add_duration(app, "--load-limit", seconds,
+               "Give up when reading the scene and data files takes longer (no limit)");
+}
+
 /// The options that are added from now on stand under this heading in the help.
 void start_group(CLI::App& app, const char* heading) { app.option_defaults()->group(heading); }
 
@@ -132,10 +143,10 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
              "Render a series: #### in the names of scene, data and output is the frame's number");
   app.add_flag("--skip-existing", command.skip_existing,
                "Leave a picture alone that is there already, finished, readable, of this size");
-  add_parsed(
-      app, "--time-limit", command.time_limit, parse_duration,
-      "a time above 0 in ms, s, m or h, such as 90s", "TIME",
-      "Stop rendering after so long, such as 90s, 500ms, 5m; loading and writing not counted");
+  add_duration(app, "--time-limit", command.time_limit,
+               "Stop rendering after so long, such as 90s, 500ms, 5m; reading, preparing and "
+               "writing not counted");
+  add_load_limit(app, command.load_limit);
   app.add_flag("--partial", command.partial,
                "Stopped by --time-limit or the first signal: write the picture as far as it is");
   add_choice(app, "--order", command.order,
@@ -205,6 +216,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
       ->type_name("RAYS.npy");
   app.add_flag("--any-hit", command.any_hit,
                "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
+  add_load_limit(app, command.load_limit);
   start_group(app, "Output");
   add_output(
       app, command.output, "HITS.npy",
@@ -219,6 +231,7 @@ void add_info(CLI::App& app, InfoCommand& command) {
   add_frames(app, command.frames,
              "Tell of these frames: #### in the names of scene and data is the frame's number");
   app.add_flag("--json", command.json, "As JSON, for programs");
+  add_load_limit(app, command.load_limit);
 }
 
 /// A help text; CLI11 leaves two blank lines between groups.

@@ -50,6 +50,7 @@ struct RunOptions {
   std::string isa = "auto";
   Solver solver = Solver::robust;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::optional<double> load_limit;  ///< seconds of reading
   StatsTarget stats;
   Verbosity verbosity = Verbosity::normal;
 };
@@ -85,6 +86,7 @@ struct TraceCommand : RunOptions {
 /// `boule info`.
 struct InfoCommand {
   std::string scene;
+  std::optional<double> load_limit;  ///< seconds of reading
   std::optional<FrameRange> frames;
   bool json = false;
 };

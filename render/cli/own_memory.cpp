@@ -32,8 +32,7 @@ Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
   try {
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
-    remove_temporary();
-    std::_Exit(report_no_memory());
+    leave_without_memory();
   } catch (...) {
   }
   std::abort();
@@ -61,10 +60,7 @@ Status take_stack() {
   return std::nullopt;
 }
 
-int report_no_memory() {
-  print_at_once("boule: error: out of memory\n");
-  return failed;
-}
+void leave_without_memory() { leave_at_once("boule: error: out of memory\n", failed); }
 
 void install_no_memory_handler() { std::set_terminate(end_without_memory); }
 

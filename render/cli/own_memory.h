@@ -8,11 +8,12 @@ namespace boule::cli {
 /// in its way. Later it could only be found out by a crash.
 Status take_stack();
 
-/// The line that there is no memory for anything else to say; returns `failed`.
-int report_no_memory();
+/// Ends the program at once with the line that there is no memory for anything else to say, its
+/// temporary file removed.
+[[noreturn]] void leave_without_memory();
 
-/// Makes the program end by report_no_memory(), its temporary file removed, where an allocation
-/// fails in a place that exceptions cannot leave: code of others, while it is loaded for instance.
+/// Makes the program end like that where an allocation fails in a place that exceptions
+/// cannot leave: code of others, while it is loaded for instance.
 void install_no_memory_handler();
 
 }  // namespace boule::cli

@@ -1,29 +1,22 @@
 #include "render/cli/progress_bar.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 
 namespace boule::cli {
 namespace {
 
-/// What there is to tell.
-struct Figures {
-  double share, elapsed, remaining, mrays_per_s;  ///< remaining: negative while unknown
-};
-
-Figures figures_of(const Progress& progress, double elapsed) {
-  const double share = progress.share;
-  const double remaining = share > 0 ? elapsed * (1 - share) / share : -1;
-  const double rays = static_cast<double>(progress.rays);
-  return {share, elapsed, remaining, elapsed > 0 ? rays / elapsed * 1e-6 : 0};
-}
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double patience = 2;   // seconds of silence: of a run on a pipe, of what seems to stand
+constexpr double redraw = 0.1;   // seconds, of the bar, and between objects of JSON
+constexpr double interval = 10;  // seconds between plain lines
+constexpr double step = 10;      // per cent between them
 
 /// "8.4 s", "3:07", "2:03:07".
 std::string duration(double seconds) {
@@ -33,82 +26,168 @@ std::string duration(double seconds) {
   return h > 0 ? fmt::format("{}:{:02}:{:02}", h, m, s) : fmt::format("{}:{:02}", m, s);
 }
 
-std::string in_words(const Figures& f) {
-  const std::string left = f.remaining < 0 ? "?" : duration(f.remaining);
-  return fmt::format("{} elapsed, {} left, {:.1f} Mray/s", duration(f.elapsed), left,
-                     f.mrays_per_s);
-}
+/// "8.4 s left", "? left" for what is negative.
+std::string time_left(double seconds) { return (seconds < 0 ? "?" : duration(seconds)) + " left"; }
 
 /// Rounded down: 100 % is said when all is done.
-int percent(const Figures& f) { return static_cast<int>(f.share * 100); }
+int percent(double share) { return static_cast<int>(share * 100); }
 
-std::string plain_line(const Figures& f) {
-  return fmt::format("boule: {:3} %, {}", percent(f), in_words(f));
+std::string json_number(double seconds) {
+  return seconds < 0 ? "null" : fmt::format("{:.3f}", seconds);
 }
 
-std::string json_line(const Figures& f) {
-  const std::string left = f.remaining < 0 ? "null" : fmt::format("{:.3f}", f.remaining);
-  return fmt::format(
-      R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}}})",
-      std::floor(f.share * 1e4) * 1e-4, f.elapsed, left, f.mrays_per_s);
-}
-
-std::string bar_line(const Figures& f) {
-  constexpr int cells = 24;
-  const auto full = static_cast<std::size_t>(std::clamp(f.share, 0.0, 1.0) * cells);
-  const std::string bar = std::string(full, '#') + std::string(cells - full, '.');
-  return fmt::format("boule: {:3} % [{}] {}", percent(f), bar, in_words(f));
-}
-
-/// Columns of the terminal on standard error, 80 if it does not tell.
-std::size_t terminal_columns() {
-  winsize size{};
-  const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  return told ? size.ws_col : 80;
-}
-
-ProgressStyle resolve(ProgressStyle style) {
-  if (style != ProgressStyle::automatic) return style;
-  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::plain;
+/// What is left after a share of `all` has taken so long, negative where that is not known.
+double extrapolate(double elapsed, double done, double all) {
+  return done > 0 ? elapsed * (all - done) / done : -1;
 }
 
 }  // namespace
 
-ProgressBar::ProgressBar(ProgressStyle style) : style_(resolve(style)) {}
-
-ProgressBar::~ProgressBar() {
-  if (drawn_ == 0) return;
-  print_raw("\n");
-  set_line_open(false);
+void ProgressBar::start_frame() {
+  if (frame_ > 0 && !skipped_) ++rendered_;
+  ++frame_;
+  skipped_ = false;
+  progress_ = {};
 }
 
-void ProgressBar::update(const Progress& progress) {
-  if (style_ == ProgressStyle::none) return;
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  if (!due(progress, elapsed)) return;
-  told_ = true;
-  told_at_ = elapsed;
-  told_share_ = progress.share;
-  const Figures figures = figures_of(progress, elapsed);
-  if (style_ == ProgressStyle::bar) return draw(bar_line(figures));
-  print_note(style_ == ProgressStyle::json ? json_line(figures) : plain_line(figures));
+void ProgressBar::skip_frame() {
+  skipped_ = true;
+  progress_.share = 1;
+  end_stage();
 }
 
-bool ProgressBar::due(const Progress& progress, double elapsed) const {
-  if (progress.share >= 1) return told_share_ < 1;
-  if (style_ != ProgressStyle::plain) return !told_ || elapsed - told_at_ >= 0.1;
-  return std::floor(progress.share * 10) > std::floor(told_share_ * 10) || elapsed - told_at_ >= 10;
+void ProgressBar::start_stage(const std::string& what, double now) { stage_ = Stage{what, now}; }
+
+void ProgressBar::start_pass(const char* of_what, double now) {
+  end_stage();
+  passing_ = true;
+  of_what_ = of_what;
+  progress_ = {};
+  pass_since_ = moved_at_ = now;
+  fresh_ = false;
+  if (style_ == ProgressStyle::json) told_at_ = told_share_ = -never;
 }
 
-/// Rewrites the line; what is left of a longer one is blanked.
-void ProgressBar::draw(std::string line) {
-  line.resize(std::min(line.size(), terminal_columns() - 1));
-  const std::size_t length = line.size();
-  if (length < drawn_) line.append(drawn_ - length, ' ');
-  // First: a signal in between then ends an empty line, not none.
-  set_line_open(true);
-  print_raw("\r" + line);
-  drawn_ = length;
+/// The line of a single pass ends here: the next one starts anew.
+void ProgressBar::end_pass() {
+  passing_ = false;
+  if (style_ == ProgressStyle::bar && !is_series()) told_at_ = -never;
+}
+
+void ProgressBar::update(const Progress& progress, double now) {
+  if (!passing_ || progress.share < progress_.share) return;  // told late
+  fresh_ = true;
+  const bool moved = progress.share != progress_.share || progress.rays != progress_.rays;
+  progress_ = progress;
+  if (!moved) return;
+  moved_at_ = now;
+  const double seconds = now - pass_since_;
+  mrays_per_s_ = seconds > 0 ? static_cast<double>(progress.rays) / seconds * 1e-6 : 0;
+}
+
+std::optional<std::string> ProgressBar::tell(double now) {
+  if (now < next()) return std::nullopt;
+  fresh_ = false;
+  told_at_ = now;
+  const bool of_stage = stage_ && !(style_ == ProgressStyle::bar && is_series());
+  if (of_stage) return stage_line(now);
+  told_share_ = share();
+  if (style_ == ProgressStyle::json) return json_line(now);
+  return style_ == ProgressStyle::bar ? bar_line(now) : plain_line(now);
+}
+
+double ProgressBar::next() const {
+  switch (style_) {
+    case ProgressStyle::bar:
+      return next_drawing();
+    case ProgressStyle::plain:
+      return next_plain_line();
+    case ProgressStyle::json:
+      if (!passing_ || !fresh_ || told_share_ >= 1) return never;
+      return share() < 1 ? told_at_ + redraw : -never;
+    default:
+      return never;
+  }
+}
+
+/// A line that stands there goes on with whatever comes; the first waits for something to tell.
+double ProgressBar::next_drawing() const {
+  const bool finished = share() >= 1, drawn = told_at_ > -never;
+  if (finished && told_share_ < 1) return -never;
+  if (stage_) return drawn ? told_at_ + redraw : stage_->since + patience;
+  if (finished || !(passing_ || is_series())) return never;
+  if (drawn) return told_at_ + redraw;
+  if (progress_.share > 0) return -never;
+  return passing_ ? pass_since_ + patience : never;
+}
+
+double ProgressBar::next_plain_line() const {
+  if (stage_) return std::max(stage_->since + patience, told_at_ + interval);
+  if (!passing_) return never;
+  if (told_share_ < 0) return share() < 1 ? std::max(patience, told_at_ + interval) : never;
+  if (share() >= 1) return told_share_ < 1 ? -never : never;
+  const bool moved = share() * 100 - told_share_ * 100 > step - 1e-9;
+  return moved ? told_at_ + interval : never;
+}
+
+/// Of the series, of a frame to programs.
+double ProgressBar::share() const {
+  if (!is_series() || style_ == ProgressStyle::json) return progress_.share;
+  return (std::max(frame_ - 1, 0) + progress_.share) / frames_;
+}
+
+/// Of the series, from the frames that took their time so far.
+double ProgressBar::series_remaining(double now) const {
+  const double worked = rendered_ + (skipped_ ? 0 : progress_.share);
+  const double left = frames_ - frame_ + 1 - progress_.share;
+  return extrapolate(now, worked, worked + left);
+}
+
+double ProgressBar::pass_remaining(double now) const {
+  return extrapolate(now - pass_since_, progress_.share, 1);
+}
+
+/// "frame 3 of 20, 8.4 s elapsed, 12.1 s left, 3.2 Mray/s", or what it waits for.
+std::string ProgressBar::state(double now) const {
+  const double left = is_series() ? series_remaining(now) : pass_remaining(now);
+  const std::string frame = is_series() ? fmt::format("frame {} of {}, ", frame_, frames_) : "";
+  const double elapsed = is_series() ? now : now - pass_since_;
+  const std::string times = frame + duration(elapsed) + " elapsed, " + time_left(left) + ", ";
+  if (stage_ && now - stage_->since >= patience) return times + stage_->what;
+  const bool stands = passing_ && progress_.share < 1 && now - moved_at_ >= patience;
+  if (!stands) return times + fmt::format("{:.1f} Mray/s", mrays_per_s_);
+  const std::string blocks = progress_.share == 0    ? "the first block"
+                             : progress_.running > 0 ? counted(progress_.running, "block")
+                                                     : "blocks";
+  return times + "waiting for " + blocks + " of " + of_what_;
+}
+
+std::string ProgressBar::stage_line(double now) const {
+  const std::string line = "boule: " + stage_->what + " ...";
+  return style_ == ProgressStyle::bar ? line + " " + duration(now - stage_->since) : line;
+}
+
+std::string ProgressBar::plain_line(double now) const {
+  return fmt::format("boule: {:3} %, {}", percent(share()), state(now));
+}
+
+std::string ProgressBar::bar_line(double now) const {
+  const int cells = is_series() ? 6 : 24;
+  const auto full = static_cast<std::size_t>(std::clamp(share(), 0.0, 1.0) * cells);
+  const std::string bar =
+      std::string(full, '#') + std::string(static_cast<std::size_t>(cells) - full, '.');
+  return fmt::format("boule: {:3} % [{}] {}", percent(share()), bar, state(now));
+}
+
+std::string ProgressBar::json_line(double now) const {
+  const std::string series = is_series()
+                                 ? fmt::format(R"(,"frame":{},"frames":{},"series_remaining_s":{})",
+                                               frame_, frames_, json_number(series_remaining(now)))
+                                 : "";
+  return fmt::format(
+      R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}{}}})",
+      std::floor(progress_.share * 1e4) * 1e-4, now - pass_since_, json_number(pass_remaining(now)),
+      mrays_per_s_, series);
 }
 
 }  // namespace boule::cli

@@ -1,42 +1,88 @@
 #pragma once
 
-#include <chrono>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "render/frame/progress.h"
 
 namespace boule::cli {
 
-/// How progress is told, always on standard error. bar: one line that is rewritten, at most ten
-/// times a second. plain: a line every 10 s or 10 %. json: a JSON object a line, at most ten a
-/// second: {"share", "elapsed_s", "remaining_s" (null at first), "mrays_per_s"}.
+/// How progress is told, always on standard error.
+/// bar: one line that is rewritten ten times a second, also while nothing moves.
+/// plain: lines, none within the first two seconds of the run; from then on one when both ten
+/// seconds have passed and ten per cent are done since the last, and at the end one if there were
+/// any before.
+/// json: a JSON object a line, at most ten a second: {"share", "elapsed_s", "remaining_s" (null at
+/// first), "mrays_per_s"}, in a series {"frame", "frames", "series_remaining_s"} too.
 /// automatic: bar on a terminal, else plain.
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
-/// Tells how far a pass has come, from its construction on: share, time elapsed, time remaining,
-/// and rays per second.
+/// Decides what is told of a run while it goes on, and when: the share of it that is done, time
+/// elapsed, time remaining, rays per second; what it waits for when nothing moves. Stages, which
+/// cannot tell how far they have come, are told of when they take two seconds; on a pipe every ten
+/// seconds from then on. Nothing here looks at a clock or writes: `now` is in seconds from the
+/// run's start and never decreases.
 class ProgressBar {
  public:
-  explicit ProgressBar(ProgressStyle style);
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-  /// Ends the bar's line, so that other text starts on one of its own.
-  ~ProgressBar();
+  /// Any style but automatic; a series of so many frames, 1: none.
+  explicit ProgressBar(ProgressStyle style, int frames = 1) : style_(style), frames_(frames) {}
 
-  void update(const Progress& progress);
+  /// The next frame of the series begins. One that is skipped does not count for the time that a
+  /// frame takes.
+  void start_frame();
+  void skip_frame();
+
+  /// Stage: "reading a.toml"; it ends with the next stage, with a pass or with end_stage().
+  void start_stage(const std::string& what, double now);
+  void end_stage() { stage_.reset(); }
+
+  /// A pass over blocks of "pixels" or "rays", from start to end.
+  void start_pass(const char* of_what, double now);
+  void update(const Progress& progress, double now);
+  void end_pass();
+
+  /// What is to be told now, if anything: a line without its end; with style bar the line that
+  /// rewrites the one before.
+  std::optional<std::string> tell(double now);
+
+  /// When there will be something if nothing moves until then; infinity: never.
+  [[nodiscard]] double next() const;
+
+  [[nodiscard]] ProgressStyle style() const { return style_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  [[nodiscard]] bool due(const Progress& progress, double elapsed) const;
-  void draw(std::string line);
+  struct Stage {
+    std::string what;
+    double since;
+  };
+  [[nodiscard]] bool is_series() const { return frames_ > 1; }
+  [[nodiscard]] double share() const;
+  [[nodiscard]] double series_remaining(double now) const;
+  [[nodiscard]] double pass_remaining(double now) const;
+  [[nodiscard]] double next_drawing() const;
+  [[nodiscard]] double next_plain_line() const;
+  [[nodiscard]] std::string state(double now) const;
+  [[nodiscard]] std::string stage_line(double now) const;
+  [[nodiscard]] std::string plain_line(double now) const;
+  [[nodiscard]] std::string bar_line(double now) const;
+  [[nodiscard]] std::string json_line(double now) const;
 
   ProgressStyle style_;
-  Clock::time_point start_ = Clock::now();
-  double told_at_ = 0;     ///< seconds from the start; the last time something was told
-  double told_share_ = 0;  ///< and the share then
-  bool told_ = false;
-  std::size_t drawn_ = 0;  ///< length of the line on the terminal
+  int frames_;
+  int frame_ = 0;     ///< from 1
+  int rendered_ = 0;  ///< frames before this one that took their time
+  bool skipped_ = false;
+  std::optional<Stage> stage_;
+  bool passing_ = false;
+  const char* of_what_ = "";
+  Progress progress_;       ///< of this pass or the last
+  double pass_since_ = 0;   ///< its start
+  double moved_at_ = 0;     ///< when progress_ changed
+  double mrays_per_s_ = 0;  ///< of the pass until then
+  bool fresh_ = false;      ///< an update came since something was told
+  double told_at_ = -std::numeric_limits<double>::infinity();  ///< anything
+  double told_share_ = -1;  ///< share() then; negative: none was told yet
 };
 
 }  // namespace boule::cli

@@ -67,12 +67,16 @@ void RunReport::note(const std::string& text) const {
   if (options_.verbosity != Verbosity::quiet) print_note(text);
 }
 
+void RunReport::note_once(const std::string& text) const {
+  if (options_.verbosity != Verbosity::quiet) live_.tell_once(text, options_.scene);
+}
+
 void RunReport::detail(const std::string& text) const {
   if (options_.verbosity == Verbosity::verbose) print_note("boule: note: " + text);
 }
 
 void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
-  for (const std::string& warning : loaded.warnings) note(warning);
+  for (const std::string& warning : loaded.warnings) note_once(warning);
   const Scene& scene = loaded.scene;
   const PrimitiveCount count = count_primitives(scene);
   detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", options_.scene,
@@ -86,26 +90,6 @@ void RunReport::prepared(const RunStatistics& run) const {
                      counted(static_cast<std::size_t>(run.width), "lane"),
                      solver_name(run.solver)));
 }
-
-void RunReport::start_stage(const std::string& what) {
-  stage_.reset();
-  const bool quiet = options_.verbosity == Verbosity::quiet;
-  const ProgressStyle style = options_.progress;
-  if (quiet || style == ProgressStyle::none || style == ProgressStyle::json) return;
-  stage_.emplace("boule: " + what + " " + options_.scene + " ...");
-}
-
-void RunReport::start_progress() {
-  end_stage();
-  const bool quiet = options_.verbosity == Verbosity::quiet;
-  bar_.emplace(quiet ? ProgressStyle::none : options_.progress);
-}
-
-void RunReport::progress(const Progress& progress) {
-  if (bar_) bar_->update(progress);
-}
-
-void RunReport::end_progress() { bar_.reset(); }
 
 ExitCode RunReport::finish(const Stats& stats) const {
   Status status;

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/error.h"
 #include "render/cli/exit_code.h"
+#include "render/cli/live_report.h"
 #include "render/cli/options.h"
-#include "render/cli/progress_bar.h"
-#include "render/cli/slow_stage.h"
 #include "render/cli/stats.h"
-#include "render/frame/progress.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
@@ -34,38 +31,28 @@ Status check_data_files(const RunOptions& options, const std::string& output,
 /// A pipe or device gets the data now: a signal's message says that the output is incomplete.
 void tell_sending(const std::string& output);
 
-/// What one run of render or trace tells on standard error, as loud as its options say, and its
-/// statistics.
+/// What one run of render or trace, or one frame of a series, tells on standard error, as loud as
+/// its options say, and its statistics.
 class RunReport {
  public:
-  /// `options` must outlive it.
-  explicit RunReport(const RunOptions& options) : options_(options) {}
+  /// Both must outlive it; a series has one LiveReport for all its frames.
+  RunReport(const RunOptions& options, LiveReport& live) : options_(options), live_(live) {}
 
-  /// A line unless quiet; a "boule: note: " if verbose.
+  /// A line unless quiet; the same once in a series; a "boule: note: " if verbose.
   void note(const std::string& text) const;
+  void note_once(const std::string& text) const;
   void detail(const std::string& text) const;
 
   /// The scene's warnings, and its figures.
   void loaded(const LoadedScene& loaded, double seconds) const;
   void prepared(const RunStatistics& run) const;
 
-  /// What is done before there is progress to tell: "reading", "preparing". Told where it takes its
-  /// time; ends with the next stage, with the progress bar, or with end_stage().
-  void start_stage(const std::string& what);
-  void end_stage() { stage_.reset(); }
-
-  /// The progress bar, from start to end.
-  void start_progress();
-  void progress(const Progress& progress);
-  void end_progress();
-
   /// Writes the statistics.
   [[nodiscard]] ExitCode finish(const Stats& stats) const;
 
  private:
   const RunOptions& options_;
-  std::optional<SlowStage> stage_;
-  std::optional<ProgressBar> bar_;
+  LiveReport& live_;
 };
 
 }  // namespace boule::cli

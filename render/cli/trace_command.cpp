@@ -5,8 +5,10 @@
 
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
+#include "render/cli/live_report.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
 #include "render/frame/stopwatch.h"
 #include "render/renderer/tracer.h"
@@ -39,11 +41,15 @@ struct Failure {
 /// One run of `boule trace`, step by step; each step that fails leaves its exit code.
 class Tracing {
  public:
-  explicit Tracing(const TraceCommand& command) : command_(command), report_(command) {}
+  explicit Tracing(const TraceCommand& command)
+      : command_(command), live_(command), report_(command, live_), limit_(command.load_limit) {}
 
   ExitCode run();
 
  private:
+  Result<LoadedScene> load();
+  Result<RayFile> open_rays();
+  Status read_chunk(RayFile& rays);
   ExitCode write(RayFile& rays, Tracer& tracer);
   std::optional<Failure> trace_to_file(RayFile& rays, Tracer& tracer);
   std::optional<Failure> trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file);
@@ -53,7 +59,9 @@ class Tracing {
   ExitCode finish(const Tracer& tracer);
 
   const TraceCommand& command_;
+  LiveReport live_;
   RunReport report_;
+  ReadingLimit limit_;
   Stopwatch watch_;
   Stats stats_;
   std::vector<Ray> rays_;        ///< of the chunk
@@ -63,20 +71,35 @@ class Tracing {
   std::uint64_t hit_count_ = 0;
 };
 
+Result<LoadedScene> Tracing::load() {
+  live_.start_stage("reading " + printable(command_.scene));
+  const ReadingLimit::Reading reading(limit_, command_.scene);
+  return load_scene(command_.scene);
+}
+
+Result<RayFile> Tracing::open_rays() {
+  const ReadingLimit::Reading reading(limit_, command_.rays);
+  return RayFile::open(command_.rays);
+}
+
+Status Tracing::read_chunk(RayFile& rays) {
+  const ReadingLimit::Reading reading(limit_, command_.rays);
+  return rays.read(rays_);
+}
+
 ExitCode Tracing::run() {
   if (auto bad = check(command_)) return report(*bad, wrong_usage);
   if (auto bad = check_stats_target(command_.stats)) return report(*bad, failed);
   if (auto bad = check_output(command_.output)) return report(*bad, failed);
-  report_.start_stage("reading");
-  auto loaded = load_scene(command_.scene);
+  auto loaded = load();
   if (!loaded) return report(loaded.error(), invalid_input);
   if (auto bad = check_data_files(command_, "hits", loaded.value().data_files))
     return report(*bad, wrong_usage);
-  auto rays = RayFile::open(command_.rays);
+  auto rays = open_rays();
   if (!rays) return report(rays.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
-  report_.start_stage("preparing");
+  live_.start_stage("preparing " + printable(command_.scene));
 
   TraceOptions options;
   options.solver = command_.solver;
@@ -87,7 +110,7 @@ ExitCode Tracing::run() {
   };
   auto tracer = Tracer::create(std::move(loaded.value().scene), options);
   if (!tracer) return report(tracer.error(), failed);
-  report_.end_stage();
+  live_.end_stage();
   report_.prepared(tracer.value().statistics());
   return write(rays.value(), tracer.value());
 }
@@ -100,7 +123,7 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
     if (!failure) set_written("the hits had been written");
   }
   exit_if_interrupted();
-  report_.end_progress();
+  live_.end_pass();
   return failure ? report(failure->error, failure->code) : finish(tracer);
 }
 
@@ -110,9 +133,10 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
   if (!file) return Failure{file.error(), failed};
   {
     const RemovalGuard removal(file.value().temporary());
-    report_.start_progress();
+    live_.start_pass("rays");
     if (auto bad = trace_chunks(rays, tracer, file.value())) return bad;
-    report_.end_progress();
+    live_.end_pass();
+    live_.start_stage("writing " + printable(command_.output));
     const Stopwatch watch;
     if (auto bad = file.value().sync()) return Failure{*bad, failed};
     stats_.write_seconds += watch.seconds();
@@ -132,7 +156,7 @@ std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitF
     const std::uint64_t left = rays.size() - traced_;
     rays_.resize(static_cast<std::size_t>(std::min(left, chunk_size)));
     const Stopwatch reading;
-    if (auto bad = rays.read(rays_)) return Failure{*bad, invalid_input};
+    if (auto bad = read_chunk(rays)) return Failure{*bad, invalid_input};
     stats_.load_seconds += reading.seconds();
     if (auto bad = trace_chunk(tracer)) return Failure{*bad, failed};
     const Stopwatch writing;
@@ -164,7 +188,7 @@ Status Tracing::append_chunk(HitFile& file) {
 void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
   const std::uint64_t done = traced_ + progress.rays;
   const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
-  report_.progress({share, done});
+  live_.update({share, done});
 }
 
 /// After the hits: the line that says so, and the statistics.
@@ -174,6 +198,7 @@ ExitCode Tracing::finish(const Tracer& tracer) {
   stats_.work_seconds = tracing.trace_seconds;
   stats_.rays = tracing.rays;
   stats_.total_seconds = watch_.seconds();
+  live_.end_stage();
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
   report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,
                            counted(stats_.rays, "ray"), counted(hit_count_, "hit"),

@@ -31,8 +31,8 @@ BEGIN {
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
   layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
-  # The command line is fuzzed and tested without its program.
-  layer("^tests/(fuzz/fuzz_options|cli/options_test)", narrow "|^render/|^tests/", any)
+  # The command line is fuzzed and tested without its program, and so is what tells the time.
+  layer("^tests/(fuzz/fuzz_options|cli/)", narrow "|^render/|^tests/", any)
   layer("^(tests|bench)/", narrow "|^render/(memory|threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.

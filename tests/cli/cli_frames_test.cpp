@@ -100,9 +100,10 @@ TEST_F(Frames, WhatIsThereIsSkippedOnRequestIfItIsFinished) {
                   .exit_code,
               0);  // of another size
     std::vector<std::string> again = arguments;
-    again.emplace_back("--skip-existing");
+    again.insert(again.end(), {"--skip-existing", "-v"});
     const ProgramRun run = boule_run(again);
     EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(name + ": 4 frames, 1 of them there already, "));
     EXPECT_THAT(run.err, testing::Not(HasSubstr(frame(3) + ": is there already")));
     EXPECT_THAT(run.err, HasSubstr(frame(4) + ": is there already, skipped"));
     EXPECT_EQ(read(frame(1)), first);

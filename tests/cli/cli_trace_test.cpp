@@ -206,8 +206,8 @@ TEST_F(Trace, ProgressAndNotes) {
   write("r.npy", ray_file(ray_cloud(5000)));
   const std::string scene = cloud_scene(10);
   EXPECT_THAT(trace(scene, {"--progress", "bar"}).err, StartsWith("\rboule: "));
-  EXPECT_THAT(trace(scene, {"--progress", "auto"}).err, HasSubstr("boule: 100 %, "));
-  EXPECT_THAT(trace(scene, {"--progress", "plain"}).err, HasSubstr("boule: 100 %, "));
+  EXPECT_THAT(trace(scene, {"--progress", "auto"}).err, Not(HasSubstr("\r")));
+  EXPECT_THAT(trace(scene, {"--progress", "plain"}).err, Not(HasSubstr("\r")));
   EXPECT_THAT(trace(scene, {"--progress", "json"}).err, HasSubstr("{\"share\":1.0000,"));
   EXPECT_THAT(trace(scene, {"--progress", "none"}).err, Not(HasSubstr("%")));
   EXPECT_THAT(trace(scene, {"--progress", "bar", "-q"}).err, IsEmpty());

@@ -1,0 +1,154 @@
+#include "render/cli/live_report.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/standard_error.h"
+#include "render/cli/time_span.h"
+
+namespace boule::cli {
+namespace {
+
+ProgressStyle style_of(const RunOptions& options) {
+  if (options.verbosity == Verbosity::quiet) return ProgressStyle::none;
+  if (options.progress != ProgressStyle::automatic) return options.progress;
+  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::plain;
+}
+
+}  // namespace
+
+LiveReport::LiveReport(const RunOptions& options, int frames)
+    : frames_(frames), bar_(style_of(options), frames) {}
+
+LiveReport::~LiveReport() {
+  pulse_.reset();
+  end_drawn_line();
+}
+
+void LiveReport::start_frame() {
+  const std::lock_guard lock(mutex_);
+  bar_.start_frame();
+}
+
+void LiveReport::skip_frame() {
+  const std::lock_guard lock(mutex_);
+  bar_.skip_frame();
+}
+
+void LiveReport::start_stage(const std::string& what) {
+  const auto now = Clock::now();
+  const std::lock_guard lock(mutex_);
+  bar_.start_stage(what, since_start(now));
+  tell_in_time(now);
+}
+
+void LiveReport::end_stage() {
+  const std::lock_guard lock(mutex_);
+  bar_.end_stage();
+}
+
+void LiveReport::start_pass(const char* of_what) {
+  const auto now = Clock::now();
+  const std::lock_guard lock(mutex_);
+  progress_.begin_pass(1, 0, 1, 0);  // nothing is left of the one before
+  bar_.start_pass(of_what, since_start(now));
+  tell_in_time(now);
+}
+
+/// Where another tells at the moment, on a terminal that is stopped perhaps, the work goes on.
+void LiveReport::update(const Progress& progress) {
+  const auto now = Clock::now();
+  stop_if_over(now);
+  std::unique_lock lock(mutex_, std::defer_lock);
+  if (progress.share >= 1) {
+    lock.lock();
+  } else if (!lock.try_lock()) {
+    return;
+  }
+  bar_.update(progress, since_start(now));
+  tell(now);
+}
+
+void LiveReport::end_pass() {
+  const std::lock_guard lock(mutex_);
+  bar_.end_pass();
+  if (!is_series()) end_drawn_line();
+}
+
+void LiveReport::end_series() {
+  const std::lock_guard lock(mutex_);
+  end_drawn_line();
+}
+
+void LiveReport::start_time_limit(std::optional<double> seconds) {
+  if (!seconds) return;
+  const auto now = Clock::now();
+  const std::lock_guard lock(mutex_);
+  limit_ = now + time_span(*seconds);
+  tell_in_time(now);
+}
+
+void LiveReport::end_time_limit() {
+  const std::lock_guard lock(mutex_);
+  limit_ = Clock::time_point::max();
+}
+
+void LiveReport::tell_once(const std::string& line, const std::string& place) {
+  std::string key = line;
+  for (auto at = key.find(place); !place.empty() && at != std::string::npos; at = key.find(place))
+    key.erase(at, place.size());
+  if (told_.insert(key).second) write_lines(line + "\n");
+}
+
+double LiveReport::seconds() const { return since_start(Clock::now()); }
+
+/// Without memory nothing is told this time.
+LiveReport::Clock::time_point LiveReport::beat(Clock::time_point now) noexcept {
+  constexpr std::chrono::milliseconds shortest{50};
+  const std::lock_guard lock(mutex_);
+  stop_if_over(now);
+  try {
+    tell(now);
+  } catch (const std::exception&) {
+  }
+  return std::max(next(), now + shortest);
+}
+
+/// Under the mutex, as all below.
+void LiveReport::tell(Clock::time_point now) {
+  const double since = since_start(now);
+  if (bar_.style() != ProgressStyle::json) bar_.update(progress_.read(), since);
+  const auto line = bar_.tell(since);
+  if (!line) return;
+  bar_.style() == ProgressStyle::bar ? draw_line(*line) : write_lines(*line + "\n");
+}
+
+/// What is due, and sees to it that it goes on.
+void LiveReport::tell_in_time(Clock::time_point now) {
+  tell(now);
+  const auto when = next();
+  if (when == Clock::time_point::max()) return;
+  if (!pulse_) pulse_.emplace([this](Clock::time_point then) { return beat(then); });
+  pulse_->at(when);
+}
+
+void LiveReport::stop_if_over(Clock::time_point now) {
+  if (now < limit_.load()) return;
+  limit_ = Clock::time_point::max();
+  StopGuard::stop();
+}
+
+double LiveReport::since_start(Clock::time_point now) const { return in_seconds(now - start_); }
+
+LiveReport::Clock::time_point LiveReport::next() const {
+  const double told = bar_.next();
+  const auto limit = limit_.load();
+  return std::isinf(told) && told > 0 ? limit : std::min(limit, start_ + time_span(told));
+}
+
+}  // namespace boule::cli

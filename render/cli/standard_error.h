@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace boule::cli {
+
+/// Writes whole lines to standard error, on any thread. What draw_line() left open is wiped away
+/// first.
+void write_lines(const std::string& lines);
+
+/// Rewrites the last line of the terminal on standard error, which stays open: no end of line
+/// yet. Cut to the terminal's width.
+void draw_line(std::string line);
+
+/// Ends a line that draw_line() left open.
+void end_drawn_line();
+
+/// Columns of the terminal on standard error, 80 if it does not tell.
+std::size_t terminal_columns();
+
+/// Writes the process's last line to standard error, after ending one that is open: nobody writes
+/// anything after it. What a signal's handler may do; needs no memory. What is beyond 400 bytes is
+/// cut.
+void write_last_line(const char* line);
+
+}  // namespace boule::cli
