@@ -25,9 +25,9 @@ struct Run {
 }  // namespace
 
 int main(int argc, char** argv) {
+  begin_main();
   open_closed_streams();
   install_interrupt_handlers();
-  install_no_memory_handler();
   try {
     if (const auto bad = take_stack()) return report(*bad, failed);
     return std::visit(Run{}, parse_command_line(argc, argv));

@@ -26,6 +26,8 @@ constexpr std::size_t taken = 3072 * kibibyte, least_limit = 4096 * kibibyte;
   for (std::size_t i = taken; i >= page; i -= page) stack[i - page] = 0;
 }
 
+bool started = false;
+
 Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
 
 [[noreturn]] void end_without_memory() {
@@ -34,9 +36,21 @@ Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
   } catch (const std::bad_alloc&) {
     leave_without_memory();
   } catch (...) {
+    std::abort();
   }
+  // Nothing was thrown: before main() begins there is not even the memory for that.
+  if (!started) leave_without_memory();
   std::abort();
 }
+
+/// (Before sanitizers have begun.)
+__attribute__((no_sanitize("thread"))) void install_handler() {
+  std::set_terminate(end_without_memory);
+}
+
+/// Static objects of libraries want memory too, before anything of ours begins: what stands in this
+/// section is called before them.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = install_handler;
 
 }  // namespace
 
@@ -62,6 +76,6 @@ Status take_stack() {
 
 void leave_without_memory() { leave_at_once("boule: error: out of memory\n", failed); }
 
-void install_no_memory_handler() { std::set_terminate(end_without_memory); }
+void begin_main() { started = true; }
 
 }  // namespace boule::cli

@@ -12,8 +12,9 @@ Status take_stack();
 /// temporary file removed.
 [[noreturn]] void leave_without_memory();
 
-/// Makes the program end like that where an allocation fails in a place that exceptions
-/// cannot leave: code of others, while it is loaded for instance.
-void install_no_memory_handler();
+/// The program ends like that, too, where an allocation fails in a place that exceptions cannot
+/// leave: code of others while it is loaded, and before main() begins. This says that it has: from
+/// then on it takes a std::bad_alloc to end so.
+void begin_main();
 
 }  // namespace boule::cli
