@@ -1,6 +1,7 @@
 // Lens prescriptions: any bytes; one that is read, as the camera of a scene.
 #include "render/scene_file/lens_file.h"
 #include "tests/fuzz/fuzz_scene.h"
+#include "tests/fuzz/input_budget.h"
 
 namespace {
 
@@ -11,6 +12,7 @@ constexpr const char* scene =
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const boule::fuzz::InputBudget budget;
   using namespace boule;
   static const fuzz::InputFolder folder;
   const auto surfaces = read_lens(folder.write("a.lens", data, size));

@@ -1,7 +1,9 @@
 // Scenes in NFF: any bytes, after one that says what becomes of polygons.
 #include "tests/fuzz/fuzz_scene.h"
+#include "tests/fuzz/input_budget.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const boule::fuzz::InputBudget budget;
   using boule::PolygonPolicy;
   static const boule::fuzz::InputFolder folder;
   constexpr PolygonPolicy policies[] = {PolygonPolicy::plane, PolygonPolicy::skip,

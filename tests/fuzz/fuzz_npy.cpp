@@ -7,6 +7,7 @@
 
 #include "render/scene_file/npy_reader.h"
 #include "render/trace_file/ray_file.h"
+#include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/input_folder.h"
 
 namespace {
@@ -48,6 +49,7 @@ void read_rays(const std::string& path) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::InputBudget budget;
   static const fuzz::InputFolder folder;
   if (size == 0) return 0;
   const std::string path = folder.write("data.npy", data + 1, size - 1);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/cli/options.h"
+#include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"
 
 namespace {
@@ -42,6 +43,7 @@ struct Promises {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const boule::fuzz::InputBudget budget;
   std::vector<std::string> words{"boule"};
   std::string word;
   for (std::size_t i = 0; i < size; ++i) {

@@ -5,6 +5,7 @@
 
 #include "render/image/finished_picture.h"
 #include "tests/fuzz/fuzz_scene.h"
+#include "tests/fuzz/input_budget.h"
 
 namespace {
 
@@ -26,6 +27,7 @@ void load_scenes(const fuzz::InputFolder& folder, const std::string& picture) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::InputBudget budget;
   static const fuzz::InputFolder folder;
   constexpr const char* names[] = {"a.exr", "a.hdr", "a.png", "a.jpg",
                                    "a.tif", "a.ppm", "a.bmp", "a.tga"};

@@ -9,6 +9,7 @@
 #include "simd/build/geometry_builder.h"
 #include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"
 
 namespace {
@@ -115,6 +116,7 @@ void compare(const KernelTable& kernels, const GeometryView& geometry, const Que
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::InputBudget budget;
   Bytes bytes(data, size);
   const Case made = make_case(bytes);
   RayBuffer rays(made.rays.size());

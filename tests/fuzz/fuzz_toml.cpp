@@ -1,5 +1,6 @@
 // Scenes in TOML: any bytes.
 #include "tests/fuzz/fuzz_scene.h"
+#include "tests/fuzz/input_budget.h"
 #include "tests/render/npy_files.h"
 
 namespace {
@@ -13,6 +14,7 @@ void write_spheres(const boule::fuzz::InputFolder& folder) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const boule::fuzz::InputBudget budget;
   static const boule::fuzz::InputFolder folder;
   static const bool written = (write_spheres(folder), true);
   static_cast<void>(written);
