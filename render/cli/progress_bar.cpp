@@ -26,9 +26,6 @@ std::string duration(double seconds) {
   return h > 0 ? fmt::format("{}:{:02}:{:02}", h, m, s) : fmt::format("{}:{:02}", m, s);
 }
 
-/// "8.4 s left", "? left" for what is negative.
-std::string time_left(double seconds) { return (seconds < 0 ? "?" : duration(seconds)) + " left"; }
-
 /// Rounded down: 100 % is said when all is done.
 int percent(double share) { return static_cast<int>(share * 100); }
 
@@ -152,14 +149,24 @@ std::string ProgressBar::state(double now) const {
   const double left = is_series() ? series_remaining(now) : pass_remaining(now);
   const std::string frame = is_series() ? fmt::format("frame {} of {}, ", frame_, frames_) : "";
   const double elapsed = is_series() ? now : now - pass_since_;
-  const std::string times = frame + duration(elapsed) + " elapsed, " + time_left(left) + ", ";
-  if (stage_ && now - stage_->since >= patience) return times + stage_->what;
-  const bool stands = passing_ && progress_.share < 1 && now - moved_at_ >= patience;
-  if (!stands) return times + fmt::format("{:.1f} Mray/s", mrays_per_s_);
-  const std::string blocks = progress_.share == 0    ? "the first block"
-                             : progress_.running > 0 ? counted(progress_.running, "block")
-                                                     : "blocks";
-  return times + "waiting for " + blocks + " of " + of_what_;
+  const std::string so_far = frame + duration(elapsed) + " elapsed, ";
+  const std::string what = awaited(now);
+  if (left < 0 && !what.empty()) return so_far + what;
+  const std::string speed = fmt::format("{:.1f} Mray/s", mrays_per_s_);
+  return so_far + (left < 0 ? "?" : duration(left)) + " left, " + (what.empty() ? speed : what);
+}
+
+/// "reading a.toml", "waiting for 2 blocks of pixels"; empty while all goes on.
+std::string ProgressBar::awaited(double now) const {
+  if (stage_) return now - stage_->since >= patience ? stage_->what : "";
+  if (!passing_ || progress_.share >= 1) return "";
+  const std::string of_what = std::string(" of ") + of_what_;
+  const bool stands = now - moved_at_ >= patience;
+  if (progress_.share <= 0 && (stands || !is_series()))
+    return "waiting for the first block" + of_what;
+  if (!stands) return "";
+  const std::size_t blocks = progress_.running;
+  return "waiting for " + (blocks > 0 ? counted(blocks, "block") : "blocks") + of_what;
 }
 
 std::string ProgressBar::stage_line(double now) const {
@@ -171,12 +178,19 @@ std::string ProgressBar::plain_line(double now) const {
   return fmt::format("boule: {:3} %, {}", percent(share()), state(now));
 }
 
+/// Made for 80 columns: what is said goes before the cells.
 std::string ProgressBar::bar_line(double now) const {
-  const int cells = is_series() ? 6 : 24;
-  const auto full = static_cast<std::size_t>(std::clamp(share(), 0.0, 1.0) * cells);
-  const std::string bar =
-      std::string(full, '#') + std::string(static_cast<std::size_t>(cells) - full, '.');
-  return fmt::format("boule: {:3} % [{}] {}", percent(share()), bar, state(now));
+  constexpr std::size_t columns = 79, others = 16;  // "boule: 100 % [] "
+  const std::string text = state(now);
+  std::size_t cells = 20;
+  for (const std::size_t fewer : {8, 4, 0}) {
+    if (others + cells + text.size() > columns) cells = fewer;
+  }
+  const auto full =
+      static_cast<std::size_t>(std::clamp(share(), 0.0, 1.0) * static_cast<double>(cells));
+  const std::string bar = std::string(full, '#') + std::string(cells - full, '.');
+  return fmt::format("boule: {:3} % {}{}", percent(share()), cells > 0 ? "[" + bar + "] " : "",
+                     text);
 }
 
 std::string ProgressBar::json_line(double now) const {

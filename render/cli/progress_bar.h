@@ -63,6 +63,7 @@ class ProgressBar {
   [[nodiscard]] double next_drawing() const;
   [[nodiscard]] double next_plain_line() const;
   [[nodiscard]] std::string state(double now) const;
+  [[nodiscard]] std::string awaited(double now) const;
   [[nodiscard]] std::string stage_line(double now) const;
   [[nodiscard]] std::string plain_line(double now) const;
   [[nodiscard]] std::string bar_line(double now) const;

@@ -46,13 +46,12 @@ int share_of_drawn_line(const std::string& line) {
   int read = 0;
   char bar[64] = {};
   double elapsed = 0;
-  char left[16] = {};
-  const int fields =
-      std::sscanf(line.c_str(), "boule: %d %% [%63[#.]] %lf s elapsed, %15[0-9.:s? ]left, %n",
-                  &share, bar, &elapsed, left, &read);
-  const std::string rest = fields == 4 ? line.substr(static_cast<std::size_t>(read)) : "";
+  const int fields = std::sscanf(line.c_str(), "boule: %d %% [%63[#.]] %lf s elapsed, %n", &share,
+                                 bar, &elapsed, &read);
+  const std::string rest = fields == 3 ? line.substr(static_cast<std::size_t>(read)) : "";
   const std::string what = rest.substr(0, rest.find_last_not_of(' ') + 1);  // blanked from before
-  const bool whole = what.ends_with(" Mray/s") || what.starts_with("waiting for ");
+  const bool speed = what.find(" left, ") != std::string::npos && what.ends_with(" Mray/s");
+  const bool whole = speed || what.find("waiting for ") != std::string::npos;
   const bool ordered = std::string_view(bar).find(".#") == std::string_view::npos;
   return whole && ordered ? share : -1;
 }
@@ -134,6 +133,37 @@ TEST_F(Progressing, JsonLinesAreForPrograms) {
     EXPECT_GT(json.at("mrays_per_s").get<double>(), 0);
   }
   EXPECT_EQ(last, 1);
+}
+
+/// A note that says nothing new, and frames that take no time.
+TEST_F(Progressing, ASeriesIsToldOfInAFewLines) {
+  for (const char* name : {"a.01.toml", "a.02.toml", "a.03.toml"}) {
+    write(name, "schema = 1\n[render]\nmethod = \"whitted\"\n[[sphere]]\n");
+  }
+  const ProgramRun run = boule_run(
+      {"render", path("a.##.toml"), "-o", path("o##.ppm"), "--frames", "1-3", "--size", "8x8"});
+  EXPECT_EQ(run.exit_code, 0);
+  const auto lines = split(run.err, '\n');
+  ASSERT_EQ(lines.size(), 3u) << run.err;
+  EXPECT_THAT(lines[0], HasSubstr("note: no camera in the scene"));
+  EXPECT_THAT(lines[1], HasSubstr("note: no light in the scene"));
+  EXPECT_THAT(lines[2], StartsWith("boule: " + path("o##.ppm") + ": 3 frames, "));
+  const ProgramRun verbose = boule_run({"render", path("a.##.toml"), "-o", path("o##.ppm"),
+                                        "--frames", "1-3", "--size", "8x8", "-v"});
+  for (const char* name : {"o01.ppm", "o02.ppm", "o03.ppm"}) {
+    EXPECT_THAT(verbose.err, HasSubstr("boule: " + path(name) + ": 8 x 8 pixels"));
+  }
+}
+
+TEST_F(Progressing, ATerminalHasOneLineForASeries) {
+  RunningProgram program({"render", small_scene(), "-o", path("o#.ppm"), "--frames", "1-3"});
+  const ProgramRun run = program.finish();
+  EXPECT_EQ(run.exit_code, 0);
+  const auto lines = split(run.out, '\n');
+  ASSERT_EQ(lines.size(), 2u) << run.out;  // the bar's line, the summary
+  EXPECT_THAT(lines[0], HasSubstr("frame 1 of 3, "));
+  EXPECT_THAT(lines[0], HasSubstr("boule: 100 % ["));
+  EXPECT_THAT(lines[1], HasSubstr("o#.ppm: 3 frames, "));
 }
 
 TEST_F(Progressing, QuietSilencesEveryStyle) {

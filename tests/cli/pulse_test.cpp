@@ -12,6 +12,7 @@
 #include "render/cli/interrupt.h"
 #include "render/cli/live_report.h"
 #include "render/cli/reading_limit.h"
+#include "render/cli/standard_error.h"
 
 namespace boule::cli {
 namespace {
@@ -139,6 +140,23 @@ TEST(LoadLimitDeathTest, CountsAllThatIsRead) {
 TEST(LoadLimit, NoneIsNone) {
   ReadingLimit limit(std::nullopt);
   const ReadingLimit::Reading reading(limit, "x.toml");
+}
+
+/// Whoever is drawing on whatever thread: nothing follows it.
+TEST(LeaveDeathTest, TheLastLineIsTheLast) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto leave = [] {
+    std::promise<void> drawing;
+    std::thread artist([&] {
+      for (int i = 0;; ++i) {
+        draw_line("boule: " + std::to_string(i));
+        if (i == 100) drawing.set_value();
+      }
+    });
+    drawing.get_future().wait();
+    leave_at_once("the last line\n", 3);
+  };
+  EXPECT_EXIT(leave(), testing::ExitedWithCode(3), "boule: [0-9]+ *\nthe last line\n$");
 }
 
 }  // namespace
