@@ -142,21 +142,28 @@ TEST(LoadLimit, NoneIsNone) {
   const ReadingLimit::Reading reading(limit, "x.toml");
 }
 
-/// Whoever is drawing on whatever thread: nothing follows it.
-TEST(LeaveDeathTest, TheLastLineIsTheLast) {
+/// Whoever draws, on whatever thread: nothing follows it.
+TEST(LastLineDeathTest, NothingFollowsIt) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto leave = [] {
-    std::promise<void> drawing;
-    std::thread artist([&] {
-      for (int i = 0;; ++i) {
-        draw_line("boule: " + std::to_string(i));
-        if (i == 100) drawing.set_value();
-      }
-    });
-    drawing.get_future().wait();
-    leave_at_once("the last line\n", 3);
+    draw_line("boule:  42 %");
+    write_last_line("the last line\n");
+    std::thread([] {
+      draw_line("boule:  43 %");
+      write_lines("late\n");
+    }).join();
+    ::_exit(3);
   };
-  EXPECT_EXIT(leave(), testing::ExitedWithCode(3), "boule: [0-9]+ *\nthe last line\n$");
+  EXPECT_EXIT(leave(), testing::ExitedWithCode(3), "^\rboule:  42 %\nthe last line\n$");
+}
+
+TEST(LastLineDeathTest, TheFirstWhoLeavesWins) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto leave = [] {
+    std::thread other([] { leave_at_once("one of two\n", 3); });
+    leave_at_once("one of two\n", 3);
+  };
+  EXPECT_EXIT(leave(), testing::ExitedWithCode(3), "^one of two\n$");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ export TSAN_OPTIONS="halt_on_error=1 exitcode=66 ignore_noninstrumented_modules=
 
 setarch -R true 2>/dev/null || { echo "addresses cannot be kept in their places (setarch -R)"; exit 77; }
 cmake --preset tsan -S "$source" -B "$build" >/dev/null
-cmake --build "$build" -j 2 --target boule_program boule_test_render boule_test_path
+cmake --build "$build" -j 2 --target boule_program boule_test_render boule_test_path \
+  boule_test_cli_time
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 for method in whitted path; do
@@ -21,3 +22,4 @@ done
 setarch -R "$build/tests/render/boule_test_render" \
   --gtest_filter='Scheduler*:Renderer*:Live*:Tracer*:Picture.*:Determinism.*Rays*'
 setarch -R "$build/tests/render/boule_test_path"
+setarch -R "$build/tests/cli/boule_test_cli_time" --gtest_filter='-*DeathTest*'
