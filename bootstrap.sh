@@ -24,13 +24,19 @@ is_installed() {
   [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]
 }
 
-# install_missing PACKAGE...: asks apt only where something is missing.
+# install_missing PACKAGE...: asks apt only where something is missing. Who may not ask apt gets a line
+# for somebody who may.
 install_missing() {
   local missing=() package as_root=()
   for package in "$@"; do
     is_installed "$package" || missing+=("$package")
   done
   ((${#missing[@]} > 0)) || return 0
+  if ((EUID != 0)) && ! command -v sudo >/dev/null; then
+    echo "bootstrap: packages are missing, and there is no sudo here; an administrator can run:" >&2
+    echo "apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
   echo "bootstrap: installing ${missing[*]}"
   ((EUID == 0)) || as_root=(sudo)
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
