@@ -71,7 +71,9 @@ void add_choice(CLI::App& app, const std::string& name, Target& target,
 }
 
 void add_scene(CLI::App& app, std::string& scene) {
-  app.add_option("SCENE", scene, "Scene: .toml or .nff")->required()->type_name("");
+  app.add_option("SCENE", scene, "Scene: .toml, .nff, or spheres alone, N x 4: .npy")
+      ->required()
+      ->type_name("");
 }
 
 void add_output(CLI::App& app, std::string& output, const std::string& type,
@@ -211,7 +213,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
   add_scene(app, command.scene);
   start_group(app, "Rays");
   app.add_option("--rays", command.rays,
-                 "Rays, .npy: float32, N x 8: origin x y z, tmin, direction x y z, tmax")
+                 "Rays, .npy: float32 or float64, N x 8: origin x y z, tmin, direction x y z, tmax")
       ->required()
       ->type_name("RAYS.npy");
   app.add_flag("--any-hit", command.any_hit,

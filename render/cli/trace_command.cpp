@@ -69,6 +69,7 @@ class Tracing {
   std::vector<std::uint8_t> met_;
   std::uint64_t traced_ = 0;  ///< rays of the chunks before
   std::uint64_t hit_count_ = 0;
+  std::uint64_t lost_ = 0;  ///< as RayFile::lost()
 };
 
 Result<LoadedScene> Tracing::load() {
@@ -164,6 +165,7 @@ std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitF
     stats_.write_seconds += writing.seconds();
     traced_ += rays_.size();
   } while (traced_ < rays.size());
+  lost_ = rays.lost();
   return std::nullopt;
 }
 
@@ -199,6 +201,11 @@ ExitCode Tracing::finish(const Tracer& tracer) {
   stats_.rays = tracing.rays;
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
+  if (lost_ > 0) {
+    report_.note(fmt::format(
+        "{}: warning: {} beyond the range of float32 in origin or direction: a miss for each",
+        command_.rays, counted(lost_, "ray")));
+  }
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
   report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,
                            counted(stats_.rays, "ray"), counted(hit_count_, "hit"),

@@ -90,7 +90,7 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
 
 UsageError unknown_command(const CLI::App& app, const std::string& name) {
   const std::string text = "unknown command " + quote(name);
-  const bool is_scene = name.ends_with(".toml") || name.ends_with(".nff");
+  const bool is_scene = name.ends_with(".toml") || name.ends_with(".nff") || name.ends_with(".npy");
   if (is_scene) return {text + "; did you mean 'boule render " + safe_name(name) + "'?"};
   return {text + suggest(name, command_names(app))};
 }

@@ -26,4 +26,11 @@ inline float float32_or_nan(double value) {
 }
 inline float float32_or_nan(float value) { return value; }
 
+/// The same where infinity has a meaning: that for what is too large.
+inline float float32_or_inf(double value) {
+  if (fits_float32(value) || std::isnan(value)) return static_cast<float>(value);
+  return std::copysign(std::numeric_limits<float>::infinity(), value > 0 ? 1.0F : -1.0F);
+}
+inline float float32_or_inf(float value) { return value; }
+
 }  // namespace boule

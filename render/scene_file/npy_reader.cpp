@@ -26,7 +26,9 @@ struct RowLayout {
 Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
 
 /// The declared layout, if it is one of spheres and the file is exactly as long as it says.
-Result<RowLayout> check_layout(const NpyHeader& header, bool has_radius, std::uint64_t file_size) {
+Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& request,
+                               std::uint64_t file_size) {
+  const bool has_radius = request.radius.has_value();
   if (header.descr != "<f4" && header.descr != "<f8") {
     return refusal("holds " + quote(header.descr) +
                    ", expected '<f4' or '<f8' (little-endian float32 or float64)");
@@ -35,7 +37,11 @@ Result<RowLayout> check_layout(const NpyHeader& header, bool has_radius, std::ui
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
     return refusal("has shape " + npy_shape_text(header) +
-                   ", expected (N, 4), or (N, 3) and `radius`");
+                   (request.is_scene ? ", expected (N, 4): centre and radius"
+                                     : ", expected (N, 4), or (N, 3) and `radius`"));
+  }
+  if (shape[1] == 3 && request.is_scene) {
+    return refusal("has 3 columns, centres alone: that needs a .toml scene with a key 'radius'");
   }
   if (shape[1] == 3 && !has_radius) return refusal("has 3 columns: the key 'radius' is missing");
   if (shape[1] == 4 && has_radius) {
@@ -152,7 +158,7 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres) {
   if (!file) return file.error();
   const auto header = read_npy_header(file.value());
   if (!header) return named(header.error());
-  const auto layout = check_layout(header.value(), request.radius.has_value(), file.value().size());
+  const auto layout = check_layout(header.value(), request, file.value().size());
   if (!layout) return named(layout.error());
   const std::uint64_t rows = layout.value().rows;
   if (auto bad = check_memory(bytes_of_spheres(rows) + bytes_of_tree(spheres.size() + rows),

@@ -9,6 +9,7 @@
 #include "render/memory/scene_memory.h"
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/nff_reader.h"
+#include "render/scene_file/npy_reader.h"
 #include "render/scene_file/toml_reader.h"
 
 namespace boule {
@@ -23,16 +24,35 @@ bool has_extension(std::string_view path, std::string_view extension) {
   });
 }
 
-Result<LoadedScene> load(const std::string& path, const SceneFileOptions& options) {
-  const bool is_toml = has_extension(path, ".toml");
-  if (!is_toml && !has_extension(path, ".nff")) {
-    return Diagnostic{"not a scene file by its name, expected an extension .toml or .nff", "", path,
-                      0, 0};
-  }
+Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOptions& options) {
   const auto text = read_text(path);
   if (!text) return text.error();
-  auto loaded = is_toml ? read_toml(text.value(), path, options.frame)
-                        : read_nff(text.value(), path, options.polygons);
+  return has_extension(path, ".toml") ? read_toml(text.value(), path, options.frame)
+                                      : read_nff(text.value(), path, options.polygons);
+}
+
+/// Spheres by themselves, of the material that objects without one have.
+Result<LoadedScene> read_npy_scene(const std::string& path) {
+  LoadedScene loaded;
+  loaded.scene.materials.push_back({"default", Matte{}});
+  NpySpheres request;
+  request.path = path;
+  request.is_scene = true;
+  if (auto bad = append_spheres(request, loaded.scene.spheres)) return *bad;
+  if (auto bad = validate_all_but_primitives(loaded.scene)) {
+    bad->file = path;
+    return *bad;
+  }
+  return loaded;
+}
+
+Result<LoadedScene> load(const std::string& path, const SceneFileOptions& options) {
+  const bool is_npy = has_extension(path, ".npy");
+  if (!is_npy && !has_extension(path, ".toml") && !has_extension(path, ".nff")) {
+    return Diagnostic{"not a scene file by its name, expected an extension .toml, .nff or .npy", "",
+                      path, 0, 0};
+  }
+  auto loaded = is_npy ? read_npy_scene(path) : read_text_scene(path, options);
   if (!loaded) return loaded;
   if (auto too_large = check_scene_memory(loaded.value().scene)) {
     too_large->file = path;

@@ -26,9 +26,10 @@ struct LoadedScene {
   std::vector<std::string> data_files{};
 };
 
-/// Reads a scene by its extension: .toml, or .nff (Haines' SPD). Anything wrong is a Diagnostic
-/// with file, line, column and key, and so is a scene that could not be prepared in the memory
-/// there is. Any name will do, any text and any frame; only regular files are read.
+/// Reads a scene by its extension: .toml, .nff (Haines' SPD), or .npy: spheres alone, N x 4.
+/// Anything wrong is a Diagnostic with file, line, column and key, and so is a scene that could not
+/// be prepared in the memory there is. Any name will do, any text and any frame; only regular files
+/// are read.
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options = {});
 
 }  // namespace boule

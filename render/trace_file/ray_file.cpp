@@ -1,9 +1,11 @@
 #include "render/trace_file/ray_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "render/scene_file/float32.h"
 #include "render/scene_file/npy_header.h"
 #include "render/scene_file/npy_rows.h"
 
@@ -11,8 +13,11 @@ namespace boule {
 namespace {
 
 constexpr std::size_t columns = 8;
-constexpr std::size_t row_bytes = columns * sizeof(float);
 constexpr std::size_t rows_per_read = 4096;
+
+std::size_t row_bytes(bool is_double) {
+  return columns * (is_double ? sizeof(double) : sizeof(float));
+}
 
 Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
 
@@ -23,20 +28,34 @@ Diagnostic named(Diagnostic error, const std::string& path) {
 
 /// Whether the file declares rays and is exactly as long as it says.
 Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
-  if (header.descr != "<f4") {
-    return refusal("holds " + quote(header.descr) + ", expected '<f4' (little-endian float32)");
+  const bool is_double = header.descr == "<f8";
+  if (header.descr != "<f4" && !is_double) {
+    return refusal("holds " + quote(header.descr) +
+                   ", expected '<f4' or '<f8' (little-endian float32 or float64)");
   }
   if (auto bad = check_npy_order(header)) return bad;
   if (header.shape.size() != 2 || header.shape[1] != columns) {
     return refusal("has shape " + npy_shape_text(header) +
                    ", expected (N, 8): origin, tmin, direction, tmax");
   }
-  return check_npy_length(header, row_bytes, file_size);
+  return check_npy_length(header, row_bytes(is_double), file_size);
 }
 
-Ray decode_row(const unsigned char* row) {
+/// The ray of one row; adds to `lost` if rounding took its origin or direction away.
+template <class Number>
+Ray decode_row(const unsigned char* row, std::uint64_t& lost) {
+  Number exact[columns];
   float x[columns];
-  for (std::size_t i = 0; i < columns; ++i) x[i] = npy_number<float>(row + i * sizeof(float));
+  bool overflows = false;
+  for (std::size_t i = 0; i < columns; ++i) {
+    exact[i] = npy_number<Number>(row + i * sizeof(Number));
+    x[i] = float32_or_inf(exact[i]);
+    const bool is_bound = i == 3 || i == 7;
+    overflows |= !is_bound && std::isfinite(exact[i]) && !std::isfinite(x[i]);
+  }
+  const bool vanishes =
+      x[4] == 0 && x[5] == 0 && x[6] == 0 && (exact[4] != 0 || exact[5] != 0 || exact[6] != 0);
+  lost += overflows || vanishes ? 1 : 0;
   Ray ray{vec_cast<double>(Vec3f{x[0], x[1], x[2]}), {x[4], x[5], x[6]}};
   ray.tmin = x[3];
   ray.tmax = x[7];
@@ -45,8 +64,8 @@ Ray decode_row(const unsigned char* row) {
 
 }  // namespace
 
-RayFile::RayFile(std::string path, InputFile file, std::uint64_t size)
-    : path_(std::move(path)), file_(std::move(file)), size_(size) {}
+RayFile::RayFile(std::string path, InputFile file, std::uint64_t size, bool is_double)
+    : path_(std::move(path)), file_(std::move(file)), size_(size), is_double_(is_double) {}
 
 Result<RayFile> RayFile::open(const std::string& path) {
   auto file = InputFile::open(path);
@@ -54,20 +73,23 @@ Result<RayFile> RayFile::open(const std::string& path) {
   const auto header = read_npy_header(file.value());
   if (!header) return named(header.error(), path);
   if (auto bad = check_layout(header.value(), file.value().size())) return named(*bad, path);
-  return RayFile(path, std::move(file).value(), header.value().shape[0]);
+  return RayFile(path, std::move(file).value(), header.value().shape[0],
+                 header.value().descr == "<f8");
 }
 
 Status RayFile::read(std::span<Ray> rays) {
   const FloatEnvironment environment;
   if (const auto here = file_.read(nullptr, 0); !here) return here.error();  // or moved away
-  rows_.resize(rows_per_read * row_bytes);
+  const std::size_t width = row_bytes(is_double_);
+  rows_.resize(rows_per_read * width);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {
     const std::size_t count = std::min(rows_per_read, rays.size() - first);
-    if (auto bad = read_npy_rows(file_, rows_.data(), count * row_bytes)) {
+    if (auto bad = read_npy_rows(file_, rows_.data(), count * width)) {
       return named(*bad, path_);
     }
     for (std::size_t k = 0; k < count; ++k) {
-      rays[first + k] = decode_row(rows_.data() + k * row_bytes);
+      const unsigned char* const row = rows_.data() + k * width;
+      rays[first + k] = is_double_ ? decode_row<double>(row, lost_) : decode_row<float>(row, lost_);
     }
   }
   return std::nullopt;

@@ -129,7 +129,9 @@ std::vector<HostileData> hostile_rays() {
       {"CountThatWraps32", r, array("(4294967297, 8)"), "declares 4294967297 rows"},
       {"CountThatWraps64", r, array("(576460752303423489, 8)"), "declares 576460752303423489 rows"},
       {"FourColumns", r, array("(1, 4)"), "has shape (1, 4), expected (N, 8)"},
-      {"Doubles", r, array("(1, 8)", std::string(64, '\0'), "'<f8'"), "holds '<f8'"},
+      {"Integers", r, array("(1, 8)", std::string(64, '\0'), "'<i8'"), "holds '<i8'"},
+      {"HalfDoubles", r, array("(1, 8)", std::string(32, '\0'), "'<f8'"),
+       "declares 1 rows of 64 bytes"},
   };
 }
 

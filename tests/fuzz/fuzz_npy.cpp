@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/scene_file/npy_reader.h"
+#include "render/scene_file/scene_file.h"
 #include "render/trace_file/ray_file.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/input_folder.h"
@@ -31,6 +32,12 @@ void read_spheres(const std::string& path, std::optional<float> radius) {
   }
 }
 
+void read_scene(const std::string& path) {
+  const Result<LoadedScene> loaded = load_scene(path);
+  if (!loaded) return fuzz::require_good(loaded.error());
+  require(!validate(loaded.value().scene), "a scene that was read is valid");
+}
+
 void read_rays(const std::string& path) {
   Result<RayFile> file = RayFile::open(path);
   if (!file) {
@@ -53,15 +60,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::InputFolder folder;
   if (size == 0) return 0;
   const std::string path = folder.write("data.npy", data + 1, size - 1);
-  switch (data[0] % 3) {
+  switch (data[0] % 4) {
     case 0:
       read_spheres(path, std::nullopt);
       break;
     case 1:
       read_spheres(path, 0.25F);
       break;
-    default:
+    case 2:
       read_rays(path);
+      break;
+    default:
+      read_scene(path);
       break;
   }
   return 0;

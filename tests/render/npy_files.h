@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -60,6 +61,16 @@ inline std::string ray_rows(const std::vector<Ray>& rays) {
 }
 inline std::string ray_file(const std::vector<Ray>& rays) {
   return npy_file(npy_dict("'<f4'", "(" + std::to_string(rays.size()) + ", 8)"), ray_rows(rays));
+}
+
+/// The same in float64, of any numbers: origin, tmin, direction, tmax.
+using RayRow = std::array<double, 8>;
+inline std::string ray_file64(const std::vector<RayRow>& rows) {
+  std::string data;
+  for (const RayRow& row : rows) {
+    for (const double x : row) append_bytes(data, x);
+  }
+  return npy_file(npy_dict("'<f8'", "(" + std::to_string(rows.size()) + ", 8)"), data);
 }
 
 /// The file of these hits, to the last byte. NumPy leaves room for a count of 21 digits.

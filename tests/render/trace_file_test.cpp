@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "render/trace_file/ray_file.h"
 #include "tests/render/npy_files.h"
 #include "tests/render/ray_clouds.h"
+#include "tests/support/case_random.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {
@@ -59,6 +61,69 @@ TEST_F(TraceFiles, RaysComeBackAsTheyWereWhateverThePieces) {
     EXPECT_EQ(found[5].source, no_primitive);
     EXPECT_FALSE(found[5].inside);
   }
+}
+
+/// The rays of a file of float64.
+std::vector<Ray> read_rays(RayFile& file) {
+  std::vector<Ray> rays(file.size());
+  EXPECT_FALSE(file.read(rays));
+  return rays;
+}
+
+TEST_F(TraceFiles, DoublesAreRoundedToTheNearestFloatOnce) {
+  CaseRandom random(31);
+  std::vector<RayRow> rows;
+  std::vector<Ray> expected;
+  for (int i = 0; i < 10'000; ++i) {
+    RayRow row{};
+    float x[8] = {};
+    for (std::size_t k = 0; k < 8; ++k) {
+      row[k] = random.uniform(-1, 1) * std::pow(2.0, random.uniform(-100, 100));
+      x[k] = static_cast<float>(row[k]);
+    }
+    rows.push_back(row);
+    Ray ray{{x[0], x[1], x[2]}, {x[4], x[5], x[6]}};
+    ray.tmin = x[3];
+    ray.tmax = x[7];
+    expected.push_back(ray);
+  }
+  rows[0][0] = 1 + 0x1p-24;  // halfway: to the even one
+  expected[0].org.x = 1;
+  rows[1][0] = 1 + 0x1p-24 + 0x1p-50;
+  expected[1].org.x = 1 + 0x1p-23;
+  auto file = RayFile::open(write("r.npy", ray_file64(rows)));
+  ASSERT_TRUE(file) << format_diagnostic(file.error());
+  const std::vector<Ray> found = read_rays(file.value());
+  EXPECT_TRUE(ray_rows(found) == ray_rows(expected));
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].org, expected[i].org);
+  EXPECT_EQ(file.value().lost(), 0u);
+}
+
+TEST_F(TraceFiles, DoublesThatNoFloatHoldsBecomeInfinite) {
+  constexpr double inf = std::numeric_limits<double>::infinity(), huge = 1e300;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const RayRow good = {1, 2, 3, 0, 0, 0, -1, inf};
+  std::vector<RayRow> rows(9, good);
+  rows[1][7] = huge;  // as good as infinite
+  rows[2][3] = -huge;
+  rows[3][0] = huge;   // lost
+  rows[4][6] = -huge;  // lost
+  rows[5][6] = 1e-60;  // lost: no direction
+  rows[6][6] = 0;      // had none
+  rows[7][4] = inf;    // was infinite
+  rows[8][1] = nan;
+  auto file = RayFile::open(write("r.npy", ray_file64(rows)));
+  ASSERT_TRUE(file) << format_diagnostic(file.error());
+  const std::vector<Ray> found = read_rays(file.value());
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(found[1].tmax, infinite);
+  EXPECT_EQ(found[2].tmin, -infinite);
+  EXPECT_EQ(found[3].org.x, infinite);
+  EXPECT_EQ(found[4].dir.z, -infinite);
+  EXPECT_EQ(found[5].dir, (Vec3f{0, 0, 0}));
+  EXPECT_EQ(found[7].dir.x, infinite);
+  EXPECT_TRUE(std::isnan(found[8].org.y));
+  EXPECT_EQ(file.value().lost(), 3u);
 }
 
 TEST_F(TraceFiles, RaysThatVanishWhileTheyAreReadAreAnError) {

@@ -75,7 +75,8 @@ TEST(SceneFile, OtherExtensions) {
     const auto loaded = load_scene(name);
     ASSERT_FALSE(loaded.ok());
     EXPECT_EQ(loaded.error().file, name);
-    EXPECT_THAT(loaded.error().message, testing::HasSubstr("expected an extension .toml or .nff"));
+    EXPECT_THAT(loaded.error().message,
+                testing::HasSubstr("expected an extension .toml, .nff or .npy"));
   }
 }
 
