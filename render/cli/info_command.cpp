@@ -14,36 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value on one line: numbers with spaces between them, members with commas.
-std::string inline_text(const Json& value) {
-  if (value.is_null()) return "none";
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_structured()) return value.dump();
-  std::string text;
-  for (const auto& item : value.items()) {
-    if (!text.empty()) text += value.is_array() ? " " : ", ";
-    if (value.is_object()) text += item.key() + " ";
-    text += inline_text(item.value());
-  }
-  return text;
-}
-
-/// True for a list of things rather than of coordinates: each gets a line.
-bool is_list(const std::string& key) {
-  return key == "lights" || key == "materials" || key == "notes" || key == "warnings";
-}
-
-std::string as_text(const Json& info) {
-  std::string text;
-  for (const auto& [key, value] : info.items()) {
-    if (key == "schema" || (is_list(key) && value.empty())) continue;
-    text += key + ": " + (is_list(key) ? std::to_string(value.size()) : inline_text(value)) + "\n";
-    if (!is_list(key)) continue;
-    for (const Json& one : value) text += "  " + inline_text(one) + "\n";
-  }
-  return text;
-}
-
 /// One scene, or one frame of a series.
 ExitCode tell(const InfoCommand& command, const std::string& scene, std::optional<int> frame) {
   SceneFileOptions options;
@@ -60,7 +30,7 @@ ExitCode tell(const InfoCommand& command, const std::string& scene, std::optiona
   const auto as_json = [&] {
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   };
-  return print_as_result(command.json ? as_json() : as_text(info));
+  return print_as_result(command.json ? as_json() : scene_info_text(info));
 }
 
 }  // namespace

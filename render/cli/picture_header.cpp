@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 #include "render/cli/camera_matrices.h"
+#include "render/cli/shown_values.h"
 #include "render/cli/stats.h"
 
 namespace boule::cli {
@@ -21,6 +23,9 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
   Metadata header = {{"worldtocamera", matrices.world_to_camera},
                      {"samplesPerPixel", options.spp},
                      {"boule:solver", solver_name(options.solver)},
+                     {"boule:method", method_name(options.method)},
+                     {"boule:filter", filter_name(options.filter)},
+                     {"boule:max_depth", std::to_string(options.max_depth)},
                      {"boule:seed", std::to_string(options.seed)},
                      {"boule:scene_hash", fmt::format("{:016x}", scene_hash)}};
   const bool distorted = renderer.scene().camera_view.map != nullptr;

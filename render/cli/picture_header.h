@@ -17,7 +17,8 @@ struct PartialSamples {
 };
 
 /// What a picture's file says about its making: worldtocamera, worldtoscreen (CameraMatrices),
-/// samplesPerPixel, boule:solver, boule:seed, and boule:scene_hash in 16 hexadecimal digits.
+/// samplesPerPixel, boule:solver, boule:method, boule:filter, boule:max_depth, boule:seed, and
+/// boule:scene_hash in 16 hexadecimal digits.
 /// Nothing of it depends on ISA, threads or time: equal pictures stay equal files.
 /// A partial one has an ImageDescription as well, "partial: 1234 of 5678 samples", which PNG, JPEG
 /// and TIFF files hold too.

@@ -2,74 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "render/cli/camera_info.h"
+#include "render/cli/object_info.h"
+#include "render/cli/shown_values.h"
 #include "render/prepare/default_view.h"
 #include "render/renderer/scene_hash.h"
 
 namespace boule::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// The double that prints as short as the float does: 0.1, not 0.10000000149011612.
-double shown(float x) {
-  const std::string text = fmt::format("{}", x);
-  double number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-Json shown(const Vec3f& v) { return {shown(v.x), shown(v.y), shown(v.z)}; }
-Json shown(const Color& c) { return {shown(c.r), shown(c.g), shown(c.b)}; }
-
-void add_pose(Json& json, const CameraPose& pose) {
-  json["eye"] = shown(pose.eye);
-  json["look_at"] = shown(pose.look_at);
-  json["up"] = shown(pose.up);
-}
-
-/// What cameras with a field of view have in common.
-template <class Kind>
-Json describe_fov(const char* type, const Kind& camera) {
-  Json json = {{"type", type}};
-  add_pose(json, camera.pose);
-  json["fov"] = shown(camera.fov);
-  json["fov_axis"] = camera.fov_axis == FovAxis::x   ? "x"
-                     : camera.fov_axis == FovAxis::y ? "y"
-                                                     : "max";
-  return json;
-}
-
-Json describe(const PinholeCamera& camera) { return describe_fov("pinhole", camera); }
-Json describe(const FisheyeCamera& camera) { return describe_fov("fisheye", camera); }
-
-Json describe(const ThinLensCamera& camera) {
-  Json json = describe_fov("thin_lens", camera);
-  json["aperture"] = shown(camera.aperture);
-  json["focus"] = shown(static_cast<float>(focus_of(camera.pose, camera.focus)));
-  return json;
-}
-
-Json describe(const LensCamera& camera) {
-  Json json = {{"type", "lens"}};
-  add_pose(json, camera.pose);
-  json["surfaces"] = camera.surfaces.size();
-  json["focal_length"] = shown(static_cast<float>(focal_length(camera.surfaces)));
-  json["film_width"] = shown(camera.film_width);
-  json["scale"] = shown(camera.scale);
-  json["focus"] = shown(static_cast<float>(focus_of(camera.pose, camera.focus)));
-  return json;
-}
-
-Json describe(const OrthographicCamera& camera) {
-  Json json = {{"type", "orthographic"}};
-  add_pose(json, camera.pose);
-  json["height"] = shown(camera.height);
-  return json;
-}
 
 Json describe(const ConstantBackground& background) {
   return {{"type", "constant"}, {"color", shown(background.color)}};
@@ -154,16 +97,69 @@ struct DescribeMaterial {
   }
 };
 
-/// The box around all spheres, rounded to float; null where there is none; planes have no end.
-Json describe_bounds(const std::vector<Sphere>& spheres) {
-  if (spheres.empty()) return nullptr;
-  const auto [low, high] = bounds_of(spheres);
-  return {{"min", shown(vec_cast<float>(low))}, {"max", shown(vec_cast<float>(high))}};
-}
-
 template <class Variant>
 Json describe_any(const Variant& one_of) {
   return std::visit([](const auto& any) { return describe(any); }, one_of);
+}
+
+/// Each with the number of spheres and planes that are made of it.
+Json materials_info(const Scene& scene) {
+  std::vector<std::size_t> objects(scene.materials.size());
+  for (const Sphere& sphere : scene.spheres) ++objects[sphere.material];
+  for (const Plane& plane : scene.planes) ++objects[plane.material];
+  Json list = Json::array();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const NamedMaterial& named = scene.materials[i];
+    list.push_back(std::visit(DescribeMaterial{named.name}, named.material));
+    list.back()["objects"] = objects[i];
+  }
+  return list;
+}
+
+/// A value on one line: numbers with spaces between them, members with commas, what has members
+/// itself with semicolons.
+std::string inline_text(const Json& value) {
+  if (value.is_null()) return "none";
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& item : value.items()) {
+    const bool is_large = value.is_array() && item.value().is_object();
+    if (!text.empty()) text += value.is_object() ? ", " : is_large ? "; " : " ";
+    if (value.is_object()) text += item.key() + " ";
+    text += inline_text(item.value());
+  }
+  return text;
+}
+
+/// True for a list of things rather than of coordinates: each gets a line.
+bool is_list(const std::string& key) {
+  for (const char* list : {"data_files", "lights", "materials", "notes", "warnings",
+                           "first_spheres", "first_planes", "group_list", "first_instances"}) {
+    if (key == list) return true;
+  }
+  return false;
+}
+
+/// A line, or a list with its name above; what lists hold that are lists again stands below,
+/// further to the right.
+void append_text(std::string& text, const std::string& indent, const std::string& key,
+                 const Json& value) {
+  const auto append = [&](const std::string& end) { text += indent + key + ": " + end + "\n"; };
+  if (!is_list(key)) return append(inline_text(value));
+  if (value.empty()) return;
+  append(std::to_string(value.size()));
+  for (Json one : value) {
+    Json lists = Json::object();
+    for (const auto& item : one.items()) {
+      if (one.is_object() && is_list(item.key())) lists[item.key()] = item.value();
+    }
+    for (const auto& item : lists.items()) one.erase(item.key());
+    text += indent + "  " + inline_text(one) + "\n";
+    for (const auto& item : lists.items()) {
+      append_text(text, indent + "    ", item.key(), item.value());
+    }
+  }
 }
 
 /// The camera and the lights as they will be rendered, with a note where the scene has none.
@@ -177,7 +173,7 @@ void add_view(Json& json, const Scene& scene) {
     lights.push_back(describe(light_at_eye(camera)));
     notes.push_back("no light in the scene: one white point light at the eye");
   }
-  json["camera"] = describe_any(camera);
+  json["camera"] = camera_info(camera);
   if (scene.distortion) {
     json["camera"]["distortion"] = {{"size", {scene.distortion->width, scene.distortion->height}}};
   }
@@ -189,30 +185,41 @@ void add_view(Json& json, const Scene& scene) {
 
 }  // namespace
 
-nlohmann::ordered_json scene_info(LoadedScene loaded, const std::string& path) {
+Json scene_info(LoadedScene loaded, const std::string& path) {
   Scene& scene = loaded.scene;
-  const std::size_t groups = scene.groups.size(), instances = scene.instances.size();
+  Json groups = groups_info(scene), instances = instances_info(scene);
+  const std::size_t group_count = scene.groups.size(), instance_count = scene.instances.size();
   expand_instances(scene);
   Json json = {{"schema", 1},
                {"file", path},
+               {"data_files", loaded.data_files},
                {"hash", fmt::format("{:016x}", scene_hash(scene))},
                {"size", {scene.image.width, scene.image.height}},
                {"spp", scene.image.spp},
-               {"method", scene.render.method == Method::path ? "path" : "whitted"},
+               {"filter", filter_name(scene.image.filter)},
+               {"method", method_name(scene.render.method)},
                {"max_depth", scene.render.max_depth},
                {"spheres", scene.spheres.size()},
                {"planes", scene.planes.size()},
-               {"groups", groups},
-               {"instances", instances},
-               {"bounds", describe_bounds(scene.spheres)}};
+               {"groups", group_count},
+               {"instances", instance_count},
+               {"bounds", bounds_info(scene.spheres)}};
   add_view(json, scene);
-  Json materials = Json::array();
-  for (const NamedMaterial& named : scene.materials) {
-    materials.push_back(std::visit(DescribeMaterial{named.name}, named.material));
-  }
-  json["materials"] = std::move(materials);
+  json["materials"] = materials_info(scene);
+  json["first_spheres"] = spheres_info(scene);
+  json["first_planes"] = planes_info(scene);
+  json["group_list"] = std::move(groups);
+  json["first_instances"] = std::move(instances);
   json["warnings"] = loaded.warnings;
   return json;
+}
+
+std::string scene_info_text(const Json& info) {
+  std::string text;
+  for (const auto& item : info.items()) {
+    if (item.key() != "schema") append_text(text, "", item.key(), item.value());
+  }
+  return text;
 }
 
 }  // namespace boule::cli

@@ -47,11 +47,19 @@ TEST_F(Info, JsonTellsEverything) {
                              "falloff": "none"}])"));
   EXPECT_EQ(found.at("materials"), json::parse(R"([
       {"name": "shiny", "type": "phong", "color": [0.8, 0.3, 0.1], "ka": 0, "kd": 0.7, "ks": 0.3,
-       "shininess": 20, "transmission": 0.2, "ior": 1.3},
-      {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8]}])"));
+       "shininess": 20, "transmission": 0.2, "ior": 1.3, "objects": 1},
+      {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8], "objects": 1}])"));
+  EXPECT_EQ(found.at("filter"), "box");
+  EXPECT_EQ(found.at("data_files"), json::array());
+  EXPECT_EQ(found.at("first_spheres"),
+            json::parse(R"([{"center": [0, 1, 0], "radius": 1, "material": "shiny"}])"));
+  EXPECT_EQ(found.at("first_planes"), json::parse(R"([{"point": [0, 0, 0], "normal": [0, 1, 0],
+                                                       "material": "default"}])"));
+  EXPECT_EQ(found.at("group_list"), json::array());
+  EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 19u);
+  EXPECT_EQ(found.size(), 25u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
@@ -146,8 +154,14 @@ TEST_F(Info, EveryCameraIsDescribed) {
                             "up": [0, 1, 0], "fov": 45, "fov_axis": "x", "aperture": 0.1,
                             "focus": 5})"));
   const std::string real = "type = \"lens\"\nfile = \"" BOULE_SCENES "/double_gauss_50mm.lens\"\n";
-  EXPECT_EQ(info(write("real.toml", start + real)).at("camera"),
-            json::parse(R"({"type": "lens", "eye": [0, 0, 5], "look_at": [0, 0, 0],
+  json lens_camera = info(write("real.toml", start + real)).at("camera");
+  const json elements = lens_camera.at("elements");
+  ASSERT_EQ(elements.size(), 11u);
+  EXPECT_EQ(elements.at(0), json::parse(R"({"radius": 42.75, "thickness": 5.8, "index": 1.744,
+                                            "aperture": 38})"));
+  EXPECT_NEAR(lens_camera.at("f_number").get<double>(), 1.403, 1e-3);
+  for (const char* key : {"elements", "f_number"}) lens_camera.erase(key);
+  EXPECT_EQ(lens_camera, json::parse(R"({"type": "lens", "eye": [0, 0, 5], "look_at": [0, 0, 0],
                             "up": [0, 1, 0], "surfaces": 11, "focal_length": 50.218456,
                             "film_width": 36, "scale": 0.001, "focus": 5})"));
   const std::string map = "[camera.distortion]\nfile = \"" BOULE_SCENES "/barrel.exr\"\n";

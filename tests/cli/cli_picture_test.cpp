@@ -200,6 +200,21 @@ TEST_F(Picture, TheHeaderSaysHowItWasMade) {
   }
 }
 
+TEST_F(Picture, TheHeaderSaysHowLightWasFollowed) {
+  const std::string scene = small_scene();
+  const auto expect = [&](const std::vector<std::string>& options, const std::string& method,
+                          const std::string& filter, const std::string& max_depth,
+                          const std::string& seed) {
+    const PictureFile file(render(scene, options));
+    EXPECT_EQ(file.spec.get_string_attribute("boule:method"), method);
+    EXPECT_EQ(file.spec.get_string_attribute("boule:filter"), filter);
+    EXPECT_EQ(file.spec.get_string_attribute("boule:max_depth"), max_depth);
+    EXPECT_EQ(file.spec.get_string_attribute("boule:seed"), seed);
+  };
+  expect({}, "whitted", "box", "5", "0");
+  expect({"--method=path", "--filter=tent", "--max-depth=0", "--seed=7"}, "path", "tent", "0", "7");
+}
+
 TEST_F(Picture, TheSourceDateIsTheFilesDate) {
   const std::string scene = small_scene();
   const std::pair<const char*, const char*> dates[] = {{"0", "1970:01:01 00:00:00"},
