@@ -79,6 +79,7 @@ void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
   for (const std::string& warning : loaded.warnings) note_once(warning);
   const Scene& scene = loaded.scene;
   const PrimitiveCount count = count_primitives(scene);
+  if (count.total() == 0) note_once("boule: note: no objects in the scene: nothing to be hit");
   detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", options_.scene,
                      counted(count.spheres, "sphere"), counted(count.planes, "plane"),
                      counted(scene.lights.size(), "light"),

@@ -43,7 +43,7 @@ class RunReport {
   void note_once(const std::string& text) const;
   void detail(const std::string& text) const;
 
-  /// The scene's warnings, and its figures.
+  /// The scene's warnings, that there is nothing in it, and its figures.
   void loaded(const LoadedScene& loaded, double seconds) const;
   void prepared(const RunStatistics& run) const;
 

@@ -167,6 +167,9 @@ void add_view(Json& json, const Scene& scene) {
   Json notes = Json::array(), lights = Json::array();
   const Camera camera =
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
+  if (scene.spheres.empty() && scene.planes.empty()) {
+    notes.push_back("no objects in the scene: nothing to be hit");
+  }
   if (!scene.camera) notes.push_back("no camera in the scene: framed on the objects");
   for (const Light& light : scene.lights) lights.push_back(describe_any(light));
   if (lacks_light(scene, scene.render.method)) {

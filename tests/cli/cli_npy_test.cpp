@@ -102,10 +102,15 @@ TEST_F(NpyScene, WhatIsNoneSaysWhatWouldBe) {
   }
 }
 
-TEST_F(NpyScene, OfNoSpheresIsLegal) {
-  const std::string scene = write("none.npy", sphere_file({}));
-  const ProgramRun run = boule_run({"render", scene, "-o", path("p.ppm"), "--size=8x8", "-q"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+TEST_F(NpyScene, OfNoSpheresIsLegalAndTold) {
+  const std::string note = "no objects in the scene: nothing to be hit";
+  for (const std::string& scene :
+       {write("none.npy", sphere_file({})), write("none.toml", "schema = 1\n[render]\n")}) {
+    const ProgramRun run = boule_run({"render", scene, "-o", path("p.ppm"), "--size=8x8"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("boule: note: " + note + "\n"));
+    EXPECT_THAT(boule_run({"info", scene}).out, HasSubstr("\n  " + note + "\n"));
+  }
 }
 
 TEST_F(NpyScene, HasFramesToo) {
