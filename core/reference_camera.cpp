@@ -88,6 +88,17 @@ Ray thin_lens_ray(const CameraBasis& camera, const Vec3d& on_film, const DiscPoi
   return ray;
 }
 
+/// The box of the exit pupil at that distance from the film's middle: linear between those of the
+/// ring's inner and outer points, beyond the last ring the last one.
+PupilBox pupil_box(const LensOptics& lens, double distance) {
+  const auto rings = static_cast<double>(lens.pupil.size());
+  const double place = std::fmin(distance * lens.rings_per_length, rings);
+  const double ring = std::fmin(std::floor(place), rings - 1), share = place - ring;
+  const auto& [inner, outer] = lens.pupil[static_cast<std::size_t>(ring)];
+  const auto between = [share](double from, double to) { return from + (to - from) * share; };
+  return {between(inner.x0, outer.x0), between(inner.x1, outer.x1), between(inner.y, outer.y)};
+}
+
 // A lens of real elements (Kolb, Mitchell, Hanrahan 1995): from the film, which the lens' picture
 // is upside down on, through a place of the exit pupil's box, and from element to element.
 CameraRay lens_ray(const CameraBasis& camera, double film_x, double film_y, double a, double b) {
@@ -96,9 +107,7 @@ CameraRay lens_ray(const CameraBasis& camera, double film_x, double film_y, doub
   const double distance = std::sqrt(x * x + y * y);
   const double cosine = distance == 0 ? 1 : x / distance;
   const double sine = distance == 0 ? 0 : y / distance;
-  const auto ring = static_cast<std::size_t>(
-      std::fmin(distance * lens.rings_per_length, static_cast<double>(lens.pupil.size() - 1)));
-  const PupilBox& box = lens.pupil[ring];
+  const PupilBox box = pupil_box(lens, distance);
   const double along = box.x0 + (box.x1 - box.x0) * a, aside = box.y * (b * 2 - 1);
   Vec3d org{x, y, lens.film};
   Vec3d dir = normalize(

@@ -83,7 +83,7 @@ inline RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1
 
 /// The first Problem of a camera: anything not finite, eye = look_at, up within 1e-6 rad of the
 /// view or zero, fov, height, film_width, scale, aperture or focus outside of what is said above, a
-/// lens that does not gather light, or not to the film at this focus.
+/// lens that does not gather light, or not to the film at this focus, or not to its middle.
 std::optional<Problem> find_problem(const Camera& camera);
 
 }  // namespace boule

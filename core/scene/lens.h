@@ -14,9 +14,13 @@ struct LensSurface {
   float radius = 0;  ///< of curvature, > 0 if the centre is on the film's side; 0: flat, a stop
   float thickness =
       0;               ///< along the axis to the next surface, >= 0; of the last one: of no meaning
-  float index = 1;     ///< of refraction up to the next surface, > 0
+  float index = 1;     ///< of refraction up to the next surface, least_index to most_index
   float aperture = 0;  ///< diameter, > 0
 };
+
+/// Indices of refraction beyond which there is no medium, whatever the world is filled with: what
+/// lies there is a number in the wrong column.
+inline constexpr float least_index = 0.25f, most_index = 8;
 
 /// How wide each surface is at least, beside the last one: exit pupils are measured in steps.
 inline constexpr double least_width = 1.0 / 500;

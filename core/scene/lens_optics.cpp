@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/math/geometry.h"
+#include "core/scene/exit_pupil.h"
 
 namespace boule {
 namespace {
@@ -44,86 +45,12 @@ std::vector<LensElement> elements_of(const std::vector<LensSurface>& surfaces, d
   return elements;
 }
 
-constexpr int ring_count = 64;
-
-/// Of a box on the plane through the rear vertex, the middles of `cells` x `cells` / 2 cells that a
-/// film point at the distance r from the axis sees the scene through: `found(x, y, cos^4)`. Only
-/// y > 0, the others mirror them.
-template <class Found>
-void scan_pupil(const LensOptics& optics, const PupilBox& box, int cells, double r, Found found) {
-  const double step_x = (box.x1 - box.x0) / cells, step_y = 2 * box.y / cells;
-  for (int j = 0; j < cells / 2; ++j) {
-    for (int i = 0; i < cells; ++i) {
-      const double x = box.x0 + (i + 0.5) * step_x, y = (j + 0.5) * step_y;
-      Vec3d org{r, 0, optics.film};
-      Vec3d dir = normalize(Vec3d{x, y, optics.rear} - org);
-      const double cosine2 = dir.z * dir.z;
-      if (trace_lens(optics.elements, org, dir)) found(x, y, cosine2 * cosine2);
-    }
-  }
-}
-
-bool is_empty(const PupilBox& box) { return !(box.x0 < box.x1); }
-
-/// What of a box a film point sees through, as a box that is a cell wider.
-PupilBox seen_through(const LensOptics& optics, const PupilBox& box, double r) {
-  constexpr int cells = 64;
-  PupilBox seen{box.x1, box.x0, 0};
-  scan_pupil(optics, box, cells, r, [&](double x, double y, double) {
-    seen = {std::min(seen.x0, x), std::max(seen.x1, x), std::max(seen.y, y)};
-  });
-  if (seen.x1 < seen.x0) return {0, 0, 0};
-  const double step_x = (box.x1 - box.x0) / cells, step_y = 2 * box.y / cells;
-  return {seen.x0 - step_x, seen.x1 + step_x, seen.y + step_y};
-}
-
-/// The exit pupil of a film point, first in a wide square and then in what is seen of it. A narrow
-/// stop would fall between the cells: it is approached by wider ones, each an eighth of the one
-/// before, through which all is seen that is seen through it.
-PupilBox pupil_of(const LensOptics& optics, double square, double r) {
-  LensOptics wider = optics;
-  PupilBox box{-square, square, square};
-  bool narrow = true;
-  for (double least = square / 16; narrow && !is_empty(box); least /= 8) {
-    narrow = false;
-    for (std::size_t i = 0; i < optics.elements.size(); ++i) {
-      const double aperture2 = optics.elements[i].aperture2;
-      wider.elements[i].aperture2 = std::max(aperture2, least * least);
-      narrow = narrow || aperture2 < least * least;
-    }
-    box = seen_through(wider, box, r);
-  }
-  return is_empty(box) ? box : seen_through(optics, box, r);
-}
-
-PupilBox join(const PupilBox& a, const PupilBox& b) {
-  if (is_empty(a) || is_empty(b)) return is_empty(a) ? b : a;
-  return {std::min(a.x0, b.x0), std::max(a.x1, b.x1), std::max(a.y, b.y)};
-}
-
-/// The integral of cos^4 over the exit pupil in the film's middle.
-double light_in_the_middle(const LensOptics& optics, const PupilBox& box) {
-  constexpr int fine = 256;
-  double sum = 0;
-  scan_pupil(optics, box, fine, 0, [&](double, double, double cosine4) { sum += 2 * cosine4; });
-  return sum * (box.x1 - box.x0) * (2 * box.y) / (fine * fine);
-}
-
-/// By rings, of each the inner, middle and outer points.
-void find_pupil(LensOptics& optics, const std::vector<LensSurface>& surfaces) {
-  // A curved rear surface is met beyond its vertex' plane: the pupil may be wider there than it.
-  const double square = 0.75 * double{surfaces.back().aperture};
-  const double corner =
-      std::sqrt(optics.half_width * optics.half_width + optics.half_height * optics.half_height);
-  PupilBox inner = pupil_of(optics, square, 0);
-  optics.exposure = 1 / light_in_the_middle(optics, inner);
-  for (int ring = 0; ring < ring_count; ++ring) {
-    const PupilBox middle = pupil_of(optics, square, corner * (ring + 0.5) / ring_count);
-    const PupilBox outer = pupil_of(optics, square, corner * (ring + 1) / ring_count);
-    optics.pupil.push_back(join(join(inner, middle), outer));
-    inner = outer;
-  }
-  optics.rings_per_length = ring_count / corner;
+/// The elements of a lens that has some, and where its film is.
+void focus_elements(const LensCamera& camera, LensOptics& optics) {
+  optics.elements = elements_of(camera.surfaces, optics.rear);
+  optics.scale = camera.scale;
+  const double focus = focus_of(camera.pose, camera.focus);
+  optics.film = optics.rear + image_distance(camera.surfaces, focus / optics.scale);
 }
 
 }  // namespace
@@ -185,20 +112,23 @@ bool trace_lens(std::span<const LensElement> elements, Vec3d& org, Vec3d& dir) {
   return true;
 }
 
-LensOptics make_optics(const LensCamera& camera, int width, int height) {
+double gathered_light(const LensCamera& camera) {
+  if (camera.surfaces.empty()) return 0;
   LensOptics optics{};
-  optics.pupil.reserve(ring_count);
+  focus_elements(camera, optics);
+  return light_in_the_middle(optics);
+}
+
+LensOptics make_optics(const LensCamera& camera, int width, int height, int rings) {
+  LensOptics optics{};
   if (camera.surfaces.empty()) {
     optics.pupil.push_back({});
     return optics;
   }
-  optics.elements = elements_of(camera.surfaces, optics.rear);
-  optics.scale = camera.scale;
+  focus_elements(camera, optics);
   optics.half_width = double{camera.film_width} / 2;
   optics.half_height = optics.half_width * height / width;
-  const double focus = focus_of(camera.pose, camera.focus);
-  optics.film = optics.rear + image_distance(camera.surfaces, focus / optics.scale);
-  find_pupil(optics, camera.surfaces);
+  find_pupil(optics, rings);
   return optics;
 }
 

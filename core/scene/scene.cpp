@@ -6,6 +6,7 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
+#include "core/scene/lens_optics.h"
 
 namespace boule {
 namespace {
@@ -65,7 +66,9 @@ struct LensProblem {
     Checker checker;
     checker.finite("radius", s.radius)
         .not_negative("thickness", s.thickness)
-        .positive("index", s.index)
+        .require("index", s.index >= least_index && s.index <= most_index,
+                 "must be from " + text_of(double{least_index}) + " to " +
+                     text_of(double{most_index}) + ", is " + text_of(double{s.index}))
         .positive("aperture", s.aperture);
     return checker
         .require("aperture", s.radius == 0 || s.aperture <= 2 * std::fabs(s.radius),
@@ -118,9 +121,12 @@ struct CameraProblem {
     checker.require("file", std::isfinite(focal) && focal > 0, "must gather light, to a focus");
     const double focus = focus_of(c.pose, c.focus);
     const double behind = image_distance(c.surfaces, focus / double{c.scale});
+    checker.require("focus", std::isfinite(behind) && behind > 0,
+                    "is nearer than the lens can be focused");
+    if (checker.problem()) return checker.problem();
     return checker
-        .require("focus", std::isfinite(behind) && behind > 0,
-                 "is nearer than the lens can be focused")
+        .require("file", std::isfinite(1 / gathered_light(c)),
+                 "lets no light to the middle of the film at this focus")
         .problem();
   }
 };

@@ -4,12 +4,15 @@
 
 namespace boule {
 
-/// One surface of a lens, and a box of its exit pupil: see LensElement, PupilBox.
+/// One surface of a lens, and boxes of its exit pupil: see LensElement, PupilBox, PupilRing.
 struct LensElementView {
   double radius, place, aperture2, eta;
 };
 struct PupilBoxView {
   double x0, x1, y;
+};
+struct PupilRingView {
+  PupilBoxView inner, outer;
 };
 
 /// A lens ready to be traced, as plain numbers: see LensOptics. One ring or more, for a camera that
@@ -17,7 +20,7 @@ struct PupilBoxView {
 struct LensView {
   const LensElementView* elements;  ///< from the film to the scene
   int element_count;
-  const PupilBoxView* pupil;  ///< by ring of the film
+  const PupilRingView* pupil;  ///< from the film's middle
   int ring_count;
   double rings_per_length, rear, film, half_width, half_height, scale, exposure;
 };

@@ -23,7 +23,7 @@ bool has_dark_corners(const CameraBasis& basis) {
 }
 
 /// What a lens is seen through that is not there.
-constexpr PupilBoxView dark{};
+constexpr PupilRingView dark{};
 
 }  // namespace
 
@@ -31,7 +31,8 @@ LensStack::LensStack(const LensOptics& optics) {
   for (const LensElement& e : optics.elements) {
     elements.push_back({e.radius, e.place, e.aperture2, e.eta});
   }
-  for (const PupilBox& box : optics.pupil) pupil.push_back({box.x0, box.x1, box.y});
+  const auto plain = [](const PupilBox& box) { return PupilBoxView{box.x0, box.x1, box.y}; };
+  for (const auto& [inner, outer] : optics.pupil) pupil.push_back({plain(inner), plain(outer)});
   view = {elements.data(),
           static_cast<int>(elements.size()),
           pupil.data(),

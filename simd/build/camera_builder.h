@@ -12,7 +12,7 @@ namespace boule {
 /// What of a lens the kernels see, kept together. Throws std::bad_alloc.
 struct LensStack {
   std::vector<LensElementView> elements;
-  std::vector<PupilBoxView> pupil;
+  std::vector<PupilRingView> pupil;
   LensView view{};  ///< of the two above, wherever this is moved to; empty of one moved away
 
   LensStack() = default;

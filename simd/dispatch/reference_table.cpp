@@ -94,7 +94,8 @@ LensOptics optics_of(const LensView& view) {
     optics.elements.push_back({e.radius, e.place, e.aperture2, e.eta});
   }
   for (int i = 0; i < view.ring_count; ++i) {
-    optics.pupil.push_back({view.pupil[i].x0, view.pupil[i].x1, view.pupil[i].y});
+    const auto& [inner, outer] = view.pupil[i];
+    optics.pupil.push_back({{inner.x0, inner.x1, inner.y}, {outer.x0, outer.x1, outer.y}});
   }
   return optics;
 }

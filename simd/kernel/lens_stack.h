@@ -42,17 +42,29 @@ struct PupilBoxes {
   Wide x0, x1, y;
 };
 
+/// Linear between those of their rings' inner and outer points; beyond the last ring the last one.
 BOULE_INLINE PupilBoxes pupil_boxes(const LensView& lens, Wide distance) {
-  alignas(64) double ring[width], x0[width], x1[width], y[width];
-  store(ring, distance * Wide(lens.rings_per_length));
+  alignas(64) double place[width], share[width];
+  alignas(64) double x0[2][width], x1[2][width], y[2][width];
+  store(place, distance * Wide(lens.rings_per_length));
+  const int count = lens.ring_count;
   for (int lane = 0; lane < width; ++lane) {
-    const int last = lens.ring_count - 1;
-    const PupilBoxView& box = lens.pupil[ring[lane] < last ? static_cast<int>(ring[lane]) : last];
-    x0[lane] = box.x0;
-    x1[lane] = box.x1;
-    y[lane] = box.y;
+    const bool on_film = place[lane] < count;
+    const int index = on_film ? static_cast<int>(place[lane]) : count - 1;
+    share[lane] = on_film ? place[lane] - index : 1;
+    const PupilRingView& ring = lens.pupil[index];
+    for (int end = 0; end < 2; ++end) {
+      const PupilBoxView& box = end == 0 ? ring.inner : ring.outer;
+      x0[end][lane] = box.x0;
+      x1[end][lane] = box.x1;
+      y[end][lane] = box.y;
+    }
   }
-  return {load(x0), load(x1), load(y)};
+  const Wide at = load(share);
+  const auto between = [at](const double* from, const double* to) {
+    return load(from) + (load(to) - load(from)) * at;
+  };
+  return {between(x0[0], x0[1]), between(x1[0], x1[1]), between(y[0], y[1])};
 }
 
 /// The rays of W film points (x, y) through the places (a, b) of their pupil boxes, 0 .. 1 each,

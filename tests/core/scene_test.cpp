@@ -191,8 +191,12 @@ const Breakage lenses[] = {
      [](Scene& s) { lens(s).surfaces[0].radius = nan; }},
     {"Thickness", "camera.file", "surface 2: its thickness must be finite and 0 or above",
      [](Scene& s) { lens(s).surfaces[1].thickness = -1; }},
-    {"Index", "camera.file", "surface 3: its index must be finite and above 0",
+    {"Index", "camera.file", "surface 3: its index must be from 0.25 to 8, is 0",
      [](Scene& s) { lens(s).surfaces[2].index = 0; }},
+    {"IndexOfNoMedium", "camera.file", "surface 1: its index must be from 0.25 to 8, is 0.1875",
+     [](Scene& s) { lens(s).surfaces[0].index = 0.1875f; }},
+    {"IndexNaN", "camera.file", "surface 2: its index must be from 0.25 to 8",
+     [](Scene& s) { lens(s).surfaces[1].index = nan; }},
     {"Aperture", "camera.file", "surface 1: its aperture must be finite and above 0",
      [](Scene& s) { lens(s).surfaces[0].aperture = 0; }},
     {"TooWide", "camera.file", "surface 1: its aperture is wider than its sphere",
@@ -202,6 +206,15 @@ const Breakage lenses[] = {
     {"Diverging", "camera.file", "must gather light",
      [](Scene& s) {
        lens(s).surfaces = {{-50, 5, 1.5f, 20}, {50, 0, 1, 20}};
+     }},
+    // Its picture lies 0.01 behind a lens 100,000,000 long: of the last surface, 20 wide, a ten
+    // billionth sends light to the middle.
+    {"DarkMiddle", "camera.file", "no light to the middle of the film",
+     [](Scene& s) {
+       LensCamera& long_one = lens(s);
+       long_one.surfaces = {
+           {0, 5, 1.5f, 20}, {-5e7f, 99999992, 1, 20}, {0, 7.99f, 1, 20}, {0, 0, 1, 20}};
+       long_one.scale = 1e-30f;
      }},
     {"TooNear", "camera.focus", "nearer than the lens can be focused",
      [](Scene& s) { lens(s).focus = 0.01f; }},
