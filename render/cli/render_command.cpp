@@ -138,6 +138,7 @@ class Rendering {
   ExitCode finish(const Renderer& renderer, const Image& image);
   void tell_end(const Renderer& renderer, const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;
+  void tell_faults(const SampleFaults& faults) const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
   const RenderCommand command_;  ///< before what refers to it
@@ -297,11 +298,12 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   stats_.work_seconds = rendering.render_seconds;
   stats_.rays = rendering.rays.total();
   const int spp = renderer.options().spp;
-  stats_.picture = {{image.width, image.height}, spp, rendering.rays};
+  stats_.picture = {{image.width, image.height}, spp, rendering.rays, rendering.faults};
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
   tell_end(renderer, image);
+  tell_faults(rendering.faults);
   return report_.finish(stats_);
 }
 
@@ -327,6 +329,18 @@ bool Rendering::tells_of_itself() const {
   constexpr double long_time = 10;  // seconds
   return !live_.is_series() || command_.verbosity == Verbosity::verbose ||
          watch_.seconds() >= long_time;
+}
+
+/// Samples that the picture does not show as they were.
+void Rendering::tell_faults(const SampleFaults& faults) const {
+  if (faults.not_finite > 0) {
+    report_.note(fmt::format("boule: note: {} not finite, shown as black",
+                             counted(faults.not_finite, "sample")));
+  }
+  if (faults.too_bright > 0) {
+    report_.note(fmt::format("boule: note: {} too bright for a float32, shown as the largest",
+                             counted(faults.too_bright, "sample")));
+  }
 }
 
 /// What the frames of a series took together.

@@ -35,17 +35,25 @@ std::string rays_text(const Stats& s) {
                      rays.continuation);
 }
 
+std::string faults_text(const Stats& s) {
+  if (!s.picture) return {};
+  const SampleFaults& faults = s.picture->faults;
+  return fmt::format("boule: stats: samples: {} not finite, {} too bright\n", faults.not_finite,
+                     faults.too_bright);
+}
+
 std::string as_text(const Stats& s) {
   return fmt::format(
       "boule: stats: {} ({}), solver {}, {}{}\n"
       "boule: stats: load {:.3f} s, prepare {:.3f} s, {} {:.3f} s, write {:.3f} s, "
       "total {:.3f} s\n"
       "boule: stats: rays: {}, {:.1f} Mray/s\n"
+      "{}"
       "boule: stats: peak memory {:.1f} MiB",
       s.isa, counted(static_cast<std::size_t>(s.width), "lane"), solver_name(s.solver),
       counted(s.threads, "thread"), s.picture ? picture_text(*s.picture) : "", s.load_seconds,
       s.prepare_seconds, work_name(s), s.work_seconds, s.write_seconds, s.total_seconds,
-      rays_text(s), mrays_per_s(s), peak_rss_mib());
+      rays_text(s), mrays_per_s(s), faults_text(s), peak_rss_mib());
 }
 
 Json rays_json(const Stats& s) {
@@ -67,6 +75,10 @@ std::string as_json(const Stats& s) {
                      {"write", s.write_seconds},
                      {"total", s.total_seconds}};
   json["rays"] = rays_json(s);
+  if (s.picture) {
+    json["samples_not_finite"] = s.picture->faults.not_finite;
+    json["samples_too_bright"] = s.picture->faults.too_bright;
+  }
   json["mrays_per_s"] = mrays_per_s(s);
   json["peak_rss_mib"] = peak_rss_mib();
   return json.dump(2) + "\n";

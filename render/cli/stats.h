@@ -15,6 +15,7 @@ struct PictureStats {
   Size size{};  ///< pixels: of the crop where there is one
   int spp = 1;
   RayCounts rays;
+  SampleFaults faults;
 };
 
 /// What a render or a trace took. Times are wall-clock seconds.

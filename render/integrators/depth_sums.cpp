@@ -40,7 +40,7 @@ void DepthSums::finish_below(int depth) {
 
 void DepthSums::finish(Color* radiance) {
   finish_below(first_depth_ + static_cast<int>(rows_.size()));
-  for (std::size_t k = 0; k < samples_; ++k) radiance[k] = film_value(total_[k]);
+  for (std::size_t k = 0; k < samples_; ++k) radiance[k] = settled(total_[k], faults_);
 }
 
 }  // namespace boule

@@ -2,22 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/math/color.h"
+#include "render/integrators/sample_faults.h"
 
 namespace boule {
-
-/// A component the film can hold: NaN becomes 0, infinity the largest float.
-inline float film_value(float x) {
-  constexpr float largest = std::numeric_limits<float>::max();
-  if (x < largest) return x;
-  return x >= largest ? largest : 0.0f;
-}
-inline Color film_value(const Color& c) {
-  return {film_value(c.r), film_value(c.g), film_value(c.b)};
-}
 
 /// Radiance per sample, summed over each depth by itself and then from depth 0 on. Float sums
 /// depend on their order; this one is the same however the rays of a depth were cut into streams,
@@ -34,8 +24,11 @@ class DepthSums {
   /// Promises that nothing more comes for depths below `depth`: their memory is used again.
   void finish_below(int depth);
 
-  /// Writes the sums over all depths.
+  /// Writes the sums over all depths, settled().
   void finish(Color* radiance);
+
+  /// What was wrong with the sums written so far, over all starts.
+  [[nodiscard]] const SampleFaults& faults() const { return faults_; }
 
  private:
   std::size_t samples_ = 0;
@@ -43,6 +36,7 @@ class DepthSums {
   std::vector<std::vector<Color>> rows_;  ///< by depth - first_depth_
   std::vector<std::vector<Color>> spare_;
   std::vector<Color> total_;
+  SampleFaults faults_;
 };
 
 }  // namespace boule

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/math/color.h"
+#include "render/integrators/sample_faults.h"
 #include "simd/abi/isa.h"
 #include "simd/build/stream_buffer.h"
 
@@ -69,6 +70,9 @@ class Integrator {
 
   /// All rays traced by this integrator.
   [[nodiscard]] virtual RayCounts counts() const = 0;
+
+  /// What was wrong with the radiance of its samples before it was made finite.
+  [[nodiscard]] virtual SampleFaults faults() const = 0;
 };
 
 }  // namespace boule

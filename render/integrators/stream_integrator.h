@@ -21,6 +21,7 @@ class StreamIntegrator : public Integrator {
  public:
   bool trace(const CameraRays& camera, Color* radiance) final;
   [[nodiscard]] RayCounts counts() const final { return {primary_, shadow_, wavefront_.spawned()}; }
+  [[nodiscard]] SampleFaults faults() const final { return wavefront_.faults(); }
 
  protected:
   /// Rays first .. end - 1 of a stream, a block of Surfaces.

@@ -49,7 +49,7 @@ void Wavefront::use(PathStream stream) {
 }
 
 void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight, float density) {
-  const Color throughput = current_.throughput[parent] * weight;
+  const Color throughput = light_product(current_.throughput[parent], weight);
   if (is_black(throughput)) return;
   if (children_.empty() || children_.back()->size == stream_size_) {
     children_.push_back(take_stream());

@@ -39,7 +39,7 @@ class Wavefront {
   /// Adds radiance that a ray of the current stream found. Rays in order.
   void add(std::size_t ray, const Color& radiance) {
     const std::uint32_t sample = current_.sample[ray];
-    sums_[sample] = sums_[sample] + film_value(current_.throughput[ray] * radiance);
+    sums_[sample] = sums_[sample] + light_product(current_.throughput[ray], radiance);
   }
 
   /// Sends a ray on from ray `parent` of the current stream, unless nothing of it would count.
@@ -48,6 +48,9 @@ class Wavefront {
 
   /// Writes the radiance of every sample, after next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
+
+  /// What was wrong with the samples written so far, over all starts.
+  [[nodiscard]] const SampleFaults& faults() const { return depth_sums_.faults(); }
 
   /// Rays spawned so far, over all starts.
   [[nodiscard]] std::uint64_t spawned() const { return spawned_; }

@@ -1,10 +1,19 @@
 #include "render/renderer/block_worker.h"
 
+#include <cmath>
 #include <utility>
 
 #include "render/renderer/live_rays.h"
 
 namespace boule {
+namespace {
+
+/// A weight that is not finite is no number.
+Color weighed(const Color& radiance, float weight, SampleFaults& faults) {
+  return settled(radiance * (std::isfinite(weight) ? weight : std::nanf("")), faults);
+}
+
+}  // namespace
 
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
     : setup_(setup), integrator_(std::move(integrator)), radiance_(setup.stream_size) {
@@ -107,7 +116,8 @@ bool BlockWorker::trace_weighted(Film& film) {
   const Color* radiance = radiance_.data();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const float weight = samples_.weight(k);
-    film.add(pixels_[k].x, pixels_[k].y, weight == 0 ? Color{} : *radiance++ * weight);
+    const Color sample = weight == 0 ? Color{} : weighed(*radiance++, weight, weighing_);
+    film.add(pixels_[k].x, pixels_[k].y, sample);
   }
   return true;
 }

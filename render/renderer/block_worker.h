@@ -46,6 +46,12 @@ class BlockWorker {
   /// All rays traced by this worker.
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
 
+  /// What was wrong with its samples before they came into a film.
+  [[nodiscard]] SampleFaults faults() const {
+    SampleFaults all = integrator_->faults();
+    return all += weighing_;
+  }
+
  private:
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
@@ -63,6 +69,7 @@ class BlockWorker {
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;
+  SampleFaults weighing_;  ///< of samples that were good before they were weighed
   Film block_film_{PixelRect{0, 0, 1, 1}};
 };
 

@@ -205,11 +205,20 @@ RayCounts Renderer::count_rays() const {
   return rays;
 }
 
+SampleFaults Renderer::count_faults() const {
+  SampleFaults faults;
+  for (const auto& worker : workers_) {
+    if (worker) faults += worker->faults();
+  }
+  return faults;
+}
+
 RenderStatistics Renderer::statistics() const {
   const KernelTable& kernels = setup_->kernels;
   return {{prepare_seconds_, isa_name(kernels.isa), kernels.width, options_.solver,
            scheduler_.threads_used()},
           count_rays(),
+          count_faults(),
           render_seconds_};
 }
 

@@ -20,6 +20,7 @@ namespace boule {
 /// What rendering has cost so far, over all passes.
 struct RenderStatistics : RunStatistics {
   RayCounts rays;
+  SampleFaults faults;
   double render_seconds = 0;
 };
 
@@ -71,6 +72,7 @@ class Renderer {
   Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels);
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] RayCounts count_rays() const;
+  [[nodiscard]] SampleFaults count_faults() const;
   /// Renders a block; false if it was cancelled.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
   /// Where a pass lies in the progress that is told.

@@ -51,6 +51,8 @@ TEST_F(Statistics, JsonHasEveryFigure) {
                      rays.at("continuation").get<double>();
   EXPECT_DOUBLE_EQ(stats.at("mrays_per_s").get<double>(),
                    all / seconds.at("render").get<double>() * 1e-6);
+  EXPECT_EQ(stats.at("samples_not_finite"), 0);
+  EXPECT_EQ(stats.at("samples_too_bright"), 0);
   EXPECT_GT(stats.at("peak_rss_mib").get<double>(), 1);
 }
 
@@ -91,7 +93,8 @@ TEST_F(Statistics, TextGoesToStandardErrorEvenIfQuiet) {
   const ProgramRun run = render({"--stats", "text"});
   EXPECT_THAT(run.out, IsEmpty());
   for (const char* part : {"stats: ", "solver robust", "32 x 18 pixels, 1 spp", "load ", "prepare ",
-                           "render ", "write ", "total ", "rays: 576 primary", "Mray/s", "MiB"}) {
+                           "render ", "write ", "total ", "rays: 576 primary", "Mray/s",
+                           "samples: 0 not finite, 0 too bright", "MiB"}) {
     EXPECT_THAT(run.err, HasSubstr(part));
   }
   EXPECT_THAT(render({}).err, IsEmpty());

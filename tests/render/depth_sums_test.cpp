@@ -10,12 +10,46 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float largest = std::numeric_limits<float>::max();
 
-TEST(FilmValue, IsFinite) {
-  EXPECT_EQ(film_value(1.5f), 1.5f);
-  EXPECT_EQ(film_value(0.0f), 0.0f);
-  EXPECT_EQ(film_value(largest), largest);
-  EXPECT_EQ(film_value(inf), largest);
-  EXPECT_EQ(film_value(std::numeric_limits<float>::quiet_NaN()), 0.0f);
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Settled, LeavesWhatIsFinite) {
+  SampleFaults faults;
+  for (const Color& good : {Color{}, Color{1.5f, 0, 1e-45f}, gray(largest)}) {
+    EXPECT_EQ(settled(good, faults), good);
+  }
+  EXPECT_FALSE(faults.any());
+}
+
+TEST(Settled, CountsWhatIsNotAndWhatItIsShownAs) {
+  SampleFaults faults;
+  EXPECT_EQ(settled({1, nan, 1}, faults), Color{});
+  EXPECT_EQ(settled({inf, 2, nan}, faults), Color{});
+  EXPECT_EQ(settled({inf, 2, 0}, faults), (Color{largest, 2, 0}));
+  EXPECT_EQ(faults.not_finite, 2u);
+  EXPECT_EQ(faults.too_bright, 1u);
+}
+
+TEST(LightProduct, IsNothingWhereNothingCounts) {
+  EXPECT_EQ(light_product({0, 2, inf}, {inf, 3, 0}), (Color{0, 6, 0}));
+  EXPECT_EQ(light_product({1, inf, 2}, {inf, 2, largest}), (Color{inf, inf, inf}));
+}
+
+TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
+  DepthSums sums;
+  for (int run = 0; run < 2; ++run) {
+    sums.start(3);
+    sums.at_depth(0)[0] = gray(1);
+    sums.at_depth(0)[1] = gray(1);
+    sums.at_depth(1)[1] = {0, nan, 0};  // one that is no number spoils the sample, and no other
+    sums.at_depth(1)[2] = gray(2);
+    Color result[3];
+    sums.finish(result);
+    EXPECT_EQ(result[0], gray(1));
+    EXPECT_EQ(result[1], gray(0));
+    EXPECT_EQ(result[2], gray(2));
+  }
+  EXPECT_EQ(sums.faults().not_finite, 2u);
+  EXPECT_EQ(sums.faults().too_bright, 0u);
 }
 
 TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
@@ -58,6 +92,7 @@ TEST(DepthSums, ClampsTheTotal) {
   for (int depth = 0; depth < 3; ++depth) sums.at_depth(depth)[0] = gray(largest);
   sums.finish(&result);
   EXPECT_EQ(result, gray(largest));
+  EXPECT_EQ(sums.faults().too_bright, 1u);
 }
 
 }  // namespace

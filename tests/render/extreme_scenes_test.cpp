@@ -1,5 +1,6 @@
 // Values that are extreme but legal: every pixel and every view is a number, the same on every
 // instruction set, and a scene that should be seen is seen.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -203,6 +204,35 @@ TEST_P(ExtremeScenes, HaveNumbersInEveryPixel) {
       EXPECT_EQ(differing_pixels(image, first), 0) << what;
     }
   }
+}
+
+/// A picture of one sample a pixel, and what was wrong with its samples.
+struct Judged {
+  Image image;
+  SampleFaults faults;
+};
+Judged judge(const Scene& scene) {
+  auto renderer = Renderer::create(scene, options_of(scene));
+  if (!renderer) return {};
+  const auto image = renderer.value().render();
+  return {image ? image.value() : Image{}, renderer.value().statistics().faults};
+}
+
+TEST_P(ExtremeScenes, TellWhatNoFloatHolds) {
+  Scene scene = empty_scene(32, 24);
+  add_material(scene, Matte{});
+  GetParam().make(scene);
+  const auto [image, faults] = judge(scene);
+  ASSERT_EQ(image.pixels.size(), 32u * 24u);
+  constexpr float largest = std::numeric_limits<float>::max();
+  const auto brightest = static_cast<std::uint64_t>(
+      std::count_if(image.pixels.begin(), image.pixels.end(), [](const Color& c) {
+        return std::max({c.r, c.g, c.b}) == largest;
+      }));
+  EXPECT_EQ(faults.too_bright, brightest);
+  const auto black =
+      static_cast<std::uint64_t>(std::count_if(image.pixels.begin(), image.pixels.end(), is_black));
+  EXPECT_LE(faults.not_finite, black);
 }
 
 TEST_P(ExtremeScenes, HaveViewsThatAreNumbers) {
