@@ -8,6 +8,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "render/cli/exit_code.h"
 #include "render/cli/interrupt.h"
@@ -30,17 +31,23 @@ bool started = false;
 
 Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
 
+[[noreturn]] void end_without_thread() {
+  leave_at_once("boule: error: a thread cannot be had: Resource temporarily unavailable\n", failed);
+}
+
 [[noreturn]] void end_without_memory() {
+  // Nothing was thrown: before main() begins there is not even the memory for that; later a thread
+  // was not joined, for the next one could not be had.
+  if (!std::current_exception()) started ? end_without_thread() : leave_without_memory();
   try {
-    if (std::current_exception()) throw;
+    throw;
   } catch (const std::bad_alloc&) {
     leave_without_memory();
+  } catch (const std::system_error&) {  // a thread, likewise
+    end_without_thread();
   } catch (...) {
     std::abort();
   }
-  // Nothing was thrown: before main() begins there is not even the memory for that.
-  if (!started) leave_without_memory();
-  std::abort();
 }
 
 /// (Before sanitizers have begun.)

@@ -14,7 +14,8 @@ Status take_stack();
 
 /// The program ends like that, too, where an allocation fails in a place that exceptions cannot
 /// leave: code of others while it is loaded, and before main() begins. This says that it has: from
-/// then on it takes a std::bad_alloc to end so.
+/// then on it takes a std::bad_alloc to end so; and likewise, with a line of its own, where a
+/// thread cannot be had there.
 void begin_main();
 
 }  // namespace boule::cli

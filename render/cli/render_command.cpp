@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -17,9 +18,11 @@
 #include "render/cli/run_report.h"
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
+#include "render/frame/scheduler.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/finished_picture.h"
 #include "render/image/image_format.h"
+#include "render/image/image_start.h"
 #include "render/image/output_file.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
@@ -151,6 +154,7 @@ class Rendering {
   std::string date_;  ///< that the file is stamped with
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  std::optional<ImageStart> image_start_;  ///< beside preparing
 };
 
 ExitCode Rendering::run() {
@@ -161,6 +165,9 @@ ExitCode Rendering::run() {
   if (auto bad = check_outputs(command_)) return refuse(*bad, command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
+  // All is said. Waiting for what is not needed any more would be a pity, and the end of the
+  // program while it is loaded a danger.
+  if (prepared != done && image_start_ && !image_start_->done()) std::_Exit(prepared);
   if (prepared != done || !renderer) return prepared;
   for (const std::string& text : renderer->notes()) report_.note_once("boule: note: " + text);
   return render(*renderer);
@@ -197,8 +204,11 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
     return refuse(*bad, command_, failed);
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
+  // Not before: what is refused loads nothing until here.
+  image_start_.emplace(command_.output, static_cast<int>(Scheduler(options.threads).workers()));
   auto created = Renderer::create(std::move(scene), options);
   if (!created) return refuse_scene(created.error(), command_);
+  if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
   renderer = std::move(created).value();
   return done;
 }

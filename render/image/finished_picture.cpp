@@ -48,7 +48,7 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   const image_module::WantedPicture wanted{path.c_str(), format->writer, names.data(),
                                            names.size(), has_shape,      &shape_and_format};
   image_module::Report report{};
-  loaded.value()->inspect(&wanted, &report);
+  loaded.value().table->inspect(&wanted, &report);
   return report.outcome == image_module::Outcome::done;
 }
 

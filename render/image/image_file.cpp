@@ -1,11 +1,10 @@
 // The image module: the one file that knows OpenImageIO, loaded by image_loader.cpp on first use.
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
+#include <OpenImageIO/thread.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/image/descriptor_proxy.h"
 #include "render/image/image_module.h"
 
 namespace boule::image_module {
@@ -28,75 +28,6 @@ int band_rows(const Picture& picture, const OIIO::ImageSpec& spec) {
   const auto blocks = static_cast<int>(std::min<size_t>(enough_bytes / block_bytes, most_blocks));
   return block * std::max(blocks, std::max(picture.threads, 1));
 }
-
-/// Hands OpenImageIO's bytes to a file descriptor, gathered: its PNM writer writes single bytes.
-/// After a failure it keeps the errno code and pretends to go on: libjpeg would end the process,
-/// others lose the reason. Every writer of ours uses it from one thread at a time.
-class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
- public:
-  explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
-
-  const char* proxytype() const override { return "boule"; }
-  void close() override {}
-  size_t size() const override { return size_; }
-  size_t write(const void* bytes, size_t count) override {
-    const size_t written = pwrite(bytes, count, m_pos);
-    m_pos += static_cast<int64_t>(written);
-    return written;
-  }
-  size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
-    constexpr size_t enough = 1 << 16;
-    const auto end = gathered_at_ + static_cast<int64_t>(gathered_.size());
-    if (offset != end || gathered_.size() >= enough) {
-      flush_gathered();
-      gathered_at_ = offset;
-    }
-    const auto* from = static_cast<const char*>(bytes);
-    gathered_.insert(gathered_.end(), from, from + count);
-    size_ = std::max(size_, static_cast<size_t>(offset) + count);
-    return count;
-  }
-  size_t read(void* bytes, size_t count) override {
-    const size_t got = pread(bytes, count, m_pos);
-    m_pos += static_cast<int64_t>(got);
-    return got;
-  }
-  size_t pread(void* bytes, size_t count, int64_t offset) override {
-    flush_gathered();
-    const ssize_t got = ::pread(descriptor_, bytes, count, offset);
-    return got < 0 ? 0 : static_cast<size_t>(got);
-  }
-
-  /// Writes what is gathered; the errno code of the first failure so far, or 0.
-  int finish() {
-    flush_gathered();
-    return code_;
-  }
-
-  /// The errno code of the first failure so far, or 0.
-  [[nodiscard]] int code() const { return code_; }
-
- private:
-  void flush_gathered() {
-    for (size_t done = 0; done < gathered_.size() && code_ == 0;) {
-      const ssize_t written =
-          ::pwrite(descriptor_, gathered_.data() + done, gathered_.size() - done,
-                   gathered_at_ + static_cast<int64_t>(done));
-      if (written > 0) {
-        done += static_cast<size_t>(written);
-      } else if (written == 0 || errno != EINTR) {
-        code_ = written == 0 ? EIO : errno;
-      }
-    }
-    gathered_.clear();
-  }
-
-  int descriptor_;
-  int code_ = 0;
-  size_t size_ = 0;
-  std::vector<char> gathered_;
-  int64_t gathered_at_ = 0;
-};
 
 void fail(Report* report, const std::string& text) {
   report->outcome = Outcome::failed;
@@ -224,11 +155,24 @@ void write_bands(const Picture& picture, OIIO::ImageOutput& output, const Descri
   }
 }
 
-/// Before OpenImageIO starts pools of its own. One thread means the caller's: -1 to OpenEXR; and
-/// nothing to OpenImageIO, which would start one to be told so: each file is told.
-void use_threads(int threads) {
-  if (threads > 1) OIIO::attribute("threads", threads);
-  OIIO::attribute("exr_threads", threads > 1 ? threads : -1);
+/// Pools are as large as this, or there are none; changed by `start` alone, one call at a time.
+int pool_threads = 1, exr_threads = 1;
+
+/// Makes OpenEXR's pool larger, never smaller; -1 means none: the caller's thread does it all.
+/// OpenEXR is told by the next object that would write.
+void start_exr_threads(int threads) {
+  exr_threads = std::max(exr_threads, threads);
+  OIIO::attribute("exr_threads", exr_threads > 1 ? exr_threads : -1);
+}
+
+/// Before OpenImageIO starts a pool of its own size. For one thread it is told nothing, for it
+/// would start one to be told so: each file is told. TIFF takes the pool in any case.
+void start_threads(const char* format, int threads) {
+  if (threads > pool_threads) OIIO::attribute("threads", threads);
+  if (threads > pool_threads || format == std::string_view("tiff")) OIIO::default_thread_pool();
+  pool_threads = std::max(pool_threads, threads);
+  if (format == std::string_view("openexr")) start_exr_threads(threads);
+  OIIO::ImageOutput::create(format);
 }
 
 /// A reader that needs no thread but the caller's; null if there is none of this format.
@@ -239,7 +183,6 @@ std::unique_ptr<OIIO::ImageInput> make_input(const char* format) {
 }
 
 void write_picture(const Picture& picture, int descriptor, Report* report) {
-  use_threads(picture.threads);
   DescriptorProxy proxy(descriptor);
   const auto output = OIIO::ImageOutput::create(picture.format);
   if (!output) return fail(report, reason_of(OIIO::geterror()));
@@ -296,7 +239,6 @@ bool has_channels(const OIIO::ImageSpec& found, const WantedPicture& wanted) {
 }
 
 void inspect_picture(const WantedPicture& wanted, Report* report) {
-  use_threads(1);
   const auto input = make_input(wanted.format);
   OIIO::ImageSpec found;
   if (!input || !input->open(wanted.path, found)) {
@@ -367,7 +309,6 @@ bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, const PictureFil
 }
 
 void read_picture(PictureFile& file, Report* report) {
-  use_threads(1);
   const auto input = make_input(file.format);
   OIIO::ImageSpec spec, wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);  // alpha must not change the colours
@@ -405,6 +346,10 @@ void guarded(Report* report, Step step) {
   }
 }
 
+void start(const char* format, int threads, Report* report) {
+  guarded(report, [&] { start_threads(format, threads); });
+}
+
 void write(const Picture* picture, int descriptor, Report* report) {
   guarded(report, [&] { write_picture(*picture, descriptor, report); });
 }
@@ -421,7 +366,10 @@ void read(PictureFile* file, Report* report) {
   guarded(report, [&] { read_picture(*file, report); });
 }
 
-constexpr Table table = {version, write, check, inspect, read};
+constexpr Table table = {version, start, write, check, inspect, read};
+
+/// What the loader looks for before it runs anything of this file.
+[[gnu::used]] constexpr auto mark = std::to_array(version_mark);
 
 }  // namespace
 }  // namespace boule::image_module

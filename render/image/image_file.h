@@ -66,8 +66,12 @@ struct ImageFileOptions {
 /// exception in options.stop or options.temporary. Any numbers are colours: NaN and what is below 0
 /// is 0 in LDR formats; EXR keeps them.
 ///
-/// The first picture that is written or read loads OpenImageIO, with half a GiB of addresses: where
-/// allocations fail within that, libraries below it end the process by std::terminate().
+/// The first picture that is written or read loads OpenImageIO, with half a GiB of addresses, and
+/// starts its threads (ImageStart does so before the work): where allocations fail within that, or
+/// a thread cannot be had that could a moment before, libraries below it end the process by
+/// std::terminate(). A child by fork() of a process in which these threads run writes pictures with
+/// one thread; .exr files, where more than one had been asked for, and .tif files only the parent
+/// writes and reads: the Diagnostic says so.
 Status write_image(const Image& image, const std::string& path,
                    const ImageFileOptions& options = {});
 

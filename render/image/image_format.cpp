@@ -57,4 +57,8 @@ std::string known_image_extensions() {
   return names;
 }
 
+std::string unknown_image_extension() {
+  return "unknown image extension, expected one of " + known_image_extensions();
+}
+
 }  // namespace boule

@@ -25,4 +25,7 @@ bool is_image_name(const std::string& path);
 /// All known extensions for a message: "exr, hdr, png, ...".
 std::string known_image_extensions();
 
+/// "unknown image extension, expected one of exr, ...".
+std::string unknown_image_extension();
+
 }  // namespace boule

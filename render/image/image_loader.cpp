@@ -1,130 +1,152 @@
 #include "render/image/image_loader.h"
 
-#include <dlfcn.h>
-#include <link.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
-#include <filesystem>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
+#include "render/image/module_search.h"
+#include "render/memory/available.h"
 #include "render/threads/threads.h"
 
 namespace boule {
 namespace {
 
-using image_module::Table;
-namespace fs = std::filesystem;
-
-constexpr const char* module_name = "boule_image_io.so";
-
-/// The folder of the shared library this code is in, or of the program if it is linked into it.
-fs::path own_folder() {
-  static const char anchor = 0;
-  Dl_info info{};
-  link_map* map = nullptr;
-  std::error_code ignored;
-  if (dladdr1(&anchor, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0 &&
-      map != nullptr && *map->l_name != 0) {
-    return fs::canonical(map->l_name, ignored).parent_path();
-  }
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
-}
-
-std::vector<fs::path> candidates() {
-  std::vector<fs::path> folders;
-  if (const fs::path own = own_folder(); !own.empty()) {
-    folders = {own, own.parent_path() / "lib" / "boule"};
-  }
-  folders.emplace_back(BOULE_IMAGE_MODULE_BUILD_DIR);
-  folders.emplace_back(BOULE_IMAGE_MODULE_INSTALL_DIR);
-  return folders;
-}
-
-/// The module's table, or null and the reason.
-const Table* open_module(const fs::path& file, std::string& reason) {
-  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    reason = dlerror();
-    return nullptr;
-  }
-  using EntryPoint = const Table* (*)();
-  const auto entry = reinterpret_cast<EntryPoint>(dlsym(handle, image_module::entry_point));
-  const Table* table = entry != nullptr ? entry() : nullptr;
-  if (table != nullptr && table->version == image_module::version) return table;
-  reason = file.string() + ": made for another version of boule";
-  dlclose(handle);
-  return nullptr;
-}
-
 /// What is loaded and runs; one for the process, as OpenImageIO is.
 struct Loaded {
   std::mutex mutex;
-  const Table* table = nullptr;
-  bool has_pool = false;  ///< OpenImageIO's threads run
+  const image_module::Table* table = nullptr;
+  int pool = 0;      ///< threads that OpenImageIO's pool was told, once it runs
+  int exr_pool = 1;  ///< and OpenEXR's; 1: it has none
+  pid_t owner = 0;   ///< the process that has the pools' threads, once there are some
 };
 Loaded& loaded() {
   static Loaded one;
   return one;
 }
 
-/// The module's table, or null and the reasons, of all places.
-const Table* open_somewhere(std::string& reason) {
-  std::string places;
-  for (const fs::path& folder : candidates()) {
-    const fs::path file = folder / module_name;
-    places += (places.empty() ? "" : ", ") + folder.string();
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) continue;
-    if (const Table* table = open_module(file, reason)) return table;
-  }
-  if (reason.empty()) reason = std::string(module_name) + " not found in " + places;
-  return nullptr;
-}
+/// The process in which a thread is busy with `loaded()`, or 0.
+std::atomic<pid_t> busy{0};
+
+/// Holds `loaded()`; a child that was forked meanwhile would wait for ever.
+class Hold {
+ public:
+  Hold() : lock_(loaded().mutex) { busy = getpid(); }
+  ~Hold() { busy = 0; }
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+
+ private:
+  const std::lock_guard<std::mutex> lock_;
+};
 
 Diagnostic cannot_load(const std::string& reason) {
   return {"cannot load the image module: " + reason, {}, {}, 0, 0};
 }
 
-/// OpenImageIO's pool, which begins with as many threads as the hardware runs.
-unsigned pool_threads(const Loaded& one) { return one.has_pool ? 0 : hardware_threads(); }
+constexpr unsigned threads_at_load = 4;  // log4cplus
+
+/// Some of its libraries do not look at what malloc gives them while they are loaded.
+Status check_room() {
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  // Measured: 405 MiB, 67 of them to be written to.
+  constexpr std::uint64_t addresses = 440 * mebibyte, data = 80 * mebibyte;
+  const std::uint64_t stacks = threads_at_load * std::uint64_t{default_stack()};
+  const auto [address_room, data_room] = process_room();
+  const auto refuse = [](std::uint64_t needed, std::uint64_t room, const char* limit) {
+    return cannot_load("it needs " + std::to_string(needed / mebibyte) + " MiB of memory, " +
+                       limit + " leaves " + std::to_string(room / mebibyte));
+  };
+  if (address_room < addresses + stacks) {
+    return refuse(addresses + stacks, address_room, "the limit on addresses (ulimit -v)");
+  }
+  if (data_room < data + stacks) {
+    return refuse(data + stacks, data_room, "the limit on data (ulimit -d)");
+  }
+  return std::nullopt;
+}
+
+Diagnostic no_threads() { return cannot_load(std::generic_category().message(EAGAIN)); }
+
+Status load(Loaded& one) {
+  if (one.table != nullptr) return std::nullopt;
+  if (auto bad = check_room()) return bad;
+  if (!can_start_threads(threads_at_load)) return no_threads();
+  const auto opened = open_image_module();
+  if (!opened) return cannot_load(opened.error().message);
+  one.table = opened.value();
+  return std::nullopt;
+}
+
+/// The threads that will be started for so many, besides those there are.
+unsigned missing_threads(const Loaded& one, const ImageFormat& format, int threads) {
+  const std::string_view writer = format.writer;
+  const auto count = static_cast<unsigned>(threads);
+  // The pool begins with as many as the hardware runs, and is resized. TIFF takes it in any case.
+  const unsigned at_first = one.pool == 0 ? hardware_threads() : 0;
+  unsigned missing = 0;
+  if (threads > std::max(one.pool, 1))
+    missing += std::max(at_first, count);
+  else if (writer == "tiff")
+    missing += at_first;
+  if (writer == "openexr" && threads > one.exr_pool) missing += count;
+  return missing;
+}
+
+/// Starts the pools for so many threads.
+Status start(Loaded& one, const ImageFormat& format, int threads) {
+  const std::string_view writer = format.writer;
+  const unsigned missing = missing_threads(one, format, threads);
+  // Those who render want as many at the same time, and something is left to work with.
+  constexpr std::uint64_t rest = 32 << 20;
+  const unsigned all = missing + static_cast<unsigned>(threads);
+  const bool has_room = process_room().data >= all * std::uint64_t{default_stack()} + rest;
+  if (missing > 0 && !(has_room && can_start_threads(all))) return no_threads();
+  image_module::Report report{};
+  one.table->start(format.writer, threads, &report);
+  if (report.outcome != image_module::Outcome::done) return cannot_load(report.text);
+  if (threads > 1 || writer == "tiff") one.pool = std::max(one.pool, threads);
+  if (writer == "openexr") one.exr_pool = std::max(one.exr_pool, threads);
+  if (missing > 0) one.owner = getpid();
+  return std::nullopt;
+}
+
+/// In a child: the pools' threads stayed in the parent, and whoever waits for them waits for ever.
+Result<LoadedModule> forked(const Loaded& one, const ImageFormat& format) {
+  const std::string_view writer = format.writer;
+  if ((writer == "openexr" && one.exr_pool > 1) || (writer == "tiff" && one.pool > 0)) {
+    return cannot_load(
+        std::string("this process was forked from one that had started threads for .") +
+        format.extension + " files, which only that one can write and read now");
+  }
+  image_module::Report report{};
+  one.table->start(format.writer, 1, &report);
+  return LoadedModule{one.table, 1};
+}
 
 }  // namespace
 
-Result<const Table*> load_image_module(const ImageFormat& format) {
-  constexpr unsigned at_load = 4;  // log4cplus
+Result<LoadedModule> load_image_module(const ImageFormat& format, int threads) {
+  if (const pid_t holder = busy; holder != 0 && holder != getpid()) {
+    return cannot_load("this process was forked while another thread loaded it");
+  }
+  const Hold hold;
   Loaded& one = loaded();
-  const std::lock_guard lock(one.mutex);
-  // Reading and writing TIFF starts the pool, however many threads are asked for.
-  const bool takes_pool = format.writer == std::string_view("tiff");
-  const unsigned threads =
-      (one.table == nullptr ? at_load : 0) + (takes_pool ? pool_threads(one) : 0);
-  if (threads > 0 && !can_start_threads(threads)) {
-    return cannot_load(std::generic_category().message(EAGAIN));
-  }
-  if (one.table == nullptr) {
-    std::string reason;
-    one.table = open_somewhere(reason);
-    if (one.table == nullptr) return cannot_load(reason);
-  }
-  one.has_pool = one.has_pool || takes_pool;
-  return one.table;
-}
-
-int image_threads(int wanted) {
+  if (auto bad = load(one)) return *bad;
+  if (one.owner != 0 && one.owner != getpid()) return forked(one, format);
   constexpr int most = 256;
-  const auto count = static_cast<unsigned>(std::clamp(wanted, 1, most));
-  if (count == 1) return 1;
-  Loaded& one = loaded();
-  const std::lock_guard lock(one.mutex);
-  // The pool is resized to `count`; OpenEXR has one of its own.
-  if (!can_start_threads(std::max(count, pool_threads(one)) + count)) return 1;
-  one.has_pool = true;
-  return static_cast<int>(count);
+  const int wanted = std::clamp(threads, 1, most);
+  const auto bad = start(one, format, wanted);
+  if (!bad) return LoadedModule{one.table, wanted};
+  if (wanted == 1) return *bad;
+  if (auto worse = start(one, format, 1)) return *worse;
+  return LoadedModule{one.table, 1};
 }
 
 }  // namespace boule

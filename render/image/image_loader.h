@@ -6,15 +6,18 @@
 
 namespace boule {
 
-/// The image module for a file of this format, loaded on the first call: from the folder of the
-/// running library or program, ../lib/boule beside it, the build tree, the place of installation.
-/// The Diagnostic says what was tried, or that the threads cannot be had which OpenImageIO and the
-/// libraries below it start, for they end the program then. It stays loaded; a failure is tried
-/// anew by the next call.
-Result<const image_module::Table*> load_image_module(const ImageFormat& format);
+/// The image module as it may be used.
+struct LoadedModule {
+  const image_module::Table* table;
+  int threads;  ///< that writing may be told: all that were wanted, or one
+};
 
-/// How many threads the module may be given of `wanted`: all, 256 at most, or one where OpenImageIO
-/// and OpenEXR could not have theirs.
-int image_threads(int wanted);
+/// The image module (module_search.h) for a file of this format, loaded on the first call, with all
+/// threads started that it will ever start for such files: of `threads` wanted, 256 at most, all or
+/// one, where those of OpenImageIO and OpenEXR could not be had. The Diagnostic says what was
+/// tried; or that the memory or threads cannot be had without which libraries below OpenImageIO end
+/// the process; or that this process was forked from one with threads that it has not. It stays
+/// loaded; a failure is tried anew by the next call. Throws std::bad_alloc.
+Result<LoadedModule> load_image_module(const ImageFormat& format, int threads = 1);
 
 }  // namespace boule

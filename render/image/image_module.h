@@ -7,8 +7,10 @@
 /// structs and function pointers, no exceptions, nothing of std, nothing owned across it.
 namespace boule::image_module {
 
-/// Changes with any change of this file; the loader refuses a module of another version.
-inline constexpr std::uint32_t version = 5;
+/// Changes with any change of this file; the loader refuses a module of another version, before
+/// anything of it has run: the mark stands in the module's file.
+inline constexpr std::uint32_t version = 6;
+inline constexpr char version_mark[] = "boule image module, version 6.";
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
@@ -89,13 +91,16 @@ struct WantedPicture {
   const void* context;
 };
 
-/// What the module can do. `write` writes to an open, empty, seekable file; `check` opens a file
-/// anew and reads its header, its first and its last row; `inspect` reads all of what is accepted.
-/// `read` reads a picture's pixels, row by row from the top, three floats each: its first three
-/// channels as they stand in the file (integers as 0..1), gray thrice, 0 for a third channel that
-/// is not there.
+/// What the module can do. `start` starts every thread that reading and writing pictures of a
+/// format, with so many threads or fewer, will ever start; before anything else of that format is
+/// asked for, one call at a time. `write` writes to an open, empty, seekable file; `check` opens a
+/// file anew and reads its header, its first and its last row; `inspect` reads all of what is
+/// accepted. `read` reads a picture's pixels, row by row from the top, three floats each: its first
+/// three channels as they stand in the file (integers as 0..1), gray thrice, 0 for a third channel
+/// that is not there.
 struct Table {
   std::uint32_t version;
+  void (*start)(const char* format, int threads, Report* report);
   void (*write)(const Picture* picture, int descriptor, Report* report);
   void (*check)(const Picture* picture, const char* path, Report* report);
   void (*inspect)(const WantedPicture* wanted, Report* report);

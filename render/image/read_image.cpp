@@ -79,12 +79,12 @@ Result<Image> read(const std::string& path, PictureContent content) {
   if (path.find('\0') != std::string::npos) return cannot_read(path, "its name holds a NUL byte");
   if (const auto damage = file_damage(path, *format); !damage.empty())
     return cannot_read(path, damage);
-  const Result<const module::Table*> loaded = load_image_module(*format);
+  const auto loaded = load_image_module(*format);
   if (!loaded) return cannot_read(path, loaded.error().message);
   Room room;
   module::PictureFile file{path.c_str(), format->writer, begin, next_rows, &room, false};
   module::Report report{};
-  loaded.value()->read(&file, &report);
+  loaded.value().table->read(&file, &report);
   if (report.outcome == module::Outcome::stopped) return cannot_read(path, room.refusal);
   if (report.outcome != module::Outcome::done) return cannot_read(path, report.text);
   if (content == PictureContent::colors && file.is_integer) make_linear(room.image);

@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstddef>
 #include <exception>
@@ -75,7 +78,7 @@ std::string channel_problem(const Image& image, const std::vector<ImageChannel>&
 std::string find_reason(const Image& image, const ImageFileOptions& options,
                         const ImageFormat* format) {
   if (format == nullptr) {
-    return "unknown image extension, expected one of " + known_image_extensions();
+    return unknown_image_extension();
   }
   if (image.width < 1 || image.height < 1 ||
       image.pixels.size() !=
@@ -177,7 +180,6 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
   picture.channel_count = plan->channels.size();
   picture.attributes = plan->attributes.data();
   picture.attribute_count = plan->attributes.size();
-  picture.threads = image_threads(options.threads);
   plan->stop = &options.stop;
   picture.stop = ask_to_stop;
   picture.context = plan.get();
@@ -199,6 +201,14 @@ Status status_of(const module::Report& report, const std::string& path) {
   return cannot_write(path, report.text);
 }
 
+/// OpenImageIO, which opens it next, does not tell the system's reason.
+Status check_openable(const OutputFile& file, const std::string& path) {
+  const int descriptor = open(file.path().c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return cannot_write(path, std::generic_category().message(errno));
+  close(descriptor);
+  return {};
+}
+
 Status write(const Image& image, const std::string& path, const ImageFileOptions& options) {
   const ImageFormat* format = find_image_format(path);
   if (const std::string reason = find_reason(image, options, format); !reason.empty()) {
@@ -213,15 +223,17 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (!created.ok()) return created.error();
   OutputFile& file = created.value();
   if (options.temporary) options.temporary(file.path());
-  const Result<const module::Table*> loaded = load_image_module(*format);
-  if (!loaded.ok()) return cannot_write(path, loaded.error().message);
-  const module::Table& table = *loaded.value();
+  const auto loaded = load_image_module(*format, options.threads);
+  if (!loaded) return cannot_write(path, loaded.error().message);
+  const module::Table& table = *loaded.value().table;
 
   const std::unique_ptr<Plan> plan = make_plan(image, options, *format, std::move(header));
+  plan->picture.threads = loaded.value().threads;
   module::Report report{};
   table.write(&plan->picture, file.descriptor(), &report);
   if (plan->thrown) std::rethrow_exception(plan->thrown);
   if (Status failure = status_of(report, path)) return failure;
+  if (Status failure = check_openable(file, path)) return failure;
   table.check(&plan->picture, file.path().c_str(), &report);
   if (Status failure = status_of(report, path)) return failure;
   if (Status failure = file.sync()) return failure;

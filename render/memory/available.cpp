@@ -12,30 +12,40 @@ namespace boule {
 namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kibibyte = 1024;
 
 std::uint64_t bytes_of(long pages) {
   const long page = sysconf(_SC_PAGE_SIZE);
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
 }
 
-/// The number behind a name, in a file of lines "NAME NUMBER ..."; 0 where there is none.
+/// The number behind a name, in a file of lines "NAME NUMBER ..." and others; 0 where there is
+/// none.
 std::uint64_t number_in(const std::string& path, std::string_view wanted) {
   std::ifstream file(path);
   std::string name, rest;
   std::uint64_t number = 0;
-  while (file >> name >> number) {
+  while (file >> name) {
+    if (name == wanted) return file >> number ? number : 0;
     std::getline(file, rest);
-    if (name == wanted) return number;
   }
   return 0;
 }
 
 std::uint64_t system_memory() {
-  constexpr std::uint64_t kibibyte = 1024;
   if (const auto linux_has = number_in("/proc/meminfo", "MemAvailable:"); linux_has > 0)
     return linux_has * kibibyte;
   const long pages = sysconf(_SC_PHYS_PAGES);
   return pages > 0 ? bytes_of(pages) : unlimited;
+}
+
+/// What a limit leaves of what the process has; `used` is the name of that, in KiB.
+std::uint64_t room_below(__rlimit_resource resource, const std::string& status,
+                         std::string_view used) {
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  return limit.rlim_cur -
+         std::min<std::uint64_t>(limit.rlim_cur, number_in(status, used) * kibibyte);
 }
 
 /// By the innermost of the process' groups and all around it.
@@ -57,13 +67,14 @@ std::uint64_t available_memory() {
   return std::min({system_memory(), address_room(), control_groups_memory()});
 }
 
+ProcessRoom process_room() {
+  const std::string status = "/proc/self/status";
+  return {room_below(RLIMIT_AS, status, "VmSize:"), room_below(RLIMIT_DATA, status, "VmData:")};
+}
+
 std::uint64_t address_room() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  std::ifstream file("/proc/self/statm");
-  long pages = 0;
-  file >> pages;
-  return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, bytes_of(pages));
+  const ProcessRoom room = process_room();
+  return std::min(room.addresses, room.data);
 }
 
 std::uint64_t control_group_memory(const std::string& folder) {

@@ -7,12 +7,19 @@
 
 namespace boule {
 
-/// Bytes of memory that this process could have now without swapping: what the system has, what a
-/// limit on its addresses (RLIMIT_AS) and the control groups it is in (version 2) leave it. The
+/// Bytes of memory that this process could have now without swapping: what the system has, what
+/// limits of its own (ProcessRoom) and the control groups it is in (version 2) leave it. The
 /// largest number where nothing of that is known. All here throw std::bad_alloc.
 std::uint64_t available_memory();
 
-/// What is left below a limit on this process' addresses; the largest number without one.
+/// What is left below the limits on this process; the largest number without one.
+struct ProcessRoom {
+  std::uint64_t addresses;  ///< RLIMIT_AS: of all it maps
+  std::uint64_t data;       ///< RLIMIT_DATA: of what it may write to, stacks of threads included
+};
+ProcessRoom process_room();
+
+/// The same for memory, which is both: the lesser.
 std::uint64_t address_room();
 
 /// What a control group leaves to those in it, from the files in its folder; the largest number

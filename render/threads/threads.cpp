@@ -16,10 +16,8 @@ constexpr std::size_t least_stack = std::size_t{4} << 20;
 class Attributes {
  public:
   Attributes() {
-    std::size_t size = 0;
     pthread_getattr_default_np(&value_);
-    pthread_attr_getstacksize(&value_, &size);
-    pthread_attr_setstacksize(&value_, std::max(size, least_stack));
+    pthread_attr_setstacksize(&value_, std::max(default_stack(), least_stack));
   }
   ~Attributes() { pthread_attr_destroy(&value_); }
   Attributes(const Attributes&) = delete;
@@ -44,6 +42,15 @@ void* enter(void* start) {
 }
 
 }  // namespace
+
+std::size_t default_stack() {
+  pthread_attr_t attributes{};
+  std::size_t size = 0;
+  pthread_getattr_default_np(&attributes);
+  pthread_attr_getstacksize(&attributes, &size);
+  pthread_attr_destroy(&attributes);
+  return size;
+}
 
 unsigned hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1U); }
 

@@ -8,6 +8,9 @@
 
 namespace boule {
 
+/// Bytes of stack that a thread has unless it is asked for more; the system's default, not 0.
+std::size_t default_stack();
+
 /// How many threads the hardware runs at once, 1 where that is not known.
 unsigned hardware_threads();
 

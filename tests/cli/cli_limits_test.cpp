@@ -59,6 +59,26 @@ TEST_F(Limits, OnAddresses) {
   EXPECT_GE(refused, 8);
 }
 
+/// Some libraries of pictures crash where malloc gives them nothing while they are loaded.
+TEST_F(Limits, OnData) {
+  const std::string whole = whole_picture();
+  int done = 0, refused = 0;
+  for (const int kibibytes :
+       {4000, 40000, 80000, 88000, 92000, 96000, 100000, 110000, 130000, 150000, 400000}) {
+    write("picture.png", old);
+    const std::string limit = "ulimit -d " + std::to_string(kibibytes) + "; ";
+    const ProgramRun run = shell(limit + "exec \"$@\"", render("picture.png", "2"));
+    SCOPED_TRACE(limit + run.err);
+    expect_all_or_nothing(run, whole);
+    if (run.exit_code != 0) {
+      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+    }
+    ++(run.exit_code == 0 ? done : refused);
+  }
+  EXPECT_GE(done, 1);
+  EXPECT_GE(refused, 5);
+}
+
 TEST_F(Limits, OnTheStack) {
   const std::string whole = whole_picture();
   for (const int kibibytes : {160, 1000, 4000, 4096, 8192}) {

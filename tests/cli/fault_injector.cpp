@@ -3,7 +3,7 @@
 //   BOULE_FAULT_HIT=PATH            a file that then appears
 //   BOULE_ONLY_NAMED_FILES=1        a file system without O_TMPFILE
 // Allocations fail from that one on: where there is no memory there will be none at once. Of
-// threads there is no room for so many at once.
+// threads ("thread") there is no room for so many at once, or one of them ("create") fails.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -128,7 +128,7 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
                    void* argument) {
   static const auto create =
       reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
-  if (!fails_of("thread", ++threads)) {
+  if (!fails_of("thread", ++threads) && !fails("create")) {
     const int code = create(thread, attributes, run_counted, new Start{run, argument});
     if (code != 0) --threads;
     return code;

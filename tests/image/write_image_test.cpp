@@ -278,8 +278,9 @@ TEST_F(WriteImage, NamesOfAnyAlphabet) {
 /// The check after writing must see a file that lost its end. (PNG, too, but there libpng jumps
 /// over OpenImageIO's message, a leak that the leak checker reports.)
 TEST_F(WriteImage, CheckFindsTruncatedFiles) {
-  const Result<const image_module::Table*> table = load_image_module(*find_image_format("a.tif"));
-  ASSERT_TRUE(table.ok()) << table.error().message;
+  const auto loaded = load_image_module(*find_image_format("a.tif"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const image_module::Table* const table = loaded.value().table;
   std::vector<unsigned char> bytes(40 * 40 * 4);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i * i / 7);
   const std::pair<const char*, image_module::SampleType> formats[] = {
@@ -298,13 +299,13 @@ TEST_F(WriteImage, CheckFindsTruncatedFiles) {
     test::write_bytes(at("a"), "");
     const int descriptor = open(at("a").c_str(), O_RDWR);
     image_module::Report report{};
-    table.value()->write(&picture, descriptor, &report);
+    table->write(&picture, descriptor, &report);
     close(descriptor);
     ASSERT_EQ(report.outcome, Outcome::done) << format << report.text;
-    table.value()->check(&picture, at("a").c_str(), &report);
+    table->check(&picture, at("a").c_str(), &report);
     EXPECT_EQ(report.outcome, Outcome::done) << format << report.text;
     fs::resize_file(at("a"), fs::file_size(at("a")) * 3 / 4);
-    table.value()->check(&picture, at("a").c_str(), &report);
+    table->check(&picture, at("a").c_str(), &report);
     EXPECT_EQ(report.outcome, Outcome::failed) << format;
   }
 }

@@ -64,6 +64,28 @@ TEST(Memory, IsWhatTheLimitOnAddressesLeaves) {
   EXPECT_FALSE(check_memory(1 << 20, "a thing needs"));
 }
 
+/// Stacks of threads and all that malloc gives count as data.
+TEST(Memory, IsWhatTheLimitOnDataLeaves) {
+  constexpr std::uint64_t room = std::uint64_t{100} << 20;
+  rlimit saved{};
+  getrlimit(RLIMIT_DATA, &saved);
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::uint64_t kibibytes = 0;
+  while (word != "VmData:" && status >> word) {
+  }
+  ASSERT_TRUE(status >> kibibytes);
+  const rlimit limit{kibibytes * 1024 + room, saved.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_DATA, &limit), 0);
+  const ProcessRoom found = process_room();
+  const std::uint64_t least = address_room(), available = available_memory();
+  setrlimit(RLIMIT_DATA, &saved);
+  EXPECT_NEAR(static_cast<double>(found.data), static_cast<double>(room), heaps_breath);
+  EXPECT_GT(found.addresses, room + heaps_breath);
+  EXPECT_LE(least, room + heaps_breath);
+  EXPECT_LE(available, room + heaps_breath);
+}
+
 class MemoryFiles : public testing::Test {
  protected:
   std::string write(const std::string& name, const std::string& text) const {

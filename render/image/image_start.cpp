@@ -1,0 +1,44 @@
+#include "render/image/image_start.h"
+
+#include <cerrno>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "render/image/image_format.h"
+#include "render/image/image_loader.h"
+#include "render/image/output_file.h"
+#include "render/threads/threads.h"
+
+namespace boule {
+
+ImageStart::ImageStart(std::string path, int threads) : path_(std::move(path)), threads_(threads) {
+  thread_ = std::make_unique<Threads>(1, [this](std::size_t) { run(); });
+  if (thread_->size() == 0) run();
+}
+
+ImageStart::~ImageStart() = default;
+
+Status ImageStart::wait() {
+  thread_.reset();  // joins it
+  if (out_of_memory_) return cannot_write(path_, std::generic_category().message(ENOMEM));
+  return status_;
+}
+
+void ImageStart::run() {
+  try {
+    status_ = load();
+  } catch (const std::bad_alloc&) {
+    out_of_memory_ = true;
+  }
+  done_ = true;
+}
+
+Status ImageStart::load() const {
+  const ImageFormat* const format = find_image_format(path_);
+  if (format == nullptr) return cannot_write(path_, unknown_image_extension());
+  const auto loaded = load_image_module(*format, threads_);
+  return loaded ? Status() : cannot_write(path_, loaded.error().message);
+}
+
+}  // namespace boule

@@ -1,0 +1,92 @@
+#include "render/image/module_search.h"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace boule {
+namespace {
+
+using image_module::Table;
+namespace fs = std::filesystem;
+
+constexpr const char* module_name = "boule_image_io.so";
+
+/// The folder of the shared library this code is in, or of the program if it is linked into it.
+fs::path own_folder() {
+  static const char anchor = 0;
+  Dl_info info{};
+  link_map* map = nullptr;
+  std::error_code ignored;
+  if (dladdr1(&anchor, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0 &&
+      map != nullptr && *map->l_name != 0) {
+    return fs::canonical(map->l_name, ignored).parent_path();
+  }
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+bool is_within(const fs::path& folder, const fs::path& tree) {
+  return std::mismatch(tree.begin(), tree.end(), folder.begin(), folder.end()).first == tree.end();
+}
+
+bool has_this_version(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return bytes.find(image_module::version_mark) != std::string::npos;
+}
+
+Diagnostic refusal(const std::string& reason) { return {reason, {}, {}, 0, 0}; }
+
+Result<const Table*> open_module(const fs::path& file) {
+  const Diagnostic other = refusal(file.string() + ": made for another version of boule");
+  if (!has_this_version(file)) return other;
+  void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) return refusal(dlerror());
+  using EntryPoint = const Table* (*)();
+  const auto entry = reinterpret_cast<EntryPoint>(dlsym(handle, image_module::entry_point));
+  const Table* const table = entry != nullptr ? entry() : nullptr;
+  if (table != nullptr && table->version == image_module::version) return table;
+  dlclose(handle);
+  return other;
+}
+
+}  // namespace
+
+std::vector<fs::path> module_folders(const fs::path& own) {
+  if (own.empty()) return {};
+  std::error_code ignored;
+  const fs::path installed = (own / BOULE_LIBRARY_FOLDER / "boule").lexically_normal();
+  const fs::path tree = fs::canonical(BOULE_BUILD_TREE, ignored);
+  std::vector<fs::path> folders = {own};
+  if (tree.empty() || !is_within(own, tree)) {
+    folders.push_back(installed);
+    return folders;
+  }
+  if (is_within(installed, tree)) folders.push_back(installed);
+  folders.push_back(fs::canonical(BOULE_IMAGE_MODULE_FOLDER, ignored));
+  return folders;
+}
+
+Result<const Table*> open_image_module() {
+  std::string places;
+  std::optional<Diagnostic> reason;
+  for (const fs::path& folder : module_folders(own_folder())) {
+    const fs::path file = folder / module_name;
+    places += (places.empty() ? "" : " nor in ") + folder.string();
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) continue;
+    auto opened = open_module(file);
+    if (opened) return opened;
+    if (!reason) reason = opened.error();
+  }
+  if (reason) return *reason;
+  return refusal(std::string(module_name) + " is not in " + places);
+}
+
+}  // namespace boule
