@@ -108,7 +108,8 @@ TEST_F(Signals, WhileLoadingEndItAtOnce) {
       write("long.toml", "schema = 1\n" + std::string(std::size_t{1} << 20, '\n'));
   for (const int number : {1, 3}) {
     for (const std::string& told :
-         expect_ended({"render", scene, "-o", path("out.png"), "-v"}, {"read", scene, number}))
+         expect_ended({"render", scene, "-o", path("out.png"), "-v", "--progress", "none"},
+                      {"read", scene, number}))
       EXPECT_EQ(told, "");
   }
 }

@@ -15,10 +15,34 @@
 
 namespace boule::test {
 
-/// Runs the built program.
+/// Whether the line is told because something takes longer than two seconds: how far it is, or what
+/// it waits for.
+inline bool tells_of_time(const std::string& line) {
+  return line.starts_with("boule: ") &&
+         (line.find(" ...") != std::string::npos || line.find(" elapsed, ") != std::string::npos);
+}
+
+/// The lines but those, which anything may bring about on a slow machine.
+inline std::string without_time(const std::string& text) {
+  std::string rest;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string line = text.substr(at, end - at);
+    if (!tells_of_time(line)) rest += line;
+    at = end;
+  }
+  return rest;
+}
+
+/// Runs the built program; `err` is without_time(), unless --progress asks for it.
 inline ProgramRun boule_run(const std::vector<std::string>& arguments,
                             const std::vector<std::string>& environment = {}) {
-  return run_program(BOULE_PROGRAM, {arguments, environment});
+  ProgramRun run = run_program(BOULE_PROGRAM, {arguments, environment});
+  const bool wanted = std::any_of(arguments.begin(), arguments.end(), [](const std::string& word) {
+    return word.starts_with("--progress");
+  });
+  if (!wanted) run.err = without_time(run.err);
+  return run;
 }
 
 /// A test with a folder of its own and small scenes in it.

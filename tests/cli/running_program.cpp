@@ -64,6 +64,7 @@ void RunningProgram::start(const std::vector<std::string>& arguments,
   child_ = forkpty(&terminal_, nullptr, nullptr, &size);
   if (child_ < 0) throw std::runtime_error("forkpty failed");
   if (child_ == 0) {
+    reset_signals();
     for (const std::string& entry : environment) add_to_environment(entry);
     ::execv(argv[0], argv.data());
     ::_exit(126);

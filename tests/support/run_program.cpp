@@ -31,6 +31,7 @@ std::string read_all(const std::filesystem::path& path) {
     const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(125);
   };
+  reset_signals();
   ::setpgid(0, 0);  // those that it starts can be killed with it
   redirect(folder / "out", STDOUT_FILENO);
   redirect(folder / "err", STDERR_FILENO);
@@ -60,6 +61,16 @@ int wait_for(pid_t child) {
 }
 
 }  // namespace
+
+void reset_signals() {
+  sigset_t ends{};
+  sigemptyset(&ends);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, SIG_DFL);
+    sigaddset(&ends, signal);
+  }
+  ::sigprocmask(SIG_UNBLOCK, &ends, nullptr);
+}
 
 ProgramRun run_program(const std::string& path, const ProgramCall& call) {
   const TempDir folder;

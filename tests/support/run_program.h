@@ -20,4 +20,8 @@ struct ProgramCall {
 };
 ProgramRun run_program(const std::string& path, const ProgramCall& call);
 
+/// In a child before it becomes a program: SIGINT, SIGTERM and SIGHUP end it by default, whatever
+/// nohup or a shell has made of them that runs the tests in the background.
+void reset_signals();
+
 }  // namespace boule::test
