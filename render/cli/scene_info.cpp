@@ -174,7 +174,7 @@ void add_view(Json& json, const Scene& scene) {
   for (const Light& light : scene.lights) lights.push_back(describe_any(light));
   if (lacks_light(scene, scene.render.method)) {
     lights.push_back(describe(light_at_eye(camera)));
-    notes.push_back("no light in the scene: one white point light at the eye");
+    notes.push_back(light_note(scene));
   }
   json["camera"] = camera_info(camera);
   if (scene.distortion) {

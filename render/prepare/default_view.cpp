@@ -62,6 +62,33 @@ CameraPose default_pose(const Scene& scene) {
   return {};
 }
 
+/// Whether a background counts as light. Of a constant one and of a picture only path tracing finds
+/// any.
+bool is_light(const Background& background, Method method) {
+  if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
+    return !is_black(gradient->bottom) || !is_black(gradient->top);
+  }
+  if (method == Method::whitted) return false;
+  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
+    return !is_black(constant->color);
+  }
+  const auto& pixels = std::get<EnvironmentBackground>(background).pixels;
+  return !std::all_of(pixels.begin(), pixels.end(), is_black);
+}
+
+/// Whether any object gives light. Most scenes have no material that does.
+bool has_emitter(const Scene& scene) {
+  std::vector<bool> emits;
+  for (const NamedMaterial& named : scene.materials) {
+    const auto* emissive = std::get_if<Emissive>(&named.material);
+    emits.push_back(emissive != nullptr && !is_black(emissive->radiance));
+  }
+  if (std::find(emits.begin(), emits.end(), true) == emits.end()) return false;
+  const auto gives = [&emits](const auto& object) -> bool { return emits[object.material]; };
+  return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
+         std::any_of(scene.planes.begin(), scene.planes.end(), gives);
+}
+
 }  // namespace
 
 SphereBounds bounds_of(const std::vector<Sphere>& spheres) {
@@ -83,12 +110,14 @@ Camera default_camera(const Scene& scene, int width, int height) {
 }
 
 bool lacks_light(const Scene& scene, Method method) {
-  const bool emits = std::any_of(
-      scene.materials.begin(), scene.materials.end(),
-      [](const NamedMaterial& m) { return std::holds_alternative<Emissive>(m.material); });
-  const auto* constant = std::get_if<ConstantBackground>(&scene.background);
-  const bool dark = constant && (method == Method::whitted || is_black(constant->color));
-  return scene.lights.empty() && !emits && dark;
+  return scene.lights.empty() && !is_light(scene.background, method) && !has_emitter(scene);
+}
+
+const char* light_note(const Scene& scene) {
+  return std::holds_alternative<EnvironmentBackground>(scene.background)
+             ? "no light in the scene, and by method whitted its environment is none: one white "
+               "point light at the eye"
+             : "no light in the scene: one white point light at the eye";
 }
 
 PointLight light_at_eye(const Camera& camera) {

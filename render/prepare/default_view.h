@@ -7,7 +7,7 @@
 namespace boule {
 
 /// The box around all spheres in double; low is inf and high -inf where there is none. Nothing here
-/// throws, whatever the numbers.
+/// throws but lacks_light(), whatever the numbers.
 struct SphereBounds {
   Vec3d low, high;
 };
@@ -18,9 +18,13 @@ SphereBounds bounds_of(const std::vector<Sphere>& spheres);
 /// near the end of float's range can overflow: check it with find_problem().
 Camera default_camera(const Scene& scene, int width, int height);
 
-/// True if nothing in the scene gives light: no light, no emissive material, no gradient; by path
-/// tracing a constant background gives light too, unless it is black.
+/// True if nothing in the scene gives light: no light, no object of an emissive material, no
+/// gradient; by path tracing constant backgrounds and environments give light too. What is black
+/// gives none. Of a valid scene whose instances are expanded. Throws std::bad_alloc.
 bool lacks_light(const Scene& scene, Method method);
+
+/// What is told of the light that such a scene gets.
+const char* light_note(const Scene& scene);
 
 /// The light of such a scene: white, intensity 1, no falloff, at the camera's eye.
 PointLight light_at_eye(const Camera& camera);

@@ -37,8 +37,9 @@ struct Flatten {
   }
   FlatMaterial operator()(const Glass& m) const {
     FlatMaterial flat;
-    flat.mirror = gray(1);
-    flat.transmission = m.color;
+    const float largest = std::max({m.color.r, m.color.g, m.color.b, 1.0f});
+    flat.mirror = gray(1) * (1 / largest);
+    flat.transmission = m.color * (1 / largest);
     flat.ior = static_cast<double>(m.ior);
     flat.fresnel = true;
     return flat;

@@ -21,8 +21,9 @@ struct FlatMaterial {
   bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
 };
 
-/// A valid material under the scene's ambient light. As of all functions here, numbers that are not
-/// make such numbers, and nothing is thrown.
+/// A valid material under the scene's ambient light. Glass sends on no more light than it gets: a
+/// colour above 1 divides all of it, as by flatten_for_paths(), or light would grow in it. As of
+/// all functions here, numbers that are not make such numbers, and nothing is thrown.
 FlatMaterial flatten(const Material& material, const Color& ambient);
 
 /// A valid material for path tracing, its constant emission alone: ambient light stands for what

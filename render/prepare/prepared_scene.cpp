@@ -62,7 +62,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   }
   if (lacks_light(scene, method)) {
     scene.lights.emplace_back(light_at_eye(camera));
-    notes.emplace_back("no light in the scene: one white point light at the eye");
+    notes.emplace_back(light_note(scene));
   }
   const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
   EnvironmentLight environment =

@@ -89,8 +89,23 @@ TEST(Prepare, MakesALightAtTheEyeOnlyWhereNothingShines) {
   EXPECT_TRUE(lit().empty());
   scene.background = ConstantBackground{gray(1)};
   EXPECT_EQ(lit().size(), 1u);
+  scene.background = GradientBackground{{}, {}, {0, 1, 0}};  // black: it gives no light
+  EXPECT_EQ(lit().size(), 1u);
+  scene.background = ConstantBackground{};
   add_material(scene, Emissive{});
+  EXPECT_EQ(lit().size(), 1u);  // nothing is made of it
+  scene.spheres = {{{0, 0, 0}, 1, 0}};
   EXPECT_TRUE(lit().empty());
+  scene.materials[0].material = Emissive{gray(0)};
+  EXPECT_EQ(lit().size(), 1u);
+  scene.materials[0].material = Emissive{};
+  scene.spheres.clear();
+  scene.groups = {{"lamp", {{{0, 0, 0}, 1, 0}}, {}, {}}};
+  EXPECT_EQ(lit().size(), 1u);
+  scene.instances = {Instance{}};
+  EXPECT_TRUE(lit().empty());
+  scene.instances.clear();
+  scene.groups.clear();
   scene.materials.clear();
   scene.lights = {DirectionalLight{}};
   EXPECT_EQ(lit().size(), 1u);
@@ -106,6 +121,33 @@ TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
   EXPECT_EQ(lights(), 1u);
   scene.background = ConstantBackground{{0, 0.1f, 0}};
   EXPECT_EQ(lights(), 0u);
+  scene.background = EnvironmentBackground{2, 1, {gray(0), gray(1)}};
+  EXPECT_EQ(lights(), 0u);
+  scene.background = EnvironmentBackground{2, 1, {gray(0), gray(0)}};
+  EXPECT_EQ(lights(), 1u);
+}
+
+/// It shines into mirrors only: without a light what is matte would be black.
+TEST(Prepare, ByWhittedAnEnvironmentIsNoLight) {
+  Scene scene = empty_scene(10, 10);
+  scene.background = EnvironmentBackground{2, 1, {gray(1), gray(1)}};
+  const auto prepared = prepare(scene, 10, 10);
+  ASSERT_EQ(prepared.value().lights.size(), 1u);
+  ASSERT_EQ(prepared.value().notes.size(), 1u);
+  EXPECT_NE(prepared.value().notes[0].find("environment"), std::string::npos);
+}
+
+TEST(FlatMaterial, GlassBrighterThanWhiteIsTheSameByBothMethods) {
+  for (const Color& color : {Color{2, 1, 0.5f}, Color{1, 1, 1}, Color{0.25f, 0.5f, 1}}) {
+    const FlatMaterial whitted = flatten(Glass{color, 1.5f}, gray(1));
+    const FlatMaterial path = flatten_for_paths(Glass{color, 1.5f});
+    EXPECT_EQ(whitted.mirror, path.mirror);
+    EXPECT_EQ(whitted.transmission, path.transmission);
+    EXPECT_EQ(whitted.transmission, color * (1 / std::max(color.r, 1.0f)));
+    EXPECT_TRUE(is_black(whitted.constant));  // ambient light is nothing to glass
+  }
+  EXPECT_TRUE(is_black(flatten(Metal{{2, 2, 2}}, gray(1)).constant));
+  EXPECT_EQ(flatten(Phong{{1, 1, 1}, 0, 1, 0.5f, 0, 0, 1}, gray(1)).highlight, 0);  // shininess 0
 }
 
 TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
