@@ -40,6 +40,7 @@ bool* find_view(ViewSelection& views, const std::string& name) {
   if (name == "position") return &views.position;
   if (name == "id") return &views.id;
   if (name == "albedo") return &views.albedo;
+  if (name == "z") return &views.z;
   return nullptr;
 }
 

@@ -27,7 +27,7 @@ std::optional<Size> parse_size(const std::string& text);
 /// "X0,Y0,X1,Y1" with 0 <= X0 < X1 and 0 <= Y0 < Y1.
 std::optional<PixelRect> parse_crop(const std::string& text);
 
-/// Some of "depth,normal,position,id,albedo", each once, at least one.
+/// Some of "depth,normal,position,id,albedo,z", each once, at least one.
 std::optional<ViewSelection> parse_views(const std::string& text);
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.

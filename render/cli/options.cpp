@@ -116,9 +116,9 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
   add_parsed(app, "--aov", command.views, parse_views,
-             "some of depth,normal,position,id,albedo, each once", "NAMES",
+             "some of depth,normal,position,id,albedo,z, each once", "NAMES",
              "More channels in an EXR picture, each pixel's centre, unfiltered: any of "
-             "depth,normal,position,id,albedo");
+             "depth,normal,position,id,albedo,z");
   add_choice(app, "--polygons", command.polygons,
              std::array{Choice{"plane", PolygonPolicy::plane}, Choice{"skip", PolygonPolicy::skip},
                         Choice{"error", PolygonPolicy::error}},

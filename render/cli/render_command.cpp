@@ -141,7 +141,6 @@ class Rendering {
   ExitCode finish(const Renderer& renderer, const Image& image);
   void tell_end(const Renderer& renderer, const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;
-  void tell_faults(const SampleFaults& faults) const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
   const RenderCommand command_;  ///< before what refers to it
@@ -313,7 +312,7 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   live_.end_stage();
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
   tell_end(renderer, image);
-  tell_faults(rendering.faults);
+  for (const std::string& text : fault_notes(rendering.faults)) report_.note(text);
   return report_.finish(stats_);
 }
 
@@ -339,18 +338,6 @@ bool Rendering::tells_of_itself() const {
   constexpr double long_time = 10;  // seconds
   return !live_.is_series() || command_.verbosity == Verbosity::verbose ||
          watch_.seconds() >= long_time;
-}
-
-/// Samples that the picture does not show as they were.
-void Rendering::tell_faults(const SampleFaults& faults) const {
-  if (faults.not_finite > 0) {
-    report_.note(fmt::format("boule: note: {} not finite, shown as black",
-                             counted(faults.not_finite, "sample")));
-  }
-  if (faults.too_bright > 0) {
-    report_.note(fmt::format("boule: note: {} too bright for a float32, shown as the largest",
-                             counted(faults.too_bright, "sample")));
-  }
 }
 
 /// What the frames of a series took together.

@@ -99,6 +99,16 @@ double mrays_per_s(const Stats& stats) {
   return seconds > 0 ? static_cast<double>(stats.rays) / seconds * 1e-6 : 0;
 }
 
+std::vector<std::string> fault_notes(const SampleFaults& faults) {
+  std::vector<std::string> notes;
+  const auto tell = [&notes](std::uint64_t samples, const char* fault) {
+    if (samples > 0) notes.push_back("boule: note: " + counted(samples, "sample") + fault);
+  };
+  tell(faults.not_finite, " not finite, shown as black");
+  tell(faults.too_bright, " too bright for a float32, shown as the largest");
+  return notes;
+}
+
 const char* solver_name(Solver solver) {
   switch (solver) {
     case Solver::fast:

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "render/cli/options.h"
@@ -30,6 +32,9 @@ struct Stats : RunStatistics {
 
 /// Millions of rays per second of work, 0 where it took no time.
 double mrays_per_s(const Stats& stats);
+
+/// Of samples that the picture does not show as they were: a note each.
+std::vector<std::string> fault_notes(const SampleFaults& faults);
 
 /// "fast", "robust", "reference".
 const char* solver_name(Solver solver);

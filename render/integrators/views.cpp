@@ -25,10 +25,16 @@ View view_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   const FlatMaterial& material = scene.material_of(hit.id);
   const Scatter way = scatter(material, surface);
   const Vec3d& p = surface.point;
-  return {finite_float(hit.t * length(vec_cast<double>(ray.dir))), vec_cast<float>(surface.normal),
+  const auto& eye = scene.camera_view.eye;
+  const auto& forward = scene.camera_view.forward;
+  const double along =
+      dot(p - Vec3d{eye[0], eye[1], eye[2]}, Vec3d{forward[0], forward[1], forward[2]});
+  return {finite_float(hit.t * length(vec_cast<double>(ray.dir))),
+          vec_cast<float>(surface.normal),
           Vec3f{finite_float(p.x), finite_float(p.y), finite_float(p.z)},
           static_cast<std::uint32_t>(hit.id),
-          at_most_one(material.diffuse + way.reflection + way.refraction)};
+          at_most_one(material.diffuse + way.reflection + way.refraction),
+          finite_float(along)};
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ struct View {
   /// The share of light that the surface sends on: diffuse colour + weights of the reflected and
   /// the refracted ray, 1 at most. Highlights, ambient light and emission are none; miss: 0.
   Color albedo;
+  /// The hit's distance from the eye along the view, L.(P - E): negative behind it, as fisheyes
+  /// see.
+  float along = std::numeric_limits<float>::infinity();
 };
 
 /// Finds views (also called AOVs, "arbitrary output variables"). One serves one thread and keeps

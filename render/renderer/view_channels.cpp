@@ -25,6 +25,7 @@ constexpr Kind kinds[] = {
     {"albedo.R", &ViewSelection::albedo, [](const View& v) { return v.albedo.r; }},
     {"albedo.G", &ViewSelection::albedo, [](const View& v) { return v.albedo.g; }},
     {"albedo.B", &ViewSelection::albedo, [](const View& v) { return v.albedo.b; }},
+    {"view.Z", &ViewSelection::z, [](const View& v) { return v.along; }},
 };
 
 }  // namespace

@@ -12,11 +12,11 @@
 namespace boule {
 
 /// Which views are wanted. The channels of each: depth Z, normal N.X N.Y N.Z, position P.X P.Y P.Z,
-/// id id (uint32), albedo albedo.R albedo.G albedo.B.
+/// id id (uint32), albedo albedo.R albedo.G albedo.B, z view.Z.
 struct ViewSelection {
-  bool depth = false, normal = false, position = false, id = false, albedo = false;
+  bool depth = false, normal = false, position = false, id = false, albedo = false, z = false;
 
-  [[nodiscard]] bool any() const { return depth || normal || position || id || albedo; }
+  [[nodiscard]] bool any() const { return depth || normal || position || id || albedo || z; }
 };
 
 /// The wanted views of every pixel of a picture, each number in a channel of its own. Two threads

@@ -175,6 +175,23 @@ TEST(Views, DepthIsEuclideanWhateverTheDirectionsLength) {
   }
 }
 
+TEST(Views, ZIsTheDistanceAlongTheView) {
+  Scene scene = empty_scene(8, 8);  // from (0, 0, 5) along -z
+  add_material(scene, Matte{});
+  scene.planes = {{{0, 0, -4}, {0, 0, 1}, 0}, {{0, 0, 8}, {0, 0, 1}, 0}};
+  const auto views = views_of(
+      scene, {{{0, 0, 5}, {0, 0, -1}}, {{0, 0, 5}, {0.6f, 0, -0.8f}}, {{0, 0, 5}, {0, 0, 1}}});
+  EXPECT_EQ(views[0].along, 9.0f);
+  EXPECT_EQ(views[0].depth, 9.0f);
+  EXPECT_NEAR(views[1].along, 9, 1e-6);
+  EXPECT_NEAR(views[1].depth, 9 / 0.8, 1e-5);
+  EXPECT_EQ(views[2].along, -3.0f);  // behind the eye
+  const View miss = views_of(empty_scene(8, 8), {{{0, 0, 0}, {0, 1, 0}}})[0];
+  EXPECT_EQ(miss.along, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(ViewChannels::names({false, false, false, false, false, true}),
+            std::vector<std::string>{"view.Z"});
+}
+
 TEST(Views, NormalsAreTurnedTowardsTheViewer) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});

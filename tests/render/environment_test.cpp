@@ -1,0 +1,49 @@
+// What an environment's picture shows where its pixels end: at the poles, and behind.
+#include "render/prepare/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace boule::test {
+namespace {
+
+/// Four pixels around, two from pole to pole: each row is a quarter turn high.
+EnvironmentBackground picture() {
+  EnvironmentBackground image{4, 2, {}};
+  for (int i = 0; i < 8; ++i) image.pixels.push_back(gray(static_cast<float>(1 << i)));
+  return image;
+}
+
+/// Turned to the right of -z, and upward, in degrees.
+Vec3d direction(double right, double up) {
+  constexpr double degree = 3.14159265358979323846 / 180;
+  return {std::cos(up * degree) * std::sin(right * degree), std::sin(up * degree),
+          -std::cos(up * degree) * std::cos(right * degree)};
+}
+
+float seen(double right, double up) {
+  return environment_radiance(picture(), direction(right, up)).r;
+}
+
+/// Within half a row of them it is the row's colour, another one in each direction.
+TEST(Environment, AtThePolesItIsItsOutermostRow) {
+  const float top[] = {1, 2, 4, 8}, bottom[] = {16, 32, 64, 128};
+  for (int i = 0; i < 4; ++i) {
+    const double right = -135 + 90 * i;
+    for (const double up : {46.0, 70.0, 89.9}) {
+      EXPECT_NEAR(seen(right, up), top[i], 1e-5 * 8) << right << " " << up;
+      EXPECT_NEAR(seen(right, -up), bottom[i], 1e-5 * 128) << right << " " << up;
+    }
+  }
+}
+
+/// Its right edge is its left one; between the rows it is their mean.
+TEST(Environment, HasNoEdgeBehind) {
+  EXPECT_NEAR(seen(180, 60), (8 + 1) / 2.0, 1e-4);
+  EXPECT_NEAR(seen(-180, 60), (8 + 1) / 2.0, 1e-4);
+  EXPECT_NEAR(seen(-135, 0), (1 + 16) / 2.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace boule::test
