@@ -100,14 +100,20 @@ TEST_F(Statistics, TextGoesToStandardErrorEvenIfQuiet) {
   EXPECT_THAT(render({}).err, IsEmpty());
 }
 
-TEST_F(Statistics, AFileThatCannotBeWrittenIsAnErrorAfterThePicture) {
+TEST_F(Statistics, AFileThatCannotBeWrittenIsAnErrorBeforeThePicture) {
   const ProgramRun run = render({"--stats", "json:" + path("no/such.json")});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err,
               HasSubstr("cannot write '" + path("no/such.json") + "': No such file or directory"));
-  EXPECT_THAT(files(), testing::ElementsAre("scene.toml", "x.ppm"));
+  EXPECT_THAT(files(), testing::ElementsAre("scene.toml"));
+}
+
+TEST_F(Statistics, AFileThatTurnsOutToBeFullIsAnErrorAfterThePicture) {
   std::filesystem::create_symlink("/dev/full", path("full"));
-  EXPECT_THAT(render({"--stats", "json:" + path("full")}).err, HasSubstr("No space left"));
+  const ProgramRun run = render({"--stats", "json:" + path("full")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("No space left"));
+  EXPECT_THAT(files(), testing::ElementsAre("full", "scene.toml", "x.ppm"));
 }
 
 TEST_F(Statistics, NeverReplaceThePictureOrTheScene) {
