@@ -23,6 +23,18 @@ std::string system_reason(int code) { return std::generic_category().message(cod
 /// "dir/" of "dir/name", or empty.
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 
+/// Whether somebody else may have put this link there, to have us write where they could not: in a
+/// folder like /tmp only links of our own, or of the folder's owner, are followed. So does the
+/// kernel where fs.protected_symlinks is set.
+bool is_trap(const std::string& link) {
+  struct stat folder {
+  }, own{};
+  const std::string name = folder_of(link).empty() ? "." : folder_of(link);
+  if (stat(name.c_str(), &folder) != 0 || lstat(link.c_str(), &own) != 0) return false;
+  const bool anybodys = (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
+  return anybodys && S_ISLNK(own.st_mode) && own.st_uid != geteuid() && own.st_uid != folder.st_uid;
+}
+
 /// The file that a chain of symbolic links ends at, existing or not; 0 or an errno code.
 int follow_links(std::string& path) {
   constexpr int longest_chain = 40;  // the kernel's own limit
@@ -30,6 +42,7 @@ int follow_links(std::string& path) {
     std::array<char, PATH_MAX> text{};
     const ssize_t length = readlink(path.c_str(), text.data(), text.size());
     if (length < 0) return errno == EINVAL || errno == ENOENT ? 0 : errno;
+    if (is_trap(path)) return EACCES;
     const std::string link(text.data(), static_cast<std::size_t>(length));
     path = link.starts_with('/') ? link : folder_of(path) + link;
   }
@@ -132,12 +145,14 @@ Result<OutputFile> OutputFile::create(const std::string& target,
   OutputFile file;
   file.name_ = target;
   std::string real = target;
+  const int link_problem = follow_links(real);
+  if (link_problem == EACCES) return cannot_write(target, system_reason(EACCES));
   struct stat stream {};
   // By its own name: what /dev/stdout leads to may have no other.
   if (stat(target.c_str(), &stream) == 0 && !S_ISREG(stream.st_mode) && !S_ISDIR(stream.st_mode)) {
     return create_stream(std::move(file), S_ISFIFO(stream.st_mode), stop);
   }
-  if (const int code = follow_links(real)) return cannot_write(target, system_reason(code));
+  if (link_problem != 0) return cannot_write(target, system_reason(link_problem));
   struct stat old {};
   const bool exists = stat(real.c_str(), &old) == 0;
   if (!exists && (errno != ENOENT || real.empty())) {

@@ -16,9 +16,10 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason);
 /// then, so that nothing is left however the program ends. A failure leaves an old file untouched.
 ///
 /// The new file has the old one's permissions, else 0666 less the umask. A symbolic link is
-/// followed: the file it names is replaced, the link stays. A device, pipe or socket is never
-/// replaced: the data are gathered in memory and copied into it by commit(). What was committed, or
-/// moved away, refuses all below.
+/// followed: the file it names is replaced, the link stays; but one that others put into a folder
+/// which everybody may write to (/tmp) is refused, as by fs.protected_symlinks. A device, pipe or
+/// socket is never replaced: the data are gathered in memory and copied into it by commit(). What
+/// was committed, or moved away, refuses all below.
 class OutputFile {
  public:
   /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason. Any name will

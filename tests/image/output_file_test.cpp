@@ -111,6 +111,40 @@ TEST_F(OutputFileTest, LinksAreFollowed) {
   EXPECT_EQ(test::names_in(at("sub")), Names{"real"});
 }
 
+/// Whatever the system's own fs.protected_symlinks is.
+TEST_F(OutputFileTest, LinksOfOthersInOpenFoldersAreRefused) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make links of others";
+  constexpr uid_t somebody = 65534, another = 65533;
+  fs::create_directory(at("open"));
+  test::write_bytes(at("mine"), "old");
+  struct Case {
+    mode_t mode;
+    uid_t folder, link;
+    bool refused;
+  };
+  const Case cases[] = {{01777, 0, somebody, true},  {01777, another, somebody, true},
+                        {01777, somebody, 0, false}, {01777, somebody, somebody, false},
+                        {0777, 0, somebody, false},  {01755, 0, somebody, false}};
+  for (const auto& [mode, folder, link, refused] : cases) {
+    for (const std::string target : {"mine", "missing", "/dev/null"}) {
+      const std::string name = at("open/link"), chain = at("chain");
+      fs::remove(name), fs::remove(chain);
+      fs::create_symlink(target[0] == '/' ? target : at(target), name);
+      fs::create_symlink(name, chain);
+      ASSERT_EQ(lchown(name.c_str(), link, link), 0);
+      ASSERT_EQ(chown(at("open").c_str(), folder, folder), 0);
+      ASSERT_EQ(chmod(at("open").c_str(), mode), 0);
+      for (const std::string& output : {name, chain}) {
+        // (The kernel looks at links that lead to streams, too.)
+        EXPECT_EQ(create_error(output),
+                  refused ? "cannot write '" + output + "': Permission denied" : "")
+            << target << " " << mode << " " << folder << " " << link;
+      }
+      EXPECT_EQ(test::read_bytes(at("mine")), "old");
+    }
+  }
+}
+
 TEST_F(OutputFileTest, DanglingLinkMakesItsFile) {
   fs::create_symlink("later", at("link"));
   EXPECT_FALSE(put(at("link"), "x"));
