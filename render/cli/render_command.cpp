@@ -16,6 +16,7 @@
 #include "render/cli/picture_header.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
+#include "render/cli/series_totals.h"
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
@@ -340,36 +341,6 @@ bool Rendering::tells_of_itself() const {
          watch_.seconds() >= long_time;
 }
 
-/// What the frames of a series took together.
-class SeriesTotals {
- public:
-  void add(const Rendering& frame) {
-    if (frame.skipped()) {
-      ++skipped_;
-      return;
-    }
-    ++rendered_;
-    work_.work_seconds += frame.stats().work_seconds;
-    work_.rays += frame.stats().rays;
-    work_.isa = frame.stats().isa;
-    work_.threads = std::max(work_.threads, frame.stats().threads);
-  }
-
-  /// "20 frames, 3 of them there already, 12.30 s, 4.2 Mray/s (avx2, 2 threads)".
-  [[nodiscard]] std::string text(double seconds) const {
-    std::string text = counted(rendered_ + skipped_, "frame");
-    if (skipped_ > 0) text += fmt::format(", {} of them there already", skipped_);
-    text += fmt::format(", {:.2f} s", seconds);
-    if (rendered_ == 0) return text;
-    return text + fmt::format(", {:.1f} Mray/s ({}, {})", mrays_per_s(work_), work_.isa,
-                              counted(work_.threads, "thread"));
-  }
-
- private:
-  std::size_t rendered_ = 0, skipped_ = 0;
-  Stats work_;
-};
-
 ExitCode run_series(const RenderCommand& command, const FrameRange& frames) {
   if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
   LiveReport live(command, frames.count());
@@ -379,8 +350,12 @@ ExitCode run_series(const RenderCommand& command, const FrameRange& frames) {
     Rendering frame(command_of_frame(command, number), live);
     const ExitCode code = frame.run();
     if (code != done) return code;
-    if (frame.skipped()) live.skip_frame();
-    totals.add(frame);
+    if (frame.skipped()) {
+      live.skip_frame();
+      totals.add_skipped();
+    } else {
+      totals.add(frame.stats());
+    }
     set_written("earlier frames had been written, this one not");
   }
   live.end_series();

@@ -201,6 +201,16 @@ TEST_F(Faults, AThreadThatCannotBeHadIsToldBeforeTheWork) {
   EXPECT_GE(refused, 4) << "the program starts no such threads";
 }
 
+/// What looks at the clock then is the reading that has ended.
+TEST_F(Faults, ReadingIsLimitedWithoutAThreadForIt) {
+  std::vector<std::string> arguments = trace_of_small_scene();
+  arguments.insert(arguments.end(), {"--load-limit", "0.000001ms"});
+  const auto run = run_with_fault(arguments, {"NoThread", "thread", EAGAIN}, 1);
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->exit_code, 1);
+  EXPECT_THAT(run->err, testing::HasSubstr("took longer than --load-limit"));
+}
+
 /// The data, and the folder that names them.
 TEST_F(Faults, APictureIsMadeDurableOnce) {
   const std::vector<std::string> arguments{"render", small_scene(), "-o", path("picture.exr")};

@@ -180,6 +180,50 @@ TEST(Renderer, ReportsProgressUpToTheEnd) {
   EXPECT_EQ(rays, renderer.value().statistics().rays.total());
 }
 
+/// What another thread can see at any time; here the one that renders looks, as nothing else is
+/// certain to come at a certain time.
+TEST(Renderer, KeepsLiveProgressUpToDate) {
+  const Scene scene = mixed_scene(64, 48);
+  for (const PixelOrder order : {PixelOrder::tiles, PixelOrder::progressive}) {
+    RenderOptions options = options_of(scene);
+    options.spp = 2;
+    options.threads = 1;
+    options.order = order;
+    LiveProgress live;
+    options.live = &live;
+    double last = 0;
+    bool differs = false;
+    options.progress = [&](const Progress& progress) {
+      const Progress seen = live.read();
+      differs = differs || seen.share != progress.share || seen.rays != progress.rays ||
+                seen.running != 0 || seen.share < last;
+      last = seen.share;
+    };
+    auto renderer = Renderer::create(scene, options);
+    Film film(renderer.value().rect());
+    EXPECT_FALSE(renderer.value().render_live(film));
+    EXPECT_FALSE(differs);
+    EXPECT_EQ(live.read().share, 1);
+    EXPECT_EQ(live.read().rays, renderer.value().statistics().rays.total());
+  }
+}
+
+TEST(LiveProgress, KnowsWhatIsBeingWorkedOn) {
+  LiveProgress live;
+  EXPECT_EQ(live.read().share, 0);
+  live.begin_pass(4, 0.5, 1, 100);
+  live.begin_block();
+  live.begin_block();
+  live.end_block(10);
+  const Progress progress = live.read();
+  EXPECT_EQ(progress.share, 0.625);
+  EXPECT_EQ(progress.rays, 110u);
+  EXPECT_EQ(progress.running, 1u);
+  live.drop_block();
+  EXPECT_EQ(live.read().running, 0u);
+  EXPECT_EQ(live.ended(), 1u);
+}
+
 TEST(Renderer, KnowsWhatRanAndHowMuch) {
   const Scene scene = mixed_scene(20, 10);
   RenderOptions options = options_of(scene);
