@@ -24,7 +24,9 @@ TEST_F(Statistics, JsonHasEveryFigure) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, IsEmpty());
   const auto stats = nlohmann::json::parse(run.out);
-  EXPECT_EQ(stats.size(), 12u);
+  EXPECT_EQ(stats.size(), 14u);
+  EXPECT_EQ(stats.at("samples_not_finite"), 0);
+  EXPECT_EQ(stats.at("samples_too_bright"), 0);
   EXPECT_EQ(stats.at("schema"), 1);
   EXPECT_EQ("boule " + stats.at("version").get<std::string>() + "\n", boule_run({"--version"}).out);
   EXPECT_EQ(stats.at("isa"), "scalar");
