@@ -1,8 +1,12 @@
 # The table of ISAs: name, what CMAKE_SYSTEM_PROCESSOR it needs, compiler flags.
 # Each row becomes one OBJECT library of the same kernel source, in a namespace of its own.
+set(BOULE_ONLY_ISAS "" CACHE STRING
+  "The instruction sets to build, scalar always among them; empty: all of this processor")
 set(BOULE_ISAS)
 macro(boule_isa name processors)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "${processors}")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "${processors}" AND
+     ("${BOULE_ONLY_ISAS}" STREQUAL "" OR "${name}" IN_LIST BOULE_ONLY_ISAS OR
+      "${name}" STREQUAL "scalar"))
     list(APPEND BOULE_ISAS ${name})
     set(BOULE_ISA_FLAGS_${name} ${ARGN})
   endif()

@@ -105,6 +105,12 @@ ssize_t read(int descriptor, void* bytes, std::size_t count) {
   if (fails("read")) return -1;
   return syscall(SYS_read, descriptor, bytes, count);
 }
+/// What they become where the compiler knows the buffer (_FORTIFY_SOURCE).
+ssize_t __read_chk(int descriptor, void* bytes, std::size_t count, std::size_t) {
+  return read(descriptor, bytes, count);
+}
+int __open_2(const char* path, int flags) { return open(path, flags); }
+int __open64_2(const char* path, int flags) { return open(path, flags); }
 /// What the user is told does not count.
 ssize_t write(int descriptor, const void* bytes, std::size_t count) {
   if (descriptor > 2 && fails("write")) return -1;
