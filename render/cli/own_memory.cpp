@@ -35,6 +35,11 @@ Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
   leave_at_once("boule: error: a thread cannot be had: Resource temporarily unavailable\n", failed);
 }
 
+/// What else code of others may say of itself.
+[[noreturn]] void end_by(const std::exception& error) {
+  leave_at_once(("boule: error: " + std::string(error.what()) + "\n").c_str(), failed);
+}
+
 [[noreturn]] void end_without_memory() {
   // Nothing was thrown: before main() begins there is not even the memory for that; later a thread
   // was not joined, for the next one could not be had.
@@ -43,8 +48,11 @@ Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
     throw;
   } catch (const std::bad_alloc&) {
     leave_without_memory();
-  } catch (const std::system_error&) {  // a thread, likewise
-    end_without_thread();
+  } catch (const std::system_error& error) {  // a thread, likewise
+    if (error.code() == std::errc::resource_unavailable_try_again) end_without_thread();
+    end_by(error);
+  } catch (const std::exception& error) {
+    end_by(error);
   } catch (...) {
     std::abort();
   }

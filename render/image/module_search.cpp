@@ -4,8 +4,9 @@
 #include <link.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -35,17 +36,26 @@ bool is_within(const fs::path& folder, const fs::path& tree) {
   return std::mismatch(tree.begin(), tree.end(), folder.begin(), folder.end()).first == tree.end();
 }
 
-bool has_this_version(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return bytes.find(image_module::version_mark) != std::string::npos;
-}
-
 Diagnostic refusal(const std::string& reason) { return {reason, {}, {}, 0, 0}; }
+
+/// (An iterator over the file would throw where it cannot be read.)
+Result<std::string> bytes_of(const fs::path& file) {
+  errno = 0;
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(file, failed);
+  if (failed) return refusal(file.string() + ": " + failed.message());
+  std::string bytes(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (in.read(bytes.data(), static_cast<std::streamsize>(size))) return bytes;
+  const int code = errno != 0 ? errno : EIO;  // shorter than it was
+  return refusal(file.string() + ": " + std::generic_category().message(code));
+}
 
 Result<const Table*> open_module(const fs::path& file) {
   const Diagnostic other = refusal(file.string() + ": made for another version of boule");
-  if (!has_this_version(file)) return other;
+  const auto bytes = bytes_of(file);
+  if (!bytes) return bytes.error();
+  if (bytes.value().find(image_module::version_mark) == std::string::npos) return other;
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) return refusal(dlerror());
   using EntryPoint = const Table* (*)();

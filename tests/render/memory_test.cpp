@@ -200,7 +200,7 @@ TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
 
 TEST_F(MemoryFiles, ATextThatDoesNotFitIsRefusedBeforeItIsRead) {
   for (const char* const name : {"scene.toml", "scene.nff"}) {
-    const std::string path = write(name, "");
+    const std::string path = write(name, std::string(1 << 20, '\n'));  // it begins as a text does
     std::filesystem::resize_file(path, std::uintmax_t{1} << 42);
     const Limit second;
     const auto loaded = load_scene(path);
