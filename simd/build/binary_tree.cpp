@@ -10,10 +10,11 @@
 namespace boule {
 namespace {
 
-/// Of copies of one sphere, brings the one of the lowest id to the front: the one that rays hit.
-void keep_first(std::span<BuildSphere> copies) {
+/// Of copies of one sphere, brings those of the lowest ids to the front: the first is what rays
+/// hit, the second what those hit that leave the first.
+void bring_first(std::span<BuildSphere> copies) {
   const auto by_id = [](const BuildSphere& a, const BuildSphere& b) { return a.id < b.id; };
-  std::swap(copies.front(), *std::min_element(copies.begin(), copies.end(), by_id));
+  std::partial_sort(copies.begin(), copies.begin() + kept_copies, copies.end(), by_id);
 }
 
 class Builder {
@@ -39,9 +40,9 @@ class Builder {
     const bool deep = depth + halving_levels(spheres.size()) > bvh_max_depth;
     const std::size_t middle = deep ? halve(spheres, extent_of(spheres)) : split(spheres, scratch_);
     if (middle == 0) {
-      keep_first(spheres);
-      set_leaf(tree_.nodes[index], spheres.first(1));
-      tree_.nodes[index].copies = static_cast<std::uint32_t>(spheres.size() - 1);
+      bring_first(spheres);
+      set_leaf(tree_.nodes[index], spheres.first(kept_copies));
+      tree_.nodes[index].copies = static_cast<std::uint32_t>(spheres.size() - kept_copies);
       return {};
     }
     const CollapseCosts left = add(spheres.first(middle), depth + 1);

@@ -10,12 +10,16 @@
 
 namespace boule {
 
+/// Of exact copies of a sphere, as many are kept as any ray can tell apart: one that leaves the
+/// first may meet the second. With these two every ray's hit is the one that it has with all.
+inline constexpr int kept_copies = 2;
+
 /// A node of the binary tree that becomes a wide one.
 struct BinaryNode {
   BuildBox box;         ///< rounded outward
   std::uint32_t right;  ///< the second child; the first follows this node. Of a leaf: its number
   std::uint32_t size;   ///< spheres of a leaf; 0: no leaf
-  /// Spheres of the run behind those of a leaf, left out: exact copies of the leaf's only one.
+  /// Spheres of the run behind those of a leaf, left out: exact copies of those in it.
   std::uint32_t copies = 0;
   /// Of j places in the wide node, the first child's; 0: it takes one itself.
   std::uint8_t take[bvh_width + 1];

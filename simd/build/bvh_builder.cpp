@@ -113,15 +113,19 @@ std::array<std::uint32_t, 4> bits_of(const Sphere& s) {
           std::bit_cast<std::uint32_t>(s.center.z), std::bit_cast<std::uint32_t>(s.radius)};
 }
 
-/// Of exact copies only the first, which is the one that rays hit. In order, as `ids` are.
+/// Of exact copies only the first kept_copies. In order, as `ids` are.
 std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
                                          const std::vector<Sphere>& spheres) {
   const auto bits = [&](std::int32_t id) { return bits_of(spheres[static_cast<std::size_t>(id)]); };
   std::sort(ids.begin(), ids.end(), [&](std::int32_t a, std::int32_t b) {
     return std::pair(bits(a), a) < std::pair(bits(b), b);
   });
-  const auto same = [&](std::int32_t a, std::int32_t b) { return bits(a) == bits(b); };
-  ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
+  std::size_t kept = 0;
+  for (const std::int32_t id : ids) {
+    const bool one_too_many = kept >= kept_copies && bits(ids[kept - kept_copies]) == bits(id);
+    if (!one_too_many) ids[kept++] = id;
+  }
+  ids.resize(kept);
   std::sort(ids.begin(), ids.end());
   return ids;
 }

@@ -22,10 +22,11 @@ struct Bvh {
 /// to the least sum of areas (binary_tree.h). Nodes and leaves lie in depth-first order. The bits
 /// do not depend on `parallel_for`. Kept apart, to be scanned: spheres beyond filter::limit or not
 /// finite, and up to 16 whose box is a good part of the box of all, or of all that remain when
-/// others are away (a ground sphere would be in everybody's way). Where more copies of one sphere
-/// lie together than a leaf holds, same centre and same radius, only the one of the lowest id is
-/// kept; of those apart likewise. Takes any spheres, max_primitives at most; the depth is bounded
-/// by bvh_max_depth. Throws std::bad_alloc, and what `parallel_for` throws.
+/// others are away (a ground sphere would be in everybody's way). Where more copies of one sphere,
+/// same centre and same radius, lie together than a leaf holds, only the two of the lowest ids are
+/// kept; of those apart likewise: no ray's hit depends on the others. Takes any spheres,
+/// max_primitives at most; the depth is bounded by bvh_max_depth. Throws std::bad_alloc, and what
+/// `parallel_for` throws.
 Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
 
 /// A block of slots that hold no sphere.

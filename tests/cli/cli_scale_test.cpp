@@ -52,7 +52,7 @@ TEST_F(Scale, MillionsOfSpheresFit) {
   write_cloud(count);
   const ProgramRun run = limited(
       mebibytes, {"render", cloud_scene(), "-o", path("cloud.exr"), "--size", "160x120", "-t", "2",
-                  "--stats", "json:" + path("stats.json"), "--progress", "plain"});
+                  "--stats", "json:" + path("stats.json"), "--progress", "json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto stats = nlohmann::json::parse(read("stats.json"));
   EXPECT_LT(stats["peak_rss_mib"].get<double>(), static_cast<double>(mebibytes));
@@ -60,7 +60,7 @@ TEST_F(Scale, MillionsOfSpheresFit) {
     RecordProperty(stage, std::to_string(stats["seconds"][stage].get<double>()));
   }
   RecordProperty("peak_rss_mib", std::to_string(stats["peak_rss_mib"].get<double>()));
-  EXPECT_THAT(run.err, testing::HasSubstr("boule: 100 %"));
+  EXPECT_THAT(run.err, testing::HasSubstr("{\"share\":1.0000,"));
 }
 
 /// It takes long for as long as it is held.

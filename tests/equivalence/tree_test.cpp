@@ -185,6 +185,19 @@ TreeScene sources_ahead() {
   return scene;
 }
 
+/// Of as many copies as no leaf holds most are left out: rays that leave any of them, and pass
+/// through it all the same, do not see that.
+TreeScene sources_among_copies() {
+  TreeScene scene = cloud("sources among copies", {0, 0, 0}, 1, 0.3, 3);
+  for (std::size_t i = 0; i < scene.spheres.size(); ++i) scene.spheres[i] = scene.spheres[i % 20];
+  CaseRandom random(71);
+  for (Ray& ray : scene.rays) {
+    const std::int32_t hit = reference::closest_hit(ray, scene.spheres, {}).id;
+    if (hit >= 0) ray.source = hit % 20 + 20 * random.below(4);
+  }
+  return scene;
+}
+
 TreeScene beyond_the_filter() {
   TreeScene scene = cloud("rays and spheres that float cannot judge", {0, 0, 0}, 1, 0.1, 3);
   for (std::size_t i = 0; i < 20; ++i) scene.spheres[i].center.x *= 1e19F;
@@ -212,6 +225,7 @@ std::vector<TreeScene> scenes() {
           row_of_specks(),
           nearly_along_axes(),
           sources_ahead(),
+          sources_among_copies(),
           beyond_the_filter()};
 }
 

@@ -25,5 +25,6 @@ for name in "${names[@]}"; do
   [[ "$name" != picture ]] || limits=(-rss_limit_mb=512 -malloc_limit_mb=65536 -detect_leaks=0)
   "$build/fuzz/fuzz_$name" "$build/found/$name" "$source/tests/fuzz/corpus/$name" \
     -max_total_time="$seconds" -timeout=300 "${limits[@]}" -max_len=4096 \
-    -artifact_prefix="$build/findings/$name-" -print_final_stats=1 -verbosity=0
+    -artifact_prefix="$build/findings/$name-" -print_final_stats=1 -verbosity=0 ||
+    { echo "fuzz_$name found something: exit code $?"; exit 1; }  # its own would mean: skipped
 done

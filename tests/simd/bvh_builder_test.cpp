@@ -126,8 +126,8 @@ std::vector<std::int32_t> ids_of(const Bvh& bvh) {
   return ids;
 }
 
-/// However many there are, they cost what the first costs.
-TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstIsKept) {
+/// However many there are, they cost what two cost.
+TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstTwoAreKept) {
   std::vector<Sphere> spheres = cloud(3000);
   spheres[5] = {{0.5F, 0.25F, -0.0F}, 0.01F, 0};
   spheres.resize(100'000, {{0.5F, 0.25F, 0.0F}, 0.01F, 1});
@@ -135,7 +135,7 @@ TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstIsKept) {
   check(bvh, spheres);
   const std::vector<std::int32_t> ids = ids_of(bvh);
   EXPECT_LE(ids.size(), 3000U + bvh_leaf_size);
-  EXPECT_EQ(std::count(ids.begin(), ids.end(), 5), 1);
+  for (const int id : {5, 3000}) EXPECT_EQ(std::count(ids.begin(), ids.end(), id), 1) << id;
   EXPECT_LT(bvh.slots.size(), 8000U);
 }
 
@@ -146,7 +146,7 @@ TEST(BvhBuilder, OfNothingButCopiesFewAreKept) {
     const Bvh bvh = build_bvh(spheres);
     check(bvh, spheres);
     EXPECT_EQ(ids_of(bvh).front(), 0);
-    EXPECT_LE(ids_of(bvh).size(), 2U);  // one is a giant, one is in the tree
+    EXPECT_LE(ids_of(bvh).size(), 4U);  // two are giants, two are in the tree
   }
 }
 
