@@ -34,7 +34,7 @@ install_missing() {
   ((${#missing[@]} > 0)) || return 0
   if ((EUID != 0)) && ! command -v sudo >/dev/null; then
     echo "bootstrap: packages are missing, and there is no sudo here; an administrator can run:" >&2
-    echo "apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    echo "apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
     exit 1
   fi
   echo "bootstrap: installing ${missing[*]}"

@@ -1,8 +1,11 @@
 #include "render/cli/frames.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <system_error>
 
+#include "render/cli/output_check.h"
 #include "render/cli/run_report.h"
 #include "render/scene_file/frame_name.h"
 
@@ -51,6 +54,19 @@ RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);
   return one;
+}
+
+Status check_folders(const RenderCommand& command, const FrameRange& frames) {
+  const bool numbered =
+      std::filesystem::path(command.output).parent_path().string().find('#') != std::string::npos;
+  if (!numbered || command.skip_existing) return std::nullopt;
+  for (int number = frames.first; number <= frames.last; number += frames.step) {
+    if (auto bad = check_output(frame_name(command.output, number))) {
+      bad->message = fmt::format("frame {}: {}", number, bad->message);
+      return bad;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace boule::cli

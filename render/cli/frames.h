@@ -18,4 +18,8 @@ Status check_single_scene(const std::string& scene);
 /// The command that renders one frame of a series: the number stands in all names.
 RenderCommand command_of_frame(const RenderCommand& command, int frame);
 
+/// What is known to be wrong with the folders of a series' pictures, where their names hold the
+/// number: each frame has one of its own then. In others the first frame tells.
+Status check_folders(const RenderCommand& command, const FrameRange& frames);
+
 }  // namespace boule::cli

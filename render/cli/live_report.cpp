@@ -71,7 +71,7 @@ void LiveReport::update(const Progress& progress) {
     return;
   }
   bar_.update(progress, since_start(now));
-  tell(now);
+  is_looked_at() ? tell_in_time(now) : tell(now);
 }
 
 void LiveReport::end_pass() {
@@ -109,14 +109,15 @@ double LiveReport::seconds() const { return since_start(Clock::now()); }
 
 /// Without memory nothing is told this time.
 LiveReport::Clock::time_point LiveReport::beat(Clock::time_point now) noexcept {
-  constexpr std::chrono::milliseconds shortest{50};
+  constexpr std::chrono::milliseconds shortest{50}, longest{1000};
   const std::lock_guard lock(mutex_);
   stop_if_over(now);
   try {
     tell(now);
   } catch (const std::exception&) {
   }
-  return std::max(next(), now + shortest);
+  const auto look = is_looked_at() ? now + longest : Clock::time_point::max();
+  return std::max(std::min(next(), look), now + shortest);
 }
 
 /// Under the mutex, as all below.
@@ -126,6 +127,12 @@ void LiveReport::tell(Clock::time_point now) {
   const auto line = bar_.tell(since);
   if (!line) return;
   bar_.style() == ProgressStyle::bar ? draw_line(*line) : write_lines(*line + "\n");
+}
+
+/// Whether a pass goes on that is told of: it may move on without a report.
+bool LiveReport::is_looked_at() const {
+  const bool told = bar_.style() == ProgressStyle::bar || bar_.style() == ProgressStyle::plain;
+  return told && bar_.is_passing();
 }
 
 /// What is due, and sees to it that it goes on.

@@ -55,6 +55,7 @@ class LiveReport {
 
   Clock::time_point beat(Clock::time_point now) noexcept;
   void tell(Clock::time_point now);
+  [[nodiscard]] bool is_looked_at() const;
   void tell_in_time(Clock::time_point now);
   void stop_if_over(Clock::time_point now);
   [[nodiscard]] double since_start(Clock::time_point now) const;

@@ -41,6 +41,8 @@ class ProgressBar {
   void start_pass(const char* of_what, double now);
   void update(const Progress& progress, double now);
   void end_pass();
+  /// Whether a pass has begun and not ended.
+  [[nodiscard]] bool is_passing() const { return passing_; }
 
   /// What is to be told now, if anything: a line without its end; with style bar the line that
   /// rewrites the one before.

@@ -28,7 +28,7 @@ ReadingLimit::Reading::Reading(ReadingLimit& limit, const std::string& file) : l
   if (!limit.limit_) return;
   const std::lock_guard lock(limit.mutex_);
   limit.error_ = fmt::format("boule: error: reading {} took longer than --load-limit {:g} s\n",
-                             quote(file), *limit.limit_);
+                             quote(file, 300), *limit.limit_);
   limit.end_ = Clock::now() + limit.left_;
   limit.pulse_->at(*limit.end_);
 }

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -25,6 +27,7 @@
 #include "render/image/image_format.h"
 #include "render/image/image_start.h"
 #include "render/image/output_file.h"
+#include "render/memory/available.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
 #include "render/scene_file/scene_file.h"
@@ -206,6 +209,12 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   options.live = &live_.progress();
   // Not before: what is refused loads nothing until here.
   image_start_.emplace(command_.output, static_cast<int>(Scheduler(options.threads).workers()));
+  // Libraries that load while others take what a limit leaves end the process without a word.
+  const auto [addresses, data] = process_room();
+  constexpr auto without_limit = std::numeric_limits<std::uint64_t>::max();
+  if (std::min(addresses, data) != without_limit) {
+    if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
+  }
   auto created = Renderer::create(std::move(scene), options);
   if (!created) return refuse_scene(created.error(), command_);
   if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
@@ -293,7 +302,10 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
     };
     status = write_image(image, command_.output, options);
     removal.reset();
-    if (!status) set_written("the picture had been written");
+    if (!status) {
+      set_written(live_.is_series() ? "the frames up to this one had been written"
+                                    : "the picture had been written");
+    }
   }
   exit_if_interrupted();
   if (status && caught()) leave_as_caught();
@@ -343,6 +355,7 @@ bool Rendering::tells_of_itself() const {
 
 ExitCode run_series(const RenderCommand& command, const FrameRange& frames) {
   if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
+  if (auto bad = check_folders(command, frames)) return report(*bad, failed);
   LiveReport live(command, frames.count());
   SeriesTotals totals;
   for (int number = frames.first; number <= frames.last; number += frames.step) {

@@ -169,12 +169,13 @@ void add_view(Json& json, const Scene& scene) {
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
   if (scene.spheres.empty() && scene.planes.empty()) {
     notes.push_back("no objects in the scene: nothing to be hit");
+  } else if (!scene.camera) {
+    notes.push_back("no camera in the scene: framed on the objects");
   }
-  if (!scene.camera) notes.push_back("no camera in the scene: framed on the objects");
   for (const Light& light : scene.lights) lights.push_back(describe_any(light));
   if (lacks_light(scene, scene.render.method)) {
     lights.push_back(describe(light_at_eye(camera)));
-    notes.push_back(light_note(scene));
+    notes.push_back(light_note(scene, scene.render.method));
   }
   json["camera"] = camera_info(camera);
   if (scene.distortion) {

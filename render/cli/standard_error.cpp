@@ -1,10 +1,12 @@
 #include "render/cli/standard_error.h"
 
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
@@ -27,9 +29,13 @@ thread_local volatile std::sig_atomic_t writing_here = 0;
 void put(const std::string& text) {
   writing_here = 1;
   writing = true;
-  // Nobody could be told that standard error is gone.
-  [[maybe_unused]] ssize_t written = 0;
-  if (!closed) written = ::write(STDERR_FILENO, text.data(), text.size());
+  // Nobody could be told that standard error is gone; a signal that is caught cuts nothing off.
+  for (std::size_t at = 0; at < text.size() && !closed;) {
+    const ssize_t written = ::write(STDERR_FILENO, text.data() + at, text.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) break;
+    at += static_cast<std::size_t>(written);
+  }
   writing = false;
   writing_here = 0;
 }
@@ -82,6 +88,10 @@ void write_last_line(const char* line) {
   char text[402] = "";
   if (line_open) std::strcat(text, "\n");
   std::strncat(text, line, 400);
+  // A pipe that is full and a terminal that is stopped would keep it for ever.
+  constexpr int patience_ms = 200;
+  pollfd ready{STDERR_FILENO, POLLOUT, 0};
+  if (::poll(&ready, 1, patience_ms) == 0) return;
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 

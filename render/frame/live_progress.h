@@ -36,8 +36,9 @@ class LiveProgress {
   [[nodiscard]] std::size_t ended() const { return ended_; }
 
   [[nodiscard]] Progress read() const {
+    const double begin = begin_, end = end_;  // first: of a pass that begins now too little is told
     const double done = static_cast<double>(ended_) / static_cast<double>(blocks_);
-    return {begin_ + (end_ - begin_) * done, rays_, running_};
+    return {begin + (end - begin) * done, rays_, running_};
   }
 
  private:

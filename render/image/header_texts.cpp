@@ -13,12 +13,14 @@ using Entry = Metadata::value_type;
 
 const std::string* text_of(const Entry& entry) { return std::get_if<std::string>(&entry.second); }
 
-/// Bytes that an entry's text takes in a file that keeps it with its name, its length and its
-/// place.
+/// Bytes that an entry's text takes at most in a file that keeps it with its name, its length and
+/// its place, or as a list of what its semicolons part, each with a length of its own (IPTC).
 std::size_t room_of(const Entry& entry) {
-  constexpr std::size_t numbers = 32;
+  constexpr std::size_t numbers = 32, numbers_of_part = 8;
   const std::string* const text = text_of(entry);
-  return text != nullptr ? numbers + entry.first.size() + text->size() : 0;
+  if (text == nullptr) return 0;
+  const auto parts = static_cast<std::size_t>(std::count(text->begin(), text->end(), ';'));
+  return numbers + entry.first.size() + text->size() + parts * numbers_of_part;
 }
 
 void end_at_nul(std::string& text) { text.resize(std::min(text.find('\0'), text.size())); }

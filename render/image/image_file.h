@@ -71,7 +71,8 @@ struct ImageFileOptions {
 /// a thread cannot be had that could a moment before, libraries below it end the process by
 /// std::terminate(). A child by fork() of a process in which these threads run writes pictures with
 /// one thread; .exr files, where more than one had been asked for, and .tif files only the parent
-/// writes and reads: the Diagnostic says so.
+/// writes and reads: the Diagnostic says so. Such a child ends by _exit() or exec(): what
+/// these libraries do at exit() waits for threads that stayed in the parent.
 Status write_image(const Image& image, const std::string& path,
                    const ImageFileOptions& options = {});
 

@@ -75,7 +75,8 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   const fs::path tree = fs::canonical(BOULE_BUILD_TREE, ignored);
   std::vector<fs::path> folders = {own};
   if (tree.empty() || !is_within(own, tree)) {
-    folders.push_back(installed);
+    // Elsewhere, in /tmp/mine say, the folder beside it may be anybody's.
+    if (own.filename() == BOULE_PROGRAM_FOLDER) folders.push_back(installed);
     return folders;
   }
   if (is_within(installed, tree)) folders.push_back(installed);

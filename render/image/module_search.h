@@ -9,7 +9,8 @@
 namespace boule {
 
 /// The folders in which the image module may lie, by the one that the running library or program is
-/// in: this one, and the library folder of an installation around it; within the tree it was built
+/// in: this one, and the library folder of an installation around it if it is named as that of
+/// programs is ("bin"); within the tree it was built
 /// in, nothing but the folders of that tree.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own);
 

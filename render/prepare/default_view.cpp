@@ -113,11 +113,12 @@ bool lacks_light(const Scene& scene, Method method) {
   return scene.lights.empty() && !is_light(scene.background, method) && !has_emitter(scene);
 }
 
-const char* light_note(const Scene& scene) {
-  return std::holds_alternative<EnvironmentBackground>(scene.background)
-             ? "no light in the scene, and by method whitted its environment is none: one white "
-               "point light at the eye"
-             : "no light in the scene: one white point light at the eye";
+const char* light_note(const Scene& scene, Method method) {
+  const bool unused =
+      method == Method::whitted && std::holds_alternative<EnvironmentBackground>(scene.background);
+  return unused ? "no light in the scene, and by method whitted its environment is none: one white "
+                  "point light at the eye"
+                : "no light in the scene: one white point light at the eye";
 }
 
 PointLight light_at_eye(const Camera& camera) {

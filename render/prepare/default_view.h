@@ -24,7 +24,7 @@ Camera default_camera(const Scene& scene, int width, int height);
 bool lacks_light(const Scene& scene, Method method);
 
 /// What is told of the light that such a scene gets.
-const char* light_note(const Scene& scene);
+const char* light_note(const Scene& scene, Method method);
 
 /// The light of such a scene: white, intensity 1, no falloff, at the camera's eye.
 PointLight light_at_eye(const Camera& camera);

@@ -58,11 +58,12 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                         0,
                         0};
     }
-    notes.emplace_back("no camera in the scene: framed on the objects");
+    const bool framed = !scene.spheres.empty() || !scene.planes.empty();
+    if (framed) notes.emplace_back("no camera in the scene: framed on the objects");
   }
   if (lacks_light(scene, method)) {
     scene.lights.emplace_back(light_at_eye(camera));
-    notes.emplace_back(light_note(scene));
+    notes.emplace_back(light_note(scene, method));
   }
   const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
   EnvironmentLight environment =

@@ -20,6 +20,10 @@ TEST(ModuleSearch, AnInstalledOrCopiedProgramLooksAroundItselfOnly) {
   EXPECT_EQ(folders[1].filename(), "boule");
 }
 
+TEST(ModuleSearch, ABareCopyLooksBesideItselfOnly) {
+  EXPECT_EQ(module_folders("/tmp/mine"), std::vector<fs::path>{"/tmp/mine"});
+}
+
 TEST(ModuleSearch, AProgramOfTheBuildTreeLooksInThatTreeOnly) {
   const fs::path tree = fs::canonical(BOULE_BUILD_TREE);
   for (const fs::path& own : {tree, tree / "bin", tree / "tests" / "image"}) {
