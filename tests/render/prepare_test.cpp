@@ -178,6 +178,9 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
 TEST(Prepare, SaysThatItMadeACamera) {
   Scene scene;
   scene.lights = {DirectionalLight{}};
+  EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());  // there is nothing to be framed
+  scene.materials = {{"white", Matte{}}};
+  scene.spheres = {{{0, 0, 0}, 1, 0}};
   const auto prepared = prepare(scene, 10, 10);
   ASSERT_EQ(prepared.value().notes.size(), 1u);
   EXPECT_NE(prepared.value().notes[0].find("camera"), std::string::npos);
