@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "render/cli/commands.h"
@@ -57,6 +58,7 @@ class Tracing {
   Status append_chunk(HitFile& file);
   void show_progress(const Progress& progress, std::uint64_t all);
   ExitCode finish(const Tracer& tracer);
+  void tell_end() const;
 
   const TraceCommand& command_;
   LiveReport live_;
@@ -201,6 +203,14 @@ ExitCode Tracing::finish(const Tracer& tracer) {
   stats_.rays = tracing.rays;
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
+  try {
+    tell_end();
+  } catch (const std::bad_alloc&) {  // the hits are there: a line less is no failure
+  }
+  return report_.finish(stats_);
+}
+
+void Tracing::tell_end() const {
   if (lost_ > 0) {
     report_.note(fmt::format(
         "{}: warning: {} beyond the range of float32 in origin or direction: a miss for each",
@@ -211,7 +221,6 @@ ExitCode Tracing::finish(const Tracer& tracer) {
                            counted(stats_.rays, "ray"), counted(hit_count_, "hit"),
                            stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
                            counted(stats_.threads, "thread")));
-  return report_.finish(stats_);
 }
 
 }  // namespace
