@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -211,9 +210,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   // Not before: what is refused loads nothing until here.
   image_start_.emplace(command_.output, static_cast<int>(Scheduler(options.threads).workers()));
   // Libraries that load while others take what a limit leaves end the process without a word.
-  const auto [addresses, data] = process_room();
-  constexpr auto without_limit = std::numeric_limits<std::uint64_t>::max();
-  if (std::min(addresses, data) != without_limit) {
+  if (address_room() != std::numeric_limits<std::uint64_t>::max()) {
     if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
   }
   auto created = Renderer::create(std::move(scene), options);
