@@ -57,8 +57,8 @@ run_tests() {
   # As users run it, and a warning is an error.
   cmake --preset release -G Ninja -B build/test -DBOULE_TESTS=ON -DBOULE_WERROR=ON
   cmake --build build/test
-  # Without the long runs: ctest --test-dir build/test -L hard -V
-  exec ctest --test-dir build/test -LE hard -j2 --output-on-failure
+  # Without the long runs: ctest --test-dir build/test -L long -V
+  exec ctest --test-dir build/test -LE long -j2 --output-on-failure
 }
 
 report() {

@@ -6,7 +6,7 @@
 
 #include "core/math/random.h"
 #include "core/scene/camera.h"
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

@@ -6,8 +6,8 @@
 
 #include "bench/book_arrays.h"
 #include "core/scene/primitive.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 

@@ -16,9 +16,9 @@
 
 #include "bench/bench_scenes.h"
 #include "bench/camera_rays.h"
-#include "simd/build/camera_builder.h"
-#include "simd/build/geometry_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
 
 namespace boule::bench {
 namespace {

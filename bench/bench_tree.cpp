@@ -14,10 +14,10 @@
 #include "bench/uniform_spheres.h"
 #include "core/scene/camera.h"
 #include "simd/abi/isa.h"
-#include "simd/build/camera_builder.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/math/ray.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
-#include "simd/build/aligned_array.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
 

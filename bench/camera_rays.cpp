@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

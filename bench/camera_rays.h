@@ -4,7 +4,7 @@
 
 #include "bench/bench_scenes.h"
 #include "simd/abi/stream.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bench/book_arrays.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 namespace {

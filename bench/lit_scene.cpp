@@ -4,9 +4,9 @@
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
-#include "simd/build/aligned_array.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/stream/aligned_array.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 namespace {

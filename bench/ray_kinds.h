@@ -5,7 +5,7 @@
 
 #include "bench/bench_scenes.h"
 #include "core/math/ray.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 

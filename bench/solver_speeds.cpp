@@ -11,8 +11,8 @@
 #include "bench/book_arrays.h"
 #include "bench/camera_rays.h"
 #include "bench/thread_seconds.h"
-#include "simd/build/geometry_builder.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
 
 namespace boule::bench {
 namespace {

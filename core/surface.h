@@ -9,8 +9,9 @@
 namespace boule {
 
 /// Where a ray met a primitive, all in double. This file says how a ray's origin is moved off a
-/// surface, and simd/kernel/surfaces.h does the same W at a time; there is no epsilon anywhere
-/// (lecture "Shadow acne"). Nothing here throws; numbers that are not finite make such numbers.
+/// surface, and simd/kernel/shading/surfaces.h does the same W at a time; there is no epsilon
+/// anywhere (lecture "Shadow acne"). Nothing here throws; numbers that are not finite make such
+/// numbers.
 struct Surface {
   Vec3d point;      ///< org + t dir
   Vec3d normal;     ///< geometric, unit length, turned towards the viewer

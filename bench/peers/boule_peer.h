@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/peers/contender.h"
-#include "simd/build/aligned_array.h"
-#include "simd/build/geometry_builder.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
 

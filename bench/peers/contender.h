@@ -9,7 +9,7 @@
 #include "bench/ray_kinds.h"
 #include "core/math/ray.h"
 #include "simd/abi/stream.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
 

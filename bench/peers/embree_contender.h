@@ -3,7 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include "bench/peers/contender.h"
-#include "simd/build/aligned_array.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
 

@@ -8,7 +8,7 @@
 
 #include "bench/peers/contender.h"
 #include "bench/peers/embree_callbacks.h"
-#include "simd/build/aligned_array.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
 

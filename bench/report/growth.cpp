@@ -6,8 +6,8 @@
 #include "bench/camera_rays.h"
 #include "bench/ray_kinds.h"
 #include "bench/thread_seconds.h"
-#include "simd/build/geometry_builder.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
 
 namespace boule::bench {
 namespace {

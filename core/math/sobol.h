@@ -75,7 +75,7 @@ inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
           static_cast<std::uint32_t>(more)};
 }
 
-/// simd/kernel/sobol.h does the same W at a time.
+/// simd/kernel/shading/sobol.h does the same W at a time.
 inline UnitPair sobol_point(const SobolSeeds& seeds, std::uint32_t sample) {
   const std::uint32_t index =
       detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), seeds.shuffle));

@@ -7,7 +7,7 @@
 #include "core/math/color.h"
 #include "render/integrators/sample_faults.h"
 #include "simd/abi/isa.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

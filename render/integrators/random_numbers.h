@@ -5,7 +5,7 @@
 
 #include "core/math/sobol.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/build/aligned_array.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule {
 

@@ -10,7 +10,7 @@
 #include "render/shading/illumination.h"
 #include "render/shading/surfaces.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/build/aligned_array.h"
+#include "simd/stream/aligned_array.h"
 
 namespace boule {
 

@@ -6,7 +6,7 @@
 #include "render/integrators/integrator.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

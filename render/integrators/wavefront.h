@@ -8,7 +8,7 @@
 #include "core/math/color.h"
 #include "core/math/ray.h"
 #include "render/integrators/depth_sums.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

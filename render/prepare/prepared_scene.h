@@ -12,8 +12,8 @@
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
-#include "simd/build/camera_builder.h"
-#include "simd/build/geometry_builder.h"
+#include "simd/camera/camera_builder.h"
+#include "simd/geometry/geometry_builder.h"
 
 namespace boule {
 

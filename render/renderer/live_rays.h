@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

@@ -9,8 +9,8 @@
 #include "core/surface.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/scene_memory.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/scene/light.h"
 #include "render/prepare/flat_material.h"
 #include "render/shading/surfaces.h"
-#include "simd/build/aligned_array.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/aligned_array.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

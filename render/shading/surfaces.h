@@ -7,8 +7,8 @@
 #include "core/surface.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/build/aligned_array.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/aligned_array.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 

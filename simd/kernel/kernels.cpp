@@ -1,13 +1,13 @@
 // Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
 #include "simd/abi/kernel_table.h"
-#include "simd/kernel/aim.h"
-#include "simd/kernel/bundle_stream.h"
-#include "simd/kernel/packet_stream.h"
-#include "simd/kernel/primary_rays.h"
-#include "simd/kernel/scattered_stream.h"
-#include "simd/kernel/sobol.h"
-#include "simd/kernel/surfaces.h"
-#include "simd/kernel/warp.h"
+#include "simd/kernel/camera/primary_rays.h"
+#include "simd/kernel/search/bundle_stream.h"
+#include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/scattered_stream.h"
+#include "simd/kernel/shading/aim.h"
+#include "simd/kernel/shading/sobol.h"
+#include "simd/kernel/shading/surfaces.h"
+#include "simd/kernel/shading/warp.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {

@@ -8,15 +8,15 @@ BEGIN {
   # What holds no containers, strings, streams and makes no call into another object.
   kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
   kernel_core = "^core/(base/platform|math/vec|math/elementary)\\.h$"
-  narrow = "^(core|simd/(abi|build|dispatch))/"
+  narrow = "^(core|simd/(abi|camera|geometry|stream|dispatch))/"
 
   layer("^core/", "^core/", plain_std)
   layer("^simd/abi/", "^(simd/abi/|core/(base/platform|scene/camera_kind)\\.h$)", kernel_std)
-  layer("^simd/build/", "^(core|simd/(abi|build))/", plain_std)
+  layer("^simd/(camera|geometry|stream)/", "^(core|simd/(abi|camera|geometry|stream))/", plain_std)
   layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/include/", "^(core|simd/(abi|build|dispatch)|render/(image|renderer|scene_file))/", any)
+  layer("^render/include/", "^(core|simd/(abi|camera|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
   # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
   layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)
@@ -30,7 +30,7 @@ BEGIN {
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
-  layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|build|dispatch|lanes)|tests)/", any)
+  layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|camera|geometry|stream|dispatch|lanes)|tests)/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|cli/)", narrow "|^render/|^tests/", any)
   layer("^(tests|bench)/", narrow "|^render/(memory|threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/surface.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 #include "tests/cli/trace_program.h"
 
 namespace boule::test {

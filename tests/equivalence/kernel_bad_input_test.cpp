@@ -9,7 +9,7 @@
 
 #include "core/base/float_environment.h"
 #include "core/math/geometry.h"
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/odd_float_environment.h"

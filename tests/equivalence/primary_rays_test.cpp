@@ -1,5 +1,5 @@
 // Camera rays of every kernel table against the scalar path, bit for bit.
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
 

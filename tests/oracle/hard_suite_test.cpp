@@ -1,5 +1,5 @@
 // The hard-case suite: every row against the oracle, three columns each. BOULE_HARD_RAYS sets the
-// rays per row and parameter (`ctest -L hard`: 50,000; by default few enough for every day).
+// rays per row and parameter (`ctest -L long`: 50,000; by default few enough for every day).
 #include <cmath>
 #include <cstdio>
 #include <string>

@@ -1,5 +1,5 @@
 // Path tracing by its statistics: its ways of seeking light agree, and its error falls as it
-// should. With a full size, run by hand: ctest -L hard -V.
+// should. With a full size, run by hand: ctest -L long -V.
 #include <gtest/gtest.h>
 
 #include <algorithm>

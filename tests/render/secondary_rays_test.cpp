@@ -1,5 +1,5 @@
 // Secondary rays at scale: no ray meets the convex surface it leaves, none gets lost inside a
-// sphere, none escapes from a closed room. BOULE_SECONDARY_HITS sets the size (`ctest -L hard`: one
+// sphere, none escapes from a closed room. BOULE_SECONDARY_HITS sets the size (`ctest -L long`: one
 // million surface points, ten million bounces; by default few enough for every day).
 #include <cstdio>
 

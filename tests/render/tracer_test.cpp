@@ -11,8 +11,8 @@
 #include "core/surface.h"
 #include "render/integrators/views.h"
 #include "render/prepare/prepared_scene.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/stream/stream_buffer.h"
 #include "tests/render/ray_clouds.h"
 #include "tests/render/test_scenes.h"
 

@@ -8,4 +8,4 @@ source="$1" build="$2"
 
 cmake --preset asan -S "$source" -B "$build" >/dev/null
 cmake --build "$build" -j 2
-exec ctest --test-dir "$build" -LE hard -j 2 --output-on-failure
+exec ctest --test-dir "$build" -LE long -j 2 --output-on-failure

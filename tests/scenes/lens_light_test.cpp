@@ -7,7 +7,7 @@
 
 #include "core/math/sobol.h"
 #include "core/scene/lens_optics.h"
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/scenes/shipped_lens.h"
 #include "tests/support/kernel_runs.h"

@@ -6,7 +6,7 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/lens_optics.h"
-#include "simd/build/camera_builder.h"
+#include "simd/camera/camera_builder.h"
 #include "tests/scenes/shipped_lens.h"
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"

@@ -1,5 +1,6 @@
-// What the headers of simd/build and simd/dispatch say of bad input, entry by entry. What the
-// kernels take: tests/equivalence/kernel_bad_input_test.cpp, contract_test.cpp.
+// What the headers of simd, but for its kernels, say of bad input, entry by entry. What the
+// entry by entry. What the kernels take: tests/equivalence/kernel_bad_input_test.cpp,
+// contract_test.cpp.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -9,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "simd/build/bvh_builder.h"
-#include "simd/build/camera_builder.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/bvh_builder.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "simd/build/binary_tree.h"
+#include "simd/geometry/binary_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "simd/abi/bvh.h"
-#include "simd/build/bvh_builder.h"
+#include "simd/geometry/bvh_builder.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {

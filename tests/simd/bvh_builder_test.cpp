@@ -1,4 +1,4 @@
-#include "simd/build/bvh_builder.h"
+#include "simd/geometry/bvh_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simd/build/geometry_builder.h"
+#include "simd/geometry/geometry_builder.h"
 
 #include <gtest/gtest.h>
 

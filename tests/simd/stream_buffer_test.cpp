@@ -1,4 +1,4 @@
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/math/geometry.h"
-#include "simd/build/bvh_builder.h"
+#include "simd/geometry/bvh_builder.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "simd/abi/isa.h"
-#include "simd/build/bvh_builder.h"
+#include "simd/geometry/bvh_builder.h"
 
 namespace boule::test {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/scene/distortion.h"
-#include "simd/build/stream_buffer.h"
+#include "simd/stream/stream_buffer.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/reference.h"
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 namespace boule::test {
 

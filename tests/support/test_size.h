@@ -5,7 +5,7 @@
 
 namespace boule::test {
 
-/// How much a test with two sizes does: what the environment says (`ctest -L hard` sets it), else
+/// How much a test with two sizes does: what the environment says (`ctest -L long` sets it), else
 /// the size for every day.
 inline std::size_t test_size(const char* variable, std::size_t every_day) {
   const char* const text = std::getenv(variable);

@@ -1,9 +1,9 @@
 // Core and kernels alone, without the renderer.
 #include <cstdio>
 
-#include "simd/build/geometry_builder.h"
-#include "simd/build/stream_buffer.h"
 #include "simd/dispatch/dispatch.h"
+#include "simd/geometry/geometry_builder.h"
+#include "simd/stream/stream_buffer.h"
 
 int main() {
   const boule::Geometry geometry({{{0, 1, 0}, 1}}, {{{0, 0, 0}, {0, 1, 0}}});

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/scene/primitive.h"
+#include "simd/abi/geometry.h"
+#include "simd/abi/shading.h"
+#include "simd/geometry/bvh_builder.h"
+#include "simd/stream/aligned_array.h"
+
+namespace boule {
+
+/// How spheres are found: every one (scan), or by a tree. The answers are the same; automatic scans
+/// a few dozen.
+enum class Structure { automatic, scan, bvh };
+
+/// Spheres as find_surfaces reads them, where they are; null for none.
+SphereRows sphere_rows(std::span<const Sphere> spheres);
+
+/// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
+/// Immutable once built. Takes any floats: what is NaN, infinite or without a normal is missed by
+/// every ray, a negative radius counts as its size. Precondition: max_primitives spheres and planes
+/// in all at most, which validate() checks. Throws std::bad_alloc, and what `parallel_for` throws.
+class Geometry {
+ public:
+  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
+           Structure structure = Structure::automatic,
+           const ParallelFor& parallel_for = serial_for);
+
+  /// What the kernels see; valid as long as this object, and not of one that was moved away.
+  [[nodiscard]] GeometryView view() const;
+
+ private:
+  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh);
+  void set_scanned(std::size_t slot, const Sphere& sphere);
+  void set_in_block(std::size_t slot, const Sphere& sphere);
+  void set_plane(std::size_t i, const Plane& plane);
+
+  std::vector<BvhNode> nodes_;
+  float extent_;
+  std::size_t sphere_count_, scanned_, block_count_, plane_count_;
+  AlignedArray<std::int32_t> id_;
+  AlignedArray<SphereBlock> blocks_;
+  AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
+  AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
+};
+
+}  // namespace boule

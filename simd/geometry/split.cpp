@@ -1,0 +1,139 @@
+#include "simd/geometry/split.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace boule {
+namespace {
+
+/// The cost of either side of each border between bins, area times leaves, from one end.
+struct Sweep {
+  BuildBox box;
+  std::size_t count = 0;
+
+  double add(const BuildBox& bin, std::size_t spheres) {
+    box.add(bin);
+    count += spheres;
+    return count == 0 ? 0 : box.area() * static_cast<double>(leaves_of(count));
+  }
+};
+
+/// 1 if a sphere goes left, else 0, by the sign of a difference: a comparison becomes a branch.
+std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphere) {
+  return static_cast<std::uint32_t>(grid.bin_of(sphere, cut.axis) - cut.bin) >> 31U;
+}
+
+}  // namespace
+
+BinGrid::BinGrid(const BuildBox& extent) {
+  // The farthest sphere's place is rounded three times: below `bins` all the same.
+  constexpr float all = static_cast<float>(bins) * (1 - 0x1p-20F);
+  constexpr float least = 1e-30F;  // shorter axes would give an infinite scale
+  for (int k = 0; k < 4; ++k) {
+    const float length = extent.high[k] - extent.low[k];
+    low_[k] = extent.low[k];
+    scale_[k] = length > least ? all / length : 0;
+  }
+  const bool alike = extent.high[3] <= 2 * extent.low[3];
+  if (alike && (scale_[0] > 0 || scale_[1] > 0 || scale_[2] > 0)) scale_[3] = 0;
+}
+
+void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres) {
+  const int axes = grid.axes();
+  for (const BuildSphere& sphere : spheres) {
+    const BuildBox box = rough_box(sphere);
+    const Int4 bin = grid.bins_of(sphere);
+    const auto add_along = [&](int axis, int place) {
+      boxes[axis][place].add(box);
+      ++counts[axis][place];
+    };
+    add_along(0, bin[0]);
+    add_along(1, bin[1]);
+    add_along(2, bin[2]);
+    if (axes > 3) add_along(3, bin[3]);
+  }
+}
+
+void Bins::add(const Bins& bins) {
+  for (int axis = 0; axis < 4; ++axis) {
+    for (int bin = 0; bin < BinGrid::bins; ++bin) {
+      boxes[axis][bin].add(bins.boxes[axis][bin]);
+      counts[axis][bin] += bins.counts[axis][bin];
+    }
+  }
+}
+
+Cut best_cut(const Bins& bins, int axes) {
+  Cut best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < axes; ++axis) {
+    const auto& boxes = bins.boxes[axis];
+    const auto& counts = bins.counts[axis];
+    double right_cost[BinGrid::bins];
+    Sweep right;
+    for (int bin = BinGrid::bins - 1; bin > 0; --bin)
+      right_cost[bin] = right.add(boxes[bin], counts[bin]);
+    Sweep left;
+    for (int bin = 1; bin < BinGrid::bins; ++bin) {
+      const double cost = left.add(boxes[bin - 1], counts[bin - 1]) + right_cost[bin];
+      const bool divides = left.count > 0 && right_cost[bin] > 0;
+      if (divides && cost < least) {
+        least = cost;
+        best = {axis, bin};
+      }
+    }
+  }
+  return best;
+}
+
+BuildBox extent_of(std::span<const BuildSphere> spheres) {
+  BuildBox extent;
+  for (const BuildSphere& sphere : spheres) extent.add({load4(sphere.at), load4(sphere.at)});
+  return extent;
+}
+
+std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent) {
+  const std::size_t middle = (leaves_of(spheres.size()) + 1) / 2 * bvh_leaf_size;
+  int axis = 0;
+  for (int k = 1; k < 4; ++k) {
+    const bool longer = extent.high[k] - extent.low[k] > extent.high[axis] - extent.low[axis];
+    if (longer && (k < 3 || extent.high[axis] == extent.low[axis])) axis = k;
+  }
+  if (extent.high[axis] == extent.low[axis]) return 0;
+  std::nth_element(
+      spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(middle), spheres.end(),
+      [axis](const BuildSphere& a, const BuildSphere& b) { return a.at[axis] < b.at[axis]; });
+  return middle;
+}
+
+std::size_t count_left(const Bins& bins, const Cut& cut) {
+  const std::size_t* const counts = bins.counts[cut.axis];
+  return std::accumulate(counts, counts + cut.bin, std::size_t{0});
+}
+
+void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
+               Targets targets) {
+  BuildSphere* next[2] = {targets.right, targets.left};
+  for (const BuildSphere& sphere : spheres) *next[is_left(grid, cut, sphere)]++ = sphere;
+}
+
+std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch) {
+  const BuildBox extent = extent_of(spheres);
+  const BinGrid grid(extent);
+  Bins bins;
+  bins.add(grid, spheres);
+  const Cut cut = best_cut(bins, grid.axes());
+  if (cut.axis < 0) return halve(spheres, extent);
+  std::size_t left = 0, right = 0;
+  for (const BuildSphere sphere : spheres) {  // no branch: it could not be foretold
+    spheres[left] = sphere;
+    scratch[right] = sphere;
+    const std::size_t lefts = is_left(grid, cut, sphere);
+    left += lefts;
+    right += 1 - lefts;
+  }
+  std::copy_n(scratch.begin(), right, spheres.begin() + static_cast<std::ptrdiff_t>(left));
+  return left;
+}
+
+}  // namespace boule

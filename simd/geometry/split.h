@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "simd/abi/bvh.h"
+#include "simd/geometry/build_box.h"
+
+namespace boule {
+
+/// Leaves that so many spheres fill.
+constexpr std::size_t leaves_of(std::size_t spheres) {
+  return (spheres + bvh_leaf_size - 1) / bvh_leaf_size;
+}
+
+/// Which bin a sphere belongs to, by its centre, along each axis; and by its radius, where radii
+/// differ much: few large spheres are better off on their own.
+class BinGrid {
+ public:
+  static constexpr int bins = 16;
+
+  BinGrid() = default;
+  /// `extent`: of the spheres' centres and radii.
+  explicit BinGrid(const BuildBox& extent);
+
+  /// The bins along the four axes, 0 .. bins - 1; always 0 where an axis cannot be divided.
+  [[nodiscard]] Int4 bins_of(const BuildSphere& sphere) const {
+    return truncate4((load4(sphere.at) - low_) * scale_);
+  }
+  /// The same for one axis.
+  [[nodiscard]] int bin_of(const BuildSphere& sphere, int axis) const {
+    return static_cast<int>((sphere.at[axis] - low_[axis]) * scale_[axis]);
+  }
+  /// 3, or 4 if radii are considered.
+  [[nodiscard]] int axes() const { return scale_[3] > 0 ? 4 : 3; }
+
+ private:
+  Float4 low_ = {}, scale_ = {};
+};
+
+/// What lies in each bin. Counts and bounds: the order of adding makes no difference.
+struct Bins {
+  BuildBox boxes[4][BinGrid::bins];
+  std::size_t counts[4][BinGrid::bins] = {};
+
+  void add(const BinGrid& grid, std::span<const BuildSphere> spheres);
+  void add(const Bins& bins);
+};
+
+/// Where to cut: spheres of a bin below `bin` go left. Axis -1: nothing divides them.
+struct Cut {
+  int axis = -1, bin = 0;
+};
+
+/// The cut of the least cost by the surface area heuristic: area times leaves on either side.
+Cut best_cut(const Bins& bins, int axes);
+
+/// The spheres that go left.
+std::size_t count_left(const Bins& bins, const Cut& cut);
+
+/// Where a partition writes the next sphere of either side.
+struct Targets {
+  BuildSphere *left, *right;
+};
+
+/// Copies the spheres to either side of a cut, keeping their order.
+void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
+               Targets targets);
+
+/// The range of centres and radii.
+BuildBox extent_of(std::span<const BuildSphere> spheres);
+
+/// Divides more spheres than fit into a leaf into two parts, by the surface area heuristic over
+/// binned centres (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007) and
+/// returns the size of the first: never all, and 0 only where all are copies of one sphere.
+/// `scratch` has as much room as there are spheres.
+std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch);
+
+/// Divides them in the middle of the longest axis, to a whole number of leaves. Returns the same.
+std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent);
+
+}  // namespace boule

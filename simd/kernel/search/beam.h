@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/kernel/search/primitive_access.h"
+#include "simd/kernel/search/slabs.h"
+
+/// All rays of a packet as one, by intervals: what the beam misses all of them miss. Sixteen boxes,
+/// or spheres, are turned away for the price of one that is tested against each ray.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Along an axis that all rays go up, or down: they meet its planes at t >= x near_inverse + near,
+/// where that is not behind them, and at t <= x far_inverse + far.
+struct BeamSlab {
+  float near_inverse, near, far_inverse, far;
+  float forth;              ///< 1, or -1 where they go down
+  std::uint32_t first_row;  ///< in a node, of the planes that are met first
+  std::uint32_t last_row;   ///< and of the others
+
+  /// False where rays go either way, or nearly along the planes.
+  BOULE_INLINE bool set(std::uint32_t axis, const Slab& slab, const Real& org, const Real& unit) {
+    const unsigned ups = bits(Real(least) <= unit), downs = bits(unit <= Real(-least));
+    const bool down = downs != 0;
+    forth = down ? -1.0F : 1.0F;
+    first_row = (down ? axis + 3 : axis) * bvh_width;
+    last_row = (down ? axis : axis + 3) * bvh_width;
+    near_inverse = near = far_inverse = 0;
+    far = static_cast<float>(no_hit);
+    if (ups != all_lanes && downs != all_lanes) return false;
+    const Real steep = abs(slab.inverse), towards = down ? Real(0.0F) - org : org;
+    const float slow = least_lane(steep), fast = greatest_lane(steep);
+    const double last = greatest_lane(towards), first = least_lane(towards);
+    near_inverse = down ? -slow : slow;
+    far_inverse = down ? -fast : fast;
+    near = static_cast<float>(-(last + filter::floor) * double{slow});
+    far = static_cast<float>((filter::floor - first) * double{fast});
+    return true;
+  }
+  /// [begin, end] cut to what lies between the plane that is met first and the other one.
+  BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
+    begin = filter_max(filter_fma(first, Real(near_inverse), Real(near)), begin);
+    end = filter_min(filter_fma(last, Real(far_inverse), Real(far)), end);
+  }
+  /// Likewise, of the planes that touch spheres; r is not rounded when it is turned.
+  BOULE_INLINE void cut_around(const Real& center, const Real& r, Real& begin, Real& end) const {
+    const Real back = r * Real(forth);
+    cut(center - back, center + back, begin, end);
+  }
+
+  static constexpr float least = 0x1p-20F;
+};
+
+class Beam {
+ public:
+  BOULE_INLINE Beam(const BoxRays& rays, const FilterRays& filter, float extent) {
+    unsigned axes = 0;
+    axes += x_.set(0, rays.slabs.x, filter.org.x, filter.unit.x) ? 1 : 0;
+    axes += y_.set(1, rays.slabs.y, filter.org.y, filter.unit.y) ? 1 : 0;
+    axes += z_.set(2, rays.slabs.z, filter.org.z, filter.unit.z) ? 1 : 0;
+    // Two make a beam of it. And no ray looks behind its origin.
+    is_beam_ = axes >= 2 && all(Real(0.0F) <= rays.from);
+    is_straight_ = is_beam_ && axes == 3;
+    slack_ = extent * static_cast<float>(filter::beam * filter::u) +
+             static_cast<float>(2 * filter::floor);
+  }
+  /// Whether anything can be said of these rays together.
+  [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
+  /// Whether they also all go up, or down, along each axis.
+  [[nodiscard]] BOULE_INLINE bool is_straight() const { return is_straight_; }
+  /// The rows of a node's planes that they then meet first, and of the others.
+  struct Rows {
+    const float *first_x, *first_y, *first_z;
+    const float *last_x, *last_y, *last_z;
+  };
+  [[nodiscard]] BOULE_INLINE Rows rows_of(const BvhNode& node) const {
+    static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
+    const auto* const rows = reinterpret_cast<const float*>(&node);
+    return {rows + x_.first_row, rows + y_.first_row, rows + z_.first_row,
+            rows + x_.last_row,  rows + y_.last_row,  rows + z_.last_row};
+  }
+
+  /// The children of a node, bit by bit, that may be entered before `limit`; `near`: no ray enters
+  /// one before it.
+  BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
+    const Rows rows = rows_of(node);
+    unsigned in = 0;
+    for (std::size_t at = 0; at < bvh_width; at += width) {
+      Real begin(0.0F), end(limit);
+      x_.cut(load(rows.first_x + at), load(rows.last_x + at), begin, end);
+      y_.cut(load(rows.first_y + at), load(rows.last_y + at), begin, end);
+      z_.cut(load(rows.first_z + at), load(rows.last_z + at), begin, end);
+      store(near + at, begin);
+      in |= bits(~is_empty(begin, end)) << at;
+    }
+    return in;
+  }
+  /// The spheres of a leaf that may be met before `limit`, by the boxes around them.
+  [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf, float limit) const {
+    const Real outward(static_cast<float>(1 + filter::beam * filter::u)), slack(slack_);
+    unsigned in = 0;
+    for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
+      const Real r = filter_fma(abs(load(leaf.radius + at)), outward, slack);
+      Real begin(0.0F), end(limit);
+      x_.cut_around(load(leaf.center_x + at), r, begin, end);
+      y_.cut_around(load(leaf.center_y + at), r, begin, end);
+      z_.cut_around(load(leaf.center_z + at), r, begin, end);
+      in |= bits(~is_empty(begin, end)) << at;
+    }
+    return in;
+  }
+
+ private:
+  BeamSlab x_, y_, z_;
+  float slack_;
+  bool is_beam_, is_straight_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,298 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "simd/kernel/search/bundle_discs.h"
+#include "simd/kernel/search/bundle_grid.h"
+#include "simd/kernel/search/bundle_hits.h"
+#include "simd/kernel/search/bundle_rays.h"
+
+/// Whether a bundle's rays meet anything. Float decides nearly always; the double solver where a
+/// sphere's rim, or its depth, is too close to call.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// (std::popcount() may be a call that kernels must not make.)
+BOULE_INLINE int count_bits(unsigned bits) {
+  bits -= bits >> 1 & 0x55555555U;
+  bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
+  return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);
+}
+
+template <Common common, class Source>
+class BundleAny {
+ public:
+  static constexpr Seek seek = Seek::any;
+
+  BundleAny(const Source& source, const SphereView& spheres, const BundleRays& rays)
+      : source_(source), spheres_(spheres), rays_(rays) {
+    for (int p = 0; p < rays.packets; ++p) start(p);
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
+  }
+
+  [[nodiscard]] const float* limits() const { return limits_; }
+  [[nodiscard]] float limit() const { return limit_; }
+  [[nodiscard]] bool done() const { return limit_ == -static_cast<float>(no_hit); }
+  /// Too much is too close to call: spheres that are small for how far they are from the light, but
+  /// not for the rays, which begin among them.
+  [[nodiscard]] bool too_close() const { return unclear_ > most_unclear * rays_.packets; }
+
+  /// A simple sphere against a group; true if that changes its hits: update() then.
+  BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
+    const PacketRange packets = packets_of(rays_, group);
+    bool changed = false;
+    for (int p = packets.begin; p < packets.end; ++p) {
+      const Real q = disc_square<common>(rays_, p * width, disc);
+      if (any(Real(0.0F) <= q)) changed |= consider(p, disc, q, slot);
+    }
+    if (changed) update(group);
+    return changed;
+  }
+
+  /// Spheres against the rays that their discs are in the way of, one by one. False, and nothing
+  /// done, if those are not few.
+  BOULE_INLINE bool meet_few(const Discs& discs, const BlockSpheres& spheres) {
+    const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
+    if (count_bits(groups) > few_.groups) return false;
+    int rays[few_among_many.rays + group_size], count = 0;
+    for (unsigned left = groups; left != 0; left &= left - 1) {
+      const int group = std::countr_zero(left), first_ray = packets_of(rays_, group).begin * width;
+      for (unsigned in = open_amid(group, discs); in != 0; in &= in - 1)
+        rays[count++] = first_ray + std::countr_zero(in);
+      if (count > few_.rays) return false;
+    }
+    // Those that miss all of them drop out without a branch for each.
+    int near = 0;
+    for (int i = 0; i < count; ++i) {
+      rays[near] = rays[i];
+      near += touches(rays[i], discs) ? 1 : 0;
+    }
+    bool changed = false;
+    for (int i = 0; i < near; ++i) changed |= meet_ray(rays[i], discs, spheres);
+    if (!changed) return true;
+    for (unsigned left = groups; left != 0; left &= left - 1) update(std::countr_zero(left));
+    update();
+    return true;
+  }
+
+  /// Tells the grid which rays are still to be answered. A bundle that comes to that has many
+  /// spheres for its rays: more of them are few.
+  void fill(RayGrid& grid) {
+    grid.fill(rays_, hit_, end_high_);
+    few_ = few_among_many;
+  }
+
+  /// Any other sphere against all rays.
+  BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
+    for (int p = 0; p < rays_.packets; ++p) {
+      if (hit_[p] != all_lanes) resolve(p, slot, all_lanes & ~hit_[p]);
+    }
+    for (int group = 0; group < bundle_groups; ++group) update(group);
+    update();
+  }
+
+  /// Finds limit() again.
+  BOULE_INLINE void update() { limit_ = greatest_limit(limits_); }
+
+  /// Adds the planes and writes it all.
+  void finish(const PlaneView& planes, std::uint8_t* occluded) {
+    for (int p = 0; p < rays_.packets; ++p) {
+      if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
+      source_.answer(p * width, hit_[p], occluded);
+    }
+  }
+
+ private:
+  BOULE_INLINE void update(int group) {
+    const PacketRange packets = packets_of(rays_, group);
+    float most = -static_cast<float>(no_hit);
+    for (int p = packets.begin; p < packets.end; ++p)
+      most = hit_[p] != all_lanes && last_[p] > most ? last_[p] : most;
+    limits_[group] = most;
+  }
+
+  /// Finds between which v the rays live. From their common end they run backwards, from v = (1 -
+  /// tmax) scale to scale.
+  BOULE_INLINE void start(int p) {
+    const int ray = p * width;
+    const Real zero(0.0F), shift(rays_.shift);
+    const Real largest(std::numeric_limits<float>::max());
+    const Real scale = load(rays_.scale + ray), tmax = source_.tmax(ray);
+    const Real until = select(largest < tmax, largest, tmax);
+    Real begin = zero, end_low = until * scale, end_high = end_low;
+    if constexpr (common == Common::end) {
+      begin = (Real(1.0F) - until) * scale + shift;
+      end_low = scale - shift;
+      end_high = scale + shift;
+    }
+    store(begin_ + ray, begin);
+    store(end_low_ + ray, end_low);
+    store(end_high_ + ray, end_high);
+    const Real none(-static_cast<float>(no_hit));
+    last_[p] = greatest_lane(select(none <= end_high, end_high, none));  // NaN is left out
+    hit_[p] = 0;
+  }
+
+  /// Where rays live, in v.
+  struct Lives {
+    Real begin;              ///< for certain from here
+    Real end_low, end_high;  ///< until here, or there
+  };
+  /// What float knows: lanes that may hit, and those that do unless they leave that sphere.
+  struct Verdict {
+    unsigned open, certain;
+  };
+  BOULE_INLINE static Verdict judge(const LineLanes& line, const Lives& lives,
+                                    const DiscLanes& disc, const Real& q) {
+    const Real from = first_root<common>(line, disc, q), to = from + disc.spread;
+    RealMask open = from <= lives.end_high;  // false for Q < 0
+    if constexpr (common == Common::direction) {
+      const Real second = to + sqrt(q) + sqrt(q);  // bounds the other root
+      open = open & (Real(0.0F) <= second);
+    }
+    const RealMask certain = open & (disc.sure <= q) & (lives.begin < from) & (to < lives.end_low);
+    return {bits(open), bits(certain)};
+  }
+
+  /// What float knows of a sphere in W rays; true if that changes anything.
+  BOULE_INLINE bool consider(int p, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
+    const int ray = p * width;
+    const Verdict verdict =
+        judge(LineLanes::each<common>(rays_, ray),
+              {load(begin_ + ray), load(end_low_ + ray), load(end_high_ + ray)}, disc, q);
+    const unsigned open = verdict.open & ~hit_[p];
+    if (open == 0) return false;
+    const unsigned own = own_sphere(ray, spheres_.id[slot]);
+    hit_[p] |= verdict.certain & open & ~own;
+    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(ray, own);
+    if (unclear != 0) {
+      ++unclear_;
+      resolve(p, slot, unclear);
+    }
+    return true;
+  }
+
+  /// Bits of a group's rays that are amid these discs, do not end before them and have met nothing.
+  BOULE_INLINE unsigned open_amid(int group, const Discs& discs) const {
+    const Extent& e = discs.all;
+    const Real near(discs.all_near);
+    const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high);
+    const PacketRange packets = packets_of(rays_, group);
+    unsigned result = 0;
+    for (int p = packets.begin; p < packets.end; ++p) {
+      const Real a = load(rays_.a + p * width), b = load(rays_.b + p * width);
+      const unsigned in = bits((a_low <= a) & (a <= a_high) & (b_low <= b) & (b <= b_high) &
+                               (near <= load(end_high_ + p * width)));
+      result |= (in & ~hit_[p]) << ((p - packets.begin) * width);
+    }
+    return result;
+  }
+
+  /// Whether float cannot rule out that a ray meets one of some simple spheres.
+  BOULE_INLINE bool touches(int ray, const Discs& discs) const {
+    const LineLanes line = LineLanes::same<common>(rays_, ray);
+    const Real end(end_high_[ray]);
+    unsigned in = 0;
+    for (int at = 0; at < Discs::size; at += width) {
+      if (discs.simple >> at == 0) break;
+      const Real q = disc_square<common>(line, DiscLanes::each(discs, at));
+      in |= bits((Real(0.0F) <= q) & (load(discs.near + at) <= end)) << at;
+    }
+    return (in & discs.simple) != 0;
+  }
+
+  /// Simple spheres against one ray; true if it meets one.
+  BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const BlockSpheres& spheres) {
+    const LineLanes line = LineLanes::same<common>(rays_, ray);
+    const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
+    for (int at = 0; at < Discs::size; at += width) {
+      if (discs.simple >> at == 0) break;
+      const DiscLanes disc = DiscLanes::each(discs, at);
+      const Real q = disc_square<common>(line, disc);
+      if (!any(Real(0.0F) <= q)) continue;
+      const Verdict verdict = judge(line, lives, disc, q);
+      const unsigned open = verdict.open & discs.simple >> at;
+      if (open != 0 && decide(ray, open, verdict.certain, spheres, at)) return true;
+    }
+    return false;
+  }
+
+  /// One ray and those of W spheres from place `at` on that it may hit, and that it does; true if
+  /// so.
+  BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const BlockSpheres& spheres,
+                           int at) {
+    const int p = ray / width, lane = ray % width;
+    const unsigned bit = 1U << lane;
+    const std::int32_t source = source_.sources(p * width)[lane];
+    for (unsigned left = open; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      const std::uint32_t slot = spheres.slot(at + k);
+      const bool own = spheres_.id[slot] == source;
+      if (own && source_.insides(p * width)[lane] == 0) continue;  // it cannot be met again
+      if (own || ((certain >> k) & 1U) == 0) {
+        ++unclear_;
+        resolve(p, slot, bit);
+      } else {
+        hit_[p] |= bit;
+      }
+      if ((hit_[p] & bit) != 0) return true;
+    }
+    return false;
+  }
+
+  /// Lanes whose rays leave this very sphere.
+  BOULE_INLINE unsigned own_sphere(int ray, std::int32_t id) const {
+    return bits(load_as_wide(source_.sources(ray)) == Wide(static_cast<double>(id)));
+  }
+  /// Of those that leave their sphere the ones on its outside: they cannot meet it again.
+  BOULE_INLINE unsigned leaves_outside(int ray, unsigned own) const {
+    if (own == 0) return 0;
+    return own & ~bits(load_set(source_.insides(ray)));
+  }
+
+  /// Solves a sphere for those of W rays that `lanes` names.
+  BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned lanes) {
+    const PacketPlace place = source_.packet(p * width, lanes);
+    ExactRays rays;
+    load_exact(*place.rays, place.first, rays);
+    hit_[p] |= lanes & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
+  }
+
+  BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
+    const unsigned open = all_lanes & ~hit_[p];
+    const PacketPlace place = source_.packet(p * width, open);
+    ExactRays rays;
+    load_exact(*place.rays, place.first, rays);
+    for (std::size_t k = 0; k < planes.size; ++k)
+      hit_[p] |= open & bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
+  }
+
+  /// Packets are not cheaper before so many solves for each.
+  static constexpr int most_unclear = 2;
+  static constexpr int group_size = bundle_size / bundle_groups;
+  static_assert(group_size <= 32);
+
+  /// As many groups, and rays in them, are few; measured.
+  struct Few {
+    int groups, rays;
+  };
+  static constexpr Few few_at_first = width < 16 ? Few{6, 24} : Few{8, 32};
+  static constexpr Few few_among_many = width < 16 ? Few{10, 48} : Few{12, 64};
+
+  const Source& source_;
+  const SphereView& spheres_;
+  const BundleRays& rays_;
+  Few few_ = few_at_first;
+  int unclear_ = 0;  ///< times that float could not tell
+  float limit_ = 0;
+  alignas(64) float limits_[bundle_groups];
+  float last_[bundle_packets];  ///< the greatest v that a packet's rays live at
+  unsigned hit_[bundle_packets];
+  alignas(64) float begin_[bundle_size];                            ///< live from here for certain
+  alignas(64) float end_low_[bundle_size], end_high_[bundle_size];  ///< and until here, or there
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

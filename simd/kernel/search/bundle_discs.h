@@ -1,0 +1,213 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simd/kernel/search/bundle_rays.h"
+#include "simd/kernel/search/primitive_access.h"
+
+/// Spheres as a bundle sees them, a block at a time: each a disc around (X, Y) at the depth Z.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Up to 16 spheres of one block, the first ones.
+class BlockSpheres {
+ public:
+  static constexpr int size = bvh_leaf_size;
+
+  /// `count` spheres from slot `first` on, a multiple of 16.
+  BOULE_INLINE BlockSpheres(const SphereView& spheres, std::size_t first, unsigned count)
+      : block_(spheres.blocks[first / bvh_leaf_size]),
+        first_(static_cast<std::uint32_t>(first)),
+        count_(count) {}
+
+  /// The places that spheres are in: bits.
+  [[nodiscard]] BOULE_INLINE unsigned there() const { return (1U << count_) - 1; }
+  [[nodiscard]] BOULE_INLINE std::uint32_t slot(int place) const {
+    return first_ + static_cast<std::uint32_t>(place);
+  }
+  /// Of W places, the part `part` of them.
+  BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
+    const std::size_t at = part * width;
+    return {load(block_.center_x + at), load(block_.center_y + at), load(block_.center_z + at)};
+  }
+  BOULE_INLINE Real radii(std::size_t part) const { return load(block_.radius + part * width); }
+  /// Before this part there is a sphere in every part, and none from it on.
+  [[nodiscard]] BOULE_INLINE std::size_t parts() const { return (count_ + width - 1) / width; }
+
+ private:
+  const SphereBlock& block_;
+  std::uint32_t first_;
+  unsigned count_;
+};
+
+/// Their discs.
+struct Discs {
+  static constexpr int size = BlockSpheres::size;
+  alignas(64) float x[size], y[size], z[size];
+  alignas(64) float radius[size], delta[size];
+  alignas(64) float squared[size];  ///< R2
+  alignas(64) float sure[size];     ///< D2
+  alignas(64) float depth[size];    ///< Z - E1
+  alignas(64) float spread[size];   ///< from the lower to the upper bound of v
+  alignas(64) float near[size];     ///< nothing of it is nearer than this v; no_hit: not simple
+  alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];
+
+  Extent all;      ///< of the simple ones together
+  float all_near;  ///< the least
+
+  unsigned simple;   ///< bits: discs that may be hit and that these bounds hold for
+  unsigned awkward;  ///< bits: spheres that may be hit and that they do not hold for
+};
+
+/// The bounds' factors for one bundle.
+struct DiscFactors {
+  Real axis, constant;  ///< delta = axis |Z| + exact F1 + constant
+  Real exact;
+  Real depth;         ///< E1 = depth F1
+  Real square;        ///< G = square r^2 + ...
+  Real plane_length;  ///< |n| of the bundle's sides, outward
+
+  Real depth_shift;  ///< what E1 has besides
+
+  BOULE_INLINE DiscFactors(const BundleRays& rays, Common common) {
+    constexpr auto u = static_cast<float>(filter::u);
+    const float axis_factor = static_cast<float>(filter::bundle_axis * filter::u) * rays.across;
+    const bool one_origin = common != Common::direction;
+    exact = static_cast<float>(filter::bundle_double);
+    depth = static_cast<float>(filter::bundle_depth) * u;
+    depth_shift = one_origin ? rays.shift : depth * rays.across;
+    axis = one_origin ? axis_factor : 0.0F;
+    constant = static_cast<float>(filter::floor) + (one_origin ? rays.shift : axis_factor);
+    square = rays.squared_across + static_cast<float>(filter::bundle_square) * u;
+    plane_length = one_origin ? filter::bundle_side : filter::bundle_side_parallel;
+  }
+};
+
+/// Lanes of spheres that no ray of the bundle meets: beyond one of its four sides.
+template <Common common>
+BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, const Real& reach) {
+  const Real zero(0.0F);
+  if constexpr (common != Common::direction) {
+    return (filter_fnma(extent.a_low, center.z, center.x) + reach < zero) |
+           (reach < filter_fnma(extent.a_high, center.z, center.x)) |
+           (filter_fnma(extent.b_low, center.z, center.y) + reach < zero) |
+           (reach < filter_fnma(extent.b_high, center.z, center.y));
+  } else {
+    return (center.x + reach < extent.a_low) | (Real(extent.a_high) + reach < center.x) |
+           (center.y + reach < extent.b_low) | (Real(extent.b_high) + reach < center.y);
+  }
+}
+
+/// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
+template <Common common, Seek seek>
+BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
+                             const BlockSpheres& spheres, std::size_t part, const Real& limit,
+                             Discs& discs) {
+  const BundleFrame& frame = rays.frame;
+  const Vec3<Wide> f = widen(spheres.centers(part)) - wide_all(frame.org);
+  const Vec3<Real> center{narrow(dot(f, wide_all(frame.u))), narrow(dot(f, wide_all(frame.v))),
+                          narrow(dot(f, wide_all(frame.w)))};
+  const Real r = abs(spheres.radii(part));
+  const Real f1 = abs(center.x) + abs(center.y) + abs(center.z);
+  const Real delta =
+      filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant));
+  const Real depth = filter_fnma(f1, factors.depth, center.z - factors.depth_shift);
+  const Real near = depth - r - rays.c_high;
+  // A line that meets the sphere is this near its centre.
+  const Real reach = (r + delta + delta) * factors.plane_length;
+  const RealMask judged = f1 < Real(filter::bundle_far);
+  const RealMask missed = judged & outside<common>(rays.extent, center, reach);
+  RealMask simple = judged & (r < Real(filter::bundle_far));
+  // Parallel rays may begin anywhere among the spheres: any hit then asks where.
+  if constexpr (common != Common::direction || seek == Seek::nearest)
+    simple = simple & (r + r + Real(rays.c_high) <= center.z);
+  if constexpr (common != Common::direction)
+    simple = simple & (Real(static_cast<float>(filter::floor)) <= center.z);  // for 1 / Z
+  const std::size_t at = part * width;
+  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
+  store(discs.x + at, center.x);
+  store(discs.y + at, center.y);
+  store(discs.z + at, center.z);
+  store(discs.radius + at, r);
+  store(discs.delta + at, delta);
+  store(discs.depth + at, depth);
+  simple = simple & ~missed & (near <= limit);
+  store(discs.near + at, select(simple, near, Real(static_cast<float>(no_hit))));
+  discs.simple |= bits(simple) << at;
+}
+
+/// Finds those that matter.
+template <Common common, Seek seek>
+BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
+                              const BlockSpheres& spheres, float limit, Discs& discs) {
+  discs.simple = discs.awkward = 0;
+  for (std::size_t part = 0; part < spheres.parts(); ++part)
+    place_part<common, seek>(rays, factors, spheres, part, limit, discs);
+  const unsigned there = spheres.there();
+  discs.simple &= there;
+  discs.awkward &= there;
+}
+
+/// The bounds of those that matter and are simple: see filter_bounds.h.
+template <Common common, Seek seek>
+BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Discs& discs) {
+  ExtentLanes all;
+  Real all_near(static_cast<float>(no_hit));
+  for (std::size_t at = 0; at < parts * width; at += width) {
+    const Real x = load(discs.x + at), y = load(discs.y + at), z = load(discs.z + at);
+    const Real r = load(discs.radius + at), delta = load(discs.delta + at);
+    const Real grown = Real(4.0F) * delta * (r + delta), square = r * r;
+    const Real g = filter_fma(square, factors.square, grown), squared = square + g;
+    const Real sure = g + g + grown, e1 = z - load(discs.depth + at);
+    store(discs.squared + at, squared);
+    store(discs.sure + at, sure);
+    store(discs.spread + at, filter_fma(e1, Real(filter::bundle_twice), sqrt(sure)));
+    // Where a group's extent may meet the disc: |a - X / Z| <= (r' + 2 delta) / Z.
+    const Real half = sqrt(squared) + delta + delta;
+    Real a = x, b = y, wide = half;
+    if constexpr (common != Common::direction) {
+      const Real inverse = Real(1.0F) / z;
+      a = x * inverse;
+      b = y * inverse;
+      wide = half * inverse;
+    }
+    store(discs.a_low + at, a - wide);
+    store(discs.a_high + at, a + wide);
+    store(discs.b_low + at, b - wide);
+    store(discs.b_high + at, b + wide);
+    if constexpr (seek == Seek::any) {
+      const Real near = load(discs.near + at);
+      const RealMask simple = near < Real(static_cast<float>(no_hit));
+      all.add(simple, {a - wide, b - wide}, {a + wide, b + wide});
+      all_near = filter_min(all_near, near);
+    }
+  }
+  if constexpr (seek == Seek::any) {
+    discs.all = all.total();
+    discs.all_near = least_lane(all_near);
+  }
+}
+
+/// Bits of the groups of which some ray may be within these extents, no farther than its group's
+/// limit.
+BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits, const Extent& e,
+                                  float least) {
+  const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high), near(least);
+  unsigned result = 0;
+  for (int at = 0; at < bundle_groups; at += width) {
+    const RealMask in = (a_low <= load(groups.a_high + at)) & (load(groups.a_low + at) <= a_high) &
+                        (b_low <= load(groups.b_high + at)) & (load(groups.b_low + at) <= b_high) &
+                        (near <= load(limits + at));
+    result |= bits(in) << at;
+  }
+  return result;
+}
+
+/// The same for disc k.
+BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits,
+                                  const Discs& discs, int k) {
+  return groups_near(groups, limits,
+                     {discs.a_low[k], discs.a_high[k], discs.b_low[k], discs.b_high[k]},
+                     discs.near[k]);
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,202 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/isa.h"
+#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/padded_stream.h"
+
+/// Rays that have something in common, as bundles take them.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// What a bundle's rays have in common. `end`: the point at t = 1; such rays are seen from there,
+/// backwards.
+enum class Common { origin, direction, end };
+
+/// What is asked for.
+enum class Seek { nearest, any };
+
+inline constexpr int bundle_size = 1024;
+
+BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
+  return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
+}
+BOULE_INLINE Vec3d origin_of(const RayStream& rays, std::size_t i) {
+  return {rays.org_x[i], rays.org_y[i], rays.org_z[i]};
+}
+BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
+BOULE_INLINE Real sum_abs_of(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+/// Bits as bytes, 0 or 1.
+BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
+  for (int at = 0; at < width; at += 8) {
+    // Eight copies, of which each keeps one bit; the sum's top bits tell which are not 0.
+    const std::uint64_t one_each = (bits >> at & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
+    const std::uint64_t ones = (one_each + 0x7f7f7f7f7f7f7f7fU) >> 7 & 0x0101010101010101U;
+    __builtin_memcpy(bytes + at, &ones, 8);
+  }
+}
+/// Whether W bytes are all 0.
+BOULE_INLINE bool all_zero(const std::uint8_t* bytes) {
+  std::uint64_t words[max_width / 8] = {0};
+  __builtin_memcpy(words, bytes, width);
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : words) any |= word;
+  return any == 0;
+}
+
+/// Whether W sources are all -1.
+BOULE_INLINE bool none_leaves(const std::int32_t* sources) {
+  std::uint64_t words[max_width / 2];
+  __builtin_memset(words, 0xff, sizeof words);
+  __builtin_memcpy(words, sources, width * sizeof *sources);
+  std::uint64_t both = ~std::uint64_t{0};
+  for (const std::uint64_t word : words) both &= word;
+  return both == ~std::uint64_t{0};
+}
+
+/// How W rays differ: by their directions, or, with one direction, by their origins less O.
+struct Sight {
+  Vec3<Real> sight;
+  Real shift;  ///< with a common end: how far from O the ray's is
+};
+
+/// What rays share, as one of them has it: O and, with one direction, that.
+template <Common common>
+class SharedByRays {
+ public:
+  SharedByRays(const RayStream& rays, std::size_t one)
+      : dir_(direction_of(rays, one)),
+        org_(common == Common::end ? origin_of(rays, one) + dir_ : origin_of(rays, one)) {}
+
+  [[nodiscard]] const Vec3d& org() const { return org_; }
+  [[nodiscard]] const Vec3d& dir() const { return dir_; }
+
+  BOULE_INLINE Sight sight(const PacketPlace& place) const {
+    const RayStream& rays = *place.rays;
+    if constexpr (common == Common::origin) {
+      return {load_direction(rays, place.first), Real(0.0F)};
+    } else if constexpr (common == Common::end) {
+      const Vec3<Real> dir = load_direction(rays, place.first);
+      const Vec3<Wide> end = load_origin(rays, place.first) + widen(dir);
+      return {dir, sum_abs_of(narrow(end - wide_all(org_)))};
+    } else {
+      return {narrow(load_origin(rays, place.first) - wide_all(org_)), Real(0.0F)};
+    }
+  }
+
+  /// Lanes whose rays may be in a bundle: what they must share they do, they live from t = 0 on
+  /// and, to seek the nearest hit, leave nothing.
+  template <Seek seek>
+  BOULE_INLINE RealMask belongs(const PacketPlace& place) const {
+    const RayStream& rays = *place.rays;
+    const std::size_t first = place.first;
+    const Real zero(0.0F), tmin = load(rays.tmin + first);
+    RealMask fresh = (tmin <= zero) & (zero <= tmin);
+    if constexpr (seek == Seek::nearest)
+      fresh = fresh & (Real(none_leaves(rays.source + first) ? 0.0F : 1.0F) <= zero);
+    if constexpr (common == Common::end) {
+      // `shift` tells the rest; what is behind the end is not seen.
+      return fresh & (load(rays.tmax + first) <= Real(1.0F));
+    } else if constexpr (common == Common::origin) {
+      const Vec3<Wide> org = load_origin(rays, first), same_org = wide_all(org_);
+      const WideMask same = (org.x == same_org.x) & (org.y == same_org.y) & (org.z == same_org.z);
+      return fresh & (bits(same) == all_lanes ? zero <= zero : zero < zero);
+    } else {
+      const Vec3<Real> dir = load_direction(rays, first), one = narrow_all(dir_);
+      return fresh & (dir.x <= one.x) & (one.x <= dir.x) & (dir.y <= one.y) & (one.y <= dir.y) &
+             (dir.z <= one.z) & (one.z <= dir.z);
+    }
+  }
+
+ private:
+  BOULE_INLINE static Vec3<Real> load_direction(const RayStream& rays, std::size_t first) {
+    return {load(rays.dir_x + first), load(rays.dir_y + first), load(rays.dir_z + first)};
+  }
+  BOULE_INLINE static Vec3<Wide> load_origin(const RayStream& rays, std::size_t first) {
+    return {load(rays.org_x + first), load(rays.org_y + first), load(rays.org_z + first)};
+  }
+
+  Vec3d dir_, org_;
+};
+
+/// Where a bundle's rays come from, asked packet by packet: here neighbours in a stream, in
+/// ray_pool.h those of a pool.
+template <Common common>
+class RaysInPlace {
+ public:
+  /// Rays first .. first + count - 1 of the stream, count at most bundle_size.
+  RaysInPlace(const PaddedStream& stream, std::size_t first, std::size_t count)
+      : stream_(stream),
+        first_(first),
+        count_(static_cast<int>(count)),
+        shared_(stream.rays(), first + count * 3 / 4) {}
+
+  [[nodiscard]] std::size_t first() const { return first_; }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] const Vec3d& org() const { return shared_.org(); }
+  [[nodiscard]] const Vec3d& dir() const { return shared_.dir(); }
+
+  /// Of ray i alone.
+  BOULE_INLINE Vec3d one_sight(int i) const {
+    const std::size_t at = first_ + static_cast<std::size_t>(i);
+    return common == Common::direction ? origin_of(stream_.rays(), at) - shared_.org()
+                                       : direction_of(stream_.rays(), at);
+  }
+  /// Of W rays.
+  BOULE_INLINE Sight sight(int ray) const { return shared_.sight(packet(ray)); }
+  template <Seek seek>
+  BOULE_INLINE RealMask belongs(int ray) const {
+    return shared_.template belongs<seek>(packet(ray));
+  }
+  BOULE_INLINE Real tmax(int ray) const {
+    const PacketPlace place = packet(ray);
+    return load(place.rays->tmax + place.first);
+  }
+  /// The ids that W rays leave, or -1.
+  BOULE_INLINE const std::int32_t* sources(int ray) const {
+    const PacketPlace place = packet(ray);
+    return place.rays->source + place.first;
+  }
+  /// Which of them leave it on its inside.
+  BOULE_INLINE const std::uint8_t* insides(int ray) const {
+    const PacketPlace place = packet(ray);
+    return place.rays->inside + place.first;
+  }
+  /// All there is to know of those that `wanted` names, until the next call.
+  BOULE_INLINE PacketPlace packet(int ray, unsigned /*wanted*/ = all_lanes) const {
+    return stream_.packet(first_ + static_cast<std::size_t>(ray));
+  }
+  /// Writes which of them met something to an array for the stream.
+  BOULE_INLINE void answer(int ray, unsigned met, std::uint8_t* answers) const {
+    std::uint8_t bytes[max_width];
+    bytes_of(met, bytes);
+    const std::size_t first = first_ + static_cast<std::size_t>(ray);
+    if (live(ray) == width) {
+      __builtin_memcpy(answers + first, bytes, width);
+    } else {
+      for (std::size_t lane = 0; lane < stream_.live(first); ++lane)
+        answers[first + lane] = bytes[lane];
+    }
+  }
+  /// How many of them are no copies.
+  BOULE_INLINE int live(int ray) const {
+    return static_cast<int>(stream_.live(first_ + static_cast<std::size_t>(ray)));
+  }
+  /// Of the next bundle.
+  BOULE_INLINE void prefetch_next(int ray) const {
+    prefetch_packet(stream_.rays(), first_ + static_cast<std::size_t>(ray + bundle_size));
+  }
+
+ private:
+  const PaddedStream& stream_;
+  std::size_t first_;
+  int count_;
+  SharedByRays<common> shared_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

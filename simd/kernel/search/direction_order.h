@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/isa.h"
+#include "simd/kernel/search/bundle_rays.h"
+
+/// Neighbours in the picture may be far apart as a light sees them, and others close together: a
+/// pool of rays is sorted by where they are for the light. Only the time depends on the order, so
+/// plain floats do.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Rays that are sorted together.
+inline constexpr std::size_t pool_size = 65536;
+
+/// Where rays are on a square that the light sees.
+template <Common common>
+class LightView {
+ public:
+  /// Rays begin .. end - 1.
+  LightView(const RayStream& rays, std::size_t begin, std::size_t end) {
+    Vec3d forward{0, 0, 0};
+    const std::size_t step = (end - begin + 31) / 32;
+    for (std::size_t i = begin; i < end; i += step)
+      forward = forward + scaled_to_unit(direction_of(rays, i));
+    const BundleFrame frame = make_frame({0, 0, 0}, forward, {1, 0, 0});
+    u_ = narrow_all(frame.u);
+    v_ = narrow_all(frame.v);
+    w_ = narrow_all(frame.w);
+  }
+
+  struct Place {
+    Real x, y;
+  };
+  BOULE_INLINE Place place(const Vec3<Real>& sight) const {
+    const Real x = filter_dot(sight, u_), y = filter_dot(sight, v_);
+    if constexpr (common == Common::direction) {
+      return {x, y};
+    } else {
+      // All directions on an octahedron, unfolded around W (Meyer and others, "On floating-point
+      // normal vectors", 2010).
+      const Real zero(0.0F), one(1.0F), z = filter_dot(sight, w_);
+      const Real inverse = one / (abs(x) + abs(y) + abs(z));
+      const Real p = x * inverse, q = y * inverse;
+      const Real far_p = select(p < zero, abs(q) - one, one - abs(q));
+      const Real far_q = select(q < zero, abs(p) - one, one - abs(p));
+      const RealMask behind = z < zero;
+      return {select(behind, far_p, p), select(behind, far_q, q)};
+    }
+  }
+
+ private:
+  Vec3<Real> u_{Real(0.0F), Real(0.0F), Real(0.0F)}, v_ = u_, w_ = u_;
+};
+
+/// A square grid on what the light sees, its cells along a Morton curve.
+class LightGrid {
+ public:
+  static constexpr unsigned most_cells = 4096;
+
+  /// Fits one to where some of `size` rays are; the others are cut to it.
+  LightGrid(const Extent& some, std::size_t size)
+      : x_low_(some.a_low),
+        y_low_(some.b_low),
+        side_(size < 1024   ? 16
+              : size < 4096 ? 32
+                            : 64) {
+    const float x_size = some.a_high - some.a_low, y_size = some.b_high - some.b_low;
+    const float larger = x_size > y_size ? x_size : y_size;
+    scale_ = larger > 0 ? static_cast<float>(side_) / larger : 0.0F;
+  }
+
+  [[nodiscard]] unsigned cells() const { return static_cast<unsigned>(side_ * side_); }
+
+  /// The cells of W rays.
+  template <class Place>
+  BOULE_INLINE void find_cells(const Place& place, std::uint16_t* cell) const {
+    alignas(64) float x[width], y[width];
+    store(x, cut_to_cells((place.x - x_low_) * scale_, side_ - 1));
+    store(y, cut_to_cells((place.y - y_low_) * scale_, side_ - 1));
+    for (int lane = 0; lane < width; ++lane) cell[lane] = curve_position(x[lane], y[lane]);
+  }
+
+ private:
+  /// The bits of x and y, of which there are six, in turn.
+  BOULE_INLINE static std::uint16_t curve_position(float x, float y) {
+    unsigned both = static_cast<unsigned>(static_cast<int>(x)) |
+                    static_cast<unsigned>(static_cast<int>(y)) << 16;
+    both = (both | both << 4) & 0x030f030fU;
+    both = (both | both << 2) & 0x03330333U;
+    both = (both | both << 1) & 0x05550555U;
+    return static_cast<std::uint16_t>((both | both >> 15) & 0xfffU);
+  }
+
+  Real x_low_, y_low_, scale_{0.0F};
+  int side_;  ///< in cells: a power of two
+};
+
+/// A counting sort of rays by their cells.
+class CellSort {
+ public:
+  explicit CellSort(unsigned cells) : cells_(cells) {
+    for (unsigned c = 0; c < cells; ++c) next_[c] = 0;
+  }
+  /// To be told of every ray once.
+  BOULE_INLINE void count(std::uint16_t cell) { ++next_[cell]; }
+  /// Then: the order of the rays that have these cells.
+  void find_order(const std::uint16_t* cell, std::size_t size, std::uint16_t* order) {
+    unsigned before = 0;
+    for (unsigned c = 0; c < cells_; ++c) {
+      const unsigned count = next_[c];
+      next_[c] = before;
+      before += count;
+    }
+    for (std::size_t i = 0; i < size; ++i) order[next_[cell[i]]++] = static_cast<std::uint16_t>(i);
+  }
+
+ private:
+  static_assert(pool_size <= 65536 && LightGrid::most_cells <= 65536);
+  unsigned cells_;
+  unsigned next_[LightGrid::most_cells];
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

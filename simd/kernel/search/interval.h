@@ -1,0 +1,103 @@
+#pragma once
+
+#include <limits>
+
+#include "simd/kernel/search/quadratic.h"
+
+/// What float knows for certain of a sphere that survived the reject: where its roots lie. Most
+/// survivors need no double solve then: another sphere is certainly nearer.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Bounds of both roots as distances t |dir|, outward by filter_bounds.h. NaN where float cannot
+/// tell: every comparison with it is false, so nothing follows from it.
+struct RootBounds {
+  Real first_low, first_high, second_low, second_high;
+  RealMask certain;  ///< the line meets the sphere: all four bounds hold
+  RealMask misses;   ///< it does not
+};
+
+/// Bound of the error of b and l (filter_bounds.h) of a sphere that may be hit.
+BOULE_INLINE Real root_spread(const FilterRays& rays, const Real& b, const Real& r) {
+  constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
+  return filter_fma(abs(b) + (r + r), Real(unit_spread), rays.origin_error);
+}
+
+/// Less than either root: what can be said without roots. sqrt(r^2 + doubt) is no more than r + 2
+/// spread, for spread is at least 14 u r.
+BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
+                               const Real& signed_radius) {
+  const Real b = filter_dot(center - rays.org, rays.unit), r = abs(signed_radius);
+  return b - r - Real(4.0F) * root_spread(rays, b, r);
+}
+
+/// How lines and spheres lie to each other: what their roots follow from.
+struct Approach {
+  Real along;         ///< b, where the line is nearest to the centre
+  Real discriminant;  ///< of the roots; off by less than `doubt`
+  Real spread;        ///< bound of the error of b and l
+  Real doubt;
+};
+
+BOULE_INLINE Approach find_approach(const FilterRays& rays, const Vec3<Real>& center,
+                                    const Real& signed_radius) {
+  constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
+  const Vec3<Real> f = center - rays.org;
+  const Real b = filter_dot(f, rays.unit), r = abs(signed_radius);
+  const Vec3<Real> l{filter_fnma(b, rays.unit.x, f.x), filter_fnma(b, rays.unit.y, f.y),
+                     filter_fnma(b, rays.unit.z, f.z)};
+  const Real square = r * r, spread = root_spread(rays, b, r);
+  const Real discriminant =
+      filter_fnma(l.z, l.z, filter_fnma(l.y, l.y, filter_fnma(l.x, l.x, square)));
+  const Real width_doubt = spread * filter_fma(spread, Real(3.0F), r + r);
+  return {b, discriminant, spread, filter_fma(square, Real(unit_spread), width_doubt)};
+}
+
+/// Lanes that may have a root between 0 and `reach`, by less than roots: see before_roots().
+BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radius,
+                               const Real& reach) {
+  const auto& [b, discriminant, spread, doubt] = approach;
+  const Real most = filter_fma(Real(4.0F), spread, abs(signed_radius));
+  return (Real(0.0F) <= discriminant + doubt) & (Real(0.0F) <= b + most) & (b - most <= reach);
+}
+
+BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
+  const auto& [b, discriminant, spread, doubt] = approach;
+  RootBounds bounds;
+  const Real largest(std::numeric_limits<float>::max());
+  bounds.certain = doubt < discriminant;
+  // Beyond filter::limit l.l may overflow: nothing follows from infinity.
+  bounds.misses = (Real(0.0F) - largest <= discriminant) & (discriminant + doubt < Real(0.0F));
+  const Real least = sqrt(discriminant - doubt), most = sqrt(discriminant + doubt);
+  bounds.first_low = b - spread - most;
+  bounds.first_high = b + spread - least;
+  bounds.second_low = b - spread + least;
+  bounds.second_high = b + spread + most;
+  return bounds;
+}
+
+/// Lower bound of the root that could be the hit.
+BOULE_INLINE Real lowest(const RootBounds& roots, const FilterRays& rays) {
+  return select(roots.first_high < rays.dead_below, roots.second_low, roots.first_low);
+}
+
+/// Lanes without a live root.
+BOULE_INLINE RealMask dead(const RootBounds& roots, const FilterRays& rays) {
+  return roots.misses | (roots.second_high < rays.dead_below);
+}
+
+/// Upper bound of the first live root, or inf: nothing live lies beyond it that could be nearer.
+BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
+  const Real none(static_cast<float>(no_hit));
+  const Real second = select(rays.live_from < roots.second_low, roots.second_high, none);
+  const Real first = select(rays.live_from < roots.first_low, roots.first_high, second);
+  return select(roots.certain, first, none);
+}
+
+/// Lanes with a root that is live for certain.
+BOULE_INLINE RealMask live(const RootBounds& roots, const FilterRays& rays) {
+  const RealMask first = (rays.live_from < roots.first_low) & (roots.first_high <= rays.live_to);
+  const RealMask second = (rays.live_from < roots.second_low) & (roots.second_high <= rays.live_to);
+  return roots.certain & (first | second);
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

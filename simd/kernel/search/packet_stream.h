@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/isa.h"
+#include "simd/kernel/search/padded_stream.h"
+#include "simd/kernel/search/traverse.h"
+
+/// Streams of rays that have nothing in common: packet by packet, or ray by ray.
+namespace boule::BOULE_KERNEL_ISA {
+
+inline constexpr auto lanes = static_cast<std::size_t>(width);
+
+/// Rays of a stream's end that fill half a packet or less go one by one.
+BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
+  if (form == Form::automatic) return remaining <= lanes / 2;
+  return form == Form::single;
+}
+
+/// Calls packet(rays, first, live lanes) and single(rays, index) so as to cover rays begin .. end,
+/// `begin` a multiple of W.
+template <class Packet, class Single>
+BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end,
+                                 Form form, const Packet& packet, const Single& single) {
+  RayLanes rays;
+  std::size_t first = begin;
+  while (first < end) {
+    if (goes_single(form, end - first)) {
+      load_single(stream.rays(), first, rays);
+      single(rays, first);
+      ++first;
+    } else {
+      const PacketPlace place = stream.packet(first);
+      prefetch_packet(stream.rays(), first + prefetch_distance);
+      load_packet(*place.rays, place.first, rays);
+      packet(rays, first, stream.live(first));
+      first += lanes;
+    }
+  }
+}
+
+BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, std::size_t first,
+                               std::size_t live) {
+  alignas(64) double t[lanes], id[lanes];
+  store(t, best.t);
+  store(id, best.id);
+  for (std::size_t lane = 0; lane < live; ++lane) {
+    hits.t[first + lane] = t[lane];
+    hits.id[first + lane] = static_cast<std::int32_t>(id[lane]);
+  }
+}
+
+/// One ray's hit is the nearest over the lanes; equal t: the lower id.
+BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
+  alignas(64) double t[lanes], id[lanes];
+  store(t, best.t);
+  store(id, best.id);
+  std::size_t nearest = 0;
+  for (std::size_t lane = 1; lane < lanes; ++lane) {
+    const bool tie = t[lane] == t[nearest] && id[lane] < id[nearest];
+    if (t[lane] < t[nearest] || tie) nearest = lane;
+  }
+  hits.t[index] = t[nearest];
+  hits.id[index] = static_cast<std::int32_t>(id[nearest]);
+}
+
+/// Returns the visits of all groups.
+template <Solver solver>
+BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+                                        std::size_t begin, std::size_t end, Form form,
+                                        const HitStream& hits) {
+  std::size_t visits = 0;
+  for_each_group(
+      stream, begin, end, form,
+      [&](const RayLanes& packet, std::size_t first, std::size_t live) {
+        ClosestHit best(packet);
+        visits += search<solver, OneForAll>(packet, geometry, best);
+        store_packet(best, hits, first, live);
+      },
+      [&](const RayLanes& ray, std::size_t index) {
+        ClosestHit best(ray);
+        visits += search<solver, OnePerLane>(ray, geometry, best);
+        store_single(best, hits, index);
+      });
+  return visits;
+}
+
+template <Solver solver>
+BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+                                        std::size_t begin, std::size_t end, Form form,
+                                        std::uint8_t* occluded) {
+  std::size_t visits = 0;
+  for_each_group(
+      stream, begin, end, form,
+      [&](const RayLanes& packet, std::size_t first, std::size_t live) {
+        AnyHit<false> best(packet);
+        visits += search<solver, OneForAll>(packet, geometry, best);
+        for (std::size_t lane = 0; lane < live; ++lane) {
+          occluded[first + lane] = static_cast<std::uint8_t>((best.hit >> lane) & 1U);
+        }
+      },
+      [&](const RayLanes& ray, std::size_t index) {
+        AnyHit<true> best(ray);
+        visits += search<solver, OnePerLane>(ray, geometry, best);
+        occluded[index] = best.hit != 0 ? 1 : 0;
+      });
+  return visits;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

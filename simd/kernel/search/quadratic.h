@@ -1,0 +1,99 @@
+#pragma once
+
+#include "simd/kernel/search/packet.h"
+
+/// Ray against sphere, lane by lane: the conservative reject and the two solvers behind it.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Spheres in lanes: one for a whole packet, or W for a single ray.
+struct SphereLanes {
+  Vec3<Real> center;
+  Real radius;
+  Wide id;
+};
+
+/// Lanes that certainly miss (filter_bounds.h). `origins_exact` is FilterRays::origins_exact: else
+/// the sphere grows by the origin's rounding error.
+template <bool origins_exact>
+BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
+                               const Real& reject_squared, const Real& reject_radius) {
+  const Vec3<Real> f = center - rays.org;
+  const Real b = filter_dot(f, rays.h);
+  Real r2p = reject_squared;
+  if constexpr (!origins_exact) {
+    const Real grown = reject_radius + rays.origin_error;
+    r2p = grown * grown;
+  }
+  const Real rest = filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, r2p)));
+  return filter_fma(b, b, rest) < Real(0.0F);
+}
+
+/// The same for a sphere of which nothing was computed before.
+template <bool origins_exact>
+BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Real>& center,
+                                           const Real& radius) {
+  const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u));
+  const Real squared =
+      filter_fma(radius * radius, outward, Real(static_cast<float>(2 * filter::squared_floor)));
+  const Real grown = abs(radius) * outward + Real(static_cast<float>(2 * filter::floor));
+  return rejected<origins_exact>(rays, center, squared, grown);
+}
+
+/// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.
+BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
+  const Vec3<Wide> f = widen(sphere.center) - rays.org;
+  const Wide r = widen(sphere.radius);
+  const Wide b = dot(f, rays.dir);
+  const Vec3<Wide> l = f - rays.dir * (b * rays.inverse_a);
+  const Wide discriminant = r * r - dot(l, l);
+
+  const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
+  const Wide from_a = q * rays.inverse_a;
+  // A tangent has one root twice. (And cc / q could be noise over noise.)
+  const WideMask secant = Wide(0.0) < discriminant;
+  const Wide from_cc = select(secant, (dot(f, f) - r * r) / q, from_a);
+
+  const WideMask ordered = from_cc < from_a;
+  Roots roots =
+      first_in_range(select(ordered, from_cc, from_a), select(ordered, from_a, from_cc), rays);
+  roots.hit = roots.hit & (Wide(0.0) <= discriminant);
+
+  if (rays.has_source) {
+    // On its own sphere cc = 0: no root outside, the far one, 2b / a, from the inside.
+    const WideMask leaves = rays.source == sphere.id;
+    const Wide across = (b + b) * rays.inverse_a;
+    const WideMask is_sphere = r == r;  // padding is not
+    const WideMask again = rays.inside & is_sphere & in_range(across, rays);
+    roots.t = select(leaves, across, roots.t);
+    roots.hit = (leaves & again) | (~leaves & roots.hit);
+  }
+  return roots;
+}
+
+/// Solver fast: closest approach in float along the unit direction. Wrong decisions only within
+/// 3u max(F, r) of the rim, for sizes from 1e-18 to filter::limit: beyond it spheres are missed.
+BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
+  const FilterRays& filter = rays.filter;
+  const Vec3<Real> f = sphere.center - filter.org;
+  const Vec3<Real>& h = filter.unit;
+  const Real b = filter_dot(f, h);
+  const Vec3<Real> l{filter_fnma(b, h.x, f.x), filter_fnma(b, h.y, f.y), filter_fnma(b, h.z, f.z)};
+  const Real discriminant = filter_fma(sphere.radius, sphere.radius, Real(0.0F) - filter_dot(l, l));
+  const Real half_chord = sqrt(discriminant);
+  const Wide first = widen((b - half_chord) * filter.inverse_length);
+  const Wide second = widen((b + half_chord) * filter.inverse_length);
+  Roots roots = first_in_range(first, second, rays.exact);
+  roots.hit = roots.hit & widen(Real(0.0F) <= discriminant);
+
+  if (rays.exact.has_source) {
+    const WideMask leaves = rays.exact.source == sphere.id;
+    const Wide across = widen((b + b) * filter.inverse_length);
+    const WideMask is_sphere = widen(sphere.radius <= sphere.radius);
+    const WideMask again = rays.exact.inside & is_sphere & in_range(across, rays.exact);
+    roots.t = select(leaves, across, roots.t);
+    roots.hit = (leaves & again) | (~leaves & roots.hit);
+  }
+  return roots;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

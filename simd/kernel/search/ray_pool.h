@@ -1,0 +1,187 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/isa.h"
+#include "simd/kernel/search/bundle_rays.h"
+#include "simd/kernel/search/bundle_source.h"
+#include "simd/kernel/search/direction_order.h"
+
+/// Pools of shadow rays, sorted for their light, and the bundles that come from them.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Rays of a stream in an order of their own. What a bundle needs of one is kept in one place:
+/// sorted, neighbours are no longer side by side in memory.
+template <Common common>
+class RayPool {
+ public:
+  /// Rays begin .. end - 1 of the stream, at most pool_size; `begin` is a multiple of W.
+  RayPool(const PaddedStream& stream, std::size_t begin, std::size_t end)
+      : stream_(stream), begin_(begin), size_(end - begin), shared_(stream.rays(), begin) {
+    sort();
+  }
+  RayPool(const RayPool&) = delete;
+  RayPool& operator=(const RayPool&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const RayStream& stream() const { return stream_.rays(); }
+  [[nodiscard]] const SharedByRays<common>& shared() const { return shared_; }
+  /// Whether all rays share what they must.
+  [[nodiscard]] bool all_belong() const { return all_belong_; }
+  /// Whether any leaves a sphere on its inside.
+  [[nodiscard]] bool any_inside() const { return any_inside_; }
+  /// The greatest of Sight.
+  [[nodiscard]] float shift() const { return shift_; }
+  [[nodiscard]] std::size_t begin() const { return begin_; }
+  /// Which rays from begin() on come one after the other; the last one more often, up to a packet.
+  [[nodiscard]] const std::uint16_t* order() const { return order_; }
+  /// The ray of the stream that comes k-th.
+  [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
+  /// x, y and z of its sight and tmax, of the i-th ray from begin() on.
+  [[nodiscard]] const float* ray(std::size_t i) const { return rays_ + 4 * i; }
+
+ private:
+  static constexpr std::size_t chunk = 128;
+
+  struct PoolSums {
+    RealMask belong = Real(0.0F) <= Real(0.0F);
+    bool inside = false;
+    Real shift{0.0F};
+  };
+  BOULE_NOINLINE void sort() {
+    const RayStream& rays = stream_.rays();
+    const LightView<common> view(rays, begin_, begin_ + size_);
+    const LightGrid grid = fit_grid(view);
+    CellSort cells(grid.cells());
+    PoolSums sums;
+    for (std::size_t at = 0; at < size_; at += chunk) {
+      const std::size_t end = size_ - at < chunk ? size_ : at + chunk;
+      alignas(64) float x[chunk], y[chunk], z[chunk];
+      for (std::size_t i = at; i < end; i += width) {
+        const Vec3<Real> sight = enter(i, sums);
+        store(x + (i - at), sight.x);
+        store(y + (i - at), sight.y);
+        store(z + (i - at), sight.z);
+      }
+      for (std::size_t i = 0; i < end - at; i += width)
+        grid.find_cells(view.place({load(x + i), load(y + i), load(z + i)}), cell_ + at + i);
+      for (std::size_t i = at; i < end; ++i) cells.count(cell_[i]);
+    }
+    all_belong_ = all(sums.belong);
+    any_inside_ = sums.inside;
+    shift_ = greatest_lane(sums.shift);
+    cells.find_order(cell_, size_, order_);
+    for (std::size_t k = size_; k % width != 0; ++k) order_[k] = order_[size_ - 1];
+  }
+
+  /// Notes what will be asked of W rays.
+  BOULE_INLINE Vec3<Real> enter(std::size_t i, PoolSums& sums) {
+    const PacketPlace packet = stream_.packet(begin_ + i);
+    prefetch_packet(stream_.rays(), begin_ + i + chunk);
+    const Sight s = shared_.sight(packet);
+    sums.belong = sums.belong & shared_.template belongs<Seek::any>(packet) & (s.shift <= s.shift);
+    sums.inside = sums.inside || !all_zero(packet.rays->inside + packet.first);
+    sums.shift = filter_max(sums.shift, s.shift);
+    const Real tmax = load(packet.rays->tmax + packet.first);
+    store_rows(rays_ + 4 * i, {s.sight.x, s.sight.y, s.sight.z, tmax});
+    return s.sight;
+  }
+
+  LightGrid fit_grid(const LightView<common>& view) const {
+    constexpr std::size_t step = 128;
+    ExtentLanes some;
+    for (std::size_t at = 0; at < size_; at += step) {
+      const auto place = view.place(shared_.sight(stream_.packet(begin_ + at)).sight);
+      some.add(place.x, place.y);
+    }
+    return {some.total(), size_};
+  }
+
+  const PaddedStream& stream_;
+  std::size_t begin_, size_;
+  SharedByRays<common> shared_;
+  bool all_belong_ = false, any_inside_ = false;
+  float shift_ = 0;
+  alignas(64) float rays_[4 * (pool_size + max_width)];
+  std::uint16_t order_[pool_size + max_width];
+  std::uint16_t cell_[pool_size + max_width];
+};
+
+/// Neighbours in a sorted pool, all of which share what they must: a source as RaysInPlace is one.
+template <Common common>
+class RaysOfPool {
+ public:
+  /// The first-th ray of the pool and its successors, count at most bundle_size.
+  RaysOfPool(const RayPool<common>& pool, std::size_t first, int count)
+      : pool_(pool), first_(first), count_(count), packet_view_(packet_.view(width)) {
+    const std::int32_t* const sources = pool.stream().source + pool.begin();
+    const std::uint8_t* const insides = pool.stream().inside + pool.begin();
+    const std::uint16_t* const order = pool.order() + first;
+    const int padded = (count + width - 1) / width * width;
+    for (int at = 0; at < padded; at += width) {
+      const float* rows[width];
+      for (int lane = 0; lane < width; ++lane) rows[lane] = pool.ray(order[at + lane]);
+      const Columns c = load_rows(rows);
+      store(x_ + at, c.x);
+      store(y_ + at, c.y);
+      store(z_ + at, c.z);
+      store(tmax_ + at, c.w);
+    }
+    for (int i = 0; i < padded; ++i) source_[i] = sources[order[i]];
+    if (!pool.any_inside()) return;
+    for (int i = 0; i < padded; ++i) inside_[i] = insides[order[i]];
+  }
+  RaysOfPool(const RaysOfPool&) = delete;
+  RaysOfPool& operator=(const RaysOfPool&) = delete;
+
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] const Vec3d& org() const { return pool_.shared().org(); }
+  [[nodiscard]] const Vec3d& dir() const { return pool_.shared().dir(); }
+
+  BOULE_INLINE Vec3d one_sight(int i) const {
+    return {double{x_[i]}, double{y_[i]}, double{z_[i]}};
+  }
+  BOULE_INLINE Sight sight(int ray) const {
+    return {{load(x_ + ray), load(y_ + ray), load(z_ + ray)}, Real(pool_.shift())};
+  }
+  template <Seek seek>
+  BOULE_INLINE RealMask belongs(int /*ray*/) const {
+    return Real(0.0F) <= Real(0.0F);
+  }
+  BOULE_INLINE Real tmax(int ray) const { return load(tmax_ + ray); }
+  BOULE_INLINE const std::int32_t* sources(int ray) const { return source_ + ray; }
+  BOULE_INLINE const std::uint8_t* insides(int ray) const {
+    static constexpr std::uint8_t none[width] = {};
+    return pool_.any_inside() ? inside_ + ray : none;
+  }
+  BOULE_NOINLINE PacketPlace packet(int ray, unsigned wanted) const {
+    for (unsigned left = wanted; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      packet_.set(static_cast<std::size_t>(lane), pool_.stream(),
+                  pool_.index(first_ + static_cast<std::size_t>(ray + lane)));
+    }
+    return {&packet_view_, 0};
+  }
+  BOULE_INLINE void answer(int ray, unsigned met, std::uint8_t* answers) const {
+    const int end = live(ray);
+    for (int lane = 0; lane < end; ++lane)
+      answers[pool_.index(first_ + static_cast<std::size_t>(ray + lane))] =
+          static_cast<std::uint8_t>((met >> lane) & 1U);
+  }
+  BOULE_INLINE int live(int ray) const { return count_ - ray < width ? count_ - ray : width; }
+  BOULE_INLINE void prefetch_next(int /*ray*/) const {}
+
+ private:
+  const RayPool<common>& pool_;
+  std::size_t first_;
+  int count_;
+  alignas(64) float x_[bundle_size], y_[bundle_size], z_[bundle_size], tmax_[bundle_size];
+  alignas(64) std::int32_t source_[bundle_size];
+  alignas(64) std::uint8_t inside_[bundle_size];
+  mutable GatheredRays<width> packet_{};  ///< lanes never asked for hold anything
+  RayStream packet_view_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,264 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+#include "simd/abi/bvh.h"
+#include "simd/kernel/search/beam.h"
+#include "simd/kernel/search/scan.h"
+#include "simd/kernel/search/slabs.h"
+
+/// Spheres in a tree. Boxes are filters like the reject: what they turn away is missed for certain,
+/// whatever order they are visited in, so the answer is the scan's.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Where the nodes and leaves of a tree are. No branch: whether a child is a leaf cannot be
+/// foretold.
+class TreeBlocks {
+ public:
+  BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
+      : first_{as_bytes(geometry.bvh.nodes),
+               as_bytes(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size)},
+        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)},
+        is_far_(geometry.spheres.block_count > near_blocks) {}
+
+  /// Whether the tree is larger than the caches near by.
+  [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
+  /// The node or the leaf that a child is. Asks for what its visit will read, unless the tree is
+  /// small enough for a cache near by.
+  BOULE_INLINE const void* fetch(std::uint32_t child) const {
+    const std::size_t leaf = child >> 31, place = place_of(child);
+    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
+    const char* const block = first_[leaf] + (place << (9 - leaf));
+    if (!is_far_) return block;
+    prefetch(block);
+    prefetch(block + (256 - 256 * leaf));
+    static_assert(bvh_leaf_size * sizeof(std::int32_t) == 64);
+    __builtin_prefetch(ids_[leaf] + (place << (9 - 3 * leaf)));
+    return block;
+  }
+
+ private:
+  /// Leaves, with their part of the nodes 400 bytes each, of a quarter of a MiB.
+  static constexpr std::size_t near_blocks = 640;
+
+  template <class T>
+  BOULE_INLINE static const char* as_bytes(const T* p) {
+    return reinterpret_cast<const char*>(p);
+  }
+  /// 256 bytes.
+  BOULE_INLINE static void prefetch(const char* begin) {
+    __builtin_prefetch(begin);
+    __builtin_prefetch(begin + 64);
+    __builtin_prefetch(begin + 128);
+    __builtin_prefetch(begin + 192);
+  }
+
+  const char* first_[2];  ///< the first node, and the first leaf
+  const char* ids_[2];    ///< the first leaf's ids; a node has none, and asks for itself once more
+  bool is_far_;           ///< what is fetched has some way to go
+};
+
+/// A child to visit: where the first ray enters it.
+struct Visit {
+  float near;
+  std::uint32_t child;
+  std::uint32_t leaf_size;
+};
+
+/// Children that are to be visited, nearest on top.
+class VisitStack {
+ public:
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  Visit pop() { return visits_[--count_]; }
+  /// Keeps what one node adds sorted; `base` is the count before its first child.
+  void push(const Visit& visit, int base) {
+    int place = count_++;
+    for (; place > base && visits_[place - 1].near < visit.near; --place)
+      visits_[place] = visits_[place - 1];
+    visits_[place] = visit;
+  }
+  /// Where any order will do. No branch: whether it is pushed cannot be foretold.
+  void push_if(bool really, const Visit& visit) {
+    visits_[count_] = visit;
+    count_ += really ? 1 : 0;
+  }
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  Visit visits_[bvh_max_depth * (bvh_width - 1) + 2];  ///< one for what is not really pushed
+  int count_ = 0;
+};
+
+/// Where the first ray enters a box, of those that are not out; -inf if one cannot tell.
+BOULE_INLINE float first_entry(const Entry& entry) {
+  const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
+  const Real near = select(entry.near <= entry.near, entry.near, unknown);
+  return least_lane(select(entry.out, never, near));
+}
+
+/// A packet on its way through a tree; `ordered`: the nearest child comes first.
+template <bool ordered>
+class PacketWalk {
+ public:
+  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
+
+  /// The children of a node that some ray enters. `farthest`: the farthest limit.
+  BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float farthest,
+                                   VisitStack& stack) const {
+    const int base = stack.count();
+    alignas(64) float near[bvh_width];
+    unsigned in = (1U << node.size) - 1;
+    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
+    if (beam_.is_straight()) {
+      const Beam::Rows rows = beam_.rows_of(node);
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        const Entry entry =
+            enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
+                          {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit);
+        push(node, k, entry, near + k, base, stack);
+      }
+    } else {
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
+                        {node.max_x[k], node.max_y[k], node.max_z[k]}};
+        const Entry entry = enter_boxes(box_rays_, box, limit);
+        push(node, k, entry, nullptr, base, stack);
+      }
+    }
+  }
+
+  /// The spheres of a leaf that float does not rule out for every ray.
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
+                                   float farthest, Survivors<bvh_leaf_size>& survivors) const {
+    if (!beam_.is_beam()) {
+      boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, size, survivors);
+      return;
+    }
+    unsigned in = beam_.meet(leaf.leaf, farthest) & ((1U << size) - 1);
+    for (; in != 0; in &= in - 1) {
+      const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
+      survivors.append(step, leaf.template out<origins_exact>(rays_, step));
+    }
+  }
+
+ private:
+  /// Unless all rays are out. `near`: where the beam enters, if that is known.
+  BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
+                                int base, VisitStack& stack) {
+    const bool in = bits(entry.out) != all_lanes;
+    Visit visit{-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]};
+    if constexpr (!ordered) {
+      stack.push_if(in, visit);
+    } else if (in) {
+      visit.near = near != nullptr ? *near : first_entry(entry);
+      stack.push(visit, base);
+    }
+  }
+
+  const FilterRays& rays_;
+  BoxRays box_rays_;
+  Beam beam_;
+};
+
+/// One ray, the same in every lane.
+class SingleWalk {
+ public:
+  BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter), box_rays_(rays, extent) {}
+
+  BOULE_INLINE void visit_children(const BvhNode& node, const Real&, float limit,
+                                   VisitStack& stack) const {
+    const int base = stack.count();
+    for (int first = 0; first < node.size; first += width) {
+      const auto get = [&](const float* row) { return load(row + first); };
+      const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
+                        {get(node.max_x), get(node.max_y), get(node.max_z)}};
+      const Entry entry = enter_boxes(box_rays_, boxes, Real(limit));
+      alignas(64) float near[width];
+      store(near, entry.near);
+      const unsigned there = (1U << (node.size - first < width ? node.size - first : width)) - 1;
+      for (unsigned in = there & ~bits(entry.out); in != 0; in &= in - 1) {
+        const int lane = std::countr_zero(in), k = first + lane;
+        const float at = near[lane] == near[lane] ? near[lane] : -static_cast<float>(no_hit);
+        stack.push({at, node.child[k], node.leaf_size[k]}, base);
+      }
+    }
+  }
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, std::uint32_t size, float,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, OnePerLane::steps(size),
+                                                           survivors);
+  }
+
+ private:
+  const FilterRays& rays_;
+  BoxRays box_rays_;
+};
+
+/// Nothing beyond this is of interest: of W rays the farthest limit, of one ray, which all lanes
+/// search for, the nearest. inf where that is not known.
+template <class Access>
+BOULE_INLINE float limit_of_all(const Real& limit) {
+  if (bits(limit <= limit) != all_lanes) return static_cast<float>(no_hit);
+  return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
+}
+
+/// Returns how many nodes and leaves were visited.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
+                                          Best& best) {
+  if (geometry.bvh.size == 0) return 0;
+  std::size_t visits = 0;
+  const std::conditional_t<Access::one_ray, SingleWalk, PacketWalk<Best::ordered>> walk(
+      rays, geometry.bvh.extent);
+  VisitStack stack;
+  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  float limit = limit_of_all<Access>(best.limit());
+  while (!stack.empty() && !best.done()) {
+    const Visit visit = stack.pop();
+    const float slack = static_cast<float>(filter::box * filter::u);
+    const float size = visit.near < 0 ? -visit.near : visit.near;
+    if (limit < visit.near - size * slack) continue;
+    ++visits;
+    if (visit.leaf_size == 0) {
+      walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
+      continue;
+    }
+    const LeafSpheres<Access> leaf(geometry.spheres, place_of(visit.child), visit.leaf_size);
+    Survivors<bvh_leaf_size> survivors;
+    walk.template list_survivors<origins_exact>(leaf, visit.leaf_size, limit, survivors);
+    if (survivors.count == 0) continue;
+    meet_survivors<solver>(rays, geometry.spheres, leaf, 0, survivors, best);
+    limit = limit_of_all<Access>(best.limit());
+  }
+  return visits;
+}
+
+/// All spheres, wherever they are.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
+                                        Best& best) {
+  scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
+  const std::size_t visits = traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+  best.settle(geometry.spheres, rays);
+  return visits;
+}
+
+/// All primitives against these rays. Returns how many nodes and leaves were visited.
+template <Solver solver, class Access, class Best>
+BOULE_NOINLINE std::size_t search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  const std::size_t visits = rays.filter.origins_exact
+                                 ? search_spheres<solver, Access, true>(rays, geometry, best)
+                                 : search_spheres<solver, Access, false>(rays, geometry, best);
+  scan_planes<solver, Access>(rays, geometry.planes, best);
+  return visits;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
