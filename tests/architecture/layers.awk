@@ -30,9 +30,14 @@ BEGIN {
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
-  layer("^tests/simd/lanes[^/]*$", "^(core|simd/(abi|camera|geometry|stream|dispatch|lanes)|tests)/", any)
+  # What is tested on machines without the renderer's packages.
+  layer("^tests/core/", "^(core|tests/(core|support))/", any)
+  layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
+  layer("^tests/simd/", narrow "|^tests/(simd|support)/", any)
+  layer("^tests/equivalence/", narrow "|^tests/(equivalence|support)/", any)
+  layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
-  layer("^tests/(fuzz/fuzz_options|cli/)", narrow "|^render/|^tests/", any)
+  layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
   layer("^(tests|bench)/", narrow "|^render/(memory|threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.

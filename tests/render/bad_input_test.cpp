@@ -1,5 +1,5 @@
 // What the headers of render say of bad input, entry by entry. Options and results by number:
-// renderer_test.cpp, tracer_test.cpp; files: tests/scene_file, tests/image, tests/cli.
+// renderer_test.cpp, tracer_test.cpp; files: scene_file, image, cli.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/render/pictures.h"
+#include "tests/render/picture_comparison.h"
 #include "tests/render/test_scenes.h"
 
 namespace boule::test {

@@ -1,0 +1,49 @@
+// Golden pictures: every feature in a few small pictures whose bits are known. They are the same on
+// every machine, so one number each is enough; `boule render` of the scene shows what it stands
+// for.
+#include "tests/render/picture_comparison.h"
+#include "tests/render/test_scenes.h"
+#include "tests/support/bit_hash.h"
+
+namespace boule::test {
+namespace {
+
+std::uint64_t bits_of(const Image& image) {
+  BitHash hash;
+  hash.add(image.width);
+  hash.add(image.height);
+  for (const Color& c : image.pixels) {
+    hash.add(c.r);
+    hash.add(c.g);
+    hash.add(c.b);
+  }
+  return hash.value();
+}
+
+struct Golden {
+  const char* name;
+  Scene scene;
+  int spp;
+  std::uint64_t bits;
+};
+
+std::vector<Golden> goldens() {
+  Scene parallel = mixed_scene(40, 24);
+  parallel.camera = OrthographicCamera{{{3, 4, 6}, {0, 0.8f, 0}, {0, 1, 0}}, 5};
+  return {
+      {"every feature, wider than high", mixed_scene(48, 27), 1, 0x4460bf5ca1b22b97},
+      {"every feature, higher than wide", mixed_scene(19, 37), 4, 0xf98ce3cc6a82f0d4},
+      {"orthographic", parallel, 1, 0xd169a17a2310321f},
+      {"a crowd of glass and mirrors", glass_cloud(32, 32), 1, 0xd31a1f403a3353e8},
+  };
+}
+
+TEST(GoldenPicture, HasTheKnownBits) {
+  for (Golden& golden : goldens()) {
+    golden.scene.image.spp = golden.spp;
+    EXPECT_EQ(bits_of(render(golden.scene)), golden.bits) << golden.name;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test

@@ -1,0 +1,66 @@
+// Compiled once per ISA: runs every lane operation on plain arrays. No test code in here, so that
+// no wide instruction can leak into a function shared with the test program.
+#include "tests/simd/lanes/lanes_probe.h"
+
+#include "simd/lanes/lanes.h"
+
+namespace boule::BOULE_KERNEL_ISA {
+
+void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
+  const Real a = load(in.a), b = load(in.b), c = load(in.c);
+  const Wide x = load(in.x), y = load(in.y);
+  out.width = width;
+  store(out.add, a + b);
+  store(out.sub, a - b);
+  store(out.mul, a * b);
+  store(out.div, a / b);
+  store(out.sqrt, sqrt(a));
+  store(out.abs, abs(a));
+  store(out.fma, filter_fma(a, b, c));
+  store(out.fnma, filter_fnma(a, b, c));
+  store(out.select, select(a < b, a, c));
+  store(out.narrow, narrow(x));
+  store(out.wide_add, x + y);
+  store(out.wide_sub, x - y);
+  store(out.wide_mul, x * y);
+  store(out.wide_div, x / y);
+  store(out.wide_sqrt, sqrt(x));
+  store(out.wide_abs, abs(x));
+  store(out.wide_copysign, copysign(x, y));
+  store(out.wide_select, select(x < y, x, y));
+  store(out.widen, widen(a));
+  store(out.lane_numbers, lane_numbers());
+  store(out.counted, count_from(77));
+  store_chosen(out.chosen + 1, a, bits(a < b));
+  store_chosen(out.chosen_or + 1, a, a < b, Real(-1.0F));
+  store_chosen(out.wide_chosen + 1, x, bits(x < y));
+  alignas(64) std::int32_t integers[width];
+  for (int i = 0; i < width; ++i) integers[i] = i % 3;
+  out.equal_integers = bits(equal(integers, 2));
+  store_rows(out.rows, {a, b, c, a + b});
+  const float* rows[width];
+  for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);
+  const Columns columns = load_rows(rows);
+  store(out.columns[0], columns.x);
+  store(out.columns[1], columns.y);
+  store(out.columns[2], columns.z);
+  store(out.columns[3], columns.w);
+  out.less = bits(a < b);
+  out.less_equal = bits(a <= b);
+  out.wide_less = bits(x < y);
+  out.wide_less_equal = bits(x <= y);
+  out.wide_equal = bits(x == y);
+  out.mask_and = bits((a < b) & (a < c));
+  out.mask_or = bits((a < b) | (a < c));
+  out.mask_not = bits(~(a < b));
+  out.wide_and = bits((x < y) & (x <= y));
+  out.wide_or = bits((x < y) | (x == y));
+  out.wide_not = bits(~(x < y));
+  out.widened_mask = bits(widen(a < b));
+  out.any_less = any(a < b);
+  out.all_less = all(a < b);
+  out.any_none = any((a < b) & ~(a < b));
+  out.all_all = all((x < y) | ~(x < y));
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
