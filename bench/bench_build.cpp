@@ -19,7 +19,7 @@
 #include "bench/median.h"
 #include "bench/uniform_spheres.h"
 #include "core/base/parallel.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/book_arrays.h"
 #include "core/scene/primitive.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {

@@ -18,7 +18,7 @@
 #include "bench/camera_rays.h"
 #include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule::bench {
 namespace {

@@ -16,7 +16,7 @@
 #include "simd/abi/isa.h"
 #include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {

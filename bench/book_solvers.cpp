@@ -272,7 +272,7 @@ BOULE_INLINE void walk(const BookData& data, const BoxRays& boxes, Packet<Solver
       boxes.push_children(data.nodes[visit.child], limit, stack);
       continue;
     }
-    packet.meet(leaves[place_of(visit.child)], visit.leaf_size);
+    packet.meet(leaves[index_of(visit.child)], visit.leaf_size);
     limit = packet.limit();
     farthest = most_lane(limit);
   }

@@ -9,7 +9,7 @@
 #include "bench/bench_scenes.h"
 #include "bench/book_arrays.h"
 #include "bench/camera_rays.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "tests/support/kernel_runs.h"
 
 namespace boule::bench {

@@ -5,7 +5,7 @@
 
 #include "bench/book_arrays.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {

@@ -8,7 +8,7 @@
 #include "bench/float_remedies.h"
 #include "core/scene/scene.h"
 #include "core/surface.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "tests/support/long_double_tracer.h"
 
 namespace boule::bench {

@@ -12,7 +12,7 @@
 #include "bench/camera_rays.h"
 #include "bench/thread_seconds.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule::bench {
 namespace {

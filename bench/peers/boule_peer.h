@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/peers/contender.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/aligned_array.h"
 
 namespace boule::bench {

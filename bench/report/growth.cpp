@@ -7,7 +7,7 @@
 #include "bench/ray_kinds.h"
 #include "bench/thread_seconds.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule::bench {
 namespace {

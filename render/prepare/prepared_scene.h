@@ -13,7 +13,7 @@
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
 #include "simd/camera/camera_builder.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule {
 

@@ -17,7 +17,7 @@
 #include "render/frame/traced_hit.h"
 #include "render/renderer/run_statistics.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule {
 

@@ -1,6 +1,6 @@
 #include "render/shading/surfaces.h"
 
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 namespace boule {
 Surfaces::Surfaces(const PreparedScene& scene, const KernelTable& kernels)

@@ -25,7 +25,7 @@ struct alignas(64) SphereBlock {
 inline constexpr std::uint32_t leaf_bit = 0x80000000;
 
 /// The boxes of up to 16 children, rounded outward, and where the children are: child k is the leaf
-/// place_of(child[k]), of leaf_size[k] spheres, if it has the leaf_bit, else the node child[k].
+/// index_of(child[k]), of leaf_size[k] spheres, if it has the leaf_bit, else the node child[k].
 struct alignas(64) BvhNode {
   float min_x[bvh_width], min_y[bvh_width], min_z[bvh_width];
   float max_x[bvh_width], max_y[bvh_width], max_z[bvh_width];
@@ -35,7 +35,7 @@ struct alignas(64) BvhNode {
 };
 
 /// The number of a child among the leaves, or among the nodes.
-constexpr std::uint32_t place_of(std::uint32_t child) { return child & ~leaf_bit; }
+constexpr std::uint32_t index_of(std::uint32_t child) { return child & ~leaf_bit; }
 
 /// A tree over spheres; its root is nodes[0]. No nodes: no tree, everything is scanned.
 struct BvhView {

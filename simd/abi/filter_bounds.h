@@ -41,8 +41,9 @@ inline constexpr double floor = 1e-18;
 /// lets everything through.
 inline constexpr float limit = 1e18f;
 
-/// Float bounds of the two roots of a survivor, as distances along the unit direction (interval.h).
-/// With h0 rounded to `unit`, F = |f|, E the origin's rounding error and l = f - b unit:
+/// Float bounds of the two roots of a survivor, as distances along the unit direction
+/// (root_bounds.h). With h0 rounded to `unit`, F = |f|, E the origin's rounding error and l = f - b
+/// unit:
 ///
 ///   b          f, unit and the dot product, as above: 5 u F + E
 ///   l          f: u F, b: 5 u F + E, unit: u F, the product: u F, the difference: u F

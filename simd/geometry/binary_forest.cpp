@@ -3,17 +3,12 @@
 #include <algorithm>
 
 #include "simd/abi/bvh.h"
+#include "simd/geometry/tuning.h"
 
 namespace boule {
 namespace {
 
-/// Spheres that one thread bins or moves at a time.
-constexpr std::size_t chunk_size = 16'384;
-
-/// With fewer spheres a level is not worth the threads' start.
-constexpr std::size_t parallel_size = 65'536;
-
-/// Part of a run.
+/// Part of a run: what one thread bins or moves at a time.
 struct Chunk {
   std::size_t run, begin, end;
   std::size_t lefts_before = 0;  ///< of the run, in chunks before this one
@@ -21,13 +16,13 @@ struct Chunk {
 
 }  // namespace
 
-/// The runs of one level and what is found out about them, chunk by chunk.
+/// The runs of one level, and how each of them is to be divided.
 struct BinaryForest::Level {
   explicit Level(const std::vector<Run>& runs) : grids(runs.size()), cuts(runs.size()) {
     middles.resize(runs.size());
     for (std::size_t run = 0; run < runs.size(); ++run) {
-      for (std::size_t i = runs[run].begin; i < runs[run].end; i += chunk_size)
-        chunks.push_back({run, i, std::min(i + chunk_size, runs[run].end)});
+      for (std::size_t i = runs[run].begin; i < runs[run].end; i += tuning::chunk_size)
+        chunks.push_back({run, i, std::min(i + tuning::chunk_size, runs[run].end)});
     }
   }
 
@@ -59,11 +54,12 @@ struct BinaryForest::Level {
 };
 
 BinaryForest::BinaryForest(SphereBuffers& buffers, const ParallelFor& parallel_for)
-    : buffers_(buffers), subtree_size_(std::max<std::size_t>(4096, buffers.size / 512)) {
+    : buffers_(buffers),
+      subtree_size_(std::max(tuning::least_subtree, buffers.size / tuning::most_subtrees)) {
   std::vector<Run> runs;
   const Run whole{0, buffers.size, 1, ForestNode::upper, false};
   whole.end <= subtree_size_ ? add_subtree(whole, 0) : runs.push_back(whole);
-  const ParallelFor level_for = buffers.size < parallel_size ? serial_for : parallel_for;
+  const ParallelFor level_for = buffers.size < tuning::parallel_size ? serial_for : parallel_for;
   for (int side = 0; !runs.empty(); side = 1 - side) runs = divide(runs, side, level_for);
   parallel_for(subtrees_.size(), [&](std::size_t i) {
     Subtree& s = subtrees_[i];
@@ -128,8 +124,8 @@ void BinaryForest::add_children(std::vector<Run>& next, const Run& run, std::siz
   }
 }
 
-/// Numbers the leaves, and finds boxes and places of the upper nodes: children come after their
-/// parents.
+/// Numbers the leaves and finds the boxes and shares of the upper nodes, the last one first:
+/// children come after their parents.
 void BinaryForest::finish_upper() {
   for (Subtree& subtree : subtrees_) {
     subtree.first_leaf = leaves_;
@@ -144,7 +140,7 @@ void BinaryForest::finish_upper() {
     upper.node.size = 0;
     upper.node.box = (*this)[upper.left].box;
     upper.node.box.add((*this)[upper.right].box);
-    costs[i] = choose_places(upper.node, costs_of(upper.left), costs_of(upper.right));
+    costs[i] = choose_shares(upper.node, costs_of(upper.left), costs_of(upper.right));
   }
 }
 

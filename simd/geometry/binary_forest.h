@@ -13,8 +13,8 @@
 
 namespace boule {
 
-/// The spheres of a tree, in two arrays: a partition reads one and writes the other. What lies
-/// where is each run's own business.
+/// The spheres of a tree, in two arrays, because a partition reads one and writes the other. Each
+/// run of spheres is in one of them; whoever works on a run knows in which (its side, 0 or 1).
 struct SphereBuffers {
   explicit SphereBuffers(std::size_t count)
       : size(count),
@@ -29,15 +29,15 @@ struct SphereBuffers {
   std::unique_ptr<BuildSphere[]> arrays[2];
 };
 
-/// A node of a forest: number `node` of subtree `tree`, or of the upper part.
+/// A node of a forest: the node with index `node` of subtree `tree`, or of the upper part.
 struct ForestNode {
   static constexpr std::uint32_t upper = ~std::uint32_t{0};
   std::uint32_t tree, node;
 };
 
-/// A binary tree in parts that threads can build at once: an upper part, whose runs are divided
-/// level by level, all threads on each, and below it subtrees, one thread on each. Which run is
-/// divided how depends on the spheres alone: the same tree for any number of threads.
+/// A binary tree in parts that threads can build at once. The upper part is divided level by level,
+/// by all threads together; below it hang subtrees, each built by one thread. How a run is divided
+/// depends on the spheres alone, so that the tree is the same for any number of threads.
 class BinaryForest {
  public:
   /// Builds the tree over the first arrays of `buffers`, at least one sphere.

@@ -10,8 +10,7 @@
 namespace boule {
 namespace {
 
-/// Of copies of one sphere, brings those of the lowest ids to the front: the first is what rays
-/// hit, the second what those hit that leave the first.
+/// Of copies of one sphere, brings the kept_copies of the lowest ids to the front.
 void bring_first(std::span<BuildSphere> copies) {
   const auto by_id = [](const BuildSphere& a, const BuildSphere& b) { return a.id < b.id; };
   std::partial_sort(copies.begin(), copies.begin() + kept_copies, copies.end(), by_id);
@@ -53,7 +52,7 @@ class Builder {
     node.size = 0;
     node.box = tree_.nodes[index + 1].box;
     node.box.add(tree_.nodes[second].box);
-    return choose_places(node, left, right);
+    return choose_shares(node, left, right);
   }
 
   void set_leaf(BinaryNode& node, std::span<const BuildSphere> spheres) {
@@ -68,23 +67,23 @@ class Builder {
 
 }  // namespace
 
-CollapseCosts choose_places(BinaryNode& node, const CollapseCosts& left,
+CollapseCosts choose_shares(BinaryNode& node, const CollapseCosts& left,
                             const CollapseCosts& right) {
   CollapseCosts costs;
   for (std::size_t j = 2; j < costs.size(); ++j) {
     costs[j] = left[1] + right[j - 1];
-    node.take[j] = 1;
+    node.share[j] = 1;
     for (std::size_t k = 2; k < j; ++k) {
       const double both = left[k] + right[j - k];
       if (both < costs[j]) {
         costs[j] = both;
-        node.take[j] = static_cast<std::uint8_t>(k);
+        node.share[j] = static_cast<std::uint8_t>(k);
       }
     }
   }
   costs[0] = 0;
   costs[1] = node.box.area() + costs.back();
-  node.take[0] = node.take[1] = 0;
+  node.share[0] = node.share[1] = 0;
   return costs;
 }
 

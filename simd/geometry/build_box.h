@@ -3,20 +3,37 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
+#include "core/scene/primitive.h"
 #include "simd/abi/filter_bounds.h"
-#include "simd/geometry/float4.h"
 
 namespace boule {
 
-/// A sphere while the tree is built: centre and radius, and which one it is.
+/// Four floats, and four integers, in one register: GCC and Clang do arithmetic on these types on
+/// every CPU. (GCC 12 does not vectorise loops over four floats by itself.)
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+inline Float4 load4(const float (&from)[4]) {
+  Float4 v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+inline Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
+inline Float4 max4(Float4 a, Float4 b) { return b < a ? a : b; }
+/// Rounds toward zero.
+inline Int4 truncate4(Float4 a) { return __builtin_convertvector(a, Int4); }
+
+/// A sphere while the tree is built: centre, radius (not negative) and id.
 struct BuildSphere {
   float at[4];
   std::int32_t id;
 };
 
-/// The range of four coordinates, the fourth for a radius or for nothing. The default one is empty.
+/// A range in each of four coordinates. Boxes use the first three; the range of centres and radii
+/// has the radii as the fourth. The default one is empty.
 struct BuildBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   Float4 low = {inf, inf, inf, inf}, high = {-inf, -inf, -inf, -inf};
@@ -25,7 +42,8 @@ struct BuildBox {
     low = min4(low, box.low);
     high = max4(high, box.high);
   }
-  /// Half of the surface, in double: boxes of 1e18 square well. Of an empty one anything, not NaN.
+  /// Half of the surface, in double, because boxes of 1e18 are squared. An empty box gives any
+  /// number, but not NaN.
   [[nodiscard]] double area() const {
     const double x = double{high[0]} - double{low[0]}, y = double{high[1]} - double{low[1]};
     const double z = double{high[2]} - double{low[2]};
@@ -33,15 +51,24 @@ struct BuildBox {
   }
 };
 
-/// A box around a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest: what
-/// splits are weighed by.
+/// Whether float filters, rejects and boxes, can judge a sphere: its coordinates and its radius are
+/// finite and below filter::limit. Other spheres go to the exact solver.
+inline bool in_filter_range(const Sphere& s) {
+  for (const float x : {s.center.x, s.center.y, s.center.z, s.radius}) {
+    if (!(std::fabs(x) < filter::limit)) return false;  // NaN as well
+  }
+  return true;
+}
+
+/// The box of a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest: good
+/// enough to weigh splits by, not to test rays against.
 inline BuildBox rough_box(Float4 at) {
   const Float4 r = {at[3], at[3], at[3], at[3]};
   return {at - r, at + r};
 }
 inline BuildBox rough_box(const BuildSphere& sphere) { return rough_box(load4(sphere.at)); }
 
-/// The box that is tested, wider than the sphere: see filter_bounds.h.
+/// The box that rays are tested against, a little larger than the sphere (filter::box_step).
 inline BuildBox outward_box(const BuildSphere& sphere) {
   const auto& at = sphere.at;
   BuildBox box;

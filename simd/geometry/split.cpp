@@ -6,7 +6,7 @@
 namespace boule {
 namespace {
 
-/// The cost of either side of each border between bins, area times leaves, from one end.
+/// The cost of one side of a cut, area times leaves, while bins are added to that side.
 struct Sweep {
   BuildBox box;
   std::size_t count = 0;
@@ -18,7 +18,8 @@ struct Sweep {
   }
 };
 
-/// 1 if a sphere goes left, else 0, by the sign of a difference: a comparison becomes a branch.
+/// 1 if a sphere goes left, else 0: by the sign of a difference, because GCC makes a branch of a
+/// comparison.
 std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphere) {
   return static_cast<std::uint32_t>(grid.bin_of(sphere, cut.axis) - cut.bin) >> 31U;
 }
@@ -26,7 +27,7 @@ std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphe
 }  // namespace
 
 BinGrid::BinGrid(const BuildBox& extent) {
-  // The farthest sphere's place is rounded three times: below `bins` all the same.
+  // What bins_of() computes is rounded three times, and the farthest sphere must stay below `bins`.
   constexpr float all = static_cast<float>(bins) * (1 - 0x1p-20F);
   constexpr float least = 1e-30F;  // shorter axes would give an infinite scale
   for (int k = 0; k < 4; ++k) {
@@ -34,7 +35,7 @@ BinGrid::BinGrid(const BuildBox& extent) {
     low_[k] = extent.low[k];
     scale_[k] = length > least ? all / length : 0;
   }
-  const bool alike = extent.high[3] <= 2 * extent.low[3];
+  const bool alike = extent.high[3] <= tuning::unlike_radii * extent.low[3];
   if (alike && (scale_[0] > 0 || scale_[1] > 0 || scale_[2] > 0)) scale_[3] = 0;
 }
 
@@ -43,9 +44,9 @@ void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres) {
   for (const BuildSphere& sphere : spheres) {
     const BuildBox box = rough_box(sphere);
     const Int4 bin = grid.bins_of(sphere);
-    const auto add_along = [&](int axis, int place) {
-      boxes[axis][place].add(box);
-      ++counts[axis][place];
+    const auto add_along = [&](int axis, int index) {
+      boxes[axis][index].add(box);
+      ++counts[axis][index];
     };
     add_along(0, bin[0]);
     add_along(1, bin[1]);
@@ -125,7 +126,7 @@ std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch
   const Cut cut = best_cut(bins, grid.axes());
   if (cut.axis < 0) return halve(spheres, extent);
   std::size_t left = 0, right = 0;
-  for (const BuildSphere sphere : spheres) {  // no branch: it could not be foretold
+  for (const BuildSphere sphere : spheres) {  // no branch: no CPU could predict it
     spheres[left] = sphere;
     scratch[right] = sphere;
     const std::size_t lefts = is_left(grid, cut, sphere);

@@ -6,22 +6,23 @@
 
 #include "simd/abi/bvh.h"
 #include "simd/geometry/build_box.h"
+#include "simd/geometry/tuning.h"
 
 namespace boule {
 
-/// Leaves that so many spheres fill.
+/// Leaves that so many spheres need.
 constexpr std::size_t leaves_of(std::size_t spheres) {
   return (spheres + bvh_leaf_size - 1) / bvh_leaf_size;
 }
 
-/// Which bin a sphere belongs to, by its centre, along each axis; and by its radius, where radii
-/// differ much: few large spheres are better off on their own.
+/// Which bin a sphere belongs to along each axis: by its centre along x, y and z, and by its radius
+/// along a fourth axis where the radii differ much (tuning::unlike_radii).
 class BinGrid {
  public:
-  static constexpr int bins = 16;
+  static constexpr int bins = tuning::bins;
 
   BinGrid() = default;
-  /// `extent`: of the spheres' centres and radii.
+  /// `extent`: the range of the spheres' centres and radii.
   explicit BinGrid(const BuildBox& extent);
 
   /// The bins along the four axes, 0 .. bins - 1; always 0 where an axis cannot be divided.
@@ -39,7 +40,7 @@ class BinGrid {
   Float4 low_ = {}, scale_ = {};
 };
 
-/// What lies in each bin. Counts and bounds: the order of adding makes no difference.
+/// What lies in each bin: boxes and counts, which do not depend on the order of adding.
 struct Bins {
   BuildBox boxes[4][BinGrid::bins];
   std::size_t counts[4][BinGrid::bins] = {};
@@ -48,12 +49,14 @@ struct Bins {
   void add(const Bins& bins);
 };
 
-/// Where to cut: spheres of a bin below `bin` go left. Axis -1: nothing divides them.
+/// Where to cut: spheres whose bin along `axis` is below `bin` go left. Axis -1: nothing divides
+/// them.
 struct Cut {
   int axis = -1, bin = 0;
 };
 
-/// The cut of the least cost by the surface area heuristic: area times leaves on either side.
+/// The cut of the least cost by the surface area heuristic: the sum over both sides of area times
+/// leaves.
 Cut best_cut(const Bins& bins, int axes);
 
 /// The spheres that go left.
@@ -64,7 +67,7 @@ struct Targets {
   BuildSphere *left, *right;
 };
 
-/// Copies the spheres to either side of a cut, keeping their order.
+/// Copies the spheres to either side of a cut. On each side they keep their order.
 void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                Targets targets);
 
@@ -77,7 +80,8 @@ BuildBox extent_of(std::span<const BuildSphere> spheres);
 /// `scratch` has as much room as there are spheres.
 std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch);
 
-/// Divides them in the middle of the longest axis, to a whole number of leaves. Returns the same.
+/// Divides the spheres in the middle of the longest axis, so that the first part fills whole
+/// leaves, and returns the size of that part; 0 where all are copies of one sphere.
 std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent);
 
 }  // namespace boule

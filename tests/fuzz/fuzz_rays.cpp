@@ -7,7 +7,7 @@
 
 #include "core/reference.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"

@@ -10,7 +10,7 @@
 
 #include "core/reference.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule::test {

@@ -3,12 +3,12 @@
 /// All of Boule that a program needs: scenes from files or from memory, pictures, rays and their
 /// hits. Each header can be included by itself as well, by the path below.
 
-#include "core/scene/scene.h"                // Scene: what there is to see
-#include "render/image/image_file.h"         // write_image()
-#include "render/image/read_image.h"         // read_image()
-#include "render/renderer/renderer.h"        // Renderer: a scene to a picture
-#include "render/renderer/tracer.h"          // Tracer: rays to hits, on all cores
-#include "render/scene_file/scene_file.h"    // load_scene()
-#include "simd/dispatch/dispatch.h"          // by the KernelTable of an instruction set
-#include "simd/geometry/geometry_builder.h"  // Geometry, and
-#include "simd/stream/stream_buffer.h"       // RayBuffer and HitBuffer: rays to hits on one core,
+#include "core/scene/scene.h"              // Scene: what there is to see
+#include "render/image/image_file.h"       // write_image()
+#include "render/image/read_image.h"       // read_image()
+#include "render/renderer/renderer.h"      // Renderer: a scene to a picture
+#include "render/renderer/tracer.h"        // Tracer: rays to hits, on all cores
+#include "render/scene_file/scene_file.h"  // load_scene()
+#include "simd/dispatch/dispatch.h"        // by the KernelTable of an instruction set
+#include "simd/geometry/geometry.h"        // Geometry, and
+#include "simd/stream/stream_buffer.h"     // RayBuffer and HitBuffer: rays to hits on one core,

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "simd/kernel/search/bundle_closest.h"
 #include "simd/kernel/search/bundle_discs.h"
 #include "simd/kernel/search/bundle_grid.h"
-#include "simd/kernel/search/bundle_hits.h"
 #include "simd/kernel/search/bundle_rays.h"
 
 /// Whether a bundle's rays meet anything. Float decides nearly always; the double solver where a

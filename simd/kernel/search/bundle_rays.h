@@ -5,7 +5,7 @@
 
 #include "simd/abi/filter_bounds.h"
 #include "simd/kernel/search/bundle_source.h"
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 
 /// Up to 1024 rays that share an origin, a direction or an end, in a frame of their own, as
 /// filter_bounds.h describes it. They walk a tree together.

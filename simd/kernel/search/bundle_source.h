@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
-#include "simd/kernel/search/packet.h"
 #include "simd/kernel/search/padded_stream.h"
+#include "simd/kernel/search/ray_lanes.h"
 
 /// Rays that have something in common, as bundles take them.
 namespace boule::BOULE_KERNEL_ISA {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/kernel/search/bundle.h"
+#include "simd/kernel/search/bundle_search.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/ray_pool.h"
 

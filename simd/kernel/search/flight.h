@@ -8,7 +8,7 @@
 #include "simd/kernel/search/slabs.h"
 
 /// One ray on its own way through the tree, in steps: a node or a leaf each. Between two steps its
-/// state lies in memory, so that other rays can take theirs (flights.h).
+/// state lies in memory, so that other rays can take theirs (flight_stream.h).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Nodes and leaves that a ray is still to visit, where any hit will do: the last come first.

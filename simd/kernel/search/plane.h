@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/abi/geometry.h"
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 
 /// Ray against plane, lane by lane: t = ((p0 - o).n) / (d.n).
 namespace boule::BOULE_KERNEL_ISA {

@@ -6,7 +6,7 @@
 
 #include "simd/abi/geometry.h"
 #include "simd/kernel/search/plane.h"
-#include "simd/kernel/search/quadratic.h"
+#include "simd/kernel/search/sphere.h"
 
 /// How primitives come into lanes: one for all rays of a packet, or W for a single ray. A scan is
 /// written once over such a source of "steps".

@@ -7,7 +7,7 @@
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/search/bundle_source.h"
-#include "simd/kernel/search/direction_order.h"
+#include "simd/kernel/search/light_grid.h"
 
 /// Pools of shadow rays, sorted for their light, and the bundles that come from them.
 namespace boule::BOULE_KERNEL_ISA {

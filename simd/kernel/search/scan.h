@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
-#include "simd/kernel/search/interval.h"
 #include "simd/kernel/search/primitive_access.h"
+#include "simd/kernel/search/root_bounds.h"
 
 /// A run of primitives against the rays. A hot float loop lists the steps that some lane survives;
 /// the double solves run over that list, outside it.

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
-#include "simd/kernel/search/flights.h"
+#include "simd/kernel/search/flight_stream.h"
 
 /// Streams of rays of which nothing is known: in flight, or as packets where they turn out to have
 /// much in common.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/abi/bvh.h"
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 
 /// Rays against boxes: a box is what three slabs, the spaces between two planes, have in common.
 namespace boule::BOULE_KERNEL_ISA {

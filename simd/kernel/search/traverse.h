@@ -28,7 +28,7 @@ class TreeBlocks {
   /// The node or the leaf that a child is. Asks for what its visit will read, unless the tree is
   /// small enough for a cache near by.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
-    const std::size_t leaf = child >> 31, place = place_of(child);
+    const std::size_t leaf = child >> 31, place = index_of(child);
     static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
     const char* const block = first_[leaf] + (place << (9 - leaf));
     if (!is_far_) return block;
@@ -231,7 +231,7 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
       walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
       continue;
     }
-    const LeafSpheres<Access> leaf(geometry.spheres, place_of(visit.child), visit.leaf_size);
+    const LeafSpheres<Access> leaf(geometry.spheres, index_of(visit.child), visit.leaf_size);
     Survivors<bvh_leaf_size> survivors;
     walk.template list_survivors<origins_exact>(leaf, visit.leaf_size, limit, survivors);
     if (survivors.count == 0) continue;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "simd/abi/shading.h"
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
 /// Shadow rays from many points to one light, W at a time: those that face it, side by side.

@@ -6,7 +6,7 @@
 
 #include "simd/abi/geometry.h"
 #include "simd/abi/shading.h"
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
 /// Hit points, normals and where rays leave, W at a time: core/surface.cpp in lanes, bit for bit.

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 
 int main() {

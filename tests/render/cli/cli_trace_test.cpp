@@ -4,7 +4,7 @@
 
 #include "core/surface.h"
 #include "simd/dispatch/dispatch.h"
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
 #include "tests/render/cli/trace_program.h"
 

@@ -76,7 +76,7 @@ struct VisitingRay {
       }
       ++visits.leaves;
       for (std::size_t i = 0; i < node.leaf_size[k]; ++i)
-        meet(bvh.scanned + place_of(node.child[k]) * bvh_leaf_size + i);
+        meet(bvh.scanned + index_of(node.child[k]) * bvh_leaf_size + i);
     }
   }
 };

@@ -47,7 +47,7 @@ struct Walk {
         ++leaves;
         in_leaves += node.leaf_size[k];
         for (std::size_t i = 0; i < node.leaf_size[k]; ++i)
-          some.push_back(bvh.slots.at(bvh.scanned + place_of(node.child[k]) * bvh_leaf_size + i));
+          some.push_back(bvh.slots.at(bvh.scanned + index_of(node.child[k]) * bvh_leaf_size + i));
       } else {
         EXPECT_GT(node.child[k], index);  // children come later: no loops
         some = below(node.child[k], level + 1);

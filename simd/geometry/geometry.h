@@ -13,11 +13,11 @@
 
 namespace boule {
 
-/// How spheres are found: every one (scan), or by a tree. The answers are the same; automatic scans
-/// a few dozen.
+/// How spheres are found: each is tested (scan), or a tree leads to them. The hits are the same;
+/// automatic scans up to tuning::most_scanned.
 enum class Structure { automatic, scan, bvh };
 
-/// Spheres as find_surfaces reads them, where they are; null for none.
+/// A view of the caller's spheres, as find_surfaces reads them; null for none.
 SphereRows sphere_rows(std::span<const Sphere> spheres);
 
 /// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "simd/kernel/search/quadratic.h"
+#include "simd/kernel/search/sphere.h"
 
 /// What float knows for certain of a sphere that survived the reject: where its roots lie. Most
 /// survivors need no double solve then: another sphere is certainly nearer.

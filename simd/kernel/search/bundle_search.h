@@ -6,9 +6,9 @@
 
 #include "simd/abi/geometry.h"
 #include "simd/kernel/search/bundle_any.h"
+#include "simd/kernel/search/bundle_closest.h"
 #include "simd/kernel/search/bundle_discs.h"
 #include "simd/kernel/search/bundle_grid.h"
-#include "simd/kernel/search/bundle_hits.h"
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/search/traverse.h"
 
@@ -238,7 +238,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     if (visit.leaf_size != 0) {
       if (effort.leaves++ >= effort.most_leaves || hits.too_close()) return false;
       const std::size_t first =
-          spheres.scanned + std::size_t{place_of(visit.child)} * bvh_leaf_size;
+          spheres.scanned + std::size_t{index_of(visit.child)} * bvh_leaf_size;
       const BlockSpheres leaf(spheres, first, visit.leaf_size);
       meet_spheres<common>(rays, factors, leaf, hits);
       continue;

@@ -1,4 +1,4 @@
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "simd/abi/filter_bounds.h"
-#include "simd/geometry/filter_range.h"
+#include "simd/geometry/build_box.h"
+#include "simd/geometry/tuning.h"
 
 namespace boule {
 namespace {
@@ -20,12 +21,9 @@ float round_up(double x) {
   return double{nearest} < x ? std::nextafter(nearest, inf) : nearest;
 }
 
-/// Measured on random spheres that fill the view, speed by a tree against that by a scan: bundles
-/// .95 to 1.05 up to 32 spheres, 1.0 at 64, 1.1 at 96 to 128; packets and single rays .7 to .9 up
-/// to 128.
 bool wants_tree(std::size_t spheres, Structure structure) {
-  constexpr std::size_t few = 64;
-  return structure == Structure::bvh || (structure == Structure::automatic && spheres > few);
+  return structure == Structure::bvh ||
+         (structure == Structure::automatic && spheres > tuning::most_scanned);
 }
 
 /// The greatest coordinate of any box of a tree, without its sign.
@@ -63,8 +61,8 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       scanned_(bvh.scanned),
       block_count_((bvh.slots.size() + bvh_leaf_size - 1) / bvh_leaf_size),
       plane_count_(planes.size()),
-      // Padding: a sphere of radius NaN is missed by every exact solve; r2p = -inf makes the
-      // filter reject it first.
+      // Padding: every exact solve misses a sphere of radius NaN, and with r2p = -inf the filter
+      // rejects it before that.
       id_(bvh.slots.size(), -2),
       blocks_(std::move(bvh.blocks)),
       center_x_(scanned_),

@@ -1,4 +1,4 @@
-#include "simd/geometry/geometry_builder.h"
+#include "simd/geometry/geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-TEST(GeometryBuilder, KeepsOrderValuesAndIds) {
+TEST(Geometry, KeepsOrderValuesAndIds) {
   const std::vector<Sphere> spheres = {{{1, 2, 3}, 4, 0}, {{-5, 6, -7}, 0.5F, 0}};
   const std::vector<Plane> planes = {{{1, 1, 1}, {0, 2, 0}, 0}};
   const Geometry geometry(spheres, planes);
@@ -33,7 +33,7 @@ TEST(GeometryBuilder, KeepsOrderValuesAndIds) {
   EXPECT_EQ(view.planes.normal_y[0], 2);
 }
 
-TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
+TEST(Geometry, PadsWithSpheresAndPlanesThatNothingHits) {
   const Geometry geometry({{{1, 2, 3}, 4, 0}}, {{{1, 1, 1}, {0, 2, 0}, 0}});
   const GeometryView view = geometry.view();
   for (std::size_t i = 1; i < max_width; ++i) {
@@ -45,7 +45,7 @@ TEST(GeometryBuilder, PadsWithSpheresAndPlanesThatNothingHits) {
   }
 }
 
-TEST(GeometryBuilder, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
+TEST(Geometry, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
   std::vector<Sphere> spheres;
   for (int i = 0; i < 155; ++i) {
     const auto x = static_cast<float>(i);
@@ -73,7 +73,7 @@ TEST(GeometryBuilder, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
   for (int i = 0; i < 155; ++i) EXPECT_EQ(found[static_cast<std::size_t>(i)], i);
 }
 
-TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
+TEST(Geometry, RejectNumbersAreRoundedOutward) {
   CaseRandom random(1);
   std::vector<Sphere> spheres;
   for (int i = 0; i < 5000; ++i) {
@@ -92,7 +92,7 @@ TEST(GeometryBuilder, RejectNumbersAreRoundedOutward) {
   }
 }
 
-TEST(GeometryBuilder, TheFilterDecidesNothingBeyondItsRange) {
+TEST(Geometry, TheFilterDecidesNothingBeyondItsRange) {
   const std::vector<Sphere> spheres = {
       {{1e18F, 0, 0}, 1, 0}, {{0, -2e18F, 0}, 1, 0}, {{0, 0, 0}, 1e18F, 0}, {{nan, 0, 0}, 1, 0},
       {{0, inf, 0}, 1, 0},   {{0, 0, 0}, nan, 0},    {{0, 0, -inf}, 1, 0},  {{0, 0, 0}, inf, 0}};

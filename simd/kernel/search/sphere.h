@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/search/packet.h"
+#include "simd/kernel/search/ray_lanes.h"
 
 /// Ray against sphere, lane by lane: the conservative reject and the two solvers behind it.
 namespace boule::BOULE_KERNEL_ISA {

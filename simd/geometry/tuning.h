@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+
+/// The numbers of the tree's builders that were chosen for speed. Change them as you like: the hits
+/// stay the same. Where no figure stands a number was set by trial and only the command is known
+/// that tells how good it is (the benchmarks: -DBOULE_BENCH=ON).
+namespace boule::tuning {
+
+/// Structure::automatic scans up to so many spheres and builds a tree over more. Measured on random
+/// spheres that fill the view, the speed by a tree divided by that by a scan: bundles 0.95 to 1.05
+/// up to 32 spheres, 1.0 at 64, 1.1 at 96 to 128; packets and single rays 0.7 to 0.9 up to 128.
+/// Again: bench_trace --benchmark_filter='(scan|bundle|packet|single)/avx2/robust/u/(16|64|256)$'
+inline constexpr std::size_t most_scanned = 64;
+
+/// Bins that the surface area heuristic sorts centres into, along each axis. Set by trial.
+/// Again: bench_tree (areas and visits), bench_build (time).
+inline constexpr int bins = 16;
+
+/// Radii are a fourth axis for the bins where the greatest is more than so many times the least:
+/// few large spheres are better off on their own. Set by trial.
+/// Again: bench_peers --scenes flake4,flake6 --rays primary,diffuse
+inline constexpr float unlike_radii = 2;
+
+/// A sphere whose box has more than this share of the area of all boxes together is a giant: it is
+/// kept out of the tree and tested against every ray, for nearly every ray would meet its box
+/// anyway. Up to most_giants of them, the largest. Set by trial.
+/// Again: bench_tree, with a ground sphere added to its scene
+inline constexpr double giant_share = 0.25;
+inline constexpr std::size_t most_giants = 16;
+
+/// Spheres that one thread reads, bins or moves at a time, and the number from which on it pays to
+/// start threads for that. Set by trial.
+/// Again: bench_build 10000 100000 1000000
+inline constexpr std::size_t chunk_size = 16'384;
+inline constexpr std::size_t parallel_size = 65'536;
+
+/// A thread builds a whole subtree of at most so many spheres: a 512th of all, which leaves enough
+/// of them for many threads, but no fewer than 4096. The tree's shape does not depend on the number
+/// of threads, but on these. Set by trial.
+/// Again: bench_build 1000000 10000000
+inline constexpr std::size_t least_subtree = 4096;
+inline constexpr std::size_t most_subtrees = 512;
+
+}  // namespace boule::tuning
