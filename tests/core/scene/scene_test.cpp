@@ -1,40 +1,17 @@
+// Every field of a scene, broken in turn: validate() must name it. Cameras: camera_fields_test.cpp.
 #include "core/scene/scene.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <ostream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-// Every field of a scene, broken in turn: validate() must name it.
+#include "tests/core/scene/broken_scene.h"
 
-namespace boule {
+namespace boule::test {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-/// One of everything, all of it valid.
-Scene full_scene() {
-  Scene scene;
-  scene.camera = PinholeCamera{{{0, 1, 6}, {0, 1, 0}, {0, 1, 0}}, 40, FovAxis::x};
-  scene.background = GradientBackground{};
-  scene.materials = {{"matte", Matte{}}, {"plastic", Plastic{}},   {"metal", Metal{}},
-                     {"glass", Glass{}}, {"emissive", Emissive{}}, {"phong", Phong{}}};
-  scene.lights = {PointLight{{4, 6, 4}, {1, 1, 1}, Falloff::none}, DirectionalLight{},
-                  SphereLight{}};
-  scene.spheres = {{{0, 1, 0}, 1, 0}, {{2, 1, 0}, 0.5f, 5}};
-  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 1}};
-  return scene;
-}
-
-PinholeCamera& pinhole(Scene& scene) { return std::get<PinholeCamera>(*scene.camera); }
-OrthographicCamera& orthographic(Scene& scene) {
-  scene.camera = OrthographicCamera{pinhole(scene).pose, 2};
-  return std::get<OrthographicCamera>(*scene.camera);
-}
 GradientBackground& gradient(Scene& scene) {
   return std::get<GradientBackground>(scene.background);
 }
@@ -58,18 +35,6 @@ DirectionalLight& directional_light(Scene& scene) {
 TEST(Validate, AcceptsAFullScene) { EXPECT_FALSE(validate(full_scene())); }
 TEST(Validate, AcceptsAnEmptyScene) { EXPECT_FALSE(validate(Scene{})); }
 
-/// A way to break a scene, the key that must be named and a part of the message.
-struct Breakage {
-  const char* name;
-  const char* key;
-  const char* message;
-  std::function<void(Scene&)> apply;
-};
-
-std::ostream& operator<<(std::ostream& out, const Breakage& b) { return out << b.name; }
-
-class ValidateRefuses : public testing::TestWithParam<Breakage> {};
-
 TEST_P(ValidateRefuses, AndNamesTheKey) {
   Scene scene = full_scene();
   GetParam().apply(scene);
@@ -78,12 +43,6 @@ TEST_P(ValidateRefuses, AndNamesTheKey) {
   EXPECT_EQ(status->key, GetParam().key);
   EXPECT_NE(status->message.find(GetParam().message), std::string::npos) << status->message;
 }
-
-std::string name_of(const testing::TestParamInfo<Breakage>& info) { return info.param.name; }
-
-constexpr char not_negative[] = "must be finite and 0 or above";
-constexpr char positive[] = "must be finite and above 0";
-constexpr char finite[] = "must be finite";
 
 const Breakage settings[] = {
     {"WidthZero", "image.size", "1 to 65535, is 0", [](Scene& s) { s.image.width = 0; }},
@@ -95,135 +54,6 @@ const Breakage settings[] = {
      [](Scene& s) { s.render.max_depth = -1; }},
 };
 INSTANTIATE_TEST_SUITE_P(Settings, ValidateRefuses, testing::ValuesIn(settings), name_of);
-
-const Breakage camera[] = {
-    {"EyeNaN", "camera.eye", finite, [](Scene& s) { pinhole(s).pose.eye.y = nan; }},
-    {"EyeInfinite", "camera.eye", finite, [](Scene& s) { pinhole(s).pose.eye.x = inf; }},
-    {"LookAtNaN", "camera.look_at", finite, [](Scene& s) { pinhole(s).pose.look_at.z = nan; }},
-    {"LookAtIsEye", "camera.look_at", "must differ from eye",
-     [](Scene& s) { pinhole(s).pose.look_at = pinhole(s).pose.eye; }},
-    {"UpNaN", "camera.up", finite, [](Scene& s) { pinhole(s).pose.up.x = nan; }},
-    {"UpZero", "camera.up", "zero vector",
-     [](Scene& s) {
-       pinhole(s).pose.up = {0, 0, 0};
-     }},
-    {"UpAlongView", "camera.up", "1e-6",
-     [](Scene& s) {
-       pinhole(s).pose.up = {0, 0, -3};
-     }},
-    {"UpAgainstView", "camera.up", "1e-6",
-     [](Scene& s) {
-       pinhole(s).pose.up = {0, 0, 2};
-     }},
-    {"UpNearView", "camera.up", "1e-6",
-     [](Scene& s) {
-       pinhole(s).pose.up = {0, 9e-7f, -1};
-     }},
-    {"FovZero", "camera.fov", "is 0", [](Scene& s) { pinhole(s).fov = 0; }},
-    {"FovNegative", "camera.fov", "is -5", [](Scene& s) { pinhole(s).fov = -5; }},
-    {"FovHalfTurn", "camera.fov", "is 180", [](Scene& s) { pinhole(s).fov = 180; }},
-    {"FovNaN", "camera.fov", "180 degrees", [](Scene& s) { pinhole(s).fov = nan; }},
-    {"HeightZero", "camera.height", positive, [](Scene& s) { orthographic(s).height = 0; }},
-    {"HeightInfinite", "camera.height", positive, [](Scene& s) { orthographic(s).height = inf; }},
-    {"OrthographicUpZero", "camera.up", "zero vector",
-     [](Scene& s) {
-       orthographic(s).pose.up = {0, 0, 0};
-     }},
-};
-FisheyeCamera& fisheye(Scene& scene) {
-  scene.camera = FisheyeCamera{pinhole(scene).pose};
-  return std::get<FisheyeCamera>(*scene.camera);
-}
-ThinLensCamera& thin_lens(Scene& scene) {
-  scene.camera = ThinLensCamera{pinhole(scene).pose};
-  return std::get<ThinLensCamera>(*scene.camera);
-}
-
-const Breakage round_cameras[] = {
-    {"FisheyeFovZero", "camera.fov", "is 0", [](Scene& s) { fisheye(s).fov = 0; }},
-    {"FisheyeFovNaN", "camera.fov", "360 degrees", [](Scene& s) { fisheye(s).fov = nan; }},
-    {"FisheyeFovTooLarge", "camera.fov", "is 361", [](Scene& s) { fisheye(s).fov = 361; }},
-    {"FisheyeUpZero", "camera.up", "zero vector",
-     [](Scene& s) {
-       fisheye(s).pose.up = {0, 0, 0};
-     }},
-    {"LensFov", "camera.fov", "is 180", [](Scene& s) { thin_lens(s).fov = 180; }},
-    {"ApertureNegative", "camera.aperture", not_negative,
-     [](Scene& s) { thin_lens(s).aperture = -1; }},
-    {"ApertureInfinite", "camera.aperture", not_negative,
-     [](Scene& s) { thin_lens(s).aperture = inf; }},
-    {"FocusZero", "camera.focus", positive, [](Scene& s) { thin_lens(s).focus = 0.0f; }},
-    {"FocusNaN", "camera.focus", positive, [](Scene& s) { thin_lens(s).focus = nan; }},
-};
-DistortionMap& distortion(Scene& scene) {
-  scene.distortion = DistortionMap{2, 3, std::vector<float>(12, 0.5f)};
-  return *scene.distortion;
-}
-
-const Breakage distortions[] = {
-    {"OneColumn", "camera.distortion.file", "2 x 2 pixels or more, has 1 x 3",
-     [](Scene& s) { distortion(s).width = 1; }},
-    {"NoRows", "camera.distortion.file", "has 2 x 0", [](Scene& s) { distortion(s).height = 0; }},
-    {"TooFew", "camera.distortion.file", "two numbers a pixel",
-     [](Scene& s) { distortion(s).st.pop_back(); }},
-    {"NaN", "camera.distortion.file", finite, [](Scene& s) { distortion(s).st[7] = nan; }},
-};
-INSTANTIATE_TEST_SUITE_P(Distortion, ValidateRefuses, testing::ValuesIn(distortions), name_of);
-
-LensCamera& lens(Scene& scene) {
-  LensCamera two_faces{pinhole(scene).pose, {{50, 5, 1.5f, 20}, {0, 1, 1, 10}, {-50, 0, 1, 20}}};
-  scene.camera = two_faces;
-  return std::get<LensCamera>(*scene.camera);
-}
-
-TEST(Validate, AcceptsALens) {
-  Scene scene = full_scene();
-  lens(scene);
-  EXPECT_FALSE(validate(scene));
-}
-
-const Breakage lenses[] = {
-    {"FilmWidth", "camera.film_width", positive, [](Scene& s) { lens(s).film_width = 0; }},
-    {"Scale", "camera.scale", positive, [](Scene& s) { lens(s).scale = nan; }},
-    {"LensFocus", "camera.focus", positive, [](Scene& s) { lens(s).focus = -1.0f; }},
-    {"NoSurfaces", "camera.file", "must have surfaces", [](Scene& s) { lens(s).surfaces = {}; }},
-    {"Radius", "camera.file", "surface 1: its radius must be finite",
-     [](Scene& s) { lens(s).surfaces[0].radius = nan; }},
-    {"Thickness", "camera.file", "surface 2: its thickness must be finite and 0 or above",
-     [](Scene& s) { lens(s).surfaces[1].thickness = -1; }},
-    {"Index", "camera.file", "surface 3: its index must be from 0.25 to 8, is 0",
-     [](Scene& s) { lens(s).surfaces[2].index = 0; }},
-    {"IndexOfNoMedium", "camera.file", "surface 1: its index must be from 0.25 to 8, is 0.1875",
-     [](Scene& s) { lens(s).surfaces[0].index = 0.1875f; }},
-    {"IndexNaN", "camera.file", "surface 2: its index must be from 0.25 to 8",
-     [](Scene& s) { lens(s).surfaces[1].index = nan; }},
-    {"Aperture", "camera.file", "surface 1: its aperture must be finite and above 0",
-     [](Scene& s) { lens(s).surfaces[0].aperture = 0; }},
-    {"TooWide", "camera.file", "surface 1: its aperture is wider than its sphere",
-     [](Scene& s) { lens(s).surfaces[0].aperture = 101; }},
-    {"TooNarrow", "camera.file", "surface 2: its aperture is less than a 500th of the last one's",
-     [](Scene& s) { lens(s).surfaces[1].aperture = 0.039f; }},
-    {"Diverging", "camera.file", "must gather light",
-     [](Scene& s) {
-       lens(s).surfaces = {{-50, 5, 1.5f, 20}, {50, 0, 1, 20}};
-     }},
-    // Its picture lies 0.01 behind a lens 100,000,000 long: of the last surface, 20 wide, a ten
-    // billionth sends light to the middle.
-    {"DarkMiddle", "camera.file", "no light to the middle of the film",
-     [](Scene& s) {
-       LensCamera& long_one = lens(s);
-       long_one.surfaces = {
-           {0, 5, 1.5f, 20}, {-5e7f, 99999992, 1, 20}, {0, 7.99f, 1, 20}, {0, 0, 1, 20}};
-       long_one.scale = 1e-30f;
-     }},
-    {"TooNear", "camera.focus", "nearer than the lens can be focused",
-     [](Scene& s) { lens(s).focus = 0.01f; }},
-};
-INSTANTIATE_TEST_SUITE_P(Lens, ValidateRefuses, testing::ValuesIn(lenses), name_of);
-
-INSTANTIATE_TEST_SUITE_P(RoundCameras, ValidateRefuses, testing::ValuesIn(round_cameras), name_of);
-
-INSTANTIATE_TEST_SUITE_P(Camera, ValidateRefuses, testing::ValuesIn(camera), name_of);
 
 TEST(Validate, AcceptsAnEnvironment) {
   Scene scene = full_scene();
@@ -433,4 +263,4 @@ TEST(FindProblem, SpeaksOfOneThingByItself) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::test
