@@ -69,9 +69,9 @@ std::string to_html(Figures& figures);
 /// The scene that stands for all where there is room for one.
 std::string main_scene(const Figures& figures);
 
-/// The text with the main tables between its marks, "report: begin" and "report: end" as comments;
-/// nothing where it has none.
-std::optional<std::string> with_tables(const std::string& readme, Figures& figures);
+/// The text with a table of eight rows at most between its marks, "report: begin" and "report: end"
+/// as comments; nothing where it has none.
+std::optional<std::string> with_table(const std::string& readme, const Figures& figures);
 
 /// The main scene's chart by itself, as SVG.
 std::string main_chart(Figures& figures);

@@ -3,7 +3,7 @@
 //   report [--quick] -o report.html [--chart chart.svg] [--path-chart chart.svg]
 //          [--readme README.md]
 //
-// Beside the page come its figures, report.json. A README gets its tables anew. Exit code 1: a
+// Beside the page come its figures, report.json. A README gets its table anew. Exit code 1: a
 // robust solver was wrong, or a file could not be written; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -35,12 +35,12 @@ bool write_file(const std::filesystem::path& path, const std::string& content) {
   return false;
 }
 
-bool update_readme(const std::string& path, Figures& figures) {
+bool update_readme(const std::string& path, const Figures& figures) {
   std::ifstream file(path, std::ios::binary);
   const std::string old{std::istreambuf_iterator<char>(file), {}};
-  const std::optional<std::string> updated = with_tables(old, figures);
+  const std::optional<std::string> updated = with_table(old, figures);
   if (updated) return write_file(path, *updated);
-  std::fprintf(stderr, "report: '%s' has no place for tables\n", path.c_str());
+  std::fprintf(stderr, "report: '%s' has no marks for a table\n", path.c_str());
   return false;
 }
 
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--chart", arguments.chart, "The first chart by itself, .svg");
   app.add_option("--path-chart", arguments.path_chart, "That of path tracing by itself, .svg");
-  app.add_option("--readme", arguments.readme, "A text whose tables are brought up to date")
+  app.add_option("--readme", arguments.readme, "A text whose table is brought up to date")
       ->check(CLI::ExistingFile);
   try {
     app.parse(argc, argv);

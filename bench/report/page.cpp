@@ -9,6 +9,7 @@
 #include "bench/report/charts.h"
 #include "bench/report/data_uri.h"
 #include "bench/report/page_parts.h"
+#include "bench/report/solver_table.h"
 
 namespace boule::bench {
 namespace {
@@ -236,7 +237,7 @@ std::string to_html(Figures& figures) {
                         "greatest distance of the hit from the surface in u max(F, r), u = "
                         "2<sup>-24</sup>. Instruction set: " +
                         figures.widest + ".") +
-                  case_table(figures) + sum_table(figures));
+                  solver_table(figures) + case_table(figures) + sum_table(figures));
   html += section("Shadows without an epsilon", epsilon_section(figures));
   html += section("Growth", figure(growth_chart(figures)) + figure(secondary_chart(figures)));
   html += section("Path tracing: error at equal time", path_section(figures));

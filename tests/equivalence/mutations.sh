@@ -6,7 +6,7 @@ source="$1" build="$2"
 copy="$build/source"
 rm -rf "$copy"
 mkdir -p "$copy"
-cp -r "$source"/{CMakeLists.txt,CMakePresets.json,README.md,LICENSE,bench,core,render,scenes,simd,tests} "$copy"
+cp -r "$source"/{CMakeLists.txt,CMakePresets.json,README.md,CHANGELOG.md,LICENSE,bench,core,docs,render,scenes,simd,tests} "$copy"
 cmake -G Ninja -S "$copy" -B "$build/build" -DCMAKE_BUILD_TYPE=Release \
   -DBOULE_RENDER=OFF -DBOULE_TESTS=ON -DBOULE_WERROR=ON >/dev/null
 bounds="simd/abi/filter_bounds.h"

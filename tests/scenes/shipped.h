@@ -11,6 +11,9 @@ namespace boule::test {
 /// The folder of the scenes that come with Boule.
 inline std::filesystem::path scenes_folder() { return BOULE_SCENES; }
 
+/// That of the documents.
+inline std::filesystem::path documents_folder() { return scenes_folder().parent_path() / "docs"; }
+
 /// All bytes of a file; none if it cannot be read.
 inline std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

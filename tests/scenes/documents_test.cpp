@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -31,10 +32,10 @@ std::string two_centers() {
   return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dict + '\n' + std::string(24, '\0');
 }
 
-/// A folder with the data files that the README's scenes name.
-class ReadmeFolder {
+/// A folder with the data files that the documents' scenes name.
+class DocumentFolder {
  public:
-  ReadmeFolder() {
+  DocumentFolder() {
     write("cloud.npy", two_centers());
     for (const char* name :
          {"sphereflake.npy", "barrel.exr", "sky.exr", "double_gauss_50mm.lens"}) {
@@ -57,9 +58,13 @@ class ReadmeFolder {
   TempDir dir_;
 };
 
-void expect_all_load(const std::string& language, std::size_t at_least) {
-  const ReadmeFolder folder;
-  const auto blocks = code_blocks(read_bytes(scenes_folder() / "README.md"), language);
+/// Where the format is described.
+std::filesystem::path scene_format() { return documents_folder() / "scene_format.md"; }
+
+void expect_all_load(const std::filesystem::path& page, const std::string& language,
+                     std::size_t at_least) {
+  const DocumentFolder folder;
+  const auto blocks = code_blocks(read_bytes(page), language);
   EXPECT_GE(blocks.size(), at_least);
   for (const std::string& block : blocks) {
     const auto loaded = folder.load("block." + language, block);
@@ -67,9 +72,12 @@ void expect_all_load(const std::string& language, std::size_t at_least) {
   }
 }
 
-TEST(ScenesReadme, EveryTomlBlockIsAScene) { expect_all_load("toml", 7); }
+TEST(Documents, EveryTomlBlockIsAScene) {
+  expect_all_load(scene_format(), "toml", 7);
+  expect_all_load(documents_folder().parent_path() / "README.md", "toml", 1);
+}
 
-TEST(ScenesReadme, EveryNffBlockIsAScene) { expect_all_load("nff", 1); }
+TEST(Documents, EveryNffBlockIsAScene) { expect_all_load(scene_format(), "nff", 1); }
 
 /// The names in quotes after "expected" in a Diagnostic's message.
 std::vector<std::string> expected_names(const std::string& message) {
@@ -83,9 +91,9 @@ std::vector<std::string> expected_names(const std::string& message) {
   return names;
 }
 
-TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
-  const std::string readme = read_bytes(scenes_folder() / "README.md");
-  const ReadmeFolder folder;
+TEST(Documents, NameEveryKeyOfTheReader) {
+  const std::string page = read_bytes(scene_format());
+  const DocumentFolder folder;
   // A reader lists the keys it knows in its error about one that it does not.
   for (const char* table : {"[image]",
                             "[render]",
@@ -117,8 +125,8 @@ TEST(ScenesReadme, NamesEveryKeyOfTheReader) {
     const auto names = expected_names(loaded.error().message);
     EXPECT_GE(names.size(), 2U) << loaded.error().message;
     for (const std::string& key : names) {
-      const bool is_there = readme.find('`' + key + '`') != std::string::npos ||
-                            readme.find('.' + key + '`') != std::string::npos;
+      const bool is_there = page.find('`' + key + '`') != std::string::npos ||
+                            page.find('.' + key + '`') != std::string::npos;
       EXPECT_TRUE(is_there) << table << " " << key;
     }
   }

@@ -1,0 +1,148 @@
+#!/usr/bin/env bash
+# commands.sh PROGRAM SOURCE BUILD: what the documents show is so.
+#
+# Every block of TOML or NFF is a scene. Every line of a block of sh is tried: boule and the programs
+# that make data run, in a copy of the scenes' folder. Of what takes minutes it is checked that there
+# is such a thing: a target, a preset, a test that a ctest line selects, a word of bootstrap.sh. A
+# block whose first line is "# NAME.toml" is that file for the commands. docs/command_line.md has all
+# options of the program's help, and no others.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+source "$here/pages.sh"
+program="$(realpath "$1")" source="$(realpath "$2")" build="$(realpath "$3")"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+unset BOULE_ISA SOURCE_DATE_EPOCH
+wrong=0 tried=0
+
+complain() {
+  echo "$1"
+  wrong=1
+}
+
+# npy SHAPE BYTES: a .npy file of float32 zeros.
+npy() {
+  printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "{'descr': '<f4', 'fortran_order': False, 'shape': ($1), }"
+  head -c "$2" /dev/zero
+}
+
+# Where commands run: the scenes, what the documents say is there, and data for who has no NumPy.
+mkdir "$work/blocks" "$work/here"
+(cd "$source" && pages . | xargs awk -v folder="$work/blocks" -f "$here/blocks.awk")
+cp "$source"/scenes/*.{toml,npy,exr,lens} "$work/here"
+cd "$work/here"
+ln -s . scenes
+npy '2, 3' 24 >cloud.npy
+npy '3, 8' 96 >rays.npy
+for block in "$work"/blocks/*.{toml,nff}; do
+  [[ -f "$block" ]] || continue
+  name="$(sed -n '2s/^# \([a-z_0-9]*\.\(toml\|nff\)\)$/\1/p' "$block")"
+  [[ -z "$name" ]] || tail -n +2 "$block" >"$name"
+done
+
+# expect WHERE CODE COMMAND...: it ends with that exit code.
+expect() {
+  local where="$1" wanted="$2" code=0
+  shift 2
+  "$@" >"$work/out" 2>"$work/err" </dev/null || code=$?
+  ((code == wanted)) || complain "$where: exit code $code of $*: $(tail -n 3 "$work/err")"
+}
+
+# try_scene BLOCK
+try_scene() {
+  local where name="block.${1##*.}"
+  where="$(head -n 1 "$1")"
+  tail -n +2 "$1" >"$name"
+  expect "$where" 0 "$program" info "$name"
+}
+
+# try_python BLOCK: where there is a NumPy.
+try_python() {
+  python3 -c 'import numpy' 2>/dev/null || return 0
+  expect "$(head -n 1 "$1")" 0 python3 -c "$(tail -n +2 "$1")"
+}
+
+# has WHERE WORD TEXT WHAT: the text has it as a word.
+has() {
+  grep -qwF -- "$2" <<<"$3" || complain "$1: there is no $4 $2"
+}
+
+# try_cmake WHERE ARGUMENT...
+try_cmake() {
+  local where="$1"
+  shift
+  case "$*" in
+    *--target*) has "$where" "$(sed 's/.*--target \([^ ]*\).*/\1/' <<<"$*")" "$targets" target ;;
+    --preset*) has "$where" "\"$2\"" "$(cat "$source/CMakePresets.json")" preset ;;
+    '--build '* | '--install '*) ;;
+    *) complain "$where: nobody tries cmake $*" ;;
+  esac
+}
+
+# try_ctest WHERE ARGUMENT...: a test is selected.
+try_ctest() {
+  local where="$1" listed
+  shift
+  listed="$(ctest --test-dir "$build" -N "${@:3}" 2>&1)" || true
+  grep -qE '^Total Tests: [1-9]' <<<"$listed" || complain "$where: ctest $* selects no test"
+}
+
+# try_line WHERE LINE
+try_line() {
+  local where="$1" line="$2" code=0 words
+  [[ "$line" =~ '# exit code '([0-9]+) ]] && code="${BASH_REMATCH[1]}"
+  line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
+  read -r -a words <<<"$line"
+  ((${#words[@]} > 0)) || return 0
+  tried=$((tried + 1))
+  case "${words[0]}" in
+    boule | build/release/bin/boule) expect "$where" "$code" "$program" "${words[@]:1}" ;;
+    build/release/bin/boule_*) expect "$where" "$code" "$(dirname "$program")/${words[0]##*/}" "${words[@]:1}" ;;
+    build/bench/bin/* | bench_*) has "$where" "${words[0]##*/}" "$benchmarks" benchmark ;;
+    ./bootstrap.sh) has "$where" "${words[1]}" "$(sed -n '/usage: /,/^TEXT/p' "$source/bootstrap.sh")" word ;;
+    cmake) try_cmake "$where" "${words[@]:1}" ;;
+    ctest) try_ctest "$where" "${words[@]:1}" ;;
+    git | clang-format-14) ;;
+    *) [[ -x "$source/${words[0]}" ]] || complain "$where: nobody tries ${words[0]}" ;;
+  esac
+}
+
+# try_commands BLOCK: a line that ends with \ goes on.
+try_commands() {
+  local where line page number
+  where="$(head -n 1 "$1")"
+  page="${where%:*}" number="${where##*:}"
+  while read -r line; do
+    try_line "$page:$number" "$line"
+    number=$((number + 1))
+  done < <(tail -n +2 "$1")
+}
+
+# try_options: those of the help are those of the page.
+try_options() {
+  local page="$source/docs/command_line.md" helped shown
+  [[ -f "$page" ]] || return 0
+  helped="$(for command in '' render trace info isa; do
+    "$program" $command --help | grep -oE -- '(^ *|,)--?[a-z-]+' | tr -d ' ,'
+  done | LC_ALL=C sort -u)"
+  shown="$(grep -oE -- '`--?[a-z-]+' "$page" | tr -d '`' | LC_ALL=C sort -u || true)"
+  [[ "$helped" == "$shown" ]] ||
+    complain "docs/command_line.md: its options are not those of the help:
+$(diff <(echo "$helped") <(echo "$shown") | grep '^[<>]')"
+}
+
+targets="$(cmake --build "$build" --target help 2>&1)"
+benchmarks="$(cat "$source"/bench/CMakeLists.txt "$source"/bench/*/CMakeLists.txt 2>/dev/null || true)"
+for block in "$work"/blocks/*; do
+  case "$block" in
+    *.toml | *.nff) try_scene "$block" ;;
+    *.python) try_python "$block" ;;
+  esac
+done
+for block in "$work"/blocks/*.sh; do
+  [[ ! -f "$block" ]] || try_commands "$block"
+done
+try_options
+((wrong == 0)) || exit 1
+((tried > 0)) || { echo "no commands in the documents of $source"; exit 1; }
+echo "$tried commands and $(find "$work/blocks" -name '*.toml' -o -name '*.nff' | wc -l) scenes work"
