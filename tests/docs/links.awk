@@ -2,6 +2,7 @@
 #   anchor PAGE SLUG           a heading, as GitHub names it
 #   link PAGE:LINE TARGET      what a link or a picture points to
 #   path PAGE:LINE PATH        a file of ours that is named in `code`
+#   test PAGE:LINE SUITE.NAME  a test likewise; all of a suite: SUITE.*
 
 FNR == 1 { fenced = 0 }
 /^ *```/ { fenced = !fenced; next }
@@ -24,6 +25,8 @@ fenced { next }
     text = substr(text, 1, RSTART - 1) " " substr(text, RSTART + RLENGTH)
     if (code ~ /^(core|simd|render|tests|bench|scenes|docs)\/[A-Za-z0-9_.*\/-]+$/)
       print "path", FILENAME ":" FNR, code
+    else if (code ~ /^[A-Z][A-Za-z]+\.([A-Z][A-Za-z]+|\*)$/)
+      print "test", FILENAME ":" FNR, code
   }
   while (match(text, /\]\([^()]+\)/)) {
     print "link", FILENAME ":" FNR, substr(text, RSTART + 2, RLENGTH - 3)

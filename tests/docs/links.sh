@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # links.sh ROOT: every relative link of every document leads to a file that is there, every anchor to
-# a heading of it, and every path of ours that is named in `code` exists. Addresses elsewhere are not
-# looked at.
+# a heading of it, and every path and every test of ours that is named in `code` exists. Addresses
+# elsewhere are not looked at.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 source "$here/pages.sh"
@@ -14,6 +14,10 @@ declare -A anchors=()
 while read -r kind page slug; do
   [[ "$kind" != anchor ]] || anchors["$page#$slug"]=1
 done <<<"$found"
+
+# "SUITE NAME" of each, wherever its line was broken.
+tests="$(find tests bench -name '*_test.cpp' -exec cat {} + 2>/dev/null | tr '\n' ' ' |
+  grep -oE 'TEST(_F|_P)?\([A-Za-z0-9]+, *[A-Za-z0-9]+' | sed -E 's/.*\(([^,]*), */\1 /' || true)"
 
 wrong=0 checked=0
 complain() {
@@ -42,11 +46,19 @@ check_path() {
   compgen -G "$2" >/dev/null || complain "$1: there is no $2"
 }
 
+# check_test WHERE SUITE.NAME
+check_test() {
+  local suite="${2%.*}" name="${2#*.}"
+  [[ "$name" != '*' ]] || name='[A-Za-z0-9]+'
+  grep -qE "^ *$suite $name\$" <<<"$tests" || complain "$1: there is no test $2"
+}
+
 while read -r kind where what; do
   [[ "$what" != *://* ]] || continue
   case "$kind" in
     link) check_link "$where" "$what" ;;
     path) check_path "$where" "$what" ;;
+    test) check_test "$where" "$what" ;;
     *) continue ;;
   esac
   checked=$((checked + 1))

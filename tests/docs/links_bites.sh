@@ -6,7 +6,9 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 failures=0
 mkdir -p "$work/docs" "$work/core" "$work/build/docs"
+mkdir "$work/tests"
 echo 'int x;' >"$work/core/a.cpp"
+printf 'TEST(Suite,\n     Name) {}\nTEST_P(Other, One) {}\n' >"$work/tests/a_test.cpp"
 printf '# One page\n\n## `[[key]]`: a *word*\n\n## Twice\n\n## Twice\n' >"$work/docs/other.md"
 echo '[nobody looks here](nothing.md)' >"$work/build/docs/copy.md"
 
@@ -33,6 +35,9 @@ expect fails '[a](#none)' 'docs/page.md has no heading for #none'
 expect fails '[a](other.md#twice-2)' 'docs/other.md has no heading for #twice-2'
 expect fails '[a](other.md) `core/none.cpp`' 'docs/page.md:3: there is no core/none.cpp'
 expect fails '[a](other.md) `core/*.h`' 'there is no core/*.h'
+expect passes '[a](other.md) `Suite.Name`, `Other.*`, `Scene` and `Scene.toml`'
+expect fails '[a](other.md) `Suite.One`' 'docs/page.md:3: there is no test Suite.One'
+expect fails '[a](other.md) `None.*`' 'there is no test None.*'
 rm -r "$work/docs"
 if "$here/links.sh" "$work" >/dev/null 2>&1; then
   echo "a tree without documents passes"
