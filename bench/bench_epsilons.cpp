@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bench/epsilons.h"
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 
 namespace boule::bench {
 namespace {

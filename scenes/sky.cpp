@@ -15,7 +15,7 @@
 
 #include "core/math/geometry.h"
 #include "core/math/warp.h"
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 
 namespace {
 

@@ -93,10 +93,10 @@ TEST(FramePictures, MissingShadowsAreNoticed) {
   const Image floor = picture(bare), shadowed = picture(flake());
   RenderOptions options = options_of(flake());
   options.width = options.height = shadowed.width;
-  options.views.id = true;
+  options.aovs.id = true;
   auto renderer = Renderer::create(flake(), options);
-  const auto views = renderer.value().render_views();
-  const auto& ids = std::get<std::vector<std::uint32_t>>(views.value().at(0).samples);
+  const auto aovs = renderer.value().render_aovs();
+  const auto& ids = std::get<std::vector<std::uint32_t>>(aovs.value().at(0).samples);
   Image unshadowed = shadowed;
   const std::size_t plane = flake().spheres.size();
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/scene/camera.h"
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 
 namespace boule::cli {
 

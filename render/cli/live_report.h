@@ -9,7 +9,7 @@
 #include "render/cli/options.h"
 #include "render/cli/progress_bar.h"
 #include "render/cli/pulse.h"
-#include "render/frame/live_progress.h"
+#include "render/frame/progress.h"
 
 namespace boule::cli {
 

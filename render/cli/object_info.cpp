@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/cli/shown_values.h"
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
 
 namespace boule::cli {
 namespace {

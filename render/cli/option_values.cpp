@@ -33,14 +33,14 @@ std::optional<std::vector<int>> split_numbers(const std::string& text, char sepa
   return numbers;
 }
 
-/// The switch that a view's name stands for, or null.
-bool* find_view(ViewSelection& views, const std::string& name) {
-  if (name == "depth") return &views.depth;
-  if (name == "normal") return &views.normal;
-  if (name == "position") return &views.position;
-  if (name == "id") return &views.id;
-  if (name == "albedo") return &views.albedo;
-  if (name == "z") return &views.z;
+/// The switch that an AOV's name stands for, or null.
+bool* find_aov(AovSelection& aovs, const std::string& name) {
+  if (name == "depth") return &aovs.depth;
+  if (name == "normal") return &aovs.normal;
+  if (name == "position") return &aovs.position;
+  if (name == "id") return &aovs.id;
+  if (name == "albedo") return &aovs.albedo;
+  if (name == "z") return &aovs.z;
   return nullptr;
 }
 
@@ -72,14 +72,14 @@ std::optional<PixelRect> parse_crop(const std::string& text) {
   return rect.empty() ? std::nullopt : std::optional(rect);
 }
 
-std::optional<ViewSelection> parse_views(const std::string& text) {
-  ViewSelection views;
+std::optional<AovSelection> parse_aovs(const std::string& text) {
+  AovSelection aovs;
   for (const std::string& name : split(text, ',')) {
-    bool* const view = find_view(views, name);
-    if (view == nullptr || *view) return std::nullopt;
-    *view = true;
+    bool* const aov = find_aov(aovs, name);
+    if (aov == nullptr || *aov) return std::nullopt;
+    *aov = true;
   }
-  return views;
+  return aovs;
 }
 
 std::optional<double> parse_duration(const std::string& text) {

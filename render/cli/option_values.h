@@ -28,7 +28,7 @@ std::optional<Size> parse_size(const std::string& text);
 std::optional<PixelRect> parse_crop(const std::string& text);
 
 /// Some of "depth,normal,position,id,albedo,z", each once, at least one.
-std::optional<ViewSelection> parse_views(const std::string& text);
+std::optional<AovSelection> parse_aovs(const std::string& text);
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);

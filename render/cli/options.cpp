@@ -115,7 +115,7 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
-  add_parsed(app, "--aov", command.views, parse_views,
+  add_parsed(app, "--aov", command.aovs, parse_aovs,
              "some of depth,normal,position,id,albedo,z, each once", "NAMES",
              "More channels in an EXR picture, each pixel's centre, unfiltered: any of "
              "depth,normal,position,id,albedo,z");

@@ -9,8 +9,8 @@
 #include "render/cli/progress_bar.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
-#include "render/image/image_file.h"
-#include "render/renderer/view_channels.h"
+#include "render/image/write_image.h"
+#include "render/renderer/aov_channels.h"
 #include "render/scene_file/scene_file.h"
 #include "simd/abi/isa.h"
 
@@ -65,7 +65,7 @@ struct RenderCommand : RunOptions {
   std::optional<Method> method;
   std::optional<int> max_depth;
   std::optional<PixelRect> crop;
-  ViewSelection views;
+  AovSelection aovs;
   std::uint64_t seed = 0;
   int tile = 0;                      ///< what fits
   std::optional<PixelOrder> order;   ///< tiles, or progressive for a partial picture

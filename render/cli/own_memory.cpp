@@ -12,7 +12,7 @@
 
 #include "render/cli/exit_code.h"
 #include "render/cli/interrupt.h"
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 
 namespace boule::cli {
 namespace {

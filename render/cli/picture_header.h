@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 #include "render/renderer/renderer.h"
 
 namespace boule::cli {

@@ -27,7 +27,7 @@
 #include "render/image/image_format.h"
 #include "render/image/image_start.h"
 #include "render/image/output_file.h"
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/scene_hash.h"
 #include "render/scene_file/scene_file.h"
@@ -43,7 +43,7 @@ Status check(const RenderCommand& command) {
                             ", expected one of " + known_image_extensions(),
                         "--output");
   }
-  if (command.views.any() && !format->channels) {
+  if (command.aovs.any() && !format->channels) {
     return wrong_option(
         std::string("a .") + format->extension +
             " file has no room for extra channels, expected --output to be an .exr file",
@@ -82,7 +82,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
   options.crop = command.crop;
-  options.views = command.views;
+  options.aovs = command.aovs;
   options.seed = command.seed;
   options.tile = command.tile;
   options.order =
@@ -94,7 +94,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   return options;
 }
 
-CropPlace place_of(const RenderOptions& options) {
+CropWindow crop_window(const RenderOptions& options) {
   if (!options.crop) return {};
   return {options.width, options.height, options.crop->x0, options.crop->y0};
 }
@@ -195,8 +195,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 
   RenderOptions options = combine(scene, command_);
   const PixelRect rect = rendered_rect(options);
-  const PictureShape shape{rect.width(), rect.height(), place_of(options),
-                           ViewChannels::names(options.views)};
+  const PictureShape shape{rect.width(), rect.height(), crop_window(options),
+                           AovChannels::names(options.aovs)};
   if (command_.skip_existing && is_finished_picture(command_.output, shape)) {
     skipped_ = true;
     if (tells_of_itself())
@@ -226,11 +226,11 @@ ExitCode Rendering::render(Renderer& renderer) {
   const StopGuard guard(command_.partial ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
   std::vector<ImageChannel> channels;
-  if (command_.views.any()) {  // first: a picture that is stopped has them too
+  if (command_.aovs.any()) {  // first: a picture that is stopped has them too
     live_.start_stage("finding the extra channels of " + printable(command_.output));
-    auto views = renderer.render_views();
-    if (!views) return explain(views.error());
-    channels = std::move(views).value();
+    auto aovs = renderer.render_aovs();
+    if (!aovs) return explain(aovs.error());
+    channels = std::move(aovs).value();
   }
   live_.start_pass("pixels");
   const auto image = make_image(renderer);
@@ -276,7 +276,7 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   ImageFileOptions file;
   file.compression = command_.compression;
   file.exposure_stops = command_.exposure_stops;
-  file.crop = place_of(options);
+  file.crop = crop_window(options);
   file.date_time = date_;
   file.metadata = picture_header(renderer, scene_hash_, partial_);
   file.threads = static_cast<int>(renderer.statistics().threads);

@@ -8,7 +8,8 @@
 #include "render/cli/camera_info.h"
 #include "render/cli/object_info.h"
 #include "render/cli/shown_values.h"
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
+#include "render/prepare/default_light.h"
 #include "render/renderer/scene_hash.h"
 
 namespace boule::cli {
@@ -170,7 +171,7 @@ void add_view(Json& json, const Scene& scene) {
   if (scene.spheres.empty() && scene.planes.empty()) {
     notes.push_back("no objects in the scene: nothing to be hit");
   } else if (!scene.camera) {
-    notes.push_back("no camera in the scene: framed on the objects");
+    notes.push_back(camera_note);
   }
   for (const Light& light : scene.lights) lights.push_back(describe_any(light));
   if (lacks_light(scene, scene.render.method)) {

@@ -11,15 +11,14 @@
 
 namespace boule {
 
-/// The samples of a picture so far, or of a part of it: per pixel their sum and number. Two threads
-/// may add at the same time to different pixels.
+/// The samples of a picture so far, or of a part of it: their sum and their number per pixel. Two
+/// threads may add to different pixels at the same time.
 class Film {
  public:
-  /// A film of the frame's pixels in `rect`, none where that is empty. Places outside it are
-  /// nobody's: precondition of all that take one. Throws std::bad_alloc, or std::length_error where
-  /// no memory could be enough.
+  /// A film of the frame's pixels in `rect`. Precondition of all functions that take a pixel: it
+  /// lies in `rect`.
   explicit Film(const PixelRect& rect) { restart(rect); }
-  /// A film that was moved away is empty.
+  /// The film that was moved away has no pixels.
   Film(Film&& other) noexcept
       : rect_(std::exchange(other.rect_, {})), pixels_(std::move(other.pixels_)) {}
   Film(const Film&) = default;
@@ -29,8 +28,8 @@ class Film {
     return *this;
   }
 
-  /// Begins afresh with other pixels, in the same memory where that suffices. Throws likewise, and
-  /// the film is as it was.
+  /// Begins anew with other pixels, in the same memory if it is large enough. The film is unchanged
+  /// if this throws.
   void restart(const PixelRect& rect) {
     pixels_.assign(static_cast<std::size_t>(rect.area()), {});
     rect_ = rect.empty() ? PixelRect{} : rect;
@@ -38,30 +37,30 @@ class Film {
 
   [[nodiscard]] const PixelRect& rect() const { return rect_; }
 
-  /// Adds a finite sample to pixel (x, y) of the frame; 2147483647 of them at most.
+  /// Adds a sample to pixel (x, y) of the frame. Preconditions: the sample is finite, and the pixel
+  /// has fewer than 2147483647.
   void add(int x, int y, const Color& sample) {
-    Pixel& pixel = pixels_[index(x, y)];
+    Pixel& pixel = pixels_[rect_.index(x, y)];
     pixel.r += static_cast<double>(sample.r);
     pixel.g += static_cast<double>(sample.g);
     pixel.b += static_cast<double>(sample.b);
     ++pixel.samples;
   }
 
-  /// Samples that pixel (x, y) of the frame has.
-  [[nodiscard]] int samples(int x, int y) const { return pixels_[index(x, y)].samples; }
+  /// The number of samples of pixel (x, y) of the frame.
+  [[nodiscard]] int samples(int x, int y) const { return pixels_[rect_.index(x, y)].samples; }
 
-  /// Samples that all pixels have together.
+  /// The number of samples of all pixels together.
   [[nodiscard]] std::uint64_t total_samples() const;
 
-  /// The mean of each pixel's samples, black where there is none, clamped to the largest float.
-  /// Throws std::bad_alloc.
+  /// The mean of each pixel's samples, at most the largest float; black where there is no sample.
   [[nodiscard]] Image to_image() const;
 
-  /// The same into a picture of the frame's pixels in `rect`, which holds this film's:
-  /// precondition.
+  /// Writes the same into `image`, a picture of the frame's pixels in `rect`. Precondition: `rect`
+  /// holds this film's pixels.
   void copy_to(Image& image, const PixelRect& rect) const;
 
-  /// Bytes a film of so many pixels takes.
+  /// Bytes that a film of the pixels in `rect` takes.
   static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(Pixel); }
 
  private:
@@ -69,11 +68,6 @@ class Film {
     double r = 0, g = 0, b = 0;
     std::int32_t samples = 0;
   };
-
-  [[nodiscard]] std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
-           static_cast<std::size_t>(x - rect_.x0);
-  }
 
   PixelRect rect_;
   std::vector<Pixel> pixels_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t random_slices = 16;
 
-/// Passes until every pixel has its first sample; 0: the order knows no such passes.
+/// The number of passes until every pixel has its first sample; 0 for an order that has one pass.
 std::size_t first_passes(PixelOrder order) {
   switch (order) {
     case PixelOrder::progressive:

@@ -8,10 +8,11 @@
 
 namespace boule {
 
-/// Some of a picture's pixels, evenly spread: those of a grid, or one of `slices` random shares.
+/// Some of a picture's pixels, spread evenly: the points of a grid, or one of `slices` random
+/// shares.
 struct PixelPick {
   int x0 = 0, y0 = 0;        ///< the picture's upper left pixel
-  int spacing = 1;           ///< of the grid, a power of two
+  int spacing = 1;           ///< pixels from one point of the grid to the next, a power of two
   std::uint32_t slices = 1;  ///< a power of two
   std::uint32_t slice = 0;   ///< below `slices`
 
@@ -22,7 +23,7 @@ struct PixelPick {
   }
 
  private:
-  /// A pixel's 32 random bits: the finalizer of MurmurHash3 (Appleby 2011) after two odd factors.
+  /// 32 random bits of a pixel: two odd factors, then the finalizer of MurmurHash3 (Appleby 2011).
   static std::uint32_t scatter(std::uint32_t x, std::uint32_t y) {
     std::uint32_t h = x * 0x9e3779b1u + y * 0x85ebca77u;
     h = (h ^ (h >> 16)) * 0x85ebca6bu;
@@ -31,28 +32,32 @@ struct PixelPick {
   }
 };
 
-/// One step of a picture in the making: its pixels get samples until they have `until`.
+/// One step of a picture that is shown as it grows: each picked pixel gets samples until it has
+/// `until` of them.
 struct LivePass {
   PixelPick pick;
   int until = 1;
-  double share = 1;  ///< of all samples that are done after it, about
+  double share = 1;  ///< of all samples, about, that are done after this pass
 };
 
-/// Spacing of the first pixels in order progressive.
+/// The spacing of the first pass in order progressive.
 inline constexpr int coarsest_spacing = 16;
 
-/// The steps in which a picture grows while somebody watches. progressive: the first sample of
-/// every 16th pixel of every 16th row, of every 8th, 4th, 2nd, of all; then sample by sample.
-/// frameless: the first sample of a random sixteenth of the pixels, of the next, until all have
-/// one; then sample by sample (after Bishop, Fuchs, McMillan and Zagier, "Frameless rendering",
-/// SIGGRAPH 1994). rows, tiles: all samples in one step.
+/// The passes in which a picture grows while somebody watches.
+/// - progressive: the first sample of every 16th pixel in every 16th row, then of every 8th, 4th
+/// and
+///   2nd, then of all pixels; after that one more sample of all pixels per pass.
+/// - frameless: the first sample of a random sixteenth of the pixels, then of another, until every
+///   pixel has one; after that one more sample of all pixels per pass (after Bishop, Fuchs,
+///   McMillan and Zagier, "Frameless rendering", SIGGRAPH 1994).
+/// - rows, tiles: all samples in one pass.
 class LivePasses {
  public:
-  /// A picture of the pixels in `rect`, `spp` samples each; below 1 counts as 1.
+  /// For a picture of the pixels in `rect` with `spp` samples each; below 1 counts as 1.
   LivePasses(PixelOrder order, const PixelRect& rect, int spp);
 
   [[nodiscard]] std::size_t size() const;
-  /// Pass i < size(): precondition.
+  /// Pass i. Precondition: i < size().
   [[nodiscard]] LivePass operator[](std::size_t i) const;
 
  private:

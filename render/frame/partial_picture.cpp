@@ -10,27 +10,29 @@
 namespace boule {
 namespace {
 
-/// Places count from the film's upper left pixel.
-struct Place {
+/// A pixel, counted from the film's upper left one.
+struct Pixel {
   int x, y;
 };
+constexpr Pixel no_pixel{-1, -1};
 
 bool has_samples(const Film& film, int x, int y) {
   return film.samples(film.rect().x0 + x, film.rect().y0 + y) > 0;
 }
 
-/// The finest coarse pixel that stands for (x, y); (-1, -1) where none has samples.
-Place coarse_pixel(const Film& film, int x, int y) {
+/// The coarse pixel with samples whose block holds (x, y), of several the one with the smallest
+/// block; no_pixel if none has samples.
+Pixel coarse_pixel(const Film& film, int x, int y) {
   for (int spacing = 2; spacing <= coarsest_spacing; spacing *= 2) {
-    const Place coarse{x & -spacing, y & -spacing};
+    const Pixel coarse{x & -spacing, y & -spacing};
     if (has_samples(film, coarse.x, coarse.y)) return coarse;
   }
-  return {-1, -1};
+  return no_pixel;
 }
 
-/// For each pixel of a film the nearest one with samples: along the columns first, then along the
-/// rows as the lower envelope of parabolas (Felzenszwalb and Huttenlocher, "Distance transforms of
-/// sampled functions", 2012), in integers.
+/// Finds, for each pixel of a film, the nearest one with samples: first within its column, then
+/// within its row, where the nearest columns are the lower envelope of parabolas (Felzenszwalb and
+/// Huttenlocher, "Distance transforms of sampled functions", 2012). All in integers.
 class NearestPixels {
  public:
   explicit NearestPixels(const Film& film)
@@ -40,11 +42,11 @@ class NearestPixels {
     for (int x = 0; x < width_; ++x) fill_column(film, x);
   }
 
-  /// The nearest pixels of row y, by x; (-1, -1) where the whole film has none.
-  void find_row(int y, std::vector<Place>& nearest);
+  /// The nearest pixels of row y, by x; no_pixel if no pixel of the film has samples.
+  void find_row(int y, std::vector<Pixel>& nearest);
 
  private:
-  /// The parabola over column x, best from column `from` on.
+  /// A piece of the envelope: the parabola around column x is the lowest from column `from` on.
   struct Piece {
     int x;
     std::int64_t from;
@@ -55,13 +57,15 @@ class NearestPixels {
                       static_cast<std::size_t>(x)];
   }
   void fill_column(const Film& film, int x);
+  void find_envelope(int y);
   std::int64_t column_distance(int x, int y) {
     const std::int64_t dy = nearest_y(x, y) - y;
     return dy * dy;
   }
 
   int width_, height_;
-  std::vector<int> nearest_y_;  ///< by pixel: the nearest row with samples in its column, or -1
+  /// By pixel: the row of the nearest pixel with samples in the same column, or -1.
+  std::vector<int> nearest_y_;
   std::vector<Piece> envelope_;
 };
 
@@ -79,11 +83,23 @@ void NearestPixels::fill_column(const Film& film, int x) {
   }
 }
 
-void NearestPixels::find_row(int y, std::vector<Place>& nearest) {
+void NearestPixels::find_row(int y, std::vector<Pixel>& nearest) {
+  find_envelope(y);
+  nearest.assign(static_cast<std::size_t>(width_), no_pixel);
+  std::size_t piece = 0;
+  for (int x = 0; x < width_ && !envelope_.empty(); ++x) {
+    while (piece + 1 < envelope_.size() && envelope_[piece + 1].from <= x) ++piece;
+    const int column = envelope_[piece].x;
+    nearest[static_cast<std::size_t>(x)] = {column, nearest_y(column, y)};
+  }
+}
+
+void NearestPixels::find_envelope(int y) {
   envelope_.clear();
   for (int x = 0; x < width_; ++x) {
     if (nearest_y(x, y) < 0) continue;
-    // (p - x)^2 + d is below (p - q)^2 + e, q < x, for p > ((x^2 + d) - (q^2 + e)) / 2 (x - q).
+    // Of two columns q < x with distances e and d, the parabola (p - x)^2 + d is the lower one
+    // where p > ((x^2 + d) - (q^2 + e)) / 2 (x - q).
     const std::int64_t height = std::int64_t{x} * x + column_distance(x, y);
     std::int64_t from = 0;
     while (!envelope_.empty()) {
@@ -96,13 +112,6 @@ void NearestPixels::find_row(int y, std::vector<Place>& nearest) {
       from = 0;
     }
     if (from < width_) envelope_.push_back({x, from});
-  }
-  nearest.assign(static_cast<std::size_t>(width_), {-1, -1});
-  std::size_t piece = 0;
-  for (int x = 0; x < width_ && !envelope_.empty(); ++x) {
-    while (piece + 1 < envelope_.size() && envelope_[piece + 1].from <= x) ++piece;
-    const int column = envelope_[piece].x;
-    nearest[static_cast<std::size_t>(x)] = {column, nearest_y(column, y)};
   }
 }
 
@@ -121,7 +130,7 @@ void fill_coarse(const Film& film, Image& image) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       if (has_samples(film, x, y)) continue;
-      const Place coarse = coarse_pixel(film, x, y);
+      const Pixel coarse = coarse_pixel(film, x, y);
       if (coarse.x >= 0) image.at(x, y) = image.at(coarse.x, coarse.y);
     }
   }
@@ -129,14 +138,14 @@ void fill_coarse(const Film& film, Image& image) {
 
 void fill_nearest(const Film& film, PixelOrder order, Image& image) {
   NearestPixels pixels(film);
-  std::vector<Place> nearest;
+  std::vector<Pixel> nearest;
   for (int y = 0; y < image.height; ++y) {
     pixels.find_row(y, nearest);
     for (int x = 0; x < image.width; ++x) {
       if (has_samples(film, x, y)) continue;
       if (order == PixelOrder::progressive && coarse_pixel(film, x, y).x >= 0) continue;
-      const Place place = nearest[static_cast<std::size_t>(x)];
-      if (place.x >= 0) image.at(x, y) = image.at(place.x, place.y);
+      const Pixel from = nearest[static_cast<std::size_t>(x)];
+      if (from.x >= 0) image.at(x, y) = image.at(from.x, from.y);
     }
   }
 }

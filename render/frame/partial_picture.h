@@ -6,12 +6,14 @@
 
 namespace boule {
 
-/// A whole picture from a film that has not all its samples yet, whatever the order it grows in.
-/// A pixel with samples has their mean. One without has, in order progressive, the colour of the
-/// coarse pixel whose block it lies in: the finest of those at multiples of 2, 4, 8, 16 that has
-/// samples; else, and in order frameless, that of the nearest pixel with samples (of equally near
-/// ones the leftmost, of those the upper one). In orders rows and tiles, and where no pixel has
-/// samples, it is black; of an empty film it has no pixels. Throws std::bad_alloc.
+/// A whole picture from a film that does not have all its samples yet. A pixel with samples has
+/// their mean. What a pixel without samples has depends on the order in which the picture grows:
+/// - progressive: the colour of the coarse pixel whose block it lies in. Coarse pixels are those at
+///   multiples of 2, 4, 8 and 16 that have samples; the smallest block counts. Without such a pixel
+///   as in order frameless.
+/// - frameless: the colour of the nearest pixel with samples; of equally near ones the leftmost, of
+///   those the upper one. Black if no pixel has samples.
+/// - rows, tiles: black.
 Image partial_picture(const Film& film, PixelOrder order);
 
 }  // namespace boule

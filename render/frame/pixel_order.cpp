@@ -17,54 +17,54 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 1) & 0x55555555u;
 }
 
-/// Place on the Morton curve: the bits of x and y in turn, x lowest.
-template <class Place>
-std::uint32_t curve_position(const Place& place) {
-  return spread(place.x) | spread(place.y) << 1;
+/// The index along the Morton curve: the bits of x and y in turn, that of x lowest.
+template <class Cell>
+std::uint32_t morton_code(const Cell& cell) {
+  return spread(cell.x) | spread(cell.y) << 1;
 }
 
-/// The coarsest grid of spacing 2^k that a block lies on; block (0, 0) lies on all.
-template <class Place>
-int coarseness(const Place& place) {
-  return std::countr_zero(static_cast<unsigned>(place.x | place.y) | 0x10000u);
+/// The largest k such that the cell lies on the grid of spacing 2^k; 16 for cell (0, 0).
+template <class Cell>
+int coarseness(const Cell& cell) {
+  return std::countr_zero(static_cast<unsigned>(cell.x | cell.y) | 0x10000u);
 }
 
 int legal(int tile) { return std::clamp(tile, 1, max_tile); }
 
-/// For a legal tile.
+/// The number of tiles that cover so many pixels; `tile` is legal.
 std::size_t tiles_along(int pixels, int tile) {
   return static_cast<std::size_t>((pixels + tile - 1) / tile);
 }
 
-/// Fisher and Yates' shuffle, the same on every machine.
-template <class Place>
-void shuffle(std::vector<Place>& places) {
-  for (std::size_t i = places.size(); i > 1; --i) {
+/// The shuffle of Fisher and Yates, the same on every machine.
+template <class Cell>
+void shuffle(std::vector<Cell>& cells) {
+  for (std::size_t i = cells.size(); i > 1; --i) {
     const auto words = philox({static_cast<std::uint32_t>(i), 0, 0, 0}, {0x626f756cu, 0x65u});
     const std::uint64_t pick = (std::uint64_t{words[0]} * i) >> 32;
-    std::swap(places[i - 1], places[static_cast<std::size_t>(pick)]);
+    std::swap(cells[i - 1], cells[static_cast<std::size_t>(pick)]);
   }
 }
 
-template <class Place>
-void put_in_order(std::vector<Place>& places, PixelOrder order) {
-  const auto along_curve = [](const Place& a, const Place& b) {
-    return curve_position(a) < curve_position(b);
+template <class Cell>
+void put_in_order(std::vector<Cell>& cells, PixelOrder order) {
+  const auto along_curve = [](const Cell& a, const Cell& b) {
+    return morton_code(a) < morton_code(b);
   };
-  const auto coarse_first = [](const Place& a, const Place& b) {
+  const auto coarse_first = [](const Cell& a, const Cell& b) {
     return coarseness(a) > coarseness(b);
   };
   switch (order) {
     case PixelOrder::rows:
       break;
     case PixelOrder::tiles:
-      std::sort(places.begin(), places.end(), along_curve);
+      std::sort(cells.begin(), cells.end(), along_curve);
       break;
     case PixelOrder::progressive:
-      std::stable_sort(places.begin(), places.end(), coarse_first);
+      std::stable_sort(cells.begin(), cells.end(), coarse_first);
       break;
     case PixelOrder::frameless:
-      shuffle(places);
+      shuffle(cells);
       break;
   }
 }
@@ -76,24 +76,24 @@ BlockOrder::BlockOrder(const PixelRect& rect, int tile, PixelOrder order)
   if (rect.empty()) return;
   const std::size_t columns = tiles_along(rect.width(), tile_);
   const std::size_t rows = tiles_along(rect.height(), tile_);
-  places_.reserve(columns * rows);
+  blocks_.reserve(columns * rows);
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x) {
-      places_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+      blocks_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
     }
   }
-  put_in_order(places_, order);
+  put_in_order(blocks_, order);
 }
 
 PixelRect BlockOrder::operator[](std::size_t i) const {
-  const int x = rect_.x0 + places_[i].x * tile_, y = rect_.y0 + places_[i].y * tile_;
+  const int x = rect_.x0 + blocks_[i].x * tile_, y = rect_.y0 + blocks_[i].y * tile_;
   return {x, y, std::min(x + tile_, rect_.x1), std::min(y + tile_, rect_.y1)};
 }
 
 std::uint64_t BlockOrder::bytes(const PixelRect& rect, int tile) {
   if (rect.empty()) return 0;
   return std::uint64_t{tiles_along(rect.width(), legal(tile))} *
-         tiles_along(rect.height(), legal(tile)) * sizeof(Place);
+         tiles_along(rect.height(), legal(tile)) * sizeof(Block);
 }
 
 std::vector<PixelOffset> block_pixels(int tile) {

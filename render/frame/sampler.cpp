@@ -10,7 +10,7 @@ double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 
 
 }  // namespace
 
-RasterPoint Sampler::place(int x, int y, const UnitPair& numbers) const {
+RasterPoint Sampler::position(int x, int y, const UnitPair& numbers) const {
   const auto [u, v] = numbers;
   if (filter_ == PixelFilter::box) return {x + u, y + v};
   return {x + 0.5 + tent(u), y + 0.5 + tent(v)};
@@ -18,8 +18,8 @@ RasterPoint Sampler::place(int x, int y, const UnitPair& numbers) const {
 
 RasterPoint Sampler::position(int x, int y, int sample) const {
   if (single_) return {x + 0.5, y + 0.5};
-  return place(x, y,
-               sobol_pair(keys_.of(x, y), RandomSet::film, static_cast<std::uint32_t>(sample)));
+  return position(x, y,
+                  sobol_pair(keys_.of(x, y), RandomSet::film, static_cast<std::uint32_t>(sample)));
 }
 
 }  // namespace boule

@@ -7,34 +7,35 @@
 
 namespace boule {
 
-/// A place on the image plane, in raster coordinates: pixel (i, j) covers [i, i+1) x [j, j+1).
+/// A point of the image plane in raster coordinates: pixel (i, j) covers [i, i+1) x [j, j+1).
 struct RasterPoint {
   double x, y;
 };
 
-/// Where a pixel is sampled (lecture "Sampling"): one sample at the centre, or any number of them
-/// spread evenly, as sobol_pair() says, whenever one stops. The filter shapes where they lie, not
-/// what they count, so a sample is of one pixel only (Ernst, Stamminger, Greiner, "Filter
-/// importance sampling", 2006): box: all over the pixel; tent: up to a pixel's width from its
-/// centre, the less likely the further. Depends on pixel, sample, seed and filter only, but for a
-/// single sample.
+/// Where a pixel is sampled (lecture "Sampling"): one sample lies at the centre; several are spread
+/// evenly by sobol_pair(), wherever one stops. The filter decides how likely a sample is where, and
+/// all samples count the same, so each belongs to one pixel (Ernst, Stamminger, Greiner, "Filter
+/// importance sampling", 2006).
+/// - box: anywhere in the pixel, equally likely.
+/// - tent: up to a pixel's width from the centre, less likely the further away.
+/// A position depends on pixel, sample, seed and filter, and on whether there is one sample or
+/// more.
 class Sampler {
  public:
-  /// spp: samples per pixel in all; 1: one at the centre. Nothing here throws or checks: any
-  /// numbers will do.
+  /// `spp`: samples per pixel in all. Takes any values, as do the functions below.
   Sampler(int spp, std::uint64_t seed, PixelFilter filter = PixelFilter::box)
       : single_(spp == 1), keys_(seed), filter_(filter) {}
 
-  /// One sample a pixel: it needs no numbers.
+  /// True if there is one sample per pixel, which needs no random numbers.
   [[nodiscard]] bool single() const { return single_; }
 
-  /// What the numbers of pixel (x, y) depend on.
+  /// The key of pixel (x, y) for its random numbers.
   [[nodiscard]] std::uint64_t key(int x, int y) const { return keys_.of(x, y); }
 
-  /// The place in pixel (x, y) of a sample of several, by its numbers: those of RandomSet::film.
-  [[nodiscard]] RasterPoint place(int x, int y, const UnitPair& numbers) const;
+  /// Where one of several samples of pixel (x, y) lies, from its numbers of RandomSet::film.
+  [[nodiscard]] RasterPoint position(int x, int y, const UnitPair& numbers) const;
 
-  /// The place of sample 0 <= sample < spp of pixel (x, y); others have places too.
+  /// Where sample 0 <= sample < spp of pixel (x, y) lies.
   [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
 
  private:

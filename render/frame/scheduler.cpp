@@ -11,7 +11,7 @@
 namespace boule {
 namespace {
 
-/// One loop, shared by its workers.
+/// One loop, which its workers share.
 class Loop {
  public:
   Loop(std::size_t count, const Scheduler::Body& body, const std::atomic<bool>* cancel)
@@ -33,7 +33,7 @@ class Loop {
     }
   }
 
-  /// The first exception, or null. Once all have worked.
+  /// The first exception, or null. Precondition: all workers have finished.
   [[nodiscard]] std::exception_ptr error() const { return error_; }
 
  private:

@@ -11,30 +11,30 @@
 namespace boule {
 
 /// Runs loops on several threads, the caller's among them: each worker takes the next index until
-/// none is left. A thread that cannot be had means fewer threads. Every worker computes in a
-/// FloatEnvironment.
+/// none is left. Every worker computes in a FloatEnvironment.
 class Scheduler {
  public:
-  /// body(worker, index), worker < workers(); one worker does one index at a time. Worker 0 is the
-  /// caller's thread.
+  /// body(worker, index) with worker < workers(). A worker calls it for one index at a time. Worker
+  /// 0 is the caller's thread.
   using Body = std::function<void(unsigned worker, std::size_t index)>;
 
-  /// 0 threads: as many as the hardware runs at once. Never more than max_workers.
+  /// For so many threads, max_workers at most; 0 means as many as the hardware runs at once.
   explicit Scheduler(unsigned threads);
 
   static constexpr unsigned max_workers = 1024;
 
-  /// The number of threads that are tried for.
+  /// The number of threads that a loop asks for.
   [[nodiscard]] unsigned workers() const { return workers_; }
   /// The number of threads that the last loop had.
   [[nodiscard]] unsigned threads_used() const { return threads_used_; }
 
   /// Calls body for 0 .. count - 1, each index at most once. An exception in a worker stops the
-  /// others and becomes the Diagnostic, an empty body is such a one; `*cancel` true stops them
-  /// without. Throws nothing else.
+  /// others and becomes the Diagnostic; calling an empty body is such an exception. If `*cancel`
+  /// becomes true, the loop stops without a Diagnostic.
   Status run(std::size_t count, const Body& body, const std::atomic<bool>* cancel = nullptr);
 
-  /// This scheduler as a ParallelFor; valid as long as it. Exceptions reach the caller.
+  /// This scheduler as a ParallelFor, which is valid as long as the scheduler. Exceptions reach the
+  /// caller.
   ParallelFor parallel_for();
 
  private:
@@ -44,7 +44,7 @@ class Scheduler {
   unsigned threads_used_ = 0;
 };
 
-/// Calls it: nothing, or the Diagnostic that its exception, of any type, becomes.
+/// Calls `call`, and turns an exception of any type into a Diagnostic.
 Status diagnose(const std::function<void()>& call);
 
 }  // namespace boule

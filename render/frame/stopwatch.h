@@ -4,7 +4,7 @@
 
 namespace boule {
 
-/// Wall-clock seconds since its construction.
+/// Counts the wall-clock seconds since its construction.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {

@@ -8,11 +8,12 @@
 
 namespace boule {
 
-/// What one traced ray meets. As it stands here: a miss.
+/// What one traced ray meets. The defaults are those of a miss.
 struct TracedHit {
-  double t = std::numeric_limits<double>::infinity();  ///< unrounded, in lengths of the direction
-  std::int32_t id = no_primitive;  ///< the primitive's: spheres in order, then planes
-  Vec3f normal;                    ///< geometric, unit length, turned against the ray; miss: 0
+  double t =
+      std::numeric_limits<double>::infinity();  ///< double, in units of the direction's length
+  std::int32_t id = no_primitive;               ///< of the primitive: spheres in order, then planes
+  Vec3f normal;  ///< geometric, unit length, against the ray; miss: 0
 };
 
 }  // namespace boule

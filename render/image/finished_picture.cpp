@@ -4,9 +4,9 @@
 #include <system_error>
 
 #include "core/base/float_environment.h"
+#include "render/image/file_damage.h"
 #include "render/image/image_format.h"
-#include "render/image/image_loader.h"
-#include "render/image/whole_file.h"
+#include "render/image/module_loader.h"
 
 namespace boule {
 
@@ -24,7 +24,7 @@ bool has_shape(const void* context, const image_module::FoundPicture& found) {
   constexpr int most_without_names = 4;  // red, green, blue and alpha
   if (!format.channels) return found.channel_count <= most_without_names;
   const bool cropped = shape.crop.frame_width != 0;
-  const CropPlace place = cropped ? shape.crop : CropPlace{shape.width, shape.height, 0, 0};
+  const CropWindow place = cropped ? shape.crop : CropWindow{shape.width, shape.height, 0, 0};
   return found.has_channels && found.x == place.x && found.y == place.y &&
          found.frame_width == place.frame_width && found.frame_height == place.frame_height;
 }

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 
 namespace boule {
 
 /// What a picture has that write_image() makes.
 struct PictureShape {
   int width, height;                    ///< of a crop, where it is one
-  CropPlace crop;                       ///< where that lies, if the format can say so
+  CropWindow crop;                      ///< where that lies, if the format can say so
   std::vector<std::string> channels{};  ///< beside R, G and B
 };
 

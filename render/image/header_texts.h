@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "render/image/image_file.h"
 #include "render/image/image_format.h"
+#include "render/image/write_image.h"
 
 namespace boule {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "render/image/image_format.h"
-#include "render/image/image_loader.h"
+#include "render/image/module_loader.h"
 #include "render/image/output_file.h"
 #include "render/threads/threads.h"
 

@@ -5,11 +5,11 @@
 
 #include "core/base/float_environment.h"
 #include "core/scene/scene.h"
+#include "render/image/file_damage.h"
 #include "render/image/image_format.h"
-#include "render/image/image_loader.h"
+#include "render/image/module_loader.h"
 #include "render/image/tone.h"
-#include "render/image/whole_file.h"
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 
 namespace boule {
 namespace {

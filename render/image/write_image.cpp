@@ -12,10 +12,10 @@
 
 #include "core/base/float_environment.h"
 #include "render/image/header_texts.h"
-#include "render/image/image_file.h"
-#include "render/image/image_loader.h"
+#include "render/image/module_loader.h"
 #include "render/image/output_file.h"
 #include "render/image/tone.h"
+#include "render/image/write_image.h"
 
 namespace boule {
 namespace {
@@ -89,7 +89,7 @@ std::string find_reason(const Image& image, const ImageFileOptions& options,
     return std::string("a .") + format->extension + " file has at most " +
            std::to_string(format->longest_side) + " pixels a side";
   }
-  const CropPlace& crop = options.crop;
+  const CropWindow& crop = options.crop;
   if (crop.frame_width != 0 &&
       (crop.x < 0 || crop.y < 0 || crop.frame_width < image.width ||
        crop.frame_height < image.height || crop.x > crop.frame_width - image.width ||
@@ -167,7 +167,7 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
     plan->attributes.push_back(attribute_of(name, value));
   }
   const bool cropped = options.crop.frame_width != 0 && format.channels;
-  const CropPlace place = cropped ? options.crop : CropPlace{image.width, image.height, 0, 0};
+  const CropWindow place = cropped ? options.crop : CropWindow{image.width, image.height, 0, 0};
   module::Picture& picture = plan->picture;
   picture.format = format.writer;
   picture.width = image.width;

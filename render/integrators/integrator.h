@@ -28,14 +28,14 @@ struct RayCounts {
 
 /// How path tracing seeks the light of spheres and environment images: by rays to them, by where
 /// paths happen to go, or by both, weighted. The mean of a picture is the same, its noise is not.
-enum class LightSearch { both, lights, paths };
+enum class LightSampling { both, lights, paths };
 
 /// How an integrator works.
 struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
   std::uint64_t seed = 0;  ///< of a path's random numbers
-  LightSearch light_search = LightSearch::both;
+  LightSampling light_sampling = LightSampling::both;
   std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
 };

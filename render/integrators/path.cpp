@@ -54,7 +54,7 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
       environment_share_(!scene.environment.shines() ? 0
                          : scene.area_lights.empty() ? 1
                                                      : 0.5),
-      seeks_(settings.light_search != LightSearch::paths &&
+      seeks_(settings.light_sampling != LightSampling::paths &&
              (scene.environment.shines() || !scene.area_lights.empty())) {
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<SphereLight>(light)) continue;
@@ -287,13 +287,14 @@ Color Path::crossed_lights(const Ray& ray, double density, double t) const {
 /// mirror), which the other way finds with `light_density`.
 double Path::weight_of_hit(double density, double light_density) const {
   if (!(density > 0) || !(light_density > 0)) return 1;
-  if (settings_.light_search == LightSearch::both) return power_heuristic(density, light_density);
-  return settings_.light_search == LightSearch::paths ? 1 : 0;
+  if (settings_.light_sampling == LightSampling::both)
+    return power_heuristic(density, light_density);
+  return settings_.light_sampling == LightSampling::paths ? 1 : 0;
 }
 
 /// What light counts that was sought with `light_density`, on which a path comes with `density`.
 double Path::weight_of_light(double light_density, double density, bool last) const {
-  if (last || settings_.light_search == LightSearch::lights) return 1;
+  if (last || settings_.light_sampling == LightSampling::lights) return 1;
   return power_heuristic(light_density, density);
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/scene/instances.h"
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 
 namespace boule {
 

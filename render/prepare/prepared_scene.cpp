@@ -4,7 +4,8 @@
 
 #include "core/base/float_environment.h"
 #include "core/scene/instances.h"
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
+#include "render/prepare/default_light.h"
 
 namespace boule {
 namespace {
@@ -33,9 +34,37 @@ Coherence primary_coherence(CameraKind kind) {
   return Coherence::common_origin;
 }
 
-/// Of the rays through a lens' centre, for those cameras that have one.
+/// What the rays through the centre of the camera's lens have in common, or all primary rays of a
+/// camera without a lens.
 Coherence central_coherence(CameraKind kind) {
   return kind == CameraKind::thin_lens ? Coherence::common_origin : primary_coherence(kind);
+}
+
+/// Gives a scene without a camera one that frames its objects. An error where none can.
+Status add_camera(Scene& scene, int width, int height, std::vector<std::string>& notes) {
+  if (scene.camera) return std::nullopt;
+  scene.camera = default_camera(scene, width, height);
+  if (const auto problem = find_problem(*scene.camera)) {
+    return Diagnostic{"the scene has no camera, and its objects cannot be framed: camera." +
+                          problem->field + " " + problem->message,
+                      "camera",
+                      {},
+                      0,
+                      0};
+  }
+  if (!scene.spheres.empty() || !scene.planes.empty()) notes.emplace_back(camera_note);
+  return std::nullopt;
+}
+
+void add_light(Scene& scene, Method method, std::vector<std::string>& notes) {
+  if (!lacks_light(scene, method)) return;
+  notes.emplace_back(light_note(scene, method));
+  scene.lights.emplace_back(light_at_eye(*scene.camera));
+}
+
+EnvironmentLight environment_light(const Scene& scene, Method method) {
+  const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
+  return image && method == Method::path ? EnvironmentLight(*image) : EnvironmentLight();
 }
 
 }  // namespace
@@ -48,42 +77,26 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   if (auto bad = validate(scene)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;
-  const Camera camera = scene.camera ? *scene.camera : default_camera(scene, width, height);
-  if (!scene.camera) {
-    if (const auto problem = find_problem(camera)) {
-      return Diagnostic{"the scene has no camera, and its objects cannot be framed: camera." +
-                            problem->field + " " + problem->message,
-                        "camera",
-                        {},
-                        0,
-                        0};
-    }
-    const bool framed = !scene.spheres.empty() || !scene.planes.empty();
-    if (framed) notes.emplace_back("no camera in the scene: framed on the objects");
-  }
-  if (lacks_light(scene, method)) {
-    scene.lights.emplace_back(light_at_eye(camera));
-    notes.emplace_back(light_note(scene, method));
-  }
-  const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
-  EnvironmentLight environment =
-      image && method == Method::path ? EnvironmentLight(*image) : EnvironmentLight();
+  if (auto bad = add_camera(scene, width, height, notes)) return *bad;
+  add_light(scene, method, notes);
+  EnvironmentLight environment = environment_light(scene, method);
   AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
   DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
-  LensStack lens = build_lens(camera, width, height);
-  // The numbers stay where they are when their vectors move.
-  const CameraView view =
-      build_camera(camera, width, height, distortion.st.empty() ? nullptr : &distortion, &lens);
+  LensStack lens = build_lens(*scene.camera, width, height);
+  // The view points to numbers in `distortion` and `lens`, which stay where they are when these
+  // move.
+  const CameraView view = build_camera(*scene.camera, width, height,
+                                       distortion.st.empty() ? nullptr : &distortion, &lens);
   return PreparedScene{
       .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
-      .spheres = std::move(scene.spheres),  // the geometry above has read them: in this order
+      .spheres = std::move(scene.spheres),  // only now: the geometry has read them
       .planes = std::move(scene.planes),
       .materials = flatten_all(scene, method),
       .lights = std::move(scene.lights),
       .area_lights = std::move(area_lights),
       .background = std::move(scene.background),
       .environment = std::move(environment),
-      .camera = camera,
+      .camera = std::move(*scene.camera),
       .distortion = std::move(distortion),
       .lens = std::move(lens),
       .camera_view = view,

@@ -8,7 +8,7 @@
 #include "core/scene/scene.h"
 #include "core/surface.h"
 #include "render/prepare/area_lights.h"
-#include "render/prepare/environment.h"
+#include "render/prepare/environment_light.h"
 #include "render/prepare/flat_material.h"
 #include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
@@ -17,26 +17,26 @@
 
 namespace boule {
 
-/// A scene ready to be rendered at one size (the lecture's "preprocess"): complete, with a camera
-/// and a light, and laid out for the kernels. Const once made; any number of threads may read it.
+/// A scene ready to be rendered at one size (the lecture's "preprocess"): it has a camera and a
+/// light, and is laid out for the kernels. It does not change any more.
 struct PreparedScene {
   Geometry geometry;                    ///< what rays are tested against
-  std::vector<Sphere> spheres;          ///< by id: what shading looks up
-  std::vector<Plane> planes;            ///< by id - spheres.size()
-  std::vector<FlatMaterial> materials;  ///< by Sphere::material, Plane::material
+  std::vector<Sphere> spheres;          ///< by id, for shading
+  std::vector<Plane> planes;            ///< by id - spheres.size(), for shading
+  std::vector<FlatMaterial> materials;  ///< by Sphere::material and Plane::material
   std::vector<Light> lights;            ///< in file order
   AreaLights area_lights;               ///< for path tracing
   Background background;
-  EnvironmentLight environment;    ///< of an image, for path tracing
+  EnvironmentLight environment;    ///< the background's image as a light, for path tracing
   Camera camera;                   ///< the scene's, or the default one
-  DistortionMap distortion;        ///< what camera_view.map points into, if anything
-  LensStack lens;                  ///< what camera_view.lens points into, likewise
-  CameraView camera_view;          ///< camera and distortion for the kernels
+  DistortionMap distortion;        ///< owns what camera_view.map points to
+  LensStack lens;                  ///< owns what camera_view.lens points to
+  CameraView camera_view;          ///< the camera as the kernels read it
   Coherence coherence;             ///< what primary rays have in common
-  Coherence central_coherence;     ///< and those of them through the lens' centre
+  Coherence central_coherence;     ///< what those through the centre of the lens have in common
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
-  /// The material of the primitive with this id, of which there is one: precondition.
+  /// The material of the primitive with this id. Precondition: there is one.
   [[nodiscard]] const FlatMaterial& material_of(std::int32_t id) const {
     const auto i = static_cast<std::size_t>(id);
     const std::size_t first_plane = spheres.size();
@@ -44,17 +44,16 @@ struct PreparedScene {
   }
 };
 
-/// The surface a ray met in it.
+/// The surface that a ray met in the scene.
 inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   return find_surface(scene.spheres, scene.planes, ray, hit);
 }
 
-/// Prepares a scene for a picture of `width` x `height` pixels. Takes any values: an error if the
-/// scene is invalid (validate()), a side is not 1 .. 65535, or the scene has no camera and none can
-/// be made for it. The bits do not depend on `parallel_for`. Throws std::bad_alloc, and what
-/// `parallel_for` throws. Instances become spheres and planes (expand_instances()).
-/// Spheres and planes are kept, not copied: move a scene here that is not needed any more. How the
-/// scene itself asks to be rendered does not matter.
+/// Prepares a scene for a picture of `width` x `height` pixels. Takes any values; an error if the
+/// scene is invalid (validate()), if a side is not 1 .. 65535, or if the scene has no camera and
+/// none can be made for it. Passes on what `parallel_for` throws. Instances become spheres and
+/// planes (expand_instances()). Spheres and planes are moved, not copied: move a scene here that is
+/// not needed any more. scene.image and scene.render are not used.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);

@@ -56,7 +56,7 @@ bool BlockWorker::render(const PixelRect& block, int until, Image& image, const 
 bool BlockWorker::trace(Film& film) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
-  place_samples();
+  position_samples();
   rays_.resize(count);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
@@ -66,7 +66,7 @@ bool BlockWorker::trace(Film& film) {
 }
 
 /// Finds where the samples gathered so far lie, on the film and on the lens.
-void BlockWorker::place_samples() {
+void BlockWorker::position_samples() {
   const Sampler& sampler = setup_.sampler;
   const CameraView& camera = setup_.scene.camera_view;
   samples_.resize(setup_.stream_size, camera);
@@ -74,9 +74,9 @@ void BlockWorker::place_samples() {
   if (!sampler.single()) find_numbers(RandomSet::film);
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const auto& [x, y, sample] = pixels_[k];
-    const RasterPoint place =
-        sampler.single() ? sampler.position(x, y, sample) : sampler.place(x, y, numbers_.get(k));
-    samples_.set(k, place.x, place.y);
+    const RasterPoint point =
+        sampler.single() ? sampler.position(x, y, sample) : sampler.position(x, y, numbers_.get(k));
+    samples_.set(k, point.x, point.y);
   }
   if (!has_lens(camera.kind)) return;
   if (!sampler.single()) find_numbers(RandomSet::lens);

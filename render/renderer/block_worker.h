@@ -55,7 +55,7 @@ class BlockWorker {
  private:
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
-  void place_samples();
+  void position_samples();
   void find_numbers(RandomSet set);
   bool trace(Film& film);
   bool trace_all(Film& film);

@@ -1,7 +1,7 @@
 #include "render/renderer/render_options.h"
 
 #include "render/image/image.h"
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 #include "simd/abi/stream.h"
 
 namespace boule {
@@ -19,7 +19,7 @@ Status check_picture_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
                                BlockOrder::bytes(rect, least_tile(options)) +
-                               ViewChannels::bytes(options.views, rect);
+                               AovChannels::bytes(options.aovs, rect);
   return check_memory(needed,
                       "a picture of " + std::to_string(rect.width()) + " x " +
                           std::to_string(rect.height()) + " pixels needs",

@@ -9,11 +9,10 @@
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "render/frame/film.h"
-#include "render/frame/live_progress.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/frame/progress.h"
-#include "render/renderer/view_channels.h"
+#include "render/renderer/aov_channels.h"
 #include "simd/abi/isa.h"
 
 namespace boule {
@@ -29,7 +28,7 @@ struct RenderOptions {
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
   Solver solver = Solver::robust;
   std::optional<PixelRect> crop;  ///< render these pixels of the frame only
-  ViewSelection views;            ///< what render_views() finds
+  AovSelection aovs;              ///< what render_aovs() finds
   PixelOrder order = PixelOrder::tiles;
   int tile = 0;                                   ///< pixels, side of a block, 1 .. 1024; 0: fits
   unsigned threads = 0;                           ///< 0: as many as the hardware runs; at most 1024

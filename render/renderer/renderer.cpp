@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
-#include "render/frame/live_progress.h"
+#include "render/frame/progress.h"
 #include "render/frame/stopwatch.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 #include "render/memory/scene_memory.h"
-#include "render/renderer/view_worker.h"
+#include "render/renderer/aov_worker.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
@@ -125,11 +125,11 @@ Status Renderer::render_live(Film& film) {
 }
 
 /// Closures go by reference, here and above: a copy would need memory, which throws.
-Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
+Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span) {
   const Stopwatch watch;
   LiveProgress own;
   LiveProgress& live = options_.live != nullptr ? *options_.live : own;
-  live.begin_pass(blocks_.size(), place.begin, place.end, place.rays);
+  live.begin_pass(blocks_.size(), span);
   const auto report = [&] {
     if (options_.progress) options_.progress(live.read());
   };
@@ -149,33 +149,33 @@ Status Renderer::run_blocks(const BlockTask& task, const PassPlace& place) {
   return diagnose(std::cref(report));  // no memory for it
 }
 
-Result<std::vector<ImageChannel>> Renderer::render_views() {
+Result<std::vector<ImageChannel>> Renderer::render_aovs() {
   if (!scene_) return moved_away();
   const FloatEnvironment environment;
   const Stopwatch watch;
   try {
-    ViewChannels channels(options_.views, rect());
-    const Status status = options_.views.any() ? find_views(channels) : std::nullopt;
+    AovChannels channels(options_.aovs, rect());
+    const Status status = options_.aovs.any() ? find_aovs(channels) : std::nullopt;
     render_seconds_ += watch.seconds();
     if (status) return *status;
     return channels.release();
   } catch (const std::bad_alloc&) {
-    return failure("out of memory for the views");
+    return failure("out of memory for the AOVs");
   }
 }
 
-Status Renderer::find_views(ViewChannels& channels) {
-  std::vector<std::unique_ptr<ViewWorker>> workers(scheduler_.workers());
+Status Renderer::find_aovs(AovChannels& channels) {
+  std::vector<std::unique_ptr<AovWorker>> workers(scheduler_.workers());
   std::atomic<std::size_t> done{0};
   const auto body = [&](unsigned worker, std::size_t block) {
     auto& mine = workers[worker];
-    if (!mine) mine = std::make_unique<ViewWorker>(*setup_, options_.solver);
+    if (!mine) mine = std::make_unique<AovWorker>(*setup_, options_.solver);
     mine->render(blocks_[block], channels);
     ++done;
   };
   const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   for (const auto& worker : workers) {
-    if (worker) view_rays_ += worker->counts();
+    if (worker) aov_rays_ += worker->counts();
   }
   if (!status && done != blocks_.size()) return failure("rendering was cancelled");
   return status;
@@ -198,7 +198,7 @@ std::unique_ptr<BlockWorker> Renderer::make_worker() const {
 }
 
 RayCounts Renderer::count_rays() const {
-  RayCounts rays = view_rays_;
+  RayCounts rays = aov_rays_;
   for (const auto& worker : workers_) {
     if (worker) rays += worker->counts();
   }

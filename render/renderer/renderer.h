@@ -55,7 +55,7 @@ class Renderer {
 
   /// The views that the options select, of the rays through the pixels' centres, unfiltered: as
   /// extra channels for write_image. Their rays count as primary ones. Cancelled, it is an error.
-  Result<std::vector<ImageChannel>> render_views();
+  Result<std::vector<ImageChannel>> render_aovs();
 
   [[nodiscard]] const RenderOptions& options() const { return options_; }
   /// The pixels a film for this renderer has.
@@ -75,14 +75,9 @@ class Renderer {
   [[nodiscard]] SampleFaults count_faults() const;
   /// Renders a block; false if it was cancelled.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
-  /// Where a pass lies in the progress that is told.
-  struct PassPlace {
-    double begin = 0, end = 1;  ///< share of all work
-    std::uint64_t rays = 0;     ///< traced before it
-  };
   Status check_film(const Film& film) const;
-  Status run_blocks(const BlockTask& task, const PassPlace& place);
-  Status find_views(ViewChannels& channels);
+  Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
+  Status find_aovs(AovChannels& channels);
 
   RenderOptions options_;
   std::unique_ptr<const PreparedScene> scene_;  ///< workers refer to it: it stays where it is
@@ -90,7 +85,7 @@ class Renderer {
   BlockOrder blocks_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<BlockWorker>> workers_;
-  RayCounts view_rays_;
+  RayCounts aov_rays_;
   double prepare_seconds_ = 0;
   double render_seconds_ = 0;
 };

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 #include "render/scene_file/huge_pages.h"
 
 namespace boule {

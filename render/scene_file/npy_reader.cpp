@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
 #include "render/scene_file/float32.h"
 #include "render/scene_file/input_file.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/math/geometry.h"
-#include "render/prepare/environment.h"
+#include "render/prepare/environment_light.h"
 
 namespace boule {
 

@@ -42,7 +42,7 @@ BEGIN {
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
-  owner("#include <OpenImageIO/", "^render/image/(image_file\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")

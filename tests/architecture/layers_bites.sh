@@ -63,7 +63,7 @@ refused simd/kernel/a.h '#include "simd/stream/aligned_array.h"' 'may not includ
 refused simd/geometry/a.cpp '#include "render/image/image.h"' 'may not include'
 refused render/prepare/a.cpp '#include "simd/kernel/search/scan.h"' 'may not include'
 refused render/scene_file/a.cpp '#include "simd/abi/isa.h"' 'may not include'
-refused render/scene_file/a.cpp '#include "render/image/image_file.h"' 'may not include'
+refused render/scene_file/a.cpp '#include "render/image/write_image.h"' 'may not include'
 refused render/image/a.cpp '#include "render/frame/film.h"' 'may not include'
 refused render/frame/a.cpp '#include "render/shading/bsdf.h"' 'may not include'
 refused render/trace_file/a.cpp '#include "render/renderer/tracer.h"' 'may not include'

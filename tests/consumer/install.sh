@@ -17,7 +17,7 @@ for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.s
   [[ -f "$file" ]] || { echo "$file is not installed"; exit 1; }
 done
 if find include | grep -E '/(kernel|lanes|cli|shading|threads)(/|$)' ||
-  find include | grep -E '/(image_module|image_loader|wavefront|split|cpu)\.h$'; then
+  find include | grep -E '/(image_module|module_loader|wavefront|split|cpu)\.h$'; then
   echo "headers that are nobody's business outside"
   exit 1
 fi

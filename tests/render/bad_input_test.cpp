@@ -170,12 +170,12 @@ TEST(BadInput, OptionsOfAnySizeAreJudged) {
 TEST(BadInput, ARendererThatWasMovedAwayRefuses) {
   const Scene scene = mixed_scene(8, 8);
   RenderOptions options = options_of(scene);
-  options.views.id = true;
+  options.aovs.id = true;
   Renderer first = Renderer::create(scene, options).value();
   Renderer second = std::move(first);
   Film film(second.rect());
   EXPECT_EQ(first.render().error().message, "the renderer was moved away");
-  EXPECT_EQ(first.render_views().error().message, "the renderer was moved away");
+  EXPECT_EQ(first.render_aovs().error().message, "the renderer was moved away");
   EXPECT_EQ(first.render_pass(film, 1)->message, "the renderer was moved away");
   EXPECT_EQ(first.render_live(film)->message, "the renderer was moved away");
   first = std::move(second);

@@ -6,7 +6,7 @@
 
 #include "core/math/warp.h"
 #include "render/image/read_image.h"
-#include "render/prepare/environment.h"
+#include "render/prepare/environment_light.h"
 #include "tests/scenes/shipped.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_dir.h"

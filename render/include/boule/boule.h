@@ -4,8 +4,8 @@
 /// hits. Each header can be included by itself as well, by the path below.
 
 #include "core/scene/scene.h"              // Scene: what there is to see
-#include "render/image/image_file.h"       // write_image()
 #include "render/image/read_image.h"       // read_image()
+#include "render/image/write_image.h"      // write_image()
 #include "render/renderer/renderer.h"      // Renderer: a scene to a picture
 #include "render/renderer/tracer.h"        // Tracer: rays to hits, on all cores
 #include "render/scene_file/scene_file.h"  // load_scene()

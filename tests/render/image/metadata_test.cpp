@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 #include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "render/image/image_file.h"
 #include "render/image/tone.h"
 #include "tests/render/image/files.h"
+#include "render/image/write_image.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {

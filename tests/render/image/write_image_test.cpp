@@ -14,10 +14,10 @@
 #include <thread>
 
 #include "render/image/finished_picture.h"
-#include "render/image/image_file.h"
-#include "render/image/image_loader.h"
+#include "render/image/module_loader.h"
 #include "render/image/read_image.h"
 #include "tests/render/image/files.h"
+#include "render/image/write_image.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule {
@@ -170,13 +170,13 @@ TEST_F(WriteImage, TooWideForTheFormat) {
 }
 
 TEST_F(WriteImage, CropsOutsideTheirFrame) {
-  for (const CropPlace crop : {CropPlace{3, 9, 0, 0},
-                               {9, 3, 0, 0},
-                               {9, 9, 6, 0},
-                               {9, 9, 0, 6},
-                               {9, 9, -1, 0},
-                               {9, 9, 0, -1},
-                               {-9, 9, 0, 0}}) {
+  for (const CropWindow crop : {CropWindow{3, 9, 0, 0},
+                                {9, 3, 0, 0},
+                                {9, 9, 6, 0},
+                                {9, 9, 0, 6},
+                                {9, 9, -1, 0},
+                                {9, 9, 0, -1},
+                                {-9, 9, 0, 0}}) {
     ImageFileOptions options;
     options.crop = crop;
     EXPECT_EQ(reason(Image(4, 4), at("a.exr"), options), "the crop lies outside its frame");

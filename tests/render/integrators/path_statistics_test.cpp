@@ -14,13 +14,13 @@ namespace boule::test {
 namespace {
 
 /// Radiance of every pixel's centre, its mean over the samples [first, first + count).
-std::vector<Color> path_means(const Scene& scene, LightSearch search, std::uint64_t seed,
+std::vector<Color> path_means(const Scene& scene, LightSampling search, std::uint64_t seed,
                               int count) {
   const int width = scene.image.width, height = scene.image.height;
   const PreparedScene prepared = prepare(scene, width, height, serial_for, Method::path).value();
   IntegratorSettings settings;
   settings.max_depth = scene.render.max_depth;
-  settings.light_search = search;
+  settings.light_sampling = search;
   settings.seed = seed;
   Path path(prepared, *select_kernels("auto").value(), settings);
   const CameraBasis basis = camera_basis(*scene.camera, width, height);
@@ -56,7 +56,7 @@ double student(double z, double freedom) {
 }
 
 /// Means of independent pictures of so many samples, pixel by pixel.
-std::vector<Moments> picture_moments(const Scene& scene, LightSearch search, int pictures,
+std::vector<Moments> picture_moments(const Scene& scene, LightSampling search, int pictures,
                                      int samples) {
   std::vector<Moments> moments(static_cast<std::size_t>(scene.image.width * scene.image.height));
   for (int i = 0; i < pictures; ++i) {
@@ -72,10 +72,10 @@ std::vector<Moments> picture_moments(const Scene& scene, LightSearch search, int
 /// small lights rarely, may have more samples.
 void expect_ways_agree(const Scene& scene, int samples, int samples_of_paths) {
   const int pictures = static_cast<int>(test_size("BOULE_PATH_PICTURES", 24));
-  const auto both = picture_moments(scene, LightSearch::both, pictures, samples);
-  for (const LightSearch search : {LightSearch::lights, LightSearch::paths}) {
+  const auto both = picture_moments(scene, LightSampling::both, pictures, samples);
+  for (const LightSampling search : {LightSampling::lights, LightSampling::paths}) {
     const auto other = picture_moments(scene, search, pictures,
-                                       search == LightSearch::paths ? samples_of_paths : samples);
+                                       search == LightSampling::paths ? samples_of_paths : samples);
     int failures = 0;
     double sum_of_both = 0, sum_of_other = 0;
     for (std::size_t k = 0; k < both.size(); ++k) {
@@ -139,10 +139,10 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgreeUnderASmallSun) {
 TEST(PathStatistics, TheErrorFallsAtLeastAsTheRootOfTheSamples) {
   Scene scene = path_scene(16, 12);
   const int most = static_cast<int>(test_size("BOULE_PATH_SAMPLES", 4096));
-  const std::vector<Color> reference = path_means(scene, LightSearch::both, 77, most);
+  const std::vector<Color> reference = path_means(scene, LightSampling::both, 77, most);
   std::vector<double> logs_n, logs_error;
   for (int n = 4; n <= most / 16; n *= 4) {
-    const std::vector<Color> means = path_means(scene, LightSearch::both, 1, n);
+    const std::vector<Color> means = path_means(scene, LightSampling::both, 1, n);
     double sum = 0;
     for (std::size_t k = 0; k < means.size(); ++k) {
       sum += std::pow(luminance(means[k]) - luminance(reference[k]), 2);

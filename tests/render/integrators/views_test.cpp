@@ -1,4 +1,4 @@
-#include "render/integrators/views.h"
+#include "render/integrators/aovs.h"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +16,13 @@
 namespace boule::test {
 namespace {
 
-constexpr ViewSelection everything = {true, true, true, true, true};
+constexpr AovSelection everything = {true, true, true, true, true};
 
-/// The channels of a scene's views, or a failed test and none.
-std::vector<ImageChannel> render_views(const Scene& scene, const RenderOptions& options) {
+/// The channels of a scene's aovs, or a failed test and none.
+std::vector<ImageChannel> render_aovs(const Scene& scene, const RenderOptions& options) {
   auto renderer = Renderer::create(scene, options);
   if (renderer) {
-    auto channels = renderer.value().render_views();
+    auto channels = renderer.value().render_aovs();
     if (channels) return std::move(channels).value();
     ADD_FAILURE() << format_diagnostic(channels.error());
   } else {
@@ -33,7 +33,7 @@ std::vector<ImageChannel> render_views(const Scene& scene, const RenderOptions& 
 
 RenderOptions options_for(const Scene& scene) {
   RenderOptions options = options_of(scene);
-  options.views = everything;
+  options.aovs = everything;
   return options;
 }
 
@@ -61,35 +61,35 @@ std::string difference(const std::vector<ImageChannel>& a, const std::vector<Ima
   return {};
 }
 
-/// The views of single rays on an instruction set's kernels.
-std::vector<View> views_of(const Scene& scene, const std::vector<Ray>& rays,
-                           const KernelTable& kernels = *select_kernels("auto").value()) {
+/// The aovs of single rays on an instruction set's kernels.
+std::vector<Aovs> aovs_of(const Scene& scene, const std::vector<Ray>& rays,
+                          const KernelTable& kernels = *select_kernels("auto").value()) {
   const auto prepared = prepare(scene, 8, 8);
-  Views finder(prepared.value(), kernels, Solver::robust);
+  AovTracer finder(prepared.value(), kernels, Solver::robust);
   RayBuffer stream = to_stream(rays);
-  std::vector<View> views(rays.size());
-  finder.trace(stream, Coherence::none, views.data());
+  std::vector<Aovs> aovs(rays.size());
+  finder.trace(stream, Coherence::none, aovs.data());
   EXPECT_EQ(finder.counts().primary, rays.size());
-  return views;
+  return aovs;
 }
 
-class WideViews : public OnEachIsa {};
+class WideAovs : public OnEachIsa {};
 
-TEST_P(WideViews, HaveTheReferencesBits) {
+TEST_P(WideAovs, HaveTheReferencesBits) {
   for (const Scene& scene : {mixed_scene(45, 31), glass_cloud(33, 17)}) {
     RenderOptions options = options_for(scene);
     options.isa = GetParam();
     RenderOptions reference = options;
     reference.solver = Solver::reference;
-    EXPECT_EQ(difference(render_views(scene, options), render_views(scene, reference)), "");
+    EXPECT_EQ(difference(render_aovs(scene, options), render_aovs(scene, reference)), "");
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, WideViews, each_isa(), isa_name);
+INSTANTIATE_TEST_SUITE_P(Isa, WideAovs, each_isa(), isa_name);
 
-TEST(Views, DoNotDependOnThreadsTilesOrderOrSamples) {
+TEST(Aovs, DoNotDependOnThreadsTilesOrderOrSamples) {
   const Scene scene = mixed_scene(45, 31);
-  const auto expected = render_views(scene, options_for(scene));
+  const auto expected = render_aovs(scene, options_for(scene));
   ASSERT_EQ(expected.size(), 11u);
   ASSERT_EQ(size_of(expected[0]), 45u * 31u);
   for (const unsigned threads : {1u, 2u, 5u}) {
@@ -100,17 +100,17 @@ TEST(Views, DoNotDependOnThreadsTilesOrderOrSamples) {
       options.spp = tile;
       options.seed = threads;
       options.order = tile == 7 ? PixelOrder::frameless : PixelOrder::rows;
-      EXPECT_EQ(difference(render_views(scene, options), expected), "") << threads << " " << tile;
+      EXPECT_EQ(difference(render_aovs(scene, options), expected), "") << threads << " " << tile;
     }
   }
 }
 
-TEST(Views, OfACropAreThatPartOfTheFrames) {
+TEST(Aovs, OfACropAreThatPartOfTheFrames) {
   const Scene scene = mixed_scene(45, 31);
   RenderOptions options = options_for(scene);
-  const auto frame = render_views(scene, options);
+  const auto frame = render_aovs(scene, options);
   options.crop = PixelRect{11, 5, 40, 23};
-  const auto crop = render_views(scene, options);
+  const auto crop = render_aovs(scene, options);
   ASSERT_EQ(crop.size(), frame.size());
   for (std::size_t c = 0; c < crop.size(); ++c) {
     ASSERT_EQ(size_of(crop[c]), 29u * 18u);
@@ -122,13 +122,13 @@ TEST(Views, OfACropAreThatPartOfTheFrames) {
   }
 }
 
-TEST(Views, OnlyTheSelectedOnesAreMade) {
+TEST(Aovs, OnlyTheSelectedOnesAreMade) {
   const Scene scene = mixed_scene(5, 4);
-  const auto names = [&](const ViewSelection& views) {
+  const auto names = [&](const AovSelection& aovs) {
     RenderOptions options = options_of(scene);
-    options.views = views;
+    options.aovs = aovs;
     std::string all;
-    for (const ImageChannel& channel : render_views(scene, options)) all += channel.name + " ";
+    for (const ImageChannel& channel : render_aovs(scene, options)) all += channel.name + " ";
     return all;
   };
   EXPECT_EQ(names({}), "");
@@ -140,92 +140,92 @@ TEST(Views, OnlyTheSelectedOnesAreMade) {
   EXPECT_EQ(names(everything), "Z N.X N.Y N.Z P.X P.Y P.Z id albedo.R albedo.G albedo.B ");
 }
 
-TEST(Views, TheirRaysAreCountedAndTheirMemoryIsAskedFor) {
+TEST(Aovs, TheirRaysAreCountedAndTheirMemoryIsAskedFor) {
   const Scene scene = mixed_scene(5, 4);
   auto renderer = Renderer::create(scene, options_for(scene));
   ASSERT_TRUE(renderer);
-  ASSERT_TRUE(renderer.value().render_views());
+  ASSERT_TRUE(renderer.value().render_aovs());
   EXPECT_EQ(renderer.value().statistics().rays.total(), 20u);
   EXPECT_GT(renderer.value().statistics().render_seconds, 0);
   const PixelRect rect{0, 0, 5, 4};
-  EXPECT_EQ(ViewChannels::bytes(everything, rect), 20u * 11u * 4u);
-  EXPECT_EQ(ViewChannels::bytes({}, rect), 0u);
+  EXPECT_EQ(AovChannels::bytes(everything, rect), 20u * 11u * 4u);
+  EXPECT_EQ(AovChannels::bytes({}, rect), 0u);
 }
 
-TEST(Views, CancelledTheyAreAnError) {
+TEST(Aovs, CancelledTheyAreAnError) {
   const Scene scene = mixed_scene(45, 31);
   const std::atomic<bool> cancel{true};
   RenderOptions options = options_for(scene);
   options.cancel = &cancel;
   auto renderer = Renderer::create(scene, options);
   ASSERT_TRUE(renderer);
-  EXPECT_FALSE(renderer.value().render_views());
+  EXPECT_FALSE(renderer.value().render_aovs());
 }
 
-TEST(Views, DepthIsEuclideanWhateverTheDirectionsLength) {
+TEST(Aovs, DepthIsEuclideanWhateverTheDirectionsLength) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
   scene.spheres = {{{0, 0, -10}, 1, 0}};
   for (const float length : {0.25f, 1.0f, 1000.0f}) {
-    const View view = views_of(scene, {{{0, 0, 0}, {0, 0, -length}}})[0];
-    EXPECT_EQ(view.depth, 9.0f);
-    EXPECT_EQ(view.position, (Vec3f{0, 0, -9}));
-    EXPECT_EQ(view.normal, (Vec3f{0, 0, 1}));
-    EXPECT_EQ(view.id, 0u);
+    const Aovs aov = aovs_of(scene, {{{0, 0, 0}, {0, 0, -length}}})[0];
+    EXPECT_EQ(aov.depth, 9.0f);
+    EXPECT_EQ(aov.position, (Vec3f{0, 0, -9}));
+    EXPECT_EQ(aov.normal, (Vec3f{0, 0, 1}));
+    EXPECT_EQ(aov.id, 0u);
   }
 }
 
-TEST(Views, ZIsTheDistanceAlongTheView) {
+TEST(Aovs, ZIsTheDistanceAlongTheView) {
   Scene scene = empty_scene(8, 8);  // from (0, 0, 5) along -z
   add_material(scene, Matte{});
   scene.planes = {{{0, 0, -4}, {0, 0, 1}, 0}, {{0, 0, 8}, {0, 0, 1}, 0}};
-  const auto views = views_of(
+  const auto aovs = aovs_of(
       scene, {{{0, 0, 5}, {0, 0, -1}}, {{0, 0, 5}, {0.6f, 0, -0.8f}}, {{0, 0, 5}, {0, 0, 1}}});
-  EXPECT_EQ(views[0].along, 9.0f);
-  EXPECT_EQ(views[0].depth, 9.0f);
-  EXPECT_NEAR(views[1].along, 9, 1e-6);
-  EXPECT_NEAR(views[1].depth, 9 / 0.8, 1e-5);
-  EXPECT_EQ(views[2].along, -3.0f);  // behind the eye
-  const View miss = views_of(empty_scene(8, 8), {{{0, 0, 0}, {0, 1, 0}}})[0];
+  EXPECT_EQ(aovs[0].along, 9.0f);
+  EXPECT_EQ(aovs[0].depth, 9.0f);
+  EXPECT_NEAR(aovs[1].along, 9, 1e-6);
+  EXPECT_NEAR(aovs[1].depth, 9 / 0.8, 1e-5);
+  EXPECT_EQ(aovs[2].along, -3.0f);  // behind the eye
+  const Aovs miss = aovs_of(empty_scene(8, 8), {{{0, 0, 0}, {0, 1, 0}}})[0];
   EXPECT_EQ(miss.along, std::numeric_limits<float>::infinity());
-  EXPECT_EQ(ViewChannels::names({false, false, false, false, false, true}),
+  EXPECT_EQ(AovChannels::names({false, false, false, false, false, true}),
             std::vector<std::string>{"view.Z"});
 }
 
-TEST(Views, NormalsAreTurnedTowardsTheViewer) {
+TEST(Aovs, NormalsAreTurnedTowardsTheViewer) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
   scene.spheres = {{{0, 0, 0}, 2, 0}};
   scene.planes = {{{0, -5, 0}, {0, 3, 0}, 0}};
-  const auto views = views_of(scene, {{{0, 0, 0}, {1, 0, 0}},        // from inside the sphere
-                                      {{9, 0, 0}, {0, -1, 0}},       // onto the plane's front
-                                      {{9, -9, 0}, {0, 0.5f, 0}}});  // and onto its back
-  EXPECT_EQ(views[0].normal, (Vec3f{-1, 0, 0}));
-  EXPECT_EQ(views[1].normal, (Vec3f{0, 1, 0}));
-  EXPECT_EQ(views[1].id, 1u);
-  EXPECT_EQ(views[2].normal, (Vec3f{0, -1, 0}));
-  EXPECT_EQ(views[2].depth, 4.0f);
+  const auto aovs = aovs_of(scene, {{{0, 0, 0}, {1, 0, 0}},        // from inside the sphere
+                                    {{9, 0, 0}, {0, -1, 0}},       // onto the plane's front
+                                    {{9, -9, 0}, {0, 0.5f, 0}}});  // and onto its back
+  EXPECT_EQ(aovs[0].normal, (Vec3f{-1, 0, 0}));
+  EXPECT_EQ(aovs[1].normal, (Vec3f{0, 1, 0}));
+  EXPECT_EQ(aovs[1].id, 1u);
+  EXPECT_EQ(aovs[2].normal, (Vec3f{0, -1, 0}));
+  EXPECT_EQ(aovs[2].depth, 4.0f);
 }
 
-TEST(Views, AMissIsMarked) {
-  const View view = views_of(empty_scene(8, 8), {{{0, 0, 0}, {0, 1, 0}}})[0];
-  EXPECT_EQ(view.depth, std::numeric_limits<float>::infinity());
-  EXPECT_EQ(view.normal, Vec3f{});
-  EXPECT_EQ(view.position, Vec3f{});
-  EXPECT_EQ(view.id, 4294967295u);
-  EXPECT_EQ(view.albedo, Color{});
+TEST(Aovs, AMissIsMarked) {
+  const Aovs aov = aovs_of(empty_scene(8, 8), {{{0, 0, 0}, {0, 1, 0}}})[0];
+  EXPECT_EQ(aov.depth, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(aov.normal, Vec3f{});
+  EXPECT_EQ(aov.position, Vec3f{});
+  EXPECT_EQ(aov.id, 4294967295u);
+  EXPECT_EQ(aov.albedo, Color{});
 }
 
-TEST(Views, ADistanceBeyondFloatStaysFinite) {
+TEST(Aovs, ADistanceBeyondFloatStaysFinite) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
   scene.planes = {{{0, 0, -3e38f}, {0, 0, 1}, 0}};
-  const View view = views_of(scene, {{{0, 0, 3e38}, {0, 0, -2}}})[0];
-  EXPECT_EQ(view.depth, std::numeric_limits<float>::max());
-  EXPECT_EQ(view.position.z, -3e38f);
+  const Aovs aov = aovs_of(scene, {{{0, 0, 3e38}, {0, 0, -2}}})[0];
+  EXPECT_EQ(aov.depth, std::numeric_limits<float>::max());
+  EXPECT_EQ(aov.position.z, -3e38f);
 }
 
-TEST(Views, AlbedoIsTheShareOfLightThatGoesOn) {
+TEST(Aovs, AlbedoIsTheShareOfLightThatGoesOn) {
   struct Case {
     Material material;
     Color albedo;
@@ -243,8 +243,8 @@ TEST(Views, AlbedoIsTheShareOfLightThatGoesOn) {
     scene.ambient = {1, 1, 1};  // not in it either
     add_material(scene, c.material);
     scene.spheres = {{{0, 0, -10}, 1, 0}};
-    const View view = views_of(scene, {{{0, 0.5, 0}, {0, 0, -1}}})[0];
-    EXPECT_EQ(view.albedo, c.albedo) << "material " << &c - cases;
+    const Aovs aov = aovs_of(scene, {{{0, 0.5, 0}, {0, 0, -1}}})[0];
+    EXPECT_EQ(aov.albedo, c.albedo) << "material " << &c - cases;
   }
 }
 

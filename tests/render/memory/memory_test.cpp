@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "render/image/image_file.h"
 #include "render/image/read_image.h"
-#include "render/memory/available.h"
+#include "render/image/write_image.h"
+#include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/tracer.h"

@@ -1,5 +1,5 @@
 // What an environment's picture shows where its pixels end: at the poles, and behind.
-#include "render/prepare/environment.h"
+#include "render/prepare/environment_light.h"
 
 #include <gtest/gtest.h>
 

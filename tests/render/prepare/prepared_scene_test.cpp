@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "core/reference.h"
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
 #include "tests/render/test_scenes.h"
 
 namespace boule::test {

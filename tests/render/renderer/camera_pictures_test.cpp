@@ -127,10 +127,10 @@ TEST(Fisheye, SeesWhatIsBehindIt) {
 TEST(ThinLens, ViewsAreThoseOfThePinhole) {
   Scene scene = mixed_scene(40, 24);
   RenderOptions options = options_of(scene);
-  options.views.position = options.views.id = options.views.depth = true;
+  options.aovs.position = options.aovs.id = options.aovs.depth = true;
   const auto views_of = [&](const Camera& camera) {
     scene.camera = camera;
-    return Renderer::create(scene, options).value().render_views().value();
+    return Renderer::create(scene, options).value().render_aovs().value();
   };
   const auto expected = views_of(PinholeCamera{pose, 50, FovAxis::x});
   const auto found = views_of(ThinLensCamera{pose, 50, FovAxis::x, 0.5f, 3.0f});

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/integrators/views.h"
+#include "render/integrators/aovs.h"
 #include "render/renderer/renderer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
@@ -20,7 +20,7 @@
 
 namespace boule::test {
 
-/// A picture of one sample a pixel, its views, and the rays they stand for, all by pixel.
+/// A picture of one sample a pixel, its AOVs, and the rays they stand for, all by pixel.
 struct CheckedPicture {
   Image image;
   std::vector<Ray> rays;
@@ -118,17 +118,17 @@ std::vector<T> samples_of(const std::vector<ImageChannel>& channels, const std::
   return {};
 }
 
-/// Renders a scene with one ISA's kernels: picture and views. Fails if a ray is not where the
+/// Renders a scene with one ISA's kernels: picture and AOVs. Fails if a ray is not where the
 /// interface has it.
 inline CheckedPicture render_checked(const Scene& scene, const std::string& isa) {
   RenderOptions options = options_of(scene);
   options.isa = isa;
-  options.views.depth = options.views.normal = options.views.id = true;
+  options.aovs.depth = options.aovs.normal = options.aovs.id = true;
   auto renderer = Renderer::create(scene, options);
   if (!renderer) throw std::runtime_error(format_diagnostic(renderer.error()));
   CheckedPicture out;
   out.image = renderer.value().render().value();
-  const auto channels = renderer.value().render_views().value();
+  const auto channels = renderer.value().render_aovs().value();
   out.depths = samples_of<float>(channels, "Z");
   out.ids = samples_of<std::uint32_t>(channels, "id");
   const auto x = samples_of<float>(channels, "N.X"), y = samples_of<float>(channels, "N.Y"),

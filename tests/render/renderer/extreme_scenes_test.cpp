@@ -1,4 +1,4 @@
-// Values that are extreme but legal: every pixel and every view is a number, the same on every
+// Values that are extreme but legal: every pixel and every AOV is a number, the same on every
 // instruction set, and a scene that should be seen is seen.
 #include <algorithm>
 #include <cmath>
@@ -240,10 +240,10 @@ TEST_P(ExtremeScenes, HaveViewsThatAreNumbers) {
   add_material(scene, Matte{});
   GetParam().make(scene);
   RenderOptions options = options_of(scene);
-  options.views = {true, true, true, true, true};
+  options.aovs = {true, true, true, true, true};
   auto renderer = Renderer::create(scene, options);
   ASSERT_TRUE(renderer);
-  const auto channels = renderer.value().render_views();
+  const auto channels = renderer.value().render_aovs();
   ASSERT_TRUE(channels);
   EXPECT_GT(channels.value().size(), 9u);
   for (const ImageChannel& channel : channels.value()) {

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "render/frame/partial_picture.h"
-#include "render/image/image_file.h"
 #include "render/image/read_image.h"
 #include "render/image/tone.h"
+#include "render/image/write_image.h"
 #include "render/renderer/scene_hash.h"
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
@@ -87,14 +87,14 @@ RenderOptions options_for(const Scene& scene, unsigned threads) {
 /// All ways to a picture.
 struct Pictures {
   Image whole, passes, live, halfway;
-  std::vector<ImageChannel> views;
+  std::vector<ImageChannel> aovs;
   std::uint64_t hash;
 };
 
 Pictures make_pictures(const Scene& scene, RenderOptions options) {
   Pictures made;
   made.hash = scene_hash(scene);
-  options.views = {true, true, true, true, true};
+  options.aovs = {true, true, true, true, true};
   int updates = 0;
   options.update = [&](const Film& film) {
     if (++updates == 2) made.halfway = partial_picture(film, options.order);
@@ -106,7 +106,7 @@ Pictures make_pictures(const Scene& scene, RenderOptions options) {
   made.passes = passes.to_image();
   static_cast<void>(renderer.value().render_live(live));
   made.live = live.to_image();
-  made.views = renderer.value().render_views().value();
+  made.aovs = renderer.value().render_aovs().value();
   return made;
 }
 
@@ -122,9 +122,9 @@ TEST_P(CallersFloatEnvironment, ChangesNoPicture) {
       EXPECT_EQ(differing_pixels(odd.passes, expected.whole), 0);
       EXPECT_EQ(differing_pixels(odd.live, expected.whole), 0);
       EXPECT_EQ(differing_pixels(odd.halfway, expected.halfway), 0);
-      ASSERT_EQ(odd.views.size(), expected.views.size());
-      for (std::size_t i = 0; i < odd.views.size(); ++i)
-        EXPECT_EQ(odd.views[i].samples, expected.views[i].samples) << odd.views[i].name;
+      ASSERT_EQ(odd.aovs.size(), expected.aovs.size());
+      for (std::size_t i = 0; i < odd.aovs.size(); ++i)
+        EXPECT_EQ(odd.aovs[i].samples, expected.aovs[i].samples) << odd.aovs[i].name;
     }
   }
 }

@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "render/memory/available.h"
 #include "tests/render/picture_comparison.h"
+#include "render/memory/available_memory.h"
 #include "tests/render/test_scenes.h"
 
 namespace boule::test {
@@ -211,7 +211,7 @@ TEST(Renderer, KeepsLiveProgressUpToDate) {
 TEST(LiveProgress, KnowsWhatIsBeingWorkedOn) {
   LiveProgress live;
   EXPECT_EQ(live.read().share, 0);
-  live.begin_pass(4, 0.5, 1, 100);
+  live.begin_pass(4, {.begin = 0.5, .end = 1, .rays = 100});
   live.begin_block();
   live.begin_block();
   live.end_block(10);

@@ -9,7 +9,7 @@
 #include "core/math/geometry.h"
 #include "core/reference.h"
 #include "core/surface.h"
-#include "render/integrators/views.h"
+#include "render/integrators/aovs.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/stream/stream_buffer.h"
@@ -212,14 +212,14 @@ TEST(Tracer, NormalsAreTheViewsNormals) {
   }
   RayBuffer stream(samples.size());
   kernels.primary_rays(prepared.camera_view, samples.view(), stream.view());
-  std::vector<View> views(samples.size());
-  Views(prepared, kernels, Solver::robust).trace(stream, prepared.coherence, views.data());
+  std::vector<Aovs> aovs(samples.size());
+  AovTracer(prepared, kernels, Solver::robust).trace(stream, prepared.coherence, aovs.data());
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < stream.size(); ++i) rays.push_back(stream.get(i));
   const auto hits = closest(scene, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    EXPECT_EQ(hits[i].normal, views[i].normal) << i;
-    EXPECT_EQ(static_cast<std::uint32_t>(hits[i].id), views[i].id) << i;
+    EXPECT_EQ(hits[i].normal, aovs[i].normal) << i;
+    EXPECT_EQ(static_cast<std::uint32_t>(hits[i].id), aovs[i].id) << i;
   }
 }
 

@@ -93,7 +93,7 @@ TEST_P(WhatIsSeen, TheHorizonOfAGroundSphere) {
     scene.camera = pinhole({0, 2, 0}, {0, 0, -1000}, fov);
     const CheckedPicture picture = render_checked(scene, GetParam());
     EXPECT_EQ(wrong_ids(scene, picture), 0);
-    const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_view_id);
+    const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_aov_id);
     EXPECT_GT(sky, 256 * 48);
     EXPECT_LT(sky, 256 * 144);
     int turns = 0;  // from sky to ground or back, down the columns
@@ -135,7 +135,7 @@ TEST_P(WhatIsSeen, SilhouettesOfAPixel) {
       const Scene scene = speck_scene(count, fov);
       const CheckedPicture picture = render_checked(scene, GetParam());
       EXPECT_EQ(wrong_ids(scene, picture), 0);
-      const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_view_id);
+      const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_aov_id);
       EXPECT_GT(128 * 96 - sky, count);
       EXPECT_GT(sky, 128 * 48);
     }
@@ -156,7 +156,7 @@ Scene shell_scene() {
 void expect_all(const CheckedPicture& picture, std::uint32_t id) {
   const auto all = static_cast<std::ptrdiff_t>(picture.ids.size());
   const auto those = std::count(picture.ids.begin(), picture.ids.end(), id);
-  const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_view_id);
+  const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_aov_id);
   EXPECT_EQ(those + sky, all);
   EXPECT_GT(those, all / 4);
 }

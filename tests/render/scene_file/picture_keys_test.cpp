@@ -1,5 +1,5 @@
 // Pictures that a scene file names: ST maps, environments.
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 #include "tests/render/scene_file/scene_dump.h"
 #include "tests/render/scene_file/scene_folder.h"
 

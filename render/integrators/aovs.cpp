@@ -1,4 +1,4 @@
-#include "render/integrators/views.h"
+#include "render/integrators/aovs.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-/// Rounded to float, the largest one instead of infinity.
+/// x rounded to float; what no float holds becomes the largest float, with the sign of x.
 float finite_float(double x) {
   constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::clamp(x, -largest, largest));
@@ -19,32 +19,32 @@ Color at_most_one(const Color& c) {
   return {std::min(c.r, 1.0f), std::min(c.g, 1.0f), std::min(c.b, 1.0f)};
 }
 
-View view_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   if (hit.id == no_primitive) return {};
   const Surface surface = find_surface(scene, ray, hit);
   const FlatMaterial& material = scene.material_of(hit.id);
-  const Scatter way = scatter(material, surface);
+  const Scatter weights = scatter(material, surface);
   const Vec3d& p = surface.point;
   const auto& eye = scene.camera_view.eye;
   const auto& forward = scene.camera_view.forward;
   const double along =
       dot(p - Vec3d{eye[0], eye[1], eye[2]}, Vec3d{forward[0], forward[1], forward[2]});
-  return {finite_float(hit.t * length(vec_cast<double>(ray.dir))),
-          vec_cast<float>(surface.normal),
-          Vec3f{finite_float(p.x), finite_float(p.y), finite_float(p.z)},
-          static_cast<std::uint32_t>(hit.id),
-          at_most_one(material.diffuse + way.reflection + way.refraction),
-          finite_float(along)};
+  return {.depth = finite_float(hit.t * length(vec_cast<double>(ray.dir))),
+          .normal = vec_cast<float>(surface.normal),
+          .position = {finite_float(p.x), finite_float(p.y), finite_float(p.z)},
+          .id = static_cast<std::uint32_t>(hit.id),
+          .albedo = at_most_one(material.diffuse + weights.reflection + weights.refraction),
+          .along = finite_float(along)};
 }
 
 }  // namespace
 
-void Views::trace(RayBuffer& rays, Coherence coherence, View* views) {
+void AovTracer::trace(RayBuffer& rays, Coherence coherence, Aovs* aovs) {
   const std::size_t count = rays.size();
   hits_.resize(count);
   const Query query{solver_, Form::automatic, coherence};
   kernels_.closest_hit(geometry_, rays.view(), query, hits_.view());
-  for (std::size_t k = 0; k < count; ++k) views[k] = view_of(scene_, rays.get(k), hits_.get(k));
+  for (std::size_t k = 0; k < count; ++k) aovs[k] = aovs_of(scene_, rays.get(k), hits_.get(k));
   primary_ += count;
 }
 

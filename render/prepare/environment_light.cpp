@@ -1,4 +1,4 @@
-#include "render/prepare/environment.h"
+#include "render/prepare/environment_light.h"
 
 #include <algorithm>
 #include <cmath>

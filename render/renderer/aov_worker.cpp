@@ -1,22 +1,23 @@
-#include "render/renderer/view_worker.h"
+#include "render/renderer/aov_worker.h"
 
 #include "render/renderer/live_rays.h"
 
 namespace boule {
 namespace {
 
-constexpr std::size_t stream_size = 1024;  // rays, as few as stay in the cache
+constexpr std::size_t stream_size = 1024;  // rays: few enough to stay in the cache
 
 }  // namespace
 
-ViewWorker::ViewWorker(const BlockSetup& setup, Solver solver)
-    : setup_(setup), finder_(setup.scene, setup.kernels, solver), views_(stream_size) {
+AovWorker::AovWorker(const BlockSetup& setup, Solver solver)
+    : setup_(setup), tracer_(setup.scene, setup.kernels, solver), aovs_(stream_size) {
   pixels_.reserve(stream_size);
-  samples_.resize(stream_size, setup.scene.camera_view);  // in a lens' centre, and never set
+  // Sets the samples' positions on a lens to its centre, where they stay.
+  samples_.resize(stream_size, setup.scene.camera_view);
   rays_.resize(stream_size);
 }
 
-void ViewWorker::render(const PixelRect& block, ViewChannels& channels) {
+void AovWorker::render(const PixelRect& block, AovChannels& channels) {
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1) continue;
@@ -27,19 +28,19 @@ void ViewWorker::render(const PixelRect& block, ViewChannels& channels) {
   trace(channels);
 }
 
-/// Traces the rays gathered so far.
-void ViewWorker::trace(ViewChannels& channels) {
+/// Traces the rays that were gathered, and forgets them.
+void AovWorker::trace(AovChannels& channels) {
   if (pixels_.empty()) return;
   samples_.resize(pixels_.size());
   rays_.resize(pixels_.size());
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (camera.weighs) keep_live_rays(samples_, rays_);
-  finder_.trace(rays_, setup_.scene.central_coherence, views_.data());
-  const View* view = views_.data();
+  tracer_.trace(rays_, setup_.scene.central_coherence, aovs_.data());
+  const Aovs* found = aovs_.data();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const bool seen = !camera.weighs || samples_.weight(k) != 0;
-    channels.set(pixels_[k].x, pixels_[k].y, seen ? *view++ : View{});
+    const bool has_ray = !camera.weighs || samples_.weight(k) != 0;
+    channels.set(pixels_[k].x, pixels_[k].y, has_ray ? *found++ : Aovs{});
   }
   pixels_.clear();
 }

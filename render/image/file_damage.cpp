@@ -1,4 +1,4 @@
-#include "render/image/whole_file.h"
+#include "render/image/file_damage.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/memory/available.h"
+#include "render/memory/available_memory.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -36,7 +36,7 @@ struct ImageChannel {
 
 /// Where a cropped picture lies in its frame: the offset of its upper left pixel. A frame width of
 /// 0 means that the picture is the whole frame.
-struct CropPlace {
+struct CropWindow {
   int frame_width = 0, frame_height = 0;
   int x = 0, y = 0;
 };
@@ -45,7 +45,7 @@ struct CropPlace {
 struct ImageFileOptions {
   Compression compression = Compression::zip;  ///< EXR only
   float exposure_stops = 0;  ///< LDR formats: colours are multiplied by 2^stops before the curve
-  CropPlace crop;            ///< formats without channels store the cropped pixels only
+  CropWindow crop;           ///< formats without channels store the cropped pixels only
   std::vector<ImageChannel> channels;             ///< refused by formats without channels
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, EXIF notation
   Metadata metadata;                              ///< an entry replaces a standard one of its name

@@ -1,4 +1,4 @@
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 
 constexpr double default_fov = 45;
 
-/// Empty space around the objects, as a factor on the distance.
+/// The distance to the objects is multiplied by this, to leave empty space around them.
 constexpr double margin = 1.05;
 
-/// A sphere around all spheres: the middle of their bounding box and the radius that holds them.
+/// A sphere around all spheres: its center is the middle of their bounding box.
 struct Enclosure {
   Vec3d center;
   double radius = 0;
@@ -31,7 +31,7 @@ Enclosure enclose(const std::vector<Sphere>& spheres) {
   return enclosure;
 }
 
-/// A step that float coordinates near `point` can still resolve.
+/// The smallest distance from `point` that its float coordinates can resolve.
 double smallest_distance(const Vec3d& point) { return length(point) * 0x1p-12; }
 
 CameraPose pose_on_spheres(const std::vector<Sphere>& spheres) {
@@ -49,7 +49,7 @@ CameraPose pose_on_spheres(const std::vector<Sphere>& spheres) {
 CameraPose pose_on_plane(const Plane& plane) {
   const Vec3d point = vec_cast<double>(plane.point);
   const Vec3d n = normalize(vec_cast<double>(plane.normal));
-  // The axis least like the normal gives a direction across it.
+  // An axis that is far from parallel to the normal gives a direction across it.
   const Vec3d axis = std::fabs(n.z) < 0.8 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
   const Vec3d across = normalize(axis - n * dot(axis, n));
   const double distance = std::max(4.0, smallest_distance(point));
@@ -60,33 +60,6 @@ CameraPose default_pose(const Scene& scene) {
   if (!scene.spheres.empty()) return pose_on_spheres(scene.spheres);
   if (!scene.planes.empty()) return pose_on_plane(scene.planes.front());
   return {};
-}
-
-/// Whether a background counts as light. Of a constant one and of a picture only path tracing finds
-/// any.
-bool is_light(const Background& background, Method method) {
-  if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
-    return !is_black(gradient->bottom) || !is_black(gradient->top);
-  }
-  if (method == Method::whitted) return false;
-  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
-    return !is_black(constant->color);
-  }
-  const auto& pixels = std::get<EnvironmentBackground>(background).pixels;
-  return !std::all_of(pixels.begin(), pixels.end(), is_black);
-}
-
-/// Whether any object gives light. Most scenes have no material that does.
-bool has_emitter(const Scene& scene) {
-  std::vector<bool> emits;
-  for (const NamedMaterial& named : scene.materials) {
-    const auto* emissive = std::get_if<Emissive>(&named.material);
-    emits.push_back(emissive != nullptr && !is_black(emissive->radiance));
-  }
-  if (std::find(emits.begin(), emits.end(), true) == emits.end()) return false;
-  const auto gives = [&emits](const auto& object) -> bool { return emits[object.material]; };
-  return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
-         std::any_of(scene.planes.begin(), scene.planes.end(), gives);
 }
 
 }  // namespace
@@ -107,24 +80,6 @@ Camera default_camera(const Scene& scene, int width, int height) {
   // The shorter side spans the field of view, so that the objects fit into both.
   return PinholeCamera{default_pose(scene), static_cast<float>(default_fov),
                        width <= height ? FovAxis::x : FovAxis::y};
-}
-
-bool lacks_light(const Scene& scene, Method method) {
-  return scene.lights.empty() && !is_light(scene.background, method) && !has_emitter(scene);
-}
-
-const char* light_note(const Scene& scene, Method method) {
-  const bool unused =
-      method == Method::whitted && std::holds_alternative<EnvironmentBackground>(scene.background);
-  return unused ? "no light in the scene, and by method whitted its environment is none: one white "
-                  "point light at the eye"
-                : "no light in the scene: one white point light at the eye";
-}
-
-PointLight light_at_eye(const Camera& camera) {
-  PointLight light;
-  light.position = std::visit([](const auto& any) { return any.pose.eye; }, camera);
-  return light;
 }
 
 }  // namespace boule

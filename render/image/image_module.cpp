@@ -1,4 +1,4 @@
-// The image module: the one file that knows OpenImageIO, loaded by image_loader.cpp on first use.
+// The image module: the one file that knows OpenImageIO, loaded by module_loader.cpp on first use.
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/thread.h>

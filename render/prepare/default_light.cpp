@@ -1,0 +1,56 @@
+#include "render/prepare/default_light.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace boule {
+namespace {
+
+/// Whether a background counts as light. A constant one and an image do so for path tracing only.
+bool is_light(const Background& background, Method method) {
+  if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
+    return !is_black(gradient->bottom) || !is_black(gradient->top);
+  }
+  if (method == Method::whitted) return false;
+  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
+    return !is_black(constant->color);
+  }
+  const auto& pixels = std::get<EnvironmentBackground>(background).pixels;
+  return !std::all_of(pixels.begin(), pixels.end(), is_black);
+}
+
+/// Whether any object gives light. Looks at the objects only if a material gives light, which is so
+/// in few scenes.
+bool has_emitter(const Scene& scene) {
+  std::vector<bool> emits;
+  for (const NamedMaterial& named : scene.materials) {
+    const auto* emissive = std::get_if<Emissive>(&named.material);
+    emits.push_back(emissive != nullptr && !is_black(emissive->radiance));
+  }
+  if (std::find(emits.begin(), emits.end(), true) == emits.end()) return false;
+  const auto gives = [&emits](const auto& object) -> bool { return emits[object.material]; };
+  return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
+         std::any_of(scene.planes.begin(), scene.planes.end(), gives);
+}
+
+}  // namespace
+
+bool lacks_light(const Scene& scene, Method method) {
+  return scene.lights.empty() && !is_light(scene.background, method) && !has_emitter(scene);
+}
+
+const char* light_note(const Scene& scene, Method method) {
+  const bool unused =
+      method == Method::whitted && std::holds_alternative<EnvironmentBackground>(scene.background);
+  return unused ? "no light in the scene, and by method whitted its environment is none: one white "
+                  "point light at the eye"
+                : "no light in the scene: one white point light at the eye";
+}
+
+PointLight light_at_eye(const Camera& camera) {
+  PointLight light;
+  light.position = std::visit([](const auto& any) { return any.pose.eye; }, camera);
+  return light;
+}
+
+}  // namespace boule

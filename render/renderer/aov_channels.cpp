@@ -1,0 +1,75 @@
+#include "render/renderer/aov_channels.h"
+
+#include <iterator>
+#include <utility>
+
+namespace boule {
+namespace {
+
+/// One number of the AOVs.
+struct Kind {
+  const char* name;             ///< of its channel
+  bool AovSelection::*wanted;   ///< what asks for it
+  float (*value)(const Aovs&);  ///< null: the id
+};
+
+constexpr Kind kinds[] = {
+    {"Z", &AovSelection::depth, [](const Aovs& v) { return v.depth; }},
+    {"N.X", &AovSelection::normal, [](const Aovs& v) { return v.normal.x; }},
+    {"N.Y", &AovSelection::normal, [](const Aovs& v) { return v.normal.y; }},
+    {"N.Z", &AovSelection::normal, [](const Aovs& v) { return v.normal.z; }},
+    {"P.X", &AovSelection::position, [](const Aovs& v) { return v.position.x; }},
+    {"P.Y", &AovSelection::position, [](const Aovs& v) { return v.position.y; }},
+    {"P.Z", &AovSelection::position, [](const Aovs& v) { return v.position.z; }},
+    {"id", &AovSelection::id, nullptr},
+    {"albedo.R", &AovSelection::albedo, [](const Aovs& v) { return v.albedo.r; }},
+    {"albedo.G", &AovSelection::albedo, [](const Aovs& v) { return v.albedo.g; }},
+    {"albedo.B", &AovSelection::albedo, [](const Aovs& v) { return v.albedo.b; }},
+    {"view.Z", &AovSelection::z, [](const Aovs& v) { return v.along; }},
+};
+
+}  // namespace
+
+AovChannels::AovChannels(const AovSelection& selection, const PixelRect& rect) : rect_(rect) {
+  const auto pixels = static_cast<std::size_t>(rect.area());
+  for (std::size_t k = 0; k < std::size(kinds); ++k) {
+    if (!(selection.*kinds[k].wanted)) continue;
+    kinds_.push_back(k);
+    channels_.push_back({kinds[k].name, {}});
+    if (kinds[k].value != nullptr) {
+      channels_.back().samples.emplace<std::vector<float>>(pixels);
+    } else {
+      channels_.back().samples.emplace<std::vector<std::uint32_t>>(pixels);
+    }
+  }
+}
+
+void AovChannels::set(int x, int y, const Aovs& aovs) {
+  const std::size_t pixel = rect_.index(x, y);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const Kind& kind = kinds[kinds_[i]];
+    if (kind.value != nullptr) {
+      std::get<std::vector<float>>(channels_[i].samples)[pixel] = kind.value(aovs);
+    } else {
+      std::get<std::vector<std::uint32_t>>(channels_[i].samples)[pixel] = aovs.id;
+    }
+  }
+}
+
+std::vector<ImageChannel> AovChannels::release() { return std::exchange(channels_, {}); }
+
+std::vector<std::string> AovChannels::names(const AovSelection& selection) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) {
+    if (selection.*kind.wanted) names.emplace_back(kind.name);
+  }
+  return names;
+}
+
+std::uint64_t AovChannels::bytes(const AovSelection& selection, const PixelRect& rect) {
+  std::uint64_t numbers = 0;
+  for (const Kind& kind : kinds) numbers += selection.*kind.wanted ? 1 : 0;
+  return rect.area() * numbers * sizeof(float);
+}
+
+}  // namespace boule

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/frame/pixel_rect.h"
+#include "render/image/write_image.h"
+#include "render/integrators/aovs.h"
+
+namespace boule {
+
+/// Which AOVs are wanted. Their channels, in this order: depth has Z; normal has N.X, N.Y, N.Z;
+/// position has P.X, P.Y, P.Z; id has id (uint32); albedo has albedo.R, albedo.G, albedo.B; z has
+/// view.Z.
+struct AovSelection {
+  bool depth = false, normal = false, position = false, id = false, albedo = false, z = false;
+
+  [[nodiscard]] bool any() const { return depth || normal || position || id || albedo || z; }
+};
+
+/// The wanted AOVs of every pixel of a picture, each number in a channel of its own. Two threads
+/// may set different pixels at the same time.
+class AovChannels {
+ public:
+  /// For the frame's pixels in `rect`, which is not empty.
+  AovChannels(const AovSelection& selection, const PixelRect& rect);
+
+  /// Stores the AOVs of pixel (x, y) of the frame. Preconditions: the pixel lies in `rect`, and
+  /// release() was not called yet.
+  void set(int x, int y, const Aovs& aovs);
+
+  /// Gives the channels away, in the order of AovSelection. Afterwards there are none.
+  std::vector<ImageChannel> release();
+
+  /// The names of the selected channels, in the order of AovSelection.
+  static std::vector<std::string> names(const AovSelection& selection);
+
+  /// Bytes that the selected channels of the pixels in `rect` take.
+  static std::uint64_t bytes(const AovSelection& selection, const PixelRect& rect);
+
+ private:
+  PixelRect rect_;
+  std::vector<std::size_t> kinds_;  ///< by channel: which of the numbers it holds
+  std::vector<ImageChannel> channels_;
+};
+
+}  // namespace boule
