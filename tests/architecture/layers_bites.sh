@@ -126,7 +126,7 @@ accepted core/a.h "$(seq 500)"
 accepted simd/kernel/a.h '#include "core/math/elementary.h"'
 accepted simd/lanes/xsimd_lanes.h '#include <xsimd/xsimd.hpp>  // its owner'
 accepted render/threads/threads.cpp '#include <thread>'
-accepted render/image/image_file.cpp '#include <OpenImageIO/imageio.h>'
+accepted render/image/image_module.cpp '#include <OpenImageIO/imageio.h>'
 accepted render/scene_file/a.cpp '#include "render/image/read_image.h"'
 accepted simd/dispatch/cpu.cpp '#include <cpuid.h>'
 accepted render/cli/main.cpp 'std::exit(2);'

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "render/image/tone.h"
-#include "tests/render/image/files.h"
 #include "render/image/write_image.h"
+#include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule {

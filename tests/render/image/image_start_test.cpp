@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "render/image/read_image.h"
-#include "tests/render/image/files.h"
 #include "render/image/write_image.h"
+#include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "render/image/tone.h"
-#include "tests/render/image/files.h"
 #include "render/image/write_image.h"
+#include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {

@@ -16,8 +16,8 @@
 #include "render/image/finished_picture.h"
 #include "render/image/module_loader.h"
 #include "render/image/read_image.h"
-#include "tests/render/image/files.h"
 #include "render/image/write_image.h"
+#include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "tests/render/picture_comparison.h"
 #include "render/memory/available_memory.h"
+#include "tests/render/picture_comparison.h"
 #include "tests/render/test_scenes.h"
 
 namespace boule::test {
