@@ -11,9 +11,10 @@
 
 namespace boule::image_module {
 
-/// Hands OpenImageIO's bytes to a file descriptor, gathered: its PNM writer writes single bytes.
-/// After a failure it keeps the errno code and pretends to go on: libjpeg would end the process,
-/// others lose the reason. Every writer of ours uses it from one thread at a time.
+/// Writes OpenImageIO's bytes to a file descriptor. It gathers them first, because the PNM writer
+/// writes single bytes. After a failure it keeps the errno code and claims success: otherwise
+/// libjpeg would end the process, and others would lose the reason. One thread at a time may use
+/// it.
 class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
  public:
   explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
@@ -49,7 +50,7 @@ class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
     return got < 0 ? 0 : static_cast<size_t>(got);
   }
 
-  /// Writes what is gathered; the errno code of the first failure so far, or 0.
+  /// Writes what is gathered. Returns the errno code of the first failure so far, or 0.
   int finish() {
     flush_gathered();
     return code_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* too_short = "the file ends within the picture";
 
-/// The next bytes as one number, the highest first; 0 behind the end.
+/// The next bytes as one number, the highest first; 0 after the end of the file.
 std::uint32_t big_endian(std::istream& file, int bytes) {
   std::uint32_t number = 0;
   for (int i = 0; i < bytes; ++i) {
@@ -24,10 +24,11 @@ std::uint32_t big_endian(std::istream& file, int bytes) {
   return number;
 }
 
-/// From marker to marker, over segments and what lies between, to EOI.
+/// Whether a JPEG file has its end marker. Goes from marker to marker, over segments and the data
+/// between them.
 bool is_whole_jpeg(std::istream& file) {
   constexpr int mark = 0xff, end_of_image = 0xd9, first_restart = 0xd0, last_restart = 0xd7;
-  if (big_endian(file, 2) != 0xffd8) return true;  // its reader will say that it is none
+  if (big_endian(file, 2) != 0xffd8) return true;  // no JPEG file, as its reader will say
   for (int before = 0, byte = file.get(); byte >= 0; before = byte, byte = file.get()) {
     if (before != mark || byte <= 1 || byte == mark) continue;
     if (byte == end_of_image) return true;
@@ -38,7 +39,7 @@ bool is_whole_jpeg(std::istream& file) {
   return false;
 }
 
-/// The remainders of all bytes by PNG's polynomial (PNG specification, annex D).
+/// The remainder of every byte by PNG's polynomial (PNG specification, annex D).
 constexpr auto crc_table = [] {
   constexpr std::uint32_t polynomial = 0xedb88320;
   std::array<std::uint32_t, 256> table{};
@@ -65,7 +66,7 @@ std::uint32_t crc_of(std::istream& file, std::uint32_t bytes) {
   return ~crc;
 }
 
-/// From chunk to chunk to the end of IEND.
+/// What is wrong with a PNG file. Goes from chunk to chunk, to the end of IEND.
 std::string png_damage(std::istream& file) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   constexpr std::uint32_t optional = 0x20000000, end = 0x49454e44;  // in, and of, a chunk's type
@@ -85,14 +86,15 @@ std::string png_damage(std::istream& file) {
   }
 }
 
-/// The text up to a NUL, which a header's names are.
+/// The next text up to a NUL byte, as an EXR header keeps names.
 std::string exr_name(std::istream& file) {
   std::string name;
   std::getline(file, name, '\0');
   return name;
 }
 
-/// Attribute by attribute through the headers: OpenEXR makes room for any size that one declares.
+/// Whether an EXR file holds all attributes that its headers declare: OpenEXR would allocate any
+/// size that is declared.
 bool has_whole_exr_headers(std::istream& file) {
   constexpr std::uint32_t magic = 0x762f3101, many_parts = 0x00100000;
   file.seekg(0, std::ios::end);
@@ -101,7 +103,7 @@ bool has_whole_exr_headers(std::istream& file) {
   if (big_endian(file, 4) != magic) return true;
   const bool in_parts = (big_endian(file, 4) & many_parts) != 0;
   for (bool header_began = false; file;) {
-    if (exr_name(file).empty()) {  // the end of a header; of all of them, where nothing was in it
+    if (exr_name(file).empty()) {  // the end of a header, or of all if the header is empty
       if (!in_parts || !header_began) return file.good();
       header_began = false;
       continue;

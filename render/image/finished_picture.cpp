@@ -17,26 +17,26 @@ struct Wanted {
   const ImageFormat& format;
 };
 
-/// Whether the file's frame and channels are those of the shape, where the format holds such.
+/// Whether the file has the frame and channels of the shape, as far as the format stores them.
 bool has_shape(const void* context, const image_module::FoundPicture& found) {
   const auto& [shape, format] = *static_cast<const Wanted*>(context);
   if (found.partial || found.width != shape.width || found.height != shape.height) return false;
-  constexpr int most_without_names = 4;  // red, green, blue and alpha
+  constexpr int most_without_names = 4;  // R, G, B and alpha
   if (!format.channels) return found.channel_count <= most_without_names;
   const bool cropped = shape.crop.frame_width != 0;
-  const CropWindow place = cropped ? shape.crop : CropWindow{shape.width, shape.height, 0, 0};
-  return found.has_channels && found.x == place.x && found.y == place.y &&
-         found.frame_width == place.frame_width && found.frame_height == place.frame_height;
+  const CropWindow window = cropped ? shape.crop : CropWindow{shape.width, shape.height, 0, 0};
+  return found.has_channels && found.x == window.x && found.y == window.y &&
+         found.frame_width == window.frame_width && found.frame_height == window.frame_height;
 }
 
 }  // namespace
 
 bool is_finished_picture(const std::string& path, const PictureShape& shape) {
-  if (shape.width < 1 || shape.height < 1) return false;  // though some headers say so
+  if (shape.width < 1 || shape.height < 1) return false;  // though some files' headers say so
   const FloatEnvironment environment;
   std::error_code ignored;
   const ImageFormat* const format = find_image_format(path);
-  // First: without a file nothing needs to be loaded.
+  // These checks come first, so that the module is not loaded where there is no file.
   if (format == nullptr || path.find('\0') != std::string::npos) return false;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   if (!file_damage(path, *format).empty()) return false;

@@ -13,8 +13,9 @@ using Entry = Metadata::value_type;
 
 const std::string* text_of(const Entry& entry) { return std::get_if<std::string>(&entry.second); }
 
-/// Bytes that an entry's text takes at most in a file that keeps it with its name, its length and
-/// its place, or as a list of what its semicolons part, each with a length of its own (IPTC).
+/// The most bytes that an entry's text takes in a file. A file may keep the text with its name, its
+/// length and its offset, or as a list of parts between semicolons, each with its own length
+/// (IPTC).
 std::size_t room_of(const Entry& entry) {
   constexpr std::size_t numbers = 32, numbers_of_part = 8;
   const std::string* const text = text_of(entry);
@@ -32,7 +33,7 @@ void end_texts_at_nul(Metadata& metadata) {
   }
 }
 
-/// Backwards: the last entry of a name is the one that counts.
+/// Goes backwards, because the last entry of a name is the one that counts.
 void leave_out_empty(Metadata& metadata) {
   std::set<std::string> empty;
   Metadata kept;
@@ -45,8 +46,8 @@ void leave_out_empty(Metadata& metadata) {
   metadata.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
 }
 
-/// What is wrong with a name by itself. Formats keep an ICC profile's bytes under that name, and
-/// libpng says on standard error what it thinks of others.
+/// What is wrong with an entry's name, or an empty text. Formats keep the bytes of an ICC profile
+/// under "ICCProfile". libpng complains on standard error about names with control bytes.
 std::string name_problem(const std::string& name) {
   constexpr std::size_t longest = 255;  // OpenEXR's
   const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };

@@ -7,10 +7,10 @@
 
 namespace boule {
 
-/// Makes metadata fit to be handed on, for libraries below OpenImageIO end the process over some
-/// texts: texts and names end at their first NUL byte, and an entry whose text or name is empty is
-/// left out, as are earlier ones of its name. Gives what is wrong with the rest, or an empty text.
-/// Throws std::bad_alloc.
+/// Makes metadata safe for libraries below OpenImageIO, which end the process over some texts.
+/// Texts and names are cut at their first NUL byte. An entry with an empty text or name is removed,
+/// and so are the entries of its name before it. Returns what is wrong with the rest, or an empty
+/// text.
 std::string prepare_header_texts(Metadata& metadata, const ImageFormat& format);
 
 }  // namespace boule

@@ -8,20 +8,19 @@
 
 namespace boule {
 
-/// A picture in memory: linear RGB float, row 0 on top, pixels[y * width + x]. Places are not
-/// checked: preconditions.
+/// A picture in memory: linear RGB float, row 0 on top, pixels[y * width + x].
 struct Image {
   int width = 0;
   int height = 0;
   std::vector<Color> pixels;
 
   Image() = default;
-  /// Black; sides below 0 count as 0. Throws std::bad_alloc, or std::length_error where no memory
-  /// could be enough.
+  /// A black picture. Sides below 0 count as 0.
   Image(int w, int h)
       : width(std::max(w, 0)),
         height(std::max(h, 0)),
         pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+  /// Pixel (x, y). Precondition: there is one.
   Color& at(int x, int y) { return pixels[index(x, y)]; }
   [[nodiscard]] const Color& at(int x, int y) const { return pixels[index(x, y)]; }
 

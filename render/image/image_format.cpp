@@ -8,11 +8,12 @@ namespace {
 
 constexpr int any = std::numeric_limits<int>::max();
 
-// hdr stores shared-exponent colours (RGBE), the others what ImageFormat says. TIFF is 8 bit as
-// viewers and office programs expect it; who wants floats takes EXR.
-/// Of all texts: a JPEG file keeps them in a segment, less than 64 KiB. Others are as long as they
-/// like; more than this is no remark.
+/// Room for all texts of a file, in bytes. JPEG keeps them in one segment of less than 64 KiB.
+/// Other formats have no limit; this one is far above any remark.
 constexpr int segment = 60'000, ample = 1 << 24;
+
+// hdr stores colours with a shared exponent (RGBE). TIFF has 8 bits, as viewers and office programs
+// expect; for floats there is EXR.
 
 constexpr ImageFormat formats[] = {
     {"exr", "openexr", any, ample, true, true, true},
@@ -45,8 +46,6 @@ const ImageFormat* find_image_format(const std::string& path) {
   }
   return nullptr;
 }
-
-bool is_image_name(const std::string& path) { return find_image_format(path) != nullptr; }
 
 std::string known_image_extensions() {
   std::string names;

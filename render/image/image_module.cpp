@@ -1,4 +1,4 @@
-// The image module: the one file that knows OpenImageIO, loaded by module_loader.cpp on first use.
+// The image module: the one source that uses OpenImageIO. module_loader.cpp loads it on first use.
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/thread.h>
@@ -19,8 +19,8 @@
 namespace boule::image_module {
 namespace {
 
-/// Rows per call: a multiple of EXR's zip blocks of 16 rows, enough of them to keep several threads
-/// busy, and about a MiB, so that packing stops soon after a signal.
+/// Rows per call: whole zip blocks of EXR, which have 16 rows; at least one block per thread; and
+/// about a MiB otherwise, so that writing stops soon after a signal.
 int band_rows(const Picture& picture, const OIIO::ImageSpec& spec) {
   constexpr int block = 16, most_blocks = 16;
   constexpr size_t enough_bytes = 1 << 20;
@@ -36,7 +36,7 @@ void fail(Report* report, const std::string& text) {
   report->text[length] = 0;
 }
 
-/// OpenImageIO's own words, in one line.
+/// OpenImageIO's message in one line.
 std::string reason_of(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -94,7 +94,7 @@ OIIO::ImageSpec spec_of(const Picture& picture) {
 
 size_t size_of(SampleType type) { return type == SampleType::u8 ? 1 : 4; }
 
-/// Rows [begin, end) as OpenImageIO takes them: the samples of a pixel side by side, no gaps.
+/// Rows [begin, end) as OpenImageIO takes them: the samples of each pixel side by side, no gaps.
 void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned char>& packed) {
   size_t pixel_size = 0;
   for (size_t i = 0; i < picture.channel_count; ++i) {
@@ -117,8 +117,9 @@ void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned 
   }
 }
 
-/// Of a file that ends without pixels libpng tells standard error, and OpenImageIO lets it. Noise
-/// is what it cannot hold back: after these rows from `begin` on there are some.
+/// Writes a few rows of noise, from `begin` on. libpng complains on standard error about a file
+/// that is closed without any pixels, and OpenImageIO does not prevent that. libpng keeps rows back
+/// while they compress well, but not noise.
 void write_noise(const Picture& picture, OIIO::ImageOutput& output, int begin) {
   constexpr size_t enough_bytes = 1 << 16;
   const auto row_bytes = static_cast<size_t>(output.spec().scanline_bytes(true));
@@ -155,18 +156,20 @@ void write_bands(const Picture& picture, OIIO::ImageOutput& output, const Descri
   }
 }
 
-/// Pools are as large as this, or there are none; changed by `start` alone, one call at a time.
+/// The sizes of the two thread pools; 1 means that there is none. Only `start` changes them, one
+/// call at a time.
 int pool_threads = 1, exr_threads = 1;
 
-/// Makes OpenEXR's pool larger, never smaller; -1 means none: the caller's thread does it all.
-/// OpenEXR is told by the next object that would write.
+/// Makes OpenEXR's pool larger, never smaller. OpenImageIO takes -1 for "no pool", and tells
+/// OpenEXR when the next writer is made.
 void start_exr_threads(int threads) {
   exr_threads = std::max(exr_threads, threads);
   OIIO::attribute("exr_threads", exr_threads > 1 ? exr_threads : -1);
 }
 
-/// Before OpenImageIO starts a pool of its own size. For one thread it is told nothing, for it
-/// would start one to be told so: each file is told. TIFF takes the pool in any case.
+/// Sets the size of OpenImageIO's pool before OpenImageIO starts one of its own size. Setting the
+/// size to 1 would start a pool, so for one thread nothing is set here, but for each file that is
+/// opened. TIFF uses the pool in any case.
 void start_threads(const char* format, int threads) {
   if (threads > pool_threads) OIIO::attribute("threads", threads);
   if (threads > pool_threads || format == std::string_view("tiff")) OIIO::default_thread_pool();
@@ -175,7 +178,7 @@ void start_threads(const char* format, int threads) {
   OIIO::ImageOutput::create(format);
 }
 
-/// A reader that needs no thread but the caller's; null if there is none of this format.
+/// A reader that uses the caller's thread only; null if there is none for this format.
 std::unique_ptr<OIIO::ImageInput> make_input(const char* format) {
   auto input = OIIO::ImageInput::create(format);
   if (input) input->threads(1);
@@ -194,13 +197,13 @@ void write_picture(const Picture& picture, int descriptor, Report* report) {
   write_bands(picture, *output, proxy, report);
   const bool closed = output->close();
   if (report->outcome == Outcome::done && !closed) fail(report, reason_of(output->geterror()));
-  if (const int code = proxy.finish()) {  // the cause of whatever OpenImageIO complains about
+  if (const int code = proxy.finish()) {  // the cause of what OpenImageIO may complain about
     report->outcome = Outcome::system_error;
     report->code = code;
   }
 }
 
-/// Everything that was asked for is in the header, whatever order the format keeps channels in.
+/// Whether a file's header has all that was wanted; formats may keep channels in another order.
 bool same_shape(const OIIO::ImageSpec& found, const OIIO::ImageSpec& wanted) {
   if (found.width != wanted.width || found.height != wanted.height ||
       found.nchannels != wanted.nchannels || found.x != wanted.x || found.y != wanted.y) {
@@ -224,7 +227,7 @@ void check_picture(const Picture& picture, const char* path, Report* report) {
     return fail(report, "the file's header is not what was written");
   }
   std::vector<unsigned char> row(static_cast<size_t>(found.scanline_bytes(true)));
-  for (const int y : {found.y, found.y + found.height - 1}) {  // BMP ends with the top row
+  for (const int y : {found.y, found.y + found.height - 1}) {  // the top row is the last one in BMP
     if (!input->read_scanline(y, 0, OIIO::TypeUnknown, row.data())) {
       return fail(report, "unreadable: " + reason_of(input->geterror()));
     }
@@ -266,7 +269,7 @@ void inspect_picture(const WantedPicture& wanted, Report* report) {
   }
 }
 
-/// An integer as 0..1 by our own division: OpenImageIO multiplies, and the last bit differs.
+/// An integer as 0..1, divided here: OpenImageIO multiplies, which gives another last bit.
 float number_of(unsigned short code) { return static_cast<float>(code) / 65535.0F; }
 float number_of(float number) { return number; }
 
@@ -281,12 +284,12 @@ bool read_band(OIIO::ImageInput& input, int begin, int end, int channels, OIIO::
   return input.read_tiles(0, 0, spec.x, spec.x + spec.width, y, y_end, 0, 1, 0, channels, type, to);
 }
 
-/// Reads the first channels as `Sample` and spreads them to three numbers a pixel.
+/// Reads the first channels as `Sample` and makes three numbers per pixel of them.
 template <class Sample>
 bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, const PictureFile& file) {
   const OIIO::ImageSpec& spec = input.spec();
   const int channels = std::min(spec.nchannels, 3);
-  // Each call makes OpenImageIO reserve 64 MiB, however narrow the picture.
+  // Every call makes OpenImageIO reserve 64 MiB, even for a narrow picture.
   constexpr int least_rows = 64, enough_pixels = 1 << 16;
   const int rows = std::max(least_rows, enough_pixels / spec.width);
   const int band = spec.tile_height > 0 ? spec.tile_height : rows;
@@ -311,7 +314,7 @@ bool read_samples(OIIO::ImageInput& input, OIIO::TypeDesc type, const PictureFil
 void read_picture(PictureFile& file, Report* report) {
   const auto input = make_input(file.format);
   OIIO::ImageSpec spec, wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // alpha must not change the colours
+  wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours stay as they are in the file
   if (!input || !input->open(file.path, spec, wishes)) {
     return fail(report, reason_of(input ? input->geterror() : OIIO::geterror()));
   }
@@ -333,7 +336,7 @@ void read_picture(PictureFile& file, Report* report) {
   file.is_integer = !spec.format.is_floating_point();
 }
 
-/// Runs a step so that no exception leaves the module.
+/// Runs a step and turns its exceptions into reports: none may leave the module.
 template <class Step>
 void guarded(Report* report, Step step) {
   *report = {};
@@ -368,13 +371,13 @@ void read(PictureFile* file, Report* report) {
 
 constexpr Table table = {version, start, write, check, inspect, read};
 
-/// What the loader looks for before it runs anything of this file.
+/// What the loader looks for in the file before it runs any of the module.
 [[gnu::used]] constexpr auto mark = std::to_array(version_mark);
 
 }  // namespace
 }  // namespace boule::image_module
 
 extern "C" [[gnu::visibility("default")]] const boule::image_module::Table* boule_image_module() {
-  OIIO::attribute("debug", 0);  // or it tells the terminal of what it makes of a header
+  OIIO::attribute("debug", 0);  // or it prints what it thinks of a header
   return &boule::image_module::table;
 }

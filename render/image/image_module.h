@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The border between the library and boule_image_io.so, the module that holds OpenImageIO: plain
-/// structs and function pointers, no exceptions, nothing of std, nothing owned across it.
+/// The interface between the library and boule_image_io.so, the module that uses OpenImageIO. Only
+/// plain structs and function pointers cross it: no exceptions, nothing of std, no ownership.
 namespace boule::image_module {
 
-/// Changes with any change of this file; the loader refuses a module of another version, before
-/// anything of it has run: the mark stands in the module's file.
+/// Both change with any change of this file. The mark stands in the module's file, so the loader
+/// can refuse a module of another version before any of it has run.
 inline constexpr std::uint32_t version = 6;
 inline constexpr char version_mark[] = "boule image module, version 6.";
 
@@ -17,7 +17,7 @@ inline constexpr const char* entry_point = "boule_image_module";
 
 enum class SampleType : std::uint32_t { u8, u32, f32 };
 
-/// One channel of a picture; pixel i's sample lies at samples + i * stride bytes.
+/// One channel of a picture. The sample of pixel i lies at samples + i * stride bytes.
 struct Channel {
   const char* name;
   SampleType type;
@@ -27,14 +27,14 @@ struct Channel {
 
 enum class AttributeType : std::uint32_t { text, integer, real, matrix };
 
-/// One header entry; value points to a C string, an int32, a float or 16 floats.
+/// One header entry. `value` points to a C string, an int32, a float or 16 floats.
 struct Attribute {
   const char* name;
   AttributeType type;
   const void* value;
 };
 
-/// A picture to write: pixels row by row from the top, channels of equal size.
+/// A picture to write: pixels row by row from the top, as many in every channel.
 struct Picture {
   const char* format;  ///< OpenImageIO's name of the format
   int width, height;
@@ -44,7 +44,7 @@ struct Picture {
   const Attribute* attributes;
   std::size_t attribute_count;
   int threads;
-  bool (*stop)(const void* context);  ///< true gives up
+  bool (*stop)(const void* context);  ///< true cancels the writing
   const void* context;
 };
 
@@ -52,58 +52,61 @@ struct Picture {
 struct PictureFile {
   const char* path;
   const char* format;  ///< OpenImageIO's name of the format
-  /// Told the size once the header is known; false gives up.
+  /// Called with the size once the header is known; false cancels the reading.
   bool (*begin)(void* context, int width, int height);
-  /// Gives memory for the next `rows` rows of three floats a pixel. A header costs nothing to
-  /// write: memory is taken as rows are found in the file.
+  /// Gives memory for the next `rows` rows of three floats per pixel. Any file can claim any size,
+  /// so memory is taken only as rows are found.
   float* (*next)(void* context, int rows);
   void* context;
-  bool is_integer;  ///< written: its numbers are codes, not floats
+  bool is_integer;  ///< set by the module: the file holds integers, not floats
 };
 
 enum class Outcome : std::uint32_t { done, stopped, system_error, failed };
 
-/// What came of a call: the errno code of a system_error, else a text for failed.
+/// The result of a call, with an errno code for system_error and a text for failed.
 struct Report {
   Outcome outcome;
   int code;
   char text[400];
 };
 
-/// What the header of a file on the disk says.
+/// What the header of an existing file says.
 struct FoundPicture {
   int width, height, x, y;        ///< the data window
   int frame_width, frame_height;  ///< the display window
   int channel_count;
-  bool has_channels;  ///< exactly those that were asked for, in any order
+  bool has_channels;  ///< exactly the wanted ones, in any order
   bool partial;       ///< its ImageDescription begins with "partial: "
 };
 
-/// A file on the disk, and the channels that are asked for.
+/// An existing file, and the channels that it should have.
 struct WantedPicture {
   const char* path;
   const char* format;  ///< OpenImageIO's name of the format
   const char* const* channels;
   std::size_t channel_count;
-  /// Told what the header says; false gives up. A header costs nothing to write: before this no
-  /// memory is taken for rows.
+  /// Called with what the header says; false cancels the reading. No memory is taken for rows
+  /// before, because any file can claim any size.
   bool (*accepts)(const void* context, const FoundPicture& found);
   const void* context;
 };
 
-/// What the module can do. `start` starts every thread that reading and writing pictures of a
-/// format, with so many threads or fewer, will ever start; before anything else of that format is
-/// asked for, one call at a time. `write` writes to an open, empty, seekable file; `check` opens a
-/// file anew and reads its header, its first and its last row; `inspect` reads all of what is
-/// accepted. `read` reads a picture's pixels, row by row from the top, three floats each: its first
-/// three channels as they stand in the file (integers as 0..1), gray thrice, 0 for a third channel
-/// that is not there.
+/// The functions of the module.
 struct Table {
   std::uint32_t version;
+  /// Starts every thread that reading and writing pictures of a format will need with `threads`
+  /// threads or fewer. Preconditions: it is called before the other functions are called for that
+  /// format, and by one thread at a time.
   void (*start)(const char* format, int threads, Report* report);
+  /// Writes to an open, empty, seekable file.
   void (*write)(const Picture* picture, int descriptor, Report* report);
+  /// Opens a written file and reads its header, its first and its last row.
   void (*check)(const Picture* picture, const char* path, Report* report);
+  /// Reads the header of a file and, if that is accepted, all rows.
   void (*inspect)(const WantedPicture* wanted, Report* report);
+  /// Reads a picture row by row from the top, three floats per pixel: its first three channels as
+  /// they are in the file, integers as 0..1. A single channel counts three times; a third one that
+  /// is missing is 0.
   void (*read)(PictureFile* file, Report* report);
 };
 

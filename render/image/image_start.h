@@ -10,25 +10,24 @@ namespace boule {
 
 class Threads;
 
-/// Loads OpenImageIO for a picture that write_image() is to write later, and starts all threads
-/// which that will ever start, in a thread of its own: beside the work, and what can fail there
-/// fails before the work and not after it.
+/// Loads OpenImageIO for a picture that write_image() will write later, and starts all threads that
+/// this will need. It does so in a thread of its own, beside the rendering. So what can fail there
+/// fails before the rendering is done and not after it.
 class ImageStart {
  public:
-  /// Begins, for a picture of this name and ImageFileOptions::threads; any values will do. Where
-  /// there is no thread to be had it is done in the caller's, before this returns. Throws
-  /// std::bad_alloc.
+  /// Begins, for a picture of this name and with these ImageFileOptions::threads. Takes any values.
+  /// If no thread can be had, the caller's does it all before this returns.
   ImageStart(std::string path, int threads);
-  /// Waits for its end: half a second at most, where the system is idle.
+  /// Waits until it is done: half a second at most on an idle system.
   ~ImageStart();
   ImageStart(const ImageStart&) = delete;
   ImageStart& operator=(const ImageStart&) = delete;
 
-  /// Whether wait() would return at once.
+  /// True if wait() would return at once.
   [[nodiscard]] bool done() const { return done_; }
 
-  /// Waits for its end: nothing, or "cannot write 'NAME': REASON", which write_image() would say,
-  /// too.
+  /// Waits until it is done. A failure is the one that write_image() would give: "cannot write
+  /// 'NAME': REASON".
   Status wait();
 
  private:
@@ -37,7 +36,7 @@ class ImageStart {
 
   const std::string path_;
   const int threads_;
-  Status status_;  // once it is done
+  Status status_;  ///< valid once it is done
   bool out_of_memory_ = false;
   std::atomic<bool> done_{false};
   std::unique_ptr<Threads> thread_;

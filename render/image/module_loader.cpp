@@ -18,23 +18,23 @@
 namespace boule {
 namespace {
 
-/// What is loaded and runs; one for the process, as OpenImageIO is.
+/// What is loaded and runs: once per process, like OpenImageIO itself.
 struct Loaded {
   std::mutex mutex;
   const image_module::Table* table = nullptr;
-  int pool = 0;      ///< threads that OpenImageIO's pool was told, once it runs
-  int exr_pool = 1;  ///< and OpenEXR's; 1: it has none
-  pid_t owner = 0;   ///< the process that has the pools' threads, once there are some
+  int pool = 0;      ///< threads of OpenImageIO's pool; 0: there is none yet
+  int exr_pool = 1;  ///< threads of OpenEXR's pool; 1: there is none
+  pid_t owner = 0;   ///< the process that has the pools' threads; 0: there are none
 };
 Loaded& loaded() {
   static Loaded one;
   return one;
 }
 
-/// The process in which a thread is busy with `loaded()`, or 0.
+/// The process in which a thread holds `loaded()`, or 0.
 std::atomic<pid_t> busy{0};
 
-/// Holds `loaded()`; a child that was forked meanwhile would wait for ever.
+/// Holds `loaded()`. A child that is forked meanwhile would wait for ever, so it can ask `busy`.
 class Hold {
  public:
   Hold() : lock_(loaded().mutex) { busy = getpid(); }
@@ -50,12 +50,13 @@ Diagnostic cannot_load(const std::string& reason) {
   return {"cannot load the image module: " + reason, {}, {}, 0, 0};
 }
 
-constexpr unsigned threads_at_load = 4;  // log4cplus
+constexpr unsigned threads_at_load = 4;  // of log4cplus
 
-/// Some of its libraries do not look at what malloc gives them while they are loaded.
+/// Checks for the memory that loading takes: some of the libraries do not check what malloc
+/// returns.
 Status check_room() {
   constexpr std::uint64_t mebibyte = 1 << 20;
-  // Measured: 405 MiB, 67 of them to be written to.
+  // Measured: 405 MiB of addresses, 67 MiB of them writable.
   constexpr std::uint64_t addresses = 440 * mebibyte, data = 80 * mebibyte;
   const std::uint64_t stacks = threads_at_load * std::uint64_t{default_stack()};
   const auto [address_room, data_room] = process_room();
@@ -84,11 +85,12 @@ Status load(Loaded& one) {
   return std::nullopt;
 }
 
-/// The threads that will be started for so many, besides those there are.
+/// How many threads `start` will start for a file with `threads` threads.
 unsigned missing_threads(const Loaded& one, const ImageFormat& format, int threads) {
   const std::string_view writer = format.writer;
   const auto count = static_cast<unsigned>(threads);
-  // The pool begins with as many as the hardware runs, and is resized. TIFF takes it in any case.
+  // The pool begins with as many threads as the hardware runs, and is resized then. TIFF uses it in
+  // any case.
   const unsigned at_first = one.pool == 0 ? hardware_threads() : 0;
   unsigned missing = 0;
   if (threads > std::max(one.pool, 1))
@@ -99,11 +101,11 @@ unsigned missing_threads(const Loaded& one, const ImageFormat& format, int threa
   return missing;
 }
 
-/// Starts the pools for so many threads.
+/// Starts the pools for a file with `threads` threads.
 Status start(Loaded& one, const ImageFormat& format, int threads) {
   const std::string_view writer = format.writer;
   const unsigned missing = missing_threads(one, format, threads);
-  // Those who render want as many at the same time, and something is left to work with.
+  // Rendering will want as many threads at the same time, and some memory to work with.
   constexpr std::uint64_t rest = 32 << 20;
   const unsigned all = missing + static_cast<unsigned>(threads);
   const bool has_room = process_room().data >= all * std::uint64_t{default_stack()} + rest;
@@ -117,7 +119,8 @@ Status start(Loaded& one, const ImageFormat& format, int threads) {
   return std::nullopt;
 }
 
-/// In a child: the pools' threads stayed in the parent, and whoever waits for them waits for ever.
+/// The module in a forked child. The pools' threads exist in the parent only, and whoever waits for
+/// them waits for ever.
 Result<LoadedModule> forked(const Loaded& one, const ImageFormat& format) {
   const std::string_view writer = format.writer;
   if ((writer == "openexr" && one.exr_pool > 1) || (writer == "tiff" && one.pool > 0)) {

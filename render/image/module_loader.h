@@ -6,18 +6,20 @@
 
 namespace boule {
 
-/// The image module as it may be used.
+/// The image module, loaded and ready.
 struct LoadedModule {
   const image_module::Table* table;
-  int threads;  ///< that writing may be told: all that were wanted, or one
+  int threads;  ///< with how many to write: as many as were wanted, or 1
 };
 
-/// The image module (module_search.h) for a file of this format, loaded on the first call, with all
-/// threads started that it will ever start for such files: of `threads` wanted, 256 at most, all or
-/// one, where those of OpenImageIO and OpenEXR could not be had. The Diagnostic says what was
-/// tried; or that the memory or threads cannot be had without which libraries below OpenImageIO end
-/// the process; or that this process was forked from one with threads that it has not. It stays
-/// loaded; a failure is tried anew by the next call. Throws std::bad_alloc.
+/// The image module (module_search.h), ready for files of this format. The first call loads it, and
+/// it stays loaded; after a failure the next call tries again. All threads that OpenImageIO and
+/// OpenEXR will need for such files are started here: `threads` of them, 256 at most, or none if
+/// they cannot be had. The Diagnostic says
+/// - where the module was looked for, or
+/// - that memory or threads are missing without which libraries below OpenImageIO end the process,
+/// or
+/// - that this process was forked from one whose threads it would need.
 Result<LoadedModule> load_image_module(const ImageFormat& format, int threads = 1);
 
 }  // namespace boule

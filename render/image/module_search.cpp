@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* module_name = "boule_image_io.so";
 
-/// The folder of the shared library this code is in, or of the program if it is linked into it.
+/// The folder of the shared library that holds this code, or of the program that does.
 fs::path own_folder() {
   static const char anchor = 0;
   Dl_info info{};
@@ -38,7 +38,7 @@ bool is_within(const fs::path& folder, const fs::path& tree) {
 
 Diagnostic refusal(const std::string& reason) { return {reason, {}, {}, 0, 0}; }
 
-/// (An iterator over the file would throw where it cannot be read.)
+/// The bytes of a file. (A stream iterator would throw if the file cannot be read.)
 Result<std::string> bytes_of(const fs::path& file) {
   errno = 0;
   std::error_code failed;
@@ -47,7 +47,7 @@ Result<std::string> bytes_of(const fs::path& file) {
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
   if (in.read(bytes.data(), static_cast<std::streamsize>(size))) return bytes;
-  const int code = errno != 0 ? errno : EIO;  // shorter than it was
+  const int code = errno != 0 ? errno : EIO;  // EIO: the file became shorter meanwhile
   return refusal(file.string() + ": " + std::generic_category().message(code));
 }
 
@@ -75,7 +75,7 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   const fs::path tree = fs::canonical(BOULE_BUILD_TREE, ignored);
   std::vector<fs::path> folders = {own};
   if (tree.empty() || !is_within(own, tree)) {
-    // Elsewhere, in /tmp/mine say, the folder beside it may be anybody's.
+    // Beside another folder, say /tmp/mine, the library folder could be anybody's.
     if (own.filename() == BOULE_PROGRAM_FOLDER) folders.push_back(installed);
     return folders;
   }
@@ -85,11 +85,11 @@ std::vector<fs::path> module_folders(const fs::path& own) {
 }
 
 Result<const Table*> open_image_module() {
-  std::string places;
+  std::string searched;
   std::optional<Diagnostic> reason;
   for (const fs::path& folder : module_folders(own_folder())) {
     const fs::path file = folder / module_name;
-    places += (places.empty() ? "" : " nor in ") + folder.string();
+    searched += (searched.empty() ? "" : " nor in ") + folder.string();
     std::error_code ignored;
     if (!fs::exists(file, ignored)) continue;
     auto opened = open_module(file);
@@ -97,7 +97,7 @@ Result<const Table*> open_image_module() {
     if (!reason) reason = opened.error();
   }
   if (reason) return *reason;
-  return refusal(std::string(module_name) + " is not in " + places);
+  return refusal(std::string(module_name) + " is not in " + searched);
 }
 
 }  // namespace boule

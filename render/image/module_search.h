@@ -8,15 +8,15 @@
 
 namespace boule {
 
-/// The folders in which the image module may lie, by the one that the running library or program is
-/// in: this one, and the library folder of an installation around it if it is named as that of
-/// programs is ("bin"); within the tree it was built
-/// in, nothing but the folders of that tree.
+/// The folders in which the image module is looked for, given the folder of the running library or
+/// program. These are that folder itself and, if it has the name of an installation's folder for
+/// programs ("bin"), the library folder beside it. If it lies in the tree where it was built, all
+/// folders lie in that tree.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own);
 
-/// Loads the module from the first of the running program's folders that has one of this version,
-/// which is looked for in the file before anything of it runs. The Diagnostic says where it was
-/// looked for, or what the system said.
+/// Loads the module from the first of these folders that has one of this version. The version is
+/// looked up in the file before any of it runs. The Diagnostic says where the module was looked
+/// for, or what the system said.
 Result<const image_module::Table*> open_image_module();
 
 }  // namespace boule

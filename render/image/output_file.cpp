@@ -23,9 +23,9 @@ std::string system_reason(int code) { return std::generic_category().message(cod
 /// "dir/" of "dir/name", or empty.
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 
-/// Whether somebody else may have put this link there, to have us write where they could not: in a
-/// folder like /tmp only links of our own, or of the folder's owner, are followed. So does the
-/// kernel where fs.protected_symlinks is set.
+/// Whether somebody else may have made this link, to have us write where they could not. In a
+/// folder like /tmp only links of our own or of the folder's owner are followed, as by the kernel
+/// where fs.protected_symlinks is set.
 bool is_trap(const std::string& link) {
   struct stat folder {
   }, own{};
@@ -35,7 +35,8 @@ bool is_trap(const std::string& link) {
   return anybodys && S_ISLNK(own.st_mode) && own.st_uid != geteuid() && own.st_uid != folder.st_uid;
 }
 
-/// The file that a chain of symbolic links ends at, existing or not; 0 or an errno code.
+/// Replaces `path` by the file at the end of its chain of symbolic links, which need not exist.
+/// Returns 0 or an errno code.
 int follow_links(std::string& path) {
   constexpr int longest_chain = 40;  // the kernel's own limit
   for (int links = 0; links <= longest_chain; ++links) {
@@ -49,15 +50,16 @@ int follow_links(std::string& path) {
   return ELOOP;
 }
 
-/// ".STEM.XXXXXX.temp.EXT" beside the target, the X random: other programs choose an image format
-/// by the extension. A long stem is cut, so that any legal target has a legal temporary.
+/// ".STEM.XXXXXX.temp.EXT" beside the target, with random X. It keeps the extension, because
+/// programs choose a format by it. A long stem is cut, so that any legal name has a legal temporary
+/// one.
 std::string temporary_name(const std::string& target) {
   constexpr char digits[] = "0123456789abcdefghijklmnopqrstuv";
   const std::string folder = folder_of(target);
   const std::string base = target.substr(folder.size());
   const std::size_t dot = std::min(base.rfind('.'), base.size());
   std::uint64_t bits = 0;
-  // Too little entropy only means a name in use, and another attempt.
+  // If there is too little entropy, the name may be in use, and there is another attempt.
   [[maybe_unused]] const ssize_t got = getrandom(&bits, sizeof bits, GRND_NONBLOCK);
   std::string tag;
   for (int i = 0; i < 6; ++i, bits >>= 5) tag += digits[bits & 31];
@@ -66,7 +68,7 @@ std::string temporary_name(const std::string& target) {
   return folder + "." + base.substr(0, std::min(dot, room)) + tail;
 }
 
-/// Writes all bytes; 0 or an errno code.
+/// Writes all bytes. Returns 0 or an errno code.
 int write_all(int descriptor, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(descriptor, bytes, count);
@@ -79,11 +81,11 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
-/// How long something slow is waited for before `stop` is asked again.
+/// How long to wait for something slow before `stop` is asked again.
 constexpr int patience_ms = 100;
 
-/// Opens a pipe or device so that it does not block; waits for the reader of a FIFO that has none.
-/// The descriptor, or -1 and errno: ECANCELED where `stop` says so.
+/// Opens a pipe or device without blocking. If a FIFO has no reader, waits for one. Returns the
+/// descriptor, or -1 with errno set: to ECANCELED if `stop` returned true.
 int open_stream(const std::string& path, bool is_fifo, const std::function<bool()>& stop) {
   for (;;) {
     const int stream = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
@@ -96,8 +98,8 @@ int open_stream(const std::string& path, bool is_fifo, const std::function<bool(
   }
 }
 
-/// Writes all bytes to a pipe or device that does not block, as its reader takes them; 0 or an
-/// errno code, ECANCELED where `stop` says so.
+/// Writes all bytes to a pipe or device that does not block, as its reader takes them. Returns 0 or
+/// an errno code: ECANCELED if `stop` returned true.
 int stream_all(int stream, const char* bytes, std::size_t count,
                const std::function<bool()>& stop) {
   while (count > 0) {
@@ -114,7 +116,7 @@ int stream_all(int stream, const char* bytes, std::size_t count,
   return 0;
 }
 
-/// Another temporary may have the name that was drawn.
+/// How many random names are tried; each may be in use.
 constexpr int attempts = 100;
 
 std::string folder_to_open(const std::string& path) {
@@ -122,8 +124,8 @@ std::string folder_to_open(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// The new name survives a power cut once its folder is written; a file system that cannot do that
-/// is no reason to fail.
+/// Makes the new name survive a power cut, by writing its folder to the disk. Not every file system
+/// can do that, so a failure is ignored.
 void sync_folder(const std::string& path) {
   const int descriptor = open(folder_to_open(path).c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -148,7 +150,7 @@ Result<OutputFile> OutputFile::create(const std::string& target,
   const int link_problem = follow_links(real);
   if (link_problem == EACCES) return cannot_write(target, system_reason(EACCES));
   struct stat stream {};
-  // By its own name: what /dev/stdout leads to may have no other.
+  // By the target's own name: what /dev/stdout leads to may have no name.
   if (stat(target.c_str(), &stream) == 0 && !S_ISREG(stream.st_mode) && !S_ISDIR(stream.st_mode)) {
     return create_stream(std::move(file), S_ISFIFO(stream.st_mode), stop);
   }
@@ -161,7 +163,7 @@ Result<OutputFile> OutputFile::create(const std::string& target,
   if (exists ? S_ISDIR(old.st_mode) : real.ends_with('/')) {
     return cannot_write(target, system_reason(EISDIR));
   }
-  // Renaming could replace a write-protected file; writing to it could not.
+  // rename() would replace a write-protected file as well.
   if (exists && faccessat(AT_FDCWD, real.c_str(), W_OK, AT_EACCESS) != 0) {
     return cannot_write(target, system_reason(errno));
   }
@@ -185,7 +187,8 @@ Result<OutputFile> OutputFile::create_beside(OutputFile file, const std::string&
   return cannot_write(file.name_, system_reason(errno));
 }
 
-/// A file without a name; false where the file system has none such, or there is no /proc.
+/// Opens a file without a name. False if the file system has no such files, or if there is no
+/// /proc.
 bool OutputFile::open_unnamed() {
   const int descriptor =
       open(folder_to_open(real_target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
@@ -200,7 +203,7 @@ bool OutputFile::open_unnamed() {
   return true;
 }
 
-/// Names what has no name yet; 0 or an errno code.
+/// Gives the temporary file a name. Returns 0 or an errno code.
 int OutputFile::give_name() {
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::string name = temporary_name(real_target_);
@@ -233,7 +236,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       synced_(std::exchange(other.synced_, false)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
-  OutputFile taken(std::move(other));  // takes along what this one had
+  OutputFile taken(std::move(other));  // its destructor discards what this one had
   std::swap(name_, taken.name_);
   std::swap(real_target_, taken.real_target_);
   std::swap(path_, taken.path_);
@@ -302,7 +305,7 @@ Status OutputFile::commit_stream(const std::function<bool()>& stop) {
     if (code != 0) return cannot_write(name_, system_reason(code));
     position += count;
   }
-  close(std::exchange(descriptor_, -1));  // of the memory it was gathered in
+  close(std::exchange(descriptor_, -1));  // frees the memory in which the data were gathered
   path_.clear();
   if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, system_reason(errno));
   return {};

@@ -8,23 +8,24 @@
 
 namespace boule {
 
-/// "cannot write 'NAME': REASON", for every failure of an output.
+/// "cannot write 'NAME': REASON", the form of every failure of an output.
 Diagnostic cannot_write(const std::string& name, const std::string& reason);
 
-/// A file that appears under its name only when it is complete: a temporary in the target's folder,
-/// renamed by commit(), removed by the destructor. Where the file system can, it has no name until
-/// then, so that nothing is left however the program ends. A failure leaves an old file untouched.
+/// A file that appears under its name only when it is complete. Until then it is a temporary file
+/// in the target's folder, which commit() renames and the destructor removes. Where the file system
+/// allows it, the temporary file has no name until then, so that nothing is left however the
+/// program ends. A failure leaves an old file as it was.
 ///
-/// The new file has the old one's permissions, else 0666 less the umask. A symbolic link is
-/// followed: the file it names is replaced, the link stays; but one that others put into a folder
-/// which everybody may write to (/tmp) is refused, as by fs.protected_symlinks. A device, pipe or
-/// socket is never replaced: the data are gathered in memory and copied into it by commit(). What
-/// was committed, or moved away, refuses all below.
+/// The new file has the permissions of the old one, or else 0666 less the umask. A symbolic link is
+/// followed: the file that it names is replaced, and the link stays. A link is refused if somebody
+/// else put it into a folder to which everybody may write (/tmp), as fs.protected_symlinks does it.
+/// A device, pipe or socket is never replaced: the data are gathered in memory, and commit() copies
+/// them into it. After commit(), and once it was moved away, an OutputFile refuses all calls below.
 class OutputFile {
  public:
-  /// Makes the temporary; the Diagnostic (cannot_write) carries the system's reason. Any name will
-  /// do. A FIFO's reader is waited for: `stop` is asked ten times a second then, true gives up.
-  /// What `stop` throws reaches the caller, here and below.
+  /// Makes the temporary file. Takes any name; the Diagnostic (cannot_write) carries the system's
+  /// reason. If the target is a FIFO without a reader, this waits for one and asks `stop` ten times
+  /// a second; true ends the waiting. What `stop` throws reaches the caller, here and in commit().
   static Result<OutputFile> create(const std::string& target,
                                    const std::function<bool()>& stop = {});
 
@@ -34,21 +35,21 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// The temporary: its path, to be opened and checked, or removed where the program ends early
-  /// (one without a name cannot be, and need not), and its descriptor, open for reading, writing
-  /// and seeking.
+  /// The path of the temporary file, by which it can be opened and checked, and removed if the
+  /// program ends early. A file without a name cannot be removed, and need not be.
   [[nodiscard]] const std::string& path() const { return path_; }
+  /// The descriptor of the temporary file, open for reading, writing and seeking.
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
   /// Appends `count` bytes at the descriptor's position.
   Status write(const void* bytes, std::size_t count);
 
-  /// Makes the data durable, after the last write, so that commit() takes no time for it.
+  /// Makes the data durable. After the last write it saves commit() that time.
   Status sync();
 
-  /// Makes the data durable and gives the file its name; call it once, after the last write.
-  /// `stop` is asked before that, and ten times a second while a pipe's reader is slow: true gives
-  /// up, with "interrupted" as the reason.
+  /// Makes the data durable and gives the file its name. Call it once, after the last write. `stop`
+  /// is asked before that, and ten times a second while the reader of a pipe is slow; true makes
+  /// this fail with the reason "interrupted".
   Status commit(const std::function<bool()>& stop = {});
 
  private:
@@ -61,13 +62,13 @@ class OutputFile {
   Status commit_stream(const std::function<bool()>& stop);
   void discard();
 
-  std::string name_;         // the target as the caller wrote it, for messages
-  std::string real_target_;  // links resolved; empty for a stream
-  std::string path_;         // of the temporary; under /proc while it has no name
-  std::string temporary_;    // its name, if it has one
+  std::string name_;         // of the target as the caller wrote it, for messages
+  std::string real_target_;  // the target with its links resolved; empty for a stream
+  std::string path_;         // of the temporary file; in /proc while it has no name
+  std::string temporary_;    // the name of the temporary file; empty while it has none
   int descriptor_ = -1;
-  int stream_ = -1;      // the device or pipe itself
-  bool synced_ = false;  // since the last write()
+  int stream_ = -1;      // of the device or pipe itself
+  bool synced_ = false;  // nothing was written since the last sync()
 };
 
 }  // namespace boule

@@ -22,7 +22,7 @@ Diagnostic cannot_read(const std::string& path, const std::string& reason) {
   return {"cannot read it: " + reason, "", path, 0, 0};
 }
 
-/// What the module's reader is given to fill, and why it was not.
+/// What the module's reader fills, and why it was refused.
 struct Room {
   Image image;
   std::string refusal = too_large;
@@ -33,7 +33,7 @@ bool begin_room(Room& room, int width, int height) {
     room.refusal = "it has more than " + std::to_string(max_image_side) + " pixels a side";
     return false;
   }
-  // Readers hold as much again.
+  // The module's reader holds as much again.
   const std::uint64_t bytes =
       2 * sizeof(Color) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (const auto bad = check_memory(bytes, "it needs")) {
@@ -46,12 +46,12 @@ bool begin_room(Room& room, int width, int height) {
   return true;
 }
 
-/// No exception may cross the module's border.
+/// No exception may reach the module.
 bool begin(void* context, int width, int height) {
   try {
     return begin_room(*static_cast<Room*>(context), width, height);
   } catch (const std::bad_alloc&) {
-    return false;  // the refusal says so from the start
+    return false;  // the refusal is `too_large` already
   }
 }
 

@@ -7,18 +7,19 @@
 
 namespace boule {
 
-/// What the numbers of a picture are: colours, which become linear where the file has integers,
-/// codes of the sRGB curve (PNG, JPEG, ...), or just numbers, which stay as they stand, integers as
-/// 0..1.
+/// What the numbers of a picture mean.
+/// - colors: colours. Integers (PNG, JPEG, ...) are codes of the sRGB curve and become linear.
+/// - numbers: numbers that stay as they are, with integers as 0..1.
 enum class PictureContent { colors, numbers };
 
-/// Reads a picture by its extension, one of those write_image knows: its first three channels, a
-/// single one as gray, a missing third one as 0; alpha is left out. A part of a frame (EXR's data
-/// window) is refused. The Diagnostic says "cannot read it: REASON"; its file is `path`.
-/// Numbers are as in the file: NaN, infinite or negative ones too. Any file will do; what does not
-/// fit into memory is refused before it is read. Of PNG files of nonsense with true checksums
-/// libpng may tell standard error a line. Loads OpenImageIO as write_image() does, with what is
-/// said there of memory.
+/// Reads a picture in the format of its extension, one that write_image() knows. It takes the first
+/// three channels: a single one counts as gray, a third one that is missing is 0, alpha is left
+/// out. Numbers are as they are in the file, also NaN, infinite and negative ones. A part of a
+/// frame (EXR's data window) is refused, and so is a picture that does not fit into memory. Takes
+/// any file. The Diagnostic says "cannot read it: REASON", and its file is `path`.
+///
+/// OpenImageIO is loaded as by write_image(), where more is said of that. libpng may write a line
+/// to standard error about a PNG file that has nonsense in it under correct checksums.
 Result<Image> read_image(const std::string& path, PictureContent content);
 
 }  // namespace boule

@@ -11,13 +11,13 @@
 namespace boule {
 namespace {
 
-/// The curve inverted once: codes are found by comparing, without a power per sample. The 16 upper
-/// bits of a float below 1 pick a bucket of 2^-7 relative width, narrower than the distance of any
-/// two steps of the curve: at most one step lies in a bucket, and one comparison settles it.
+/// A table by which a code is found without computing a power per sample. The upper 16 bits of a
+/// float below 1 choose a bucket, whose relative width is 2^-7. Any two steps from code to code are
+/// further apart than that, so a bucket holds at most one step, and one comparison decides.
 class SrgbTable {
  public:
   SrgbTable() {
-    const FloatEnvironment environment;  // it outlives this call
+    const FloatEnvironment environment;  // the table serves later calls, too
     step_[0] = 0;
     step_[256] = std::numeric_limits<float>::infinity();
     for (int code = 1; code < 256; ++code) step_[static_cast<std::size_t>(code)] = first(code);
@@ -65,8 +65,6 @@ float exposure_scale(float stops) {
 double linear_from_srgb(double s) {
   return s <= 0.04045 ? s / 12.92 : elementary::pow((s + 0.055) / 1.055, 2.4);
 }
-
-std::uint8_t srgb_code(float linear) { return srgb_table().code(linear); }
 
 std::vector<std::uint8_t> tone_map(const Image& image, float stops) {
   const FloatEnvironment environment;

@@ -22,18 +22,18 @@ namespace {
 
 namespace module = image_module;
 
-/// What the module reads: plain views, and what keeps them alive.
+/// What the module reads: plain structs, and what they point to.
 struct Plan {
-  std::vector<std::uint8_t> codes;  // LDR only
+  std::vector<std::uint8_t> codes;  ///< of LDR formats
   std::vector<module::Channel> channels;
   Metadata metadata;
   std::vector<module::Attribute> attributes;
   module::Picture picture{};
   const std::function<bool()>* stop = nullptr;
-  mutable std::exception_ptr thrown{};  // by `stop`
+  mutable std::exception_ptr thrown{};  ///< what `stop` threw
 };
 
-/// No exception may cross the module's border.
+/// No exception may reach the module.
 bool ask_to_stop(const void* context) {
   const auto& plan = *static_cast<const Plan*>(context);
   try {
@@ -74,7 +74,7 @@ std::string channel_problem(const Image& image, const std::vector<ImageChannel>&
   return {};
 }
 
-/// What is wrong with the arguments, or an empty text.
+/// What is wrong with the arguments of write_image(), or an empty text.
 std::string find_reason(const Image& image, const ImageFileOptions& options,
                         const ImageFormat* format) {
   if (format == nullptr) {
@@ -139,7 +139,7 @@ module::Attribute attribute_of(const std::string& name, const MetadataValue& val
   return {name.c_str(), AttributeType::matrix, std::get<MetadataMatrix>(value).data()};
 }
 
-/// The standard entries, and those that were asked for.
+/// The standard entries of a header, and after them those that were asked for.
 Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   const std::string writer = format.writer;
   Metadata header = {{"Software", "boule " BOULE_VERSION},
@@ -151,13 +151,13 @@ Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
     header.emplace_back("CompressionQuality", 95);
     header.emplace_back("jpeg:subsampling", "4:4:4");
   } else if (writer == "tiff") {
-    header.emplace_back("tiff:write_exif", 0);  // libtiff would reread a half-written file
+    header.emplace_back("tiff:write_exif", 0);  // or libtiff rereads a half-written file
   }
   header.insert(header.end(), options.metadata.begin(), options.metadata.end());
   return header;
 }
 
-/// The Plan stays where it is: the picture points into it.
+/// A Plan on the heap, because its picture points into it.
 std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& options,
                                 const ImageFormat& format, Metadata header) {
   auto plan = std::make_unique<Plan>();
@@ -167,15 +167,15 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
     plan->attributes.push_back(attribute_of(name, value));
   }
   const bool cropped = options.crop.frame_width != 0 && format.channels;
-  const CropWindow place = cropped ? options.crop : CropWindow{image.width, image.height, 0, 0};
+  const CropWindow window = cropped ? options.crop : CropWindow{image.width, image.height, 0, 0};
   module::Picture& picture = plan->picture;
   picture.format = format.writer;
   picture.width = image.width;
   picture.height = image.height;
-  picture.x = place.x;
-  picture.y = place.y;
-  picture.frame_width = place.frame_width;
-  picture.frame_height = place.frame_height;
+  picture.x = window.x;
+  picture.y = window.y;
+  picture.frame_width = window.frame_width;
+  picture.frame_height = window.frame_height;
   picture.channels = plan->channels.data();
   picture.channel_count = plan->channels.size();
   picture.attributes = plan->attributes.data();
@@ -186,7 +186,7 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
   return plan;
 }
 
-/// The Diagnostic for a Report that is not `done`.
+/// The Diagnostic of a Report, or none if it is `done`.
 Status status_of(const module::Report& report, const std::string& path) {
   switch (report.outcome) {
     case module::Outcome::done:
@@ -201,7 +201,7 @@ Status status_of(const module::Report& report, const std::string& path) {
   return cannot_write(path, report.text);
 }
 
-/// OpenImageIO, which opens it next, does not tell the system's reason.
+/// Checks that the file can be opened: OpenImageIO opens it next and would not say why it fails.
 Status check_openable(const OutputFile& file, const std::string& path) {
   const int descriptor = open(file.path().c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return cannot_write(path, std::generic_category().message(errno));
@@ -218,7 +218,7 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (const std::string reason = prepare_header_texts(header, *format); !reason.empty()) {
     return cannot_write(path, reason);
   }
-  // The file first: a missing folder is reported without loading anything.
+  // The file comes first, so that a missing folder is reported without loading anything.
   Result<OutputFile> created = OutputFile::create(path, options.stop);
   if (!created.ok()) return created.error();
   OutputFile& file = created.value();

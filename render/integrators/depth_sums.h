@@ -9,30 +9,30 @@
 
 namespace boule {
 
-/// Radiance per sample, summed over each depth by itself and then from depth 0 on. Float sums
-/// depend on their order; this one is the same however the rays of a depth were cut into streams,
-/// as long as each depth's rays come in order.
+/// The radiance of samples. It is summed per depth, and then over the depths from 0 on. A float sum
+/// depends on its order; this one does not depend on how the rays of a depth are cut into streams,
+/// as long as they come in order.
 class DepthSums {
  public:
-  /// Forgets everything; from now on samples are 0 .. samples - 1.
+  /// Forgets everything. From now on the samples are 0 .. samples - 1.
   void start(std::size_t samples);
 
-  /// The sums of one depth, one per sample, to be added to; valid until the next call. `depth` is
-  /// not below what finish_below() was told.
+  /// The sums of one depth, one per sample, to which the caller adds; valid until the next call.
+  /// Precondition: `depth` is not below that of the last finish_below().
   Color* at_depth(int depth);
 
-  /// Promises that nothing more comes for depths below `depth`: their memory is used again.
+  /// Adds up the depths below `depth`, to which nothing is added any more.
   void finish_below(int depth);
 
-  /// Writes the sums over all depths, settled().
+  /// Writes the sum over all depths of each sample, settled().
   void finish(Color* radiance);
 
-  /// What was wrong with the sums written so far, over all starts.
+  /// What was wrong with all sums that were written so far.
   [[nodiscard]] const SampleFaults& faults() const { return faults_; }
 
  private:
   std::size_t samples_ = 0;
-  int first_depth_ = 0;                   ///< of rows_
+  int first_depth_ = 0;                   ///< the depth of rows_[0]
   std::vector<std::vector<Color>> rows_;  ///< by depth - first_depth_
   std::vector<std::vector<Color>> spare_;
   std::vector<Color> total_;

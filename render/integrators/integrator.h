@@ -11,7 +11,7 @@
 
 namespace boule {
 
-/// Rays traced so far, by what they were for.
+/// How many rays were traced, by kind.
 struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t shadow = 0;
@@ -26,37 +26,40 @@ struct RayCounts {
   [[nodiscard]] std::uint64_t total() const { return primary + shadow + continuation; }
 };
 
-/// How path tracing seeks the light of spheres and environment images: by rays to them, by where
-/// paths happen to go, or by both, weighted. The mean of a picture is the same, its noise is not.
+/// How path tracing finds the light of spheres and environment images. The expected picture is the
+/// same for all three, but not its noise.
+/// - both: by light sampling and by the directions of paths, weighted (multiple importance
+/// sampling).
+/// - lights: by light sampling only (next-event estimation).
+/// - paths: by the directions of paths only.
 enum class LightSampling { both, lights, paths };
 
 /// How an integrator works.
 struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
-  std::uint64_t seed = 0;  ///< of a path's random numbers
+  std::uint64_t seed = 0;  ///< of the random numbers of paths
   LightSampling light_sampling = LightSampling::both;
   std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
 };
 
-/// Which sample a camera ray is: what its random numbers depend on.
+/// The sample to which a camera ray belongs. Its random numbers depend on this.
 struct SampleId {
-  int x, y;  ///< pixel of the frame
+  int x, y;  ///< the pixel of the frame
   int sample;
 };
 
-/// Camera rays and what is known of them.
+/// Camera rays, and what is known of them.
 struct CameraRays {
   RayBuffer& rays;
-  Coherence coherence;
-  const SampleId* samples;  ///< one per ray; only path tracing asks for them, else null will do
+  Coherence coherence;      ///< what they have in common
+  const SampleId* samples;  ///< one per ray; null will do except for path tracing
 };
 
-/// Turns camera rays into radiance. One integrator serves one thread: it keeps its working memory
-/// from call to call, so that in the steady state nothing is allocated. Any rays will do, those
-/// with NaN see the background. Preconditions, not checked: settings in their ranges, as many
-/// samples and places for radiance as rays.
+/// Turns camera rays into radiance. One integrator serves one thread. It keeps its working memory
+/// from call to call, so after the first calls it allocates nothing. Takes any rays; those with NaN
+/// see the background. Precondition: the settings are in their ranges.
 class Integrator {
  public:
   Integrator() = default;
@@ -64,14 +67,15 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// radiance[k] = what arrives along ray k, finite and not negative, whatever the other rays
-  /// are. False if it was cancelled: nothing is written then. Throws std::bad_alloc.
+  /// Sets radiance[k] to what arrives along ray k, finite and not negative; it does not depend on
+  /// the other rays. False if it was cancelled, and then nothing is written. Precondition:
+  /// `radiance` has room for one colour per ray.
   virtual bool trace(const CameraRays& camera, Color* radiance) = 0;
 
-  /// All rays traced by this integrator.
+  /// All rays that this integrator traced.
   [[nodiscard]] virtual RayCounts counts() const = 0;
 
-  /// What was wrong with the radiance of its samples before it was made finite.
+  /// What was wrong with the radiance of its samples before it was settled().
   [[nodiscard]] virtual SampleFaults faults() const = 0;
 };
 

@@ -9,18 +9,18 @@
 
 namespace boule {
 
-/// Many samples' pairs of random numbers at once: sobol_pair() of each. Precondition of all but
-/// resize(): there is room.
+/// The random numbers of many samples at once: for each of them what sobol_pair() gives.
+/// Precondition of all functions but resize(): there is room.
 class RandomNumbers {
  public:
-  /// Makes room for so many. Throws std::bad_alloc.
+  /// Makes room for so many pairs.
   void resize(std::size_t size) {
     for (auto* numbers : {&sample_, &shuffle_, &seed_u_, &seed_v_}) numbers->resize(size);
     u_.resize(size);
     v_.resize(size);
   }
 
-  /// Asks for pair i: of this pixel's sample, and set.
+  /// Asks for pair i, which is that of a pixel's key, a set and a sample.
   void ask(std::size_t i, std::uint64_t key, RandomSet set, std::uint32_t sample) {
     const SobolSeeds seeds = sobol_seeds(key, set);
     sample_[i] = sample;
@@ -29,7 +29,7 @@ class RandomNumbers {
     seed_v_[i] = seeds.v;
   }
 
-  /// Finds the first `size` pairs, all of which were asked for.
+  /// Finds the first `size` pairs. Precondition: all of them were asked for.
   void find(const KernelTable& kernels, std::size_t size) {
     kernels.sobol_points({sample_.data(), shuffle_.data(), seed_u_.data(), seed_v_.data(),
                           u_.data(), v_.data(), size});

@@ -11,7 +11,7 @@ void Wavefront::start(RayBuffer& camera_rays) {
     camera_throughput_.push_back(gray(1));
     camera_density_.push_back(0);
   }
-  // A cancelled or failed run may have left streams behind.
+  // A run that was cancelled or failed may have left streams.
   if (running_) spare_.push_back(std::move(running_));
   recycle(waiting_);
   recycle(children_);
@@ -29,7 +29,7 @@ const PathStream* Wavefront::next() {
     return &current_;
   }
   if (running_) spare_.push_back(std::move(running_));
-  while (!children_.empty()) {  // the first child ends on top
+  while (!children_.empty()) {  // so that the first child is on top
     waiting_.push_back(std::move(children_.back()));
     children_.pop_back();
   }

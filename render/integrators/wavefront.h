@@ -12,51 +12,54 @@
 
 namespace boule {
 
-/// Live rays of one depth, each with the sample it works for and what its radiance counts there.
+/// Rays of one depth, each with the sample to which it belongs and the weight of its radiance
+/// there.
 struct PathStream {
   RayBuffer* rays = nullptr;
   const Color* throughput = nullptr;
   const std::uint32_t* sample = nullptr;
-  const float* density = nullptr;  ///< with which its direction was chosen, as spawn() was told
-  int depth = 0;                   ///< bounces since the camera
+  const float* density = nullptr;  ///< with which each direction was chosen, as given to spawn()
+  int depth = 0;                   ///< number of bounces since the camera
 };
 
-/// The recursion of ray tracing as a loop over streams (lecture "Recursion"): whoever shades takes
-/// a stream, adds radiance, spawns rays, and takes the next. Depth first, stream by stream, so
-/// memory grows with the depth but not with the number of rays. Each depth's rays come in the
-/// order of their parents whatever the stream size: it never shows in a sum.
+/// The recursion of ray tracing as a loop over streams (lecture "Recursion"). An integrator takes a
+/// stream, adds the radiance that its rays found, spawns the rays that go on, and takes the next
+/// stream. The order is depth first, stream by stream, so memory grows with the depth but not with
+/// the number of rays. The rays of each depth come in the order of their parents, so no sum depends
+/// on the size of the streams.
 class Wavefront {
  public:
-  /// Streams of spawned rays hold up to `stream_size` rays, >= 1.
+  /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1.
   explicit Wavefront(std::size_t stream_size) : stream_size_(stream_size) {}
 
-  /// Begins with the camera's rays, one per sample, throughput 1. They stay the caller's.
+  /// Begins with the camera's rays, one per sample. The caller keeps them alive.
   void start(RayBuffer& camera_rays);
 
-  /// The next stream, or null when none is left. The last one must not be used any more.
+  /// The next stream, or null when none is left. Ends the life of the stream before.
   const PathStream* next();
 
-  /// Adds radiance that a ray of the current stream found. Rays in order.
+  /// Adds radiance that a ray of the current stream found. Precondition: rays come in order.
   void add(std::size_t ray, const Color& radiance) {
     const std::uint32_t sample = current_.sample[ray];
     sums_[sample] = sums_[sample] + light_product(current_.throughput[ray], radiance);
   }
 
-  /// Sends a ray on from ray `parent` of the current stream, unless nothing of it would count.
-  /// Parents in order. `density` is kept for who asks.
+  /// Adds a ray that goes on from ray `parent` of the current stream, unless its weight in the
+  /// sample is black. PathStream::density of the ray is `density`. Precondition: parents come in
+  /// order.
   void spawn(std::size_t parent, const Ray& ray, const Color& weight, float density = 0);
 
-  /// Writes the radiance of every sample, after next() returned null.
+  /// Writes the radiance of every sample. Precondition: next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
 
-  /// What was wrong with the samples written so far, over all starts.
+  /// What was wrong with all samples that were written so far.
   [[nodiscard]] const SampleFaults& faults() const { return depth_sums_.faults(); }
 
-  /// Rays spawned so far, over all starts.
+  /// The number of all rays that were spawned so far.
   [[nodiscard]] std::uint64_t spawned() const { return spawned_; }
 
  private:
-  /// A PathStream with its memory, filled from the front.
+  /// What a PathStream points to. The first `size` entries are in use.
   struct Stream {
     RayBuffer rays;
     std::vector<Color> throughput;
@@ -78,9 +81,9 @@ class Wavefront {
   DepthSums depth_sums_;
   PathStream current_;
   Color* sums_ = nullptr;            ///< of the current depth
-  bool started_ = false;             ///< the camera's rays were handed out
-  StreamPtr running_;                ///< what current_ shows, unless that is the camera's rays
-  std::vector<StreamPtr> waiting_;   ///< a stack: depths never fall towards its top
+  bool started_ = false;             ///< next() has returned the camera's rays
+  StreamPtr running_;                ///< what current_ points to, unless that is the camera's rays
+  std::vector<StreamPtr> waiting_;   ///< a stack, in which depths never fall towards the top
   std::vector<StreamPtr> children_;  ///< of the current stream, in order
   std::vector<StreamPtr> spare_;
   std::uint64_t spawned_ = 0;

@@ -11,7 +11,8 @@ Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
   for (const Light& light : scene.lights) use_light(light);
 }
 
-/// The radiance that needs no light: background, emission, ambient; then the rays that go on.
+/// Finds the radiance that needs no shadow rays (background, emission, ambient), and then the rays
+/// that go on.
 void Whitted::shade(const Block& block) {
   const bool last = ends(block.stream);
   bool any_lit = false;
@@ -35,7 +36,7 @@ void Whitted::shade(const Block& block) {
   for (const Met& met : met_) go_on(met, surfaces_.get(met.ray - block.first));
 }
 
-/// Reflection before refraction: the order is part of the picture's bits.
+/// Spawns the reflected ray before the refracted one: the picture's bits depend on this order.
 void Whitted::go_on(const Met& met, const Surface& surface) {
   const Scatter way = scatter(*met.material, surface);
   if (!is_black(way.reflection)) {

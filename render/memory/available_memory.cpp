@@ -19,8 +19,8 @@ std::uint64_t bytes_of(long pages) {
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
 }
 
-/// The number behind a name, in a file of lines "NAME NUMBER ..." and others; 0 where there is
-/// none.
+/// The number after a name in a file with lines "NAME NUMBER ..." and others; 0 if the name is not
+/// there.
 std::uint64_t number_in(const std::string& path, std::string_view wanted) {
   std::ifstream file(path);
   std::string name, rest;
@@ -39,7 +39,8 @@ std::uint64_t system_memory() {
   return pages > 0 ? bytes_of(pages) : unlimited;
 }
 
-/// What a limit leaves of what the process has; `used` is the name of that, in KiB.
+/// Bytes that a limit leaves; `used` is the name, in the status file, of what counts for it, in
+/// KiB.
 std::uint64_t room_below(__rlimit_resource resource, const std::string& status,
                          std::string_view used) {
   rlimit limit{};
@@ -48,12 +49,12 @@ std::uint64_t room_below(__rlimit_resource resource, const std::string& status,
          std::min<std::uint64_t>(limit.rlim_cur, number_in(status, used) * kibibyte);
 }
 
-/// By the innermost of the process' groups and all around it.
+/// What the control group of the process and all groups around it leave.
 std::uint64_t control_groups_memory() {
   std::ifstream file("/proc/self/cgroup");
   std::uint64_t least = unlimited;
   for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("0::/")) continue;  // version 1
+    if (!line.starts_with("0::/")) continue;  // a line of version 1
     for (std::string group = line.substr(3); !group.empty();
          group.resize(group.rfind('/') == std::string::npos ? 0 : group.rfind('/')))
       least = std::min(least, control_group_memory("/sys/fs/cgroup" + group));
@@ -81,7 +82,8 @@ std::uint64_t control_group_memory(const std::string& folder) {
   std::uint64_t limit = 0, used = 0;
   if (!(std::ifstream(folder + "/memory.max") >> limit)) return unlimited;  // or "max"
   std::ifstream(folder + "/memory.current") >> used;
-  const std::string statistics = folder + "/memory.stat";  // files' pages are given up at need
+  // The pages of files count as used, but the system gives them up when memory is needed.
+  const std::string statistics = folder + "/memory.stat";
   used -=
       std::min(used, number_in(statistics, "active_file") + number_in(statistics, "inactive_file"));
   return limit - std::min(limit, used);

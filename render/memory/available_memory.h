@@ -7,27 +7,27 @@
 
 namespace boule {
 
-/// Bytes of memory that this process could have now without swapping: what the system has, what
-/// limits of its own (ProcessRoom) and the control groups it is in (version 2) leave it. The
-/// largest number where nothing of that is known. All here throw std::bad_alloc.
+/// Bytes of memory that this process could take now without swapping: the least of what the system
+/// has, of what the limits on the process leave (ProcessRoom), and of what its control groups leave
+/// (version 2). The largest number if none of that is known.
 std::uint64_t available_memory();
 
-/// What is left below the limits on this process; the largest number without one.
+/// Bytes that the limits on this process leave; the largest number where there is no limit.
 struct ProcessRoom {
-  std::uint64_t addresses;  ///< RLIMIT_AS: of all it maps
-  std::uint64_t data;       ///< RLIMIT_DATA: of what it may write to, stacks of threads included
+  std::uint64_t addresses;  ///< below RLIMIT_AS, which counts everything that is mapped
+  std::uint64_t data;       ///< below RLIMIT_DATA, which counts what is writable, stacks included
 };
 ProcessRoom process_room();
 
-/// The same for memory, which is both: the lesser.
+/// Bytes of memory that these limits leave: memory counts for both of them.
 std::uint64_t address_room();
 
-/// What a control group leaves to those in it, from the files in its folder; the largest number
-/// where it has no limit.
+/// Bytes that a control group leaves its processes, read from the files in its folder; the largest
+/// number if it has no limit.
 std::uint64_t control_group_memory(const std::string& folder);
 
-/// Nothing where so many bytes are available, else "WHO N MiB of memory, there are M" with this
-/// key: who = "a picture of 3 x 2 pixels needs".
+/// An error if fewer bytes are available: "WHO N MiB of memory, there are M", with this key. An
+/// example of `who` is "a picture of 3 x 2 pixels needs".
 Status check_memory(std::uint64_t bytes, const std::string& who, const std::string& key = {});
 
 }  // namespace boule

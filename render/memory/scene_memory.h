@@ -7,17 +7,17 @@
 
 namespace boule {
 
-/// Bytes that so many spheres take, and those that finding them by a tree takes at most, while it
-/// is built.
+/// Bytes that so many spheres take.
 constexpr std::uint64_t bytes_of_spheres(std::uint64_t count) { return count * sizeof(Sphere); }
+
+/// The most bytes that the tree over so many spheres takes, which is while it is built.
 constexpr std::uint64_t bytes_of_tree(std::uint64_t spheres) {
-  constexpr std::uint64_t measured = 90;  // of a sphere, once there are millions
+  constexpr std::uint64_t measured = 90;  // per sphere, of millions of them
   return spheres * measured;
 }
 
-/// An error if preparing a scene, with what its instances show, needs more memory than there is:
-/// known in no time and before any is taken. Takes any scene; of one that validate() refuses it
-/// says nothing.
+/// An error if preparing a scene, with all that its instances show, needs more memory than there
+/// is. It is quick and takes no memory. Takes any scene; no error for one that validate() refuses.
 Status check_scene_memory(const Scene& scene);
 
 }  // namespace boule

@@ -5,7 +5,7 @@
 namespace boule {
 namespace {
 
-/// What a light's power is in proportion to.
+/// The power of a light, but for a factor that is the same for all.
 double power_of(const AreaLight& light) {
   const Color& c = light.radiance;
   return (double{c.r} + double{c.g} + double{c.b}) * light.radius * light.radius;

@@ -8,33 +8,34 @@
 
 namespace boule {
 
-/// A sphere that gives light: a sphere light, or an emissive sphere of the scene.
+/// A sphere that gives light: a sphere light or an emissive sphere.
 struct AreaLight {
   Vec3d center;
   double radius;
   Color radiance;
-  double share;  ///< how often it is picked
+  double share;  ///< the probability with which it is picked
 };
 
-/// All of a scene's. Half of the time one is picked by its power, else any: what is strong but far
-/// away, or all around, must not leave nothing for the others. Black ones are none. Preconditions,
-/// not checked: of a valid scene; nothing is picked where there is nothing.
+/// The area lights of a scene, without black ones. One of them is picked by its power in half of
+/// the cases, and evenly in the other half: a light that is strong but far away, or all around,
+/// must not take all samples from the others.
 class AreaLights {
  public:
   AreaLights() = default;
-  /// Throws std::bad_alloc.
+  /// Precondition: the scene is valid.
   explicit AreaLights(const Scene& scene);
 
   [[nodiscard]] bool empty() const { return lights_.empty(); }
 
-  /// A light by a number in [0, 1); u becomes another such number, as evenly spread.
+  /// Picks a light by u in [0, 1), and makes u a new number that is evenly spread in [0, 1).
+  /// Precondition: there is a light.
   [[nodiscard]] const AreaLight& pick(double& u) const;
 
-  /// The sphere lights, in file order: no ray meets them.
+  /// The sphere lights, in file order. They are not objects: rays pass through them.
   [[nodiscard]] const AreaLight* sphere_lights() const { return lights_.data(); }
   [[nodiscard]] std::size_t sphere_light_count() const { return sphere_lights_; }
 
-  /// The emissive sphere as a light; `radiance` is its material's, not black.
+  /// An emissive sphere of the scene as a light. `radiance` is that of its material, and not black.
   [[nodiscard]] AreaLight light_of(const Sphere& sphere, const Color& radiance) const;
 
  private:

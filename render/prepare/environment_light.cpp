@@ -11,18 +11,19 @@ namespace {
 
 constexpr double below_one = 1 - 0x1p-53;
 
-/// Where an image shows a direction: u from 0 on the left to 1 on the right, v from 0 at the top.
+/// The point of an image that shows a direction: u is 0 at the left edge, v is 0 at the top.
 UnitPair image_point(const Vec3d& d, float rotation) {
   const double turns = 0.5 + elementary::atan2(d.x, -d.z) / (2 * elementary::pi) -
                        static_cast<double>(rotation) / 360;
   const double across = std::sqrt(d.x * d.x + d.z * d.z);
   const double v = elementary::atan2(across, d.y) / elementary::pi;
   const double u = turns - std::floor(turns);
-  // NaN is none of these: it becomes the last.
+  // The comparisons are false for NaN, which becomes below_one.
   return {u < below_one ? u : below_one, v < below_one ? std::max(v, 0.0) : below_one};
 }
 
-/// The interval of a running sum in which `at` lies; it becomes the share of the interval before.
+/// The interval of a running sum in which `at` lies. `at` becomes its position within the interval,
+/// 0..1.
 std::size_t find_interval(const double* sums, std::size_t count, double& at) {
   const auto index = static_cast<std::size_t>(std::upper_bound(sums, sums + count - 1, at) - sums);
   const double first = index == 0 ? 0 : sums[index - 1];
@@ -30,8 +31,8 @@ std::size_t find_interval(const double* sums, std::size_t count, double& at) {
   return index;
 }
 
-/// The light of a pixel's area: the image there is bilinear, and each neighbour's share of the
-/// integral over it is 1/8 along either axis.
+/// The light of each pixel's area. The image is bilinear there; each neighbour's share of the
+/// integral over the area is 1/8 along either axis.
 class PixelLight {
  public:
   explicit PixelLight(const EnvironmentBackground& image) : image_(image) {}

@@ -9,39 +9,40 @@
 
 namespace boule {
 
-/// The image's radiance from a direction of unit length, bilinear between its pixels' centres; from
-/// one with NaN, of any of its pixels. The image is a valid one: precondition of all here.
+/// The radiance of an image from a direction of unit length, bilinear between the centres of its
+/// pixels. A direction with NaN gives the radiance of some pixel. Precondition of all functions
+/// here: the image is valid.
 Color environment_radiance(const EnvironmentBackground& image, const Vec3d& direction);
 
-/// A direction that was chosen because of the light from there.
+/// A direction, chosen by how much light comes from there.
 struct EnvironmentSample {
   Vec3d direction;     ///< unit length
-  double density = 0;  ///< per solid angle; 0: there is no light
+  double density = 0;  ///< per solid angle; 0 if there is no light
 };
 
-/// Directions of an environment image, chosen as often as it is bright there (Pharr, Jakob,
-/// Humphreys, "Physically based rendering", 12.5): a row by the light of its pixels and their solid
-/// angle, a pixel of it by the light of its area, a point of the pixel evenly.
+/// An environment image as a light: it chooses directions by how bright the image is there (Pharr,
+/// Jakob, Humphreys, "Physically based rendering", 12.5). First it chooses a row by the light of
+/// its pixels times their solid angle, then a pixel of the row by its light, then a point of the
+/// pixel evenly.
 class EnvironmentLight {
  public:
   EnvironmentLight() = default;
-  /// Throws std::bad_alloc.
   explicit EnvironmentLight(const EnvironmentBackground& image);
 
-  /// True if there is any light.
+  /// True if the image is not black.
   [[nodiscard]] bool shines() const { return !rows_.empty() && rows_.back() > 0; }
 
-  /// A direction by two numbers in [0, 1).
+  /// Chooses a direction by two numbers in [0, 1).
   [[nodiscard]] EnvironmentSample sample(const UnitPair& numbers) const;
 
-  /// The density of this direction, of unit length, in sample().
+  /// The density with which sample() chooses this direction, which has unit length.
   [[nodiscard]] double density(const Vec3d& direction) const;
 
  private:
   int width_ = 0, height_ = 0;
   float rotation_ = 0;
-  std::vector<double> rows_;     ///< sums of weights, up to and with each row
-  std::vector<double> columns_;  ///< by row: sums up to and with each of its pixels
+  std::vector<double> rows_;     ///< by row: the weights of all rows up to and including it
+  std::vector<double> columns_;  ///< by pixel: the weights of its row up to and including it
 };
 
 }  // namespace boule

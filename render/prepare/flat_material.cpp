@@ -8,7 +8,7 @@ namespace {
 
 constexpr float largest_float = std::numeric_limits<float>::max();
 
-/// A product of colours that no float holds is the largest there is.
+/// A colour in which infinity became the largest float.
 Color held(const Color& c) {
   return {std::min(c.r, largest_float), std::min(c.g, largest_float), std::min(c.b, largest_float)};
 }
@@ -68,16 +68,12 @@ struct Flatten {
   }
 };
 
-}  // namespace
-
-namespace {
-
-/// No rays of float directions tell a sharper highlight from a mirror; and much sharper ones are
-/// lost between a double and 1.
+/// The largest exponent of a highlight. With float directions nobody can tell a sharper one from a
+/// mirror, and the cosines of much sharper ones round to 1.
 constexpr double sharpest = 1e12;
 
-/// The largest share of light that a material sends on, of any colour; at total reflection what
-/// else goes through joins the mirror.
+/// The largest share of light that a material sends on, over the components. Fresnel's equations
+/// divide the light between mirror and transmission; without them both count in full.
 float largest_albedo(const FlatMaterial& m, float highlight) {
   const auto [r, g, b] = m.fresnel ? Color{std::max(m.mirror.r, m.transmission.r),
                                            std::max(m.mirror.g, m.transmission.g),
@@ -99,7 +95,7 @@ FlatMaterial flatten_for_paths(const Material& material) {
   if (!std::holds_alternative<Emissive>(material)) flat.constant = {};
   flat.shininess = std::min(flat.shininess, sharpest);
   float largest = largest_albedo(flat, static_cast<float>(flat.highlight));
-  if (largest > largest_float) {  // four shares, each of which a float holds
+  if (largest > largest_float) {  // a sum of four floats: an eighth of it is finite
     scale(flat, 0.125F);
     flat.highlight *= 0.125;
     largest = largest_albedo(flat, static_cast<float>(flat.highlight));

@@ -8,7 +8,7 @@
 namespace boule {
 namespace {
 
-/// A weight that is not finite is no number.
+/// The radiance of a sample times its weight, settled(). An infinite weight counts as NaN.
 Color weighed(const Color& radiance, float weight, SampleFaults& faults) {
   return settled(radiance * (std::isfinite(weight) ? weight : std::nanf("")), faults);
 }
@@ -20,7 +20,8 @@ BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> in
   pixels_.reserve(setup.stream_size);
 }
 
-/// Brings the pixels (x, y) of the frame with wanted(x, y) to `until` samples.
+/// Renders a block until the pixels (x, y) of the frame for which wanted(x, y) holds have `until`
+/// samples.
 template <class Wanted>
 bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
                                 const Wanted& wanted) {
@@ -52,7 +53,7 @@ bool BlockWorker::render(const PixelRect& block, int until, Image& image, const 
   return whole;
 }
 
-/// Traces the samples gathered so far into the film.
+/// Traces the samples that were gathered and adds them to the film.
 bool BlockWorker::trace(Film& film) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
@@ -65,7 +66,7 @@ bool BlockWorker::trace(Film& film) {
   return true;
 }
 
-/// Finds where the samples gathered so far lie, on the film and on the lens.
+/// Finds where the samples that were gathered lie on the film and on the lens.
 void BlockWorker::position_samples() {
   const Sampler& sampler = setup_.sampler;
   const CameraView& camera = setup_.scene.camera_view;
@@ -104,7 +105,7 @@ bool BlockWorker::trace_all(Film& film) {
   return true;
 }
 
-/// A sample without a ray is black: it counts as one all the same.
+/// Traces the samples that have a ray. One without a ray counts as a black sample.
 bool BlockWorker::trace_weighted(Film& film) {
   keep_live_rays(samples_, rays_);
   live_.clear();

@@ -16,7 +16,7 @@
 
 namespace boule {
 
-/// What all workers of a renderer share; none of it changes.
+/// What all workers of a renderer share. It does not change.
 struct BlockSetup {
   const PreparedScene& scene;
   const KernelTable& kernels;
@@ -25,28 +25,28 @@ struct BlockSetup {
   std::size_t stream_size;                ///< most camera rays in a stream, >= 1
 };
 
-/// Renders blocks on one thread, with memory of its own that it keeps from block to block. Blocks
-/// lie in the film or picture, and are no larger than `block_pixels`: preconditions.
+/// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not
+/// larger than `block_pixels`.
 class BlockWorker {
  public:
   /// `setup` must outlive it.
   BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator);
 
-  /// Brings every pixel of a block to `until` samples. False if it was cancelled: whole samples
-  /// are in the film then, but not all. Throws std::bad_alloc.
+  /// Renders a block until every pixel has `until` samples. False if it was cancelled; then the
+  /// film has whole samples, but not all of them.
   bool render(const PixelRect& block, int until, Film& film);
 
-  /// One pass over a block of a picture in the making: only the pixels that it picks.
+  /// The same for the pixels that a pass picks, and for the samples of that pass.
   bool render(const PixelRect& block, const LivePass& pass, Film& film);
 
-  /// The same from the first sample on, all pixels, straight into a picture of the frame's pixels
-  /// in `rect`: a film of the block alone stays in the cache.
+  /// Renders all samples of a block and writes their means into `image`, a picture of the frame's
+  /// pixels in `rect`. The samples are in a film of this block alone, which stays in the cache.
   bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
 
-  /// All rays traced by this worker.
+  /// All rays that this worker traced.
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
 
-  /// What was wrong with its samples before they came into a film.
+  /// What was wrong with its samples before they entered a film.
   [[nodiscard]] SampleFaults faults() const {
     SampleFaults all = integrator_->faults();
     return all += weighing_;
@@ -64,12 +64,12 @@ class BlockWorker {
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> pixels_;  ///< whose samples the stream holds
-  std::vector<SampleId> live_;    ///< those of them that have a ray, of a camera that weighs
+  std::vector<SampleId> live_;    ///< those of them with a ray, where the camera weighs samples
   RandomNumbers numbers_;
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;
-  SampleFaults weighing_;  ///< of samples that were good before they were weighed
+  SampleFaults weighing_;  ///< of samples that were finite before they were weighed
   Film block_film_{PixelRect{0, 0, 1, 1}};
 };
 

@@ -6,8 +6,8 @@
 
 namespace boule {
 
-/// Drops the rays whose samples weigh nothing; those that stay move up in their order. A ray that
-/// is not there costs nothing.
+/// Removes the rays of samples with weight 0, so that they are not traced. The others keep their
+/// order.
 inline void keep_live_rays(const SampleBuffer& samples, RayBuffer& rays) {
   std::size_t live = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -17,7 +17,8 @@
 
 namespace boule {
 
-/// How a scene is rendered. Only the first eight, the crop and solver fast show in the picture.
+/// How a scene is rendered. The picture depends on the options from `width` to `crop` only, and on
+/// `solver` only where that is fast.
 struct RenderOptions {
   int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
   int height = 720;  ///< likewise
@@ -27,33 +28,35 @@ struct RenderOptions {
   Method method = Method::whitted;
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
   Solver solver = Solver::robust;
-  std::optional<PixelRect> crop;  ///< render these pixels of the frame only
-  AovSelection aovs;              ///< what render_aovs() finds
+  std::optional<PixelRect> crop;  ///< the pixels of the frame to render; all if there is none
+  AovSelection aovs;              ///< which AOVs render_aovs() finds
   PixelOrder order = PixelOrder::tiles;
-  int tile = 0;                                   ///< pixels, side of a block, 1 .. 1024; 0: fits
-  unsigned threads = 0;                           ///< 0: as many as the hardware runs; at most 1024
-  std::string isa = "auto";                       ///< a name that select_kernels() knows
-  const std::atomic<bool>* cancel = nullptr;      ///< true: rendering stops; outlives the renderer
+  int tile = 0;              ///< side of a block in pixels, 1 .. 1024; 0: fitting_tile()
+  unsigned threads = 0;      ///< 1024 at most; 0: as many as the hardware runs at once
+  std::string isa = "auto";  ///< a name that select_kernels() knows
+  const std::atomic<bool>* cancel = nullptr;  ///< true stops rendering; must outlive the renderer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
-  LiveProgress* live = nullptr;  ///< kept up to date by all threads; outlives the renderer
-  /// Called by render_live() after each of its passes, on the thread that renders: shows what there
-  /// is, as partial_picture() makes it of the film. What it throws reaches the caller.
+  LiveProgress* live = nullptr;                   ///< kept up to date; must outlive the renderer
+  /// Called by render_live() after each pass, on the thread that renders. partial_picture() makes a
+  /// picture of the film. What this throws reaches the caller.
   std::function<void(const Film&)> update;
 };
 
-/// The options a scene asks for, whatever they are. Throws std::bad_alloc.
+/// The options that a scene asks for. Takes any scene.
 RenderOptions options_of(const Scene& scene);
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);
 
-/// The side of a block, in pixels: options.tile, or, where that is 0, what suits. Large blocks
-/// bring many rays together, a light's above all; but every worker needs some. `spheres`: of the
-/// scene. Precondition: options that validate() passes.
+/// The side of a block in pixels: options.tile or, if that is 0, a side that suits the picture, the
+/// number of workers and the number of the scene's spheres. In a large block many rays are traced
+/// together, above all shadow rays; but every worker needs several blocks. Precondition: validate()
+/// passes the options.
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres);
 
-/// The first option out of range, its key as in the scene file ("image.size", "render.max_depth"),
-/// or as in RenderOptions, or a picture that needs more memory than there is. Takes any values.
+/// An error for the first option that is out of range, or if the picture needs more memory than
+/// there is. Its key is that of the scene file ("image.size", "render.max_depth"), or else the name
+/// in RenderOptions. Takes any values.
 Status validate(const RenderOptions& options);
 
 }  // namespace boule

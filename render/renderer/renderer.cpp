@@ -41,7 +41,7 @@ Result<Renderer> Renderer::create(Scene&& scene, const RenderOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// A Scene is copied, if at all, within the try.
+/// If the scene is copied, it is copied within the try.
 template <class AnyScene>
 Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
   const FloatEnvironment environment;
@@ -65,7 +65,7 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
     return renderer;
   } catch (const std::bad_alloc&) {
     return failure("out of memory while preparing the scene");
-  } catch (...) {  // of a callback that is copied
+  } catch (...) {  // an exception of a callback that is copied
     return *diagnose([] { throw; });
   }
 }
@@ -124,7 +124,7 @@ Status Renderer::render_live(Film& film) {
   return std::nullopt;
 }
 
-/// Closures go by reference, here and above: a copy would need memory, which throws.
+/// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span) {
   const Stopwatch watch;
   LiveProgress own;
@@ -146,7 +146,7 @@ Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan&
   render_seconds_ += watch.seconds();
   if (status) return status;
   if (live.ended() != blocks_.size()) return failure("rendering was cancelled");
-  return diagnose(std::cref(report));  // no memory for it
+  return diagnose(std::cref(report));  // by reference: a copy of it takes memory
 }
 
 Result<std::vector<ImageChannel>> Renderer::render_aovs() {

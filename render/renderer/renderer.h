@@ -17,50 +17,50 @@
 
 namespace boule {
 
-/// What rendering has cost so far, over all passes.
+/// What rendering has cost, over all passes so far.
 struct RenderStatistics : RunStatistics {
   RayCounts rays;
   SampleFaults faults;
   double render_seconds = 0;
 };
 
-/// A scene and how to render it: the library's public face. The bits of a picture depend on
-/// neither ISA, threads, order, tile size nor crop; the caller's rounding mode, denormal flags and
-/// traps do not matter and are left as they were (FloatEnvironment). Nothing here throws but what
-/// options.update throws: what fails, a progress callback too, is a Diagnostic. The calling thread
-/// needs 2 MiB of stack. One call at a time. Of a renderer that was moved away the calls below are
-/// errors, and what only tells (scene(), notes(), statistics()) must not be called.
+/// Renders a scene. The bits of a picture do not depend on ISA, threads, order, tile size or crop.
+/// Every failure is a Diagnostic, also an exception of options.progress; only what options.update
+/// throws reaches the caller. Once a renderer was moved away, its rendering functions return an
+/// error, and scene(), notes() and statistics() must not be called.
 class Renderer {
  public:
-  /// Prepares the scene, which is not needed any more afterwards. Takes any values: an error if
-  /// scene or options are invalid (validate()), the ISA is not to be had, or the memory does not
-  /// suffice.
+  /// Prepares the scene, which is not needed any more afterwards. Takes any values; an error if the
+  /// scene or the options are invalid (validate()), if this computer does not have the ISA, or if
+  /// there is not enough memory.
   static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
   /// The same without a copy of the spheres and planes.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
-  /// The whole picture, or its crop, in one pass: what a film has after render_pass(), without the
-  /// memory of one.
+  /// Renders the whole picture, or its crop, in one pass. The picture is the same as that of a film
+  /// after render_pass(), without the memory of a film.
   Result<Image> render();
 
-  /// One pass: brings every pixel of the film to `until` samples, 1 .. spp; those that have as many
-  /// are left alone. Call it again with the same film and a greater `until` to refine a picture:
-  /// the result is the same as that of one pass. Cancelled or failed, it is an error, and the film
-  /// keeps what was done: calling again goes on from there.
+  /// Renders until every pixel of the film has at least `until` samples, 1 .. spp. Call it again
+  /// with the same film and a greater `until` to refine the picture; the result is the same as that
+  /// of a single pass. An error if it was cancelled or failed; the film keeps what was done, and
+  /// the next call goes on from there.
   Status render_pass(Film& film, int until);
 
-  /// The same while somebody watches: all the passes that the options' order has (LivePasses),
-  /// options.update after each. Cancelled, it is an error, and what the film has can be shown.
+  /// Renders all samples in the passes of options.order (LivePasses), and calls options.update
+  /// after each of them, to show the picture as it grows. An error if it was cancelled; the film
+  /// can be shown all the same.
   Status render_live(Film& film);
 
-  /// The views that the options select, of the rays through the pixels' centres, unfiltered: as
-  /// extra channels for write_image. Their rays count as primary ones. Cancelled, it is an error.
+  /// The AOVs that options.aovs selects, as extra channels for write_image(). They are those of the
+  /// rays through the pixels' centres, without a filter. These rays count as primary rays. An error
+  /// if it was cancelled.
   Result<std::vector<ImageChannel>> render_aovs();
 
   [[nodiscard]] const RenderOptions& options() const { return options_; }
-  /// The pixels a film for this renderer has.
+  /// The pixels that a film for this renderer has.
   [[nodiscard]] PixelRect rect() const { return rendered_rect(options_); }
-  /// The scene as rendered: its camera is there even if the scene named none.
+  /// The prepared scene, with the default camera if it had none.
   [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
   /// What was decided for the user, a sentence each.
   [[nodiscard]] const std::vector<std::string>& notes() const { return scene_->notes; }
@@ -73,14 +73,14 @@ class Renderer {
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] RayCounts count_rays() const;
   [[nodiscard]] SampleFaults count_faults() const;
-  /// Renders a block; false if it was cancelled.
+  /// Renders a block. False if it was cancelled.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
   Status check_film(const Film& film) const;
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
   Status find_aovs(AovChannels& channels);
 
   RenderOptions options_;
-  std::unique_ptr<const PreparedScene> scene_;  ///< workers refer to it: it stays where it is
+  std::unique_ptr<const PreparedScene> scene_;  ///< on the heap, because workers refer to it
   std::unique_ptr<const BlockSetup> setup_;     ///< likewise
   BlockOrder blocks_;
   Scheduler scheduler_;

@@ -6,13 +6,13 @@
 
 namespace boule {
 
-/// What ran, and how long it took to prepare.
+/// What ran, and how long its preparation took.
 struct RunStatistics {
   double prepare_seconds = 0;
-  std::string_view isa;  ///< that really ran: "scalar" for solver reference
-  int width = 1;         ///< float lanes of it
+  std::string_view isa;  ///< that ran; "scalar" for solver reference
+  int width = 1;         ///< number of its float lanes
   Solver solver = Solver::robust;
-  unsigned threads = 0;  ///< that the last pass really had
+  unsigned threads = 0;  ///< that the last pass ran on
 };
 
 }  // namespace boule

@@ -15,7 +15,7 @@
 namespace boule {
 namespace {
 
-/// Rays per stream: enough to keep packets full, few enough to stay in the cache.
+/// Rays per stream: enough to fill packets, and few enough to stay in the cache.
 constexpr std::size_t block_size = 1024;
 
 Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
@@ -55,7 +55,7 @@ Result<Tracer> Tracer::create(Scene&& scene, const TraceOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// A Scene is copied, if at all, within the try.
+/// If the scene is copied, it is copied within the try.
 template <class AnyScene>
 Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
   const FloatEnvironment environment;
@@ -73,7 +73,7 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
     return tracer;
   } catch (const std::bad_alloc&) {
     return failure("out of memory while preparing the scene");
-  } catch (...) {  // of a callback that is copied
+  } catch (...) {  // an exception of a callback that is copied
     return *diagnose([] { throw; });
   }
 }
@@ -107,7 +107,7 @@ Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
   return run(rays, met.size(), std::cref(body));
 }
 
-/// Closures go by reference, here and above: a copy would need memory, which throws.
+/// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& body) {
   if (workers_.empty()) return failure("the tracer was moved away");
   if (results != rays.size()) {

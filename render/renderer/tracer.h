@@ -21,33 +21,30 @@
 
 namespace boule {
 
-/// How rays are traced. Of all this only solver fast shows in the hits.
+/// How rays are traced. The hits depend on `solver` only, and only where that is fast.
 struct TraceOptions {
   Solver solver = Solver::robust;
-  unsigned threads = 0;                           ///< 0: as many as the hardware runs; at most 1024
-  std::string isa = "auto";                       ///< a name that select_kernels() knows
-  const std::atomic<bool>* cancel = nullptr;      ///< true: tracing stops soon; outlives the tracer
+  unsigned threads = 0;      ///< 1024 at most; 0: as many as the hardware runs at once
+  std::string isa = "auto";  ///< a name that select_kernels() knows
+  const std::atomic<bool>* cancel = nullptr;      ///< true stops tracing; must outlive the tracer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that traces
 };
 
-/// What tracing has cost so far, over all calls.
+/// What tracing has cost, over all calls so far.
 struct TraceStatistics : RunStatistics {
   std::uint64_t rays = 0;
   double trace_seconds = 0;
 };
 
-/// The objects of a scene, ready for rays: the public face for whoever brings rays of their own.
-/// Camera, lights and materials are not needed. The bits of a hit depend on neither ISA, threads
-/// nor the other rays; the caller's rounding mode, denormal flags and traps do not matter and are
-/// left as they were. Nothing here throws: what fails, a progress callback too, is a Diagnostic.
-/// The calling thread needs 2 MiB of stack. Any ray may be asked for: one with NaN, with an
-/// infinite origin or direction, or without a direction is a miss. One call at a time. Of a tracer
-/// that was moved away closest() and any() are errors.
+/// Traces a caller's own rays against the objects of a scene, which needs no camera, lights or
+/// materials. The bits of a hit do not depend on ISA, threads or the other rays. Takes any rays.
+/// Every failure is a Diagnostic, also an exception of options.progress. Once a tracer was moved
+/// away, closest() and any() return an error.
 class Tracer {
  public:
-  /// Prepares the objects; the scene is not needed any more afterwards. Takes any values: an error
-  /// if the scene is invalid (validate()), the ISA is not to be had, or the memory does not
-  /// suffice.
+  /// Prepares the objects of the scene, which is not needed any more afterwards. Takes any values;
+  /// an error if the scene is invalid (validate()), if this computer does not have the ISA, or if
+  /// there is not enough memory.
   static Result<Tracer> create(const Scene& scene, const TraceOptions& options = {});
   /// The same without a copy of the spheres and planes.
   static Result<Tracer> create(Scene&& scene, const TraceOptions& options = {});
@@ -55,13 +52,14 @@ class Tracer {
   Tracer& operator=(Tracer&& other) noexcept;
   ~Tracer();
 
-  /// hits[k] = the nearest hit of rays[k] with tmin < t <= tmax; equal t: the lower id. The normal
-  /// is that of the view `normal`. An error if there are not as many hits as rays, if the memory
-  /// does not suffice, or cancelled: then some hits may be missing.
+  /// Sets hits[k] to the nearest hit of rays[k] with tmin < t <= tmax, of equally near ones that
+  /// with the lowest id. The normal is that of the AOV `normal`. An error if there are not as many
+  /// hits as rays, if there is not enough memory, or if it was cancelled; then some hits may not be
+  /// set.
   Status closest(std::span<const Ray> rays, std::span<TracedHit> hits);
 
-  /// met[k] = 1 if rays[k] meets anything with tmin < t <= tmax, else 0: as closest() would tell,
-  /// in less time. Errors likewise.
+  /// Sets met[k] to 1 if rays[k] meets anything with tmin < t <= tmax, else to 0. It agrees with
+  /// closest() and takes less time. Errors are as for closest().
   Status any(std::span<const Ray> rays, std::span<std::uint8_t> met);
 
   [[nodiscard]] TraceStatistics statistics() const;

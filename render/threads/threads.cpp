@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t least_stack = std::size_t{4} << 20;
 
-/// The default ones, but for the stack.
+/// The attributes of a thread: the defaults, but with enough stack.
 class Attributes {
  public:
   Attributes() {
@@ -29,7 +29,7 @@ class Attributes {
   pthread_attr_t value_{};
 };
 
-/// What one thread is to do.
+/// What one thread does.
 struct Start {
   const std::function<void(std::size_t)>& run;
   std::size_t index;

@@ -8,18 +8,17 @@
 
 namespace boule {
 
-/// Bytes of stack that a thread has unless it is asked for more; the system's default, not 0.
+/// Bytes of stack that a thread has by default; not 0.
 std::size_t default_stack();
 
-/// How many threads the hardware runs at once, 1 where that is not known.
+/// How many threads the hardware runs at once; 1 if that is not known.
 unsigned hardware_threads();
 
-/// Threads that run the same function, joined at the end. Each has stack enough for kernels and
-/// shading, however little of it a process is given (ulimit -s).
+/// Threads that run the same function, and are joined by the destructor. Each has enough stack for
+/// kernels and shading, even if the process has little (ulimit -s).
 class Threads {
  public:
-  /// So many, or as many as can be had; each calls run(0), run(1), .. in its turn, which
-  /// must not throw.
+  /// Starts `count` threads, or as many as can be had. Thread i calls run(i), which must not throw.
   Threads(std::size_t count, std::function<void(std::size_t index)> run);
   ~Threads();
   Threads(const Threads&) = delete;
@@ -32,8 +31,8 @@ class Threads {
   std::vector<pthread_t> threads_;
 };
 
-/// Whether so many threads can run at once besides the caller's: tries it. For what starts threads
-/// of its own and cannot do without.
+/// Tries whether so many threads can run at once beside the caller's. For libraries that start
+/// threads of their own and fail badly without them.
 bool can_start_threads(std::size_t count);
 
 }  // namespace boule

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t row_bytes = 24;
 constexpr std::size_t rows_per_write = 4096;
 
-/// What stands before the data, as numpy.save writes it: the count has room to grow to 21 digits,
-/// and the data begin on a multiple of 64 bytes.
+/// The header as numpy.save writes it: the count has room to grow to 21 digits, and the data begin
+/// at a multiple of 64 bytes.
 std::string npy_start(const std::string& descr, std::uint64_t count) {
   constexpr std::size_t alignment = 64, before = 10, most_digits = 21;
   const std::string digits = std::to_string(count);
@@ -28,7 +28,7 @@ std::string npy_start(const std::string& descr, std::uint64_t count) {
   return start + dict;
 }
 
-/// Writes `width` bytes, the lowest first, whatever the machine's own order.
+/// Writes the lowest `width` bytes, the lowest first on every machine.
 unsigned char* put(unsigned char* to, std::uint64_t bits, std::size_t width) {
   for (std::size_t i = 0; i < width; ++i) *to++ = static_cast<unsigned char>(bits >> (8 * i));
   return to;

@@ -12,32 +12,32 @@
 
 namespace boule {
 
-/// What is stored of each ray: TracedHit, packed in 24 bytes,
-/// [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]; or met, '|u1', 1 for a hit and 0 else.
+/// What is stored of each ray.
+/// - closest: a TracedHit in 24 bytes, [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))].
+/// - any: one byte, '|u1', which is 1 for a hit and 0 for a miss.
 enum class HitKind { closest, any };
 
-/// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. It appears
-/// under its name when it is complete (OutputFile). Errors: "cannot write 'NAME': REASON". Like an
-/// OutputFile it refuses all once it was committed, or moved away.
+/// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. Like an
+/// OutputFile it appears under its name when it is complete, its errors are "cannot write 'NAME':
+/// REASON", and after commit(), or once it was moved away, it refuses all calls.
 class HitFile {
  public:
-  /// Begins the file of `count` hits; `stop` as for OutputFile::create().
+  /// Begins a file of `count` hits. `stop` is as for OutputFile::create().
   static Result<HitFile> create(const std::string& path, HitKind kind, std::uint64_t count,
                                 const std::function<bool()>& stop = {});
 
-  /// The temporary file.
+  /// The path of the temporary file.
   [[nodiscard]] const std::string& temporary() const { return file_.path(); }
 
-  /// Writes the next hits; those of the other kind, or more than `count`, are an error. Throws
-  /// std::bad_alloc.
+  /// Writes the next hits. An error if they are of the other kind, or more than `count` in all.
   Status append(std::span<const TracedHit> hits);
   Status append(std::span<const std::uint8_t> met);
 
-  /// Makes what is written so far durable, which takes its time: commit() is quick after it.
+  /// Makes the data durable. After the last hit it saves commit() that time.
   Status sync();
 
-  /// Gives the file its name; an error if there are not `count` hits in it. `stop` as for
-  /// OutputFile.
+  /// Gives the file its name. An error if it does not hold `count` hits yet. `stop` is as for
+  /// OutputFile::commit().
   Status commit(const std::function<bool()>& stop = {});
 
  private:
@@ -47,8 +47,8 @@ class HitFile {
   OutputFile file_;
   std::string name_;
   HitKind kind_;
-  std::uint64_t left_;               ///< hits that are not in it yet
-  std::vector<unsigned char> rows_;  ///< as in the file
+  std::uint64_t left_;               ///< hits that are still to be written
+  std::vector<unsigned char> rows_;  ///< of one write, as in the file
 };
 
 /// True if `path` ends with ".npy" and has a name before it.

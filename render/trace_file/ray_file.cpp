@@ -26,7 +26,7 @@ Diagnostic named(Diagnostic error, const std::string& path) {
   return error;
 }
 
-/// Whether the file declares rays and is exactly as long as it says.
+/// An error unless the file declares rays and has exactly the length that it declares.
 Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
   const bool is_double = header.descr == "<f8";
   if (header.descr != "<f4" && !is_double) {
@@ -41,7 +41,7 @@ Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
   return check_npy_length(header, row_bytes(is_double), file_size);
 }
 
-/// The ray of one row; adds to `lost` if rounding took its origin or direction away.
+/// The ray of one row. Adds 1 to `lost` if rounding took its origin or direction away.
 template <class Number>
 Ray decode_row(const unsigned char* row, std::uint64_t& lost) {
   Number exact[columns];
@@ -79,7 +79,7 @@ Result<RayFile> RayFile::open(const std::string& path) {
 
 Status RayFile::read(std::span<Ray> rays) {
   const FloatEnvironment environment;
-  if (const auto here = file_.read(nullptr, 0); !here) return here.error();  // or moved away
+  if (const auto open = file_.read(nullptr, 0); !open) return open.error();  // it was moved away
   const std::size_t width = row_bytes(is_double_);
   rows_.resize(rows_per_read * width);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {

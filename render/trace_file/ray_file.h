@@ -11,25 +11,25 @@
 
 namespace boule {
 
-/// Rays from a .npy file, read piece by piece: little-endian float32 or float64, C order, N x 8:
-/// origin x y z, tmin, direction x y z, tmax. Any numbers will do, NaN and Inf too, and N may be 0.
-/// Of float64 every number is rounded to the nearest float32 once, the origin too: hits are exact
-/// for the rays that come of it. What is too large for a float32 becomes infinite.
+/// Rays from a .npy file, read piece by piece. The file holds little-endian float32 or float64 in C
+/// order, shape (N, 8): origin x y z, tmin, direction x y z, tmax. Takes any numbers, also NaN and
+/// infinity, and N may be 0. Each float64 is rounded to the nearest float32, also those of the
+/// origin; the hits are exact for the rounded rays. A number that no float32 holds becomes
+/// infinite.
 class RayFile {
  public:
-  /// Opens a regular file, of any name, and checks that it holds such rays and nothing else; the
+  /// Opens a regular file and checks that it holds such rays and nothing else. Takes any name. The
   /// error names the file and says what was expected.
   static Result<RayFile> open(const std::string& path);
 
   /// The number of rays in the file.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Reads the next rays.size() rays; an error if there are not so many left, and of a file that
-  /// was moved away. Throws std::bad_alloc.
+  /// Reads the next rays.size() rays. An error if fewer are left, or if this was moved away.
   Status read(std::span<Ray> rays);
 
-  /// How many of the rays that were read have an origin or direction that rounding took away: a
-  /// finite number became infinite, or all of a direction 0. They meet nothing.
+  /// How many of the rays that were read lost their origin or direction by rounding: a finite
+  /// number became infinite, or a direction became 0. Such rays meet nothing.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
  private:

@@ -30,6 +30,13 @@ float boundary(int code) {
   return std::bit_cast<float>(at);
 }
 
+/// The code that tone_map() gives a linear value.
+int srgb_code(float linear) {
+  Image image(1, 1);
+  image.at(0, 0).r = linear;
+  return tone_map(image, 0)[0];
+}
+
 TEST(Tone, EveryBoundaryIsTheFormulas) {
   for (int code = 1; code < 256; ++code) {
     const float first = boundary(code);
