@@ -8,7 +8,7 @@
 #include <locale>
 #include <string>
 
-#include "render/image/image_file.h"
+#include "render/image/write_image.h"
 #include "render/renderer/scene_hash.h"
 #include "render/scene_file/scene_file.h"
 #include "tests/support/temp_dir.h"
