@@ -79,12 +79,15 @@ try_cmake() {
   esac
 }
 
-# try_ctest WHERE ARGUMENT...: a test is selected.
+# try_ctest WHERE ARGUMENT...: a test is selected; one that is not built here is in the sources.
 try_ctest() {
-  local where="$1" listed
+  local where="$1" listed word
   shift
   listed="$(ctest --test-dir "$build" -N "${@:3}" 2>&1)" || true
-  grep -qE '^Total Tests: [1-9]' <<<"$listed" || complain "$where: ctest $* selects no test"
+  grep -qE '^Total Tests: [1-9]' <<<"$listed" && return
+  word="$(sed -n 's/.*-R \([A-Za-z]*\)$/\1/p' <<<"$*")"
+  [[ -n "$word" ]] && grep -rqE "TEST.*\b$word|^ +$word\)" "$source/tests" 2>/dev/null && return
+  complain "$where: ctest $* selects no test"
 }
 
 # try_line WHERE LINE
@@ -102,6 +105,7 @@ try_line() {
     ./bootstrap.sh) has "$where" "${words[1]}" "$(sed -n '/usage: /,/^TEXT/p' "$source/bootstrap.sh")" word ;;
     cmake) try_cmake "$where" "${words[@]:1}" ;;
     ctest) try_ctest "$where" "${words[@]:1}" ;;
+    cmp) expect "$where" "$code" "${words[@]}" ;;
     git | clang-format-14) ;;
     *) [[ -x "$source/${words[0]}" ]] || complain "$where: nobody tries ${words[0]}" ;;
   esac
