@@ -5,7 +5,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
-#include "render/shading/background.h"
+#include "render/shading/background_radiance.h"
 #include "render/shading/lights.h"
 
 namespace boule {
@@ -61,7 +61,7 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
     use_light(light);
     delta_lights_ = true;
   }
-  constexpr std::size_t most = Surfaces::block_size;
+  constexpr std::size_t most = StreamSurfaces::block_size;
   points_.reserve(most);
   seekers_.reserve(most);
   choices_.resize(most);
@@ -216,8 +216,8 @@ void Path::go_on(const PathStream& stream) {
 void Path::choose_ways(const PathStream& stream) {
   find_numbers(stream, Use::bounce);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Lobes& lobes = points_[i].lobes;
-    const Lobes::Choice& choice = choices_[i] = lobes.choose(numbers_.get(i));
+    const LobeSampler& lobes = points_[i].lobes;
+    const LobeSampler::Choice& choice = choices_[i] = lobes.choose(numbers_.get(i));
     turns_.set(i, lobes.axis(choice), choice.from.cosine, choice.from.sine, choice.turns);
   }
   kernels_.turn(turns_.view(points_.size()));

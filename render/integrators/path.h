@@ -7,7 +7,7 @@
 #include "core/math/sobol.h"
 #include "render/integrators/random_numbers.h"
 #include "render/integrators/stream_integrator.h"
-#include "render/shading/lobes.h"
+#include "render/shading/lobe_sampler.h"
 
 namespace boule {
 
@@ -34,7 +34,7 @@ class Path final : public StreamIntegrator {
     std::uint32_t ray;
     bool lit;  ///< light sources shine on it
     Surface surface;
-    Lobes lobes;
+    LobeSampler lobes;
 
     Point(std::uint32_t met_by, const FlatMaterial& material, const Surface& met)
         : ray(met_by), lit(takes_direct_light(material)), surface(met), lobes(material, met) {}
@@ -91,9 +91,9 @@ class Path final : public StreamIntegrator {
   std::vector<Point> points_;
   RandomNumbers numbers_;  ///< by point
   std::vector<Seeker> seekers_;
-  SeekBuffer seek_;                     ///< by seeker
-  std::vector<Lobes::Choice> choices_;  ///< by point
-  TurnBuffer turns_;                    ///< by point
+  SeekBuffer seek_;                           ///< by seeker
+  std::vector<LobeSampler::Choice> choices_;  ///< by point
+  TurnBuffer turns_;                          ///< by point
 };
 
 }  // namespace boule

@@ -15,7 +15,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       wavefront_(settings.stream_size),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {
-  met_.reserve(Surfaces::block_size);
+  met_.reserve(StreamSurfaces::block_size);
 }
 
 void StreamIntegrator::use_light(const Light& light) {
@@ -50,8 +50,8 @@ void StreamIntegrator::trace_stream(const PathStream& stream, Coherence coherenc
   hits_.resize(count);
   const Query query{settings_.solver, Form::automatic, coherence};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
-  for (std::size_t first = 0; first < count; first += Surfaces::block_size) {
-    shade({stream, first, std::min(first + Surfaces::block_size, count)});
+  for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
+    shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
   for (const PlacedLight& light : lights_) add_light(light);
   add_more_light();

@@ -8,7 +8,7 @@
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/shading/illumination.h"
-#include "render/shading/surfaces.h"
+#include "render/shading/stream_surfaces.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/aligned_array.h"
 
@@ -24,7 +24,7 @@ class StreamIntegrator : public Integrator {
   [[nodiscard]] SampleFaults faults() const final { return wavefront_.faults(); }
 
  protected:
-  /// Rays first .. end - 1 of a stream, a block of Surfaces.
+  /// Rays first .. end - 1 of a stream, a block of StreamSurfaces.
   struct Block {
     const PathStream& stream;
     std::size_t first, end;
@@ -71,7 +71,7 @@ class StreamIntegrator : public Integrator {
   IntegratorSettings settings_;
   Wavefront wavefront_;
   Illumination illumination_;
-  Surfaces surfaces_;
+  StreamSurfaces surfaces_;
   std::vector<Met> met_;  ///< working memory of one block
 
  private:

@@ -1,6 +1,6 @@
 #include "render/integrators/whitted.h"
 
-#include "render/shading/background.h"
+#include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
 
 namespace boule {

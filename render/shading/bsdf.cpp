@@ -8,8 +8,8 @@
 namespace boule {
 namespace {
 
-/// base^exponent for 0 < base <= 1 and exponent > 0. Whole exponents, which most materials have, by
-/// squaring: a fraction of the time, and far better than a float can show.
+/// base^exponent for 0 < base <= 1 and exponent > 0. Most materials have whole exponents, which are
+/// computed by squaring: that takes a fraction of the time, and its error is far below a float's.
 double power(double base, double exponent) {
   constexpr double largest = 1024;
   const auto whole = static_cast<int>(std::min(exponent, largest));

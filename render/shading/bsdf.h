@@ -8,11 +8,11 @@
 
 namespace boule {
 
-/// How a surface passes light on to the rays that continue from it. A black weight: no such ray.
+/// How much the rays that continue from a surface count. There is no ray where the weight is black.
 struct Scatter {
   Color reflection;  ///< weight of the ray along Surface::mirrored
   Color refraction;  ///< weight of the ray along `refracted`
-  Vec3d refracted;   ///< unit length; only where `refraction` is not black
+  Vec3d refracted;   ///< unit length; not set if `refraction` is black
 };
 
 /// True if light from `to_light` falls on the viewer's side: n.l > 0. False for NaN, where the
@@ -21,22 +21,22 @@ inline bool faces(const Surface& surface, const Vec3d& to_light) {
   return dot(surface.normal, to_light) > 0;
 }
 
-/// The highlight's (r.l)^shininess for r.l > 0.
+/// (r.l)^shininess, the shape of the highlight. Precondition: r.l > 0.
 double highlight_power(const FlatMaterial& material, double r_dot_l);
 
-/// The highlight's Ks (r.l)^shininess for r.l > 0.
+/// Ks (r.l)^shininess, the highlight itself. Precondition: r.l > 0.
 inline float highlight(const FlatMaterial& material, double r_dot_l) {
   return static_cast<float>(material.highlight * highlight_power(material, r_dot_l));
 }
 
-/// What light of `intensity` from the unit direction `to_light`, which the surface faces, adds if
-/// nothing is in between: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980),
-/// the latter times n.l for FlatMaterial::cosine_highlight.
+/// The light that a surface sends to the viewer when light of `intensity` arrives from the unit
+/// direction `to_light`: C Kd (n.l) I + Ks (r.l)^shininess I (lecture "Phong"; Whitted 1980). The
+/// highlight is multiplied by n.l if FlatMaterial::cosine_highlight. Precondition: n.l > 0.
 inline Color direct_light(const FlatMaterial& material, double n_dot_l, const Vec3d& to_light,
                           const Vec3d& mirrored, const Color& intensity) {
   const Color sum = material.diffuse * intensity * static_cast<float>(n_dot_l);
   if (!(material.highlight > 0)) return sum;
-  // Not above 1, or a great exponent makes infinity of a rounding error.
+  // At most 1, or a large exponent makes infinity of a rounding error.
   const double r_dot_l = std::min(dot(mirrored, to_light), 1.0);
   if (!(r_dot_l > 0)) return sum;
   const float share = material.cosine_highlight ? static_cast<float>(n_dot_l) : 1.0f;
@@ -48,9 +48,9 @@ inline Color direct_light(const FlatMaterial& material, const Surface& surface,
                       intensity);
 }
 
-/// The weights of the reflected and the refracted ray (Whitted 1980), shared by Fresnel's
-/// equations where the material is a dielectric. At total internal reflection all that would go
-/// through joins the mirror.
+/// The weights of the reflected and the refracted ray (Whitted 1980). For a dielectric, Fresnel's
+/// equations divide the light between them. At total internal reflection the light that would go
+/// through is reflected as well.
 Scatter scatter(const FlatMaterial& material, const Surface& surface);
 
 }  // namespace boule

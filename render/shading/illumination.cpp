@@ -22,7 +22,7 @@ void Illumination::start(std::size_t rays) {
 }
 
 RayStream Illumination::aim(const KernelTable& kernels, const LightPlace& light,
-                            Surfaces& surfaces) {
+                            StreamSurfaces& surfaces) {
   RayStream rays = shadow_rays_.view();
   aimed_ = any_ ? kernels.aim(light, surfaces.lit(lit_.data(), size_),
                               {rays, to_light_.view(), cosines_.data(), rays_.data()})
@@ -32,7 +32,7 @@ RayStream Illumination::aim(const KernelTable& kernels, const LightPlace& light,
 }
 
 template <class AnyLight>
-void Illumination::add_light(const AnyLight& light, const Surfaces& surfaces,
+void Illumination::add_light(const AnyLight& light, const StreamSurfaces& surfaces,
                              const std::uint8_t* blocked, Color* radiance) const {
   for (std::size_t k = 0; k < aimed_; ++k) {
     if (blocked[k] != 0) continue;
@@ -43,7 +43,7 @@ void Illumination::add_light(const AnyLight& light, const Surfaces& surfaces,
   }
 }
 
-void Illumination::add_unblocked(const Light& light, const Surfaces& surfaces,
+void Illumination::add_unblocked(const Light& light, const StreamSurfaces& surfaces,
                                  const std::uint8_t* blocked, Color* radiance) const {
   std::visit([&](const auto& any) { add_light(any, surfaces, blocked, radiance); }, light);
 }

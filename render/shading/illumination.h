@@ -7,7 +7,7 @@
 #include "core/math/color.h"
 #include "core/scene/light.h"
 #include "render/prepare/flat_material.h"
-#include "render/shading/surfaces.h"
+#include "render/shading/stream_surfaces.h"
 #include "simd/stream/aligned_array.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -30,16 +30,16 @@ class Illumination {
 
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
   /// call. All points are found in `surfaces`.
-  RayStream aim(const KernelTable& kernels, const LightPlace& light, Surfaces& surfaces);
+  RayStream aim(const KernelTable& kernels, const LightPlace& light, StreamSurfaces& surfaces);
 
   /// Adds what arrives of the light that was aimed at last to radiance[ray], for every shadow ray k
   /// whose blocked[k] is 0.
-  void add_unblocked(const Light& light, const Surfaces& surfaces, const std::uint8_t* blocked,
-                     Color* radiance) const;
+  void add_unblocked(const Light& light, const StreamSurfaces& surfaces,
+                     const std::uint8_t* blocked, Color* radiance) const;
 
  private:
   template <class AnyLight>
-  void add_light(const AnyLight& light, const Surfaces& surfaces, const std::uint8_t* blocked,
+  void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
                  Color* radiance) const;
 
   std::size_t size_ = 0;  ///< rays

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/math/geometry.h"
-#include "render/shading/background.h"
+#include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
 #include "render/shading/dielectric.h"
 #include "render/shading/lights.h"

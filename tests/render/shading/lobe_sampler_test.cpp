@@ -1,4 +1,4 @@
-#include "render/shading/lobes.h"
+#include "render/shading/lobe_sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace boule::test {
 namespace {
 
-/// A surface whose viewer is this far from its normal, z.
+/// A surface with normal z, seen at this angle from the normal.
 Surface seen_at(double angle) {
   Surface surface{};
   surface.normal = {0, 0, 1};
@@ -29,20 +29,20 @@ const Material materials[] = {Matte{{0.2f, 0.5f, 0.8f}},
 
 constexpr std::uint32_t samples = 16384;
 
-/// Bounce i of many.
-Bounce bounce_by_chance(const Lobes& lobes, std::uint32_t i) {
-  const Lobes::Choice choice = lobes.choose(sobol_pair(1, RandomSet::film, i));
+/// Bounce i of a sequence of random ones.
+Bounce bounce_by_chance(const LobeSampler& lobes, std::uint32_t i) {
+  const LobeSampler::Choice choice = lobes.choose(sobol_pair(1, RandomSet::film, i));
   return lobes.bounce(choice, direction_about(lobes.axis(choice), choice.from, choice.turns));
 }
 
-/// What all bounces are worth in white light is what the lobes send on, one by one: a quadrature of
-/// the first two, and the weights of the mirror and the refracted ray.
-TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
+/// In white light the mean weight of bounces is the light that the lobes send on: a quadrature of
+/// the diffuse lobe and the highlight, plus the weights of the reflected and the refracted ray.
+TEST(LobeSampler, BouncesAreWorthWhatTheLobesSendOn) {
   for (const Material& material : materials) {
     for (const double angle : {0.1, 0.8, 1.4}) {
       const FlatMaterial flat = flatten_for_paths(material);
       const Surface surface = seen_at(angle);
-      const Lobes lobes(flat, surface);
+      const LobeSampler lobes(flat, surface);
       Color by_chance, expected;
       for (std::uint32_t i = 0; i < samples; ++i) {
         by_chance = by_chance + bounce_by_chance(lobes, i).weight * (1.0f / samples);
@@ -50,8 +50,8 @@ TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
         const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
         expected = expected + lobes.reflected(w.z, w) * (2.0f / samples);
       }
-      const Scatter way = scatter(flat, surface);
-      expected = expected + way.reflection + way.refraction;
+      const Scatter weights = scatter(flat, surface);
+      expected = expected + weights.reflection + weights.refraction;
       EXPECT_NEAR(by_chance.r, expected.r, 4e-3) << material.index() << " " << angle;
       EXPECT_NEAR(by_chance.g, expected.g, 4e-3) << material.index() << " " << angle;
       EXPECT_NEAR(by_chance.b, expected.b, 4e-3) << material.index() << " " << angle;
@@ -60,12 +60,12 @@ TEST(Lobes, BouncesAreWorthWhatTheLobesSendOn) {
   }
 }
 
-/// The density is that of the directions that come: over cells of the hemisphere.
-TEST(Lobes, BouncesFollowTheirDensity) {
+/// Directions are distributed by their density, counted over cells of the hemisphere.
+TEST(LobeSampler, BouncesFollowTheirDensity) {
   for (const Material& material : materials) {
     const FlatMaterial flat = flatten_for_paths(material);
     const Surface surface = seen_at(0.7);
-    const Lobes lobes(flat, surface);
+    const LobeSampler lobes(flat, surface);
     double counts[4][4] = {}, expected[4][4] = {};
     const auto cell = [](const Vec3d& w) {
       return std::pair{static_cast<int>(w.z * 3.999), (w.x > 0 ? 1 : 0) + (w.y > 0 ? 2 : 0)};
@@ -87,13 +87,14 @@ TEST(Lobes, BouncesFollowTheirDensity) {
   }
 }
 
-TEST(Lobes, AmbientLightIsLeftOut) {
+TEST(LobeSampler, AmbientLightIsLeftOut) {
   EXPECT_EQ(flatten_for_paths(Phong{gray(1), 0.5f}).constant, gray(0));
   EXPECT_EQ(flatten_for_paths(Emissive{{1, 2, 3}}).constant, (Color{1, 2, 3}));
 }
 
-/// What sends on less than it gets stays as it is; what would send on more is scaled to 1.
-TEST(Lobes, EnergyIsConserved) {
+/// A material that sends on less light than it gets stays as it is; one that would send on more is
+/// scaled to send on all of it.
+TEST(LobeSampler, EnergyIsConserved) {
   const FlatMaterial modest = flatten_for_paths(Plastic{{0.5f, 0.4f, 0.3f}, 0.25f, 10, 0.25f});
   EXPECT_EQ(modest.diffuse, (Color{0.5f, 0.4f, 0.3f}));
   EXPECT_EQ(modest.highlight, 0.25 * 6);
@@ -106,7 +107,7 @@ TEST(Lobes, EnergyIsConserved) {
   EXPECT_NEAR(greatest.mirror.r, 1 / 3.0, 1e-6);
   EXPECT_NEAR(greatest.transmission.r, 1 / 3.0, 1e-6);
   EXPECT_NEAR(highlight_albedo(greatest), 1 / 3.0, 1e-6);
-  // Its colour times kd is more than a float holds.
+  // Its colour times kd is above the largest float.
   const FlatMaterial brightest = flatten_for_paths(Phong{gray(3e38f), 0, 3e38f});
   EXPECT_NEAR(brightest.diffuse.r, 1, 1e-6);
 }

@@ -1,4 +1,4 @@
-#include "render/shading/background.h"
+#include "render/shading/background_radiance.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ Color background_radiance(const Background& background, const Vec3f& direction) 
   const auto& gradient = std::get<GradientBackground>(background);
   const double cosine =
       dot(normalize(vec_cast<double>(direction)), normalize(vec_cast<double>(gradient.up)));
-  // Within 0..1 in spite of rounding, or a colour could fall below 0.
+  // Clamped, because rounding could take it out of 0..1 and a colour below 0.
   const auto share = static_cast<float>(std::clamp((1 + cosine) / 2, 0.0, 1.0));
   return gradient.bottom * (1 - share) + gradient.top * share;
 }

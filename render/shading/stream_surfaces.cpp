@@ -1,9 +1,9 @@
-#include "render/shading/surfaces.h"
+#include "render/shading/stream_surfaces.h"
 
 #include "simd/geometry/geometry.h"
 
 namespace boule {
-Surfaces::Surfaces(const PreparedScene& scene, const KernelTable& kernels)
+StreamSurfaces::StreamSurfaces(const PreparedScene& scene, const KernelTable& kernels)
     : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(sphere_rows(scene.spheres)) {
   views_.resize(block_size);
   cosines_.resize(block_size);
@@ -11,13 +11,13 @@ Surfaces::Surfaces(const PreparedScene& scene, const KernelTable& kernels)
   inner_.resize(block_size);
 }
 
-void Surfaces::resize(std::size_t rays) {
+void StreamSurfaces::resize(std::size_t rays) {
   for (VectorBuffer* vectors : {&points_, &normals_, &mirrored_, &orgs_}) vectors->resize(rays);
   inside_.resize(rays);
 }
 
-void Surfaces::find(const RayStream& rays, const HitStream& hits, std::size_t first,
-                    std::size_t size) {
+void StreamSurfaces::find(const RayStream& rays, const HitStream& hits, std::size_t first,
+                          std::size_t size) {
   first_ = first;
   ids_ = hits.id;
   const SurfaceStream found{part(points_.view(), first),
@@ -33,7 +33,7 @@ void Surfaces::find(const RayStream& rays, const HitStream& hits, std::size_t fi
                          found);
 }
 
-Surface Surfaces::get(std::size_t k) const {
+Surface StreamSurfaces::get(std::size_t k) const {
   const std::size_t i = first_ + k;
   const std::int32_t id = ids_[i];
   return {points_.get(i),
@@ -47,7 +47,7 @@ Surface Surfaces::get(std::size_t k) const {
           id < geometry_.planes.first_id};
 }
 
-LitStream Surfaces::lit(const std::uint8_t* lit, std::size_t size) {
+LitStream StreamSurfaces::lit(const std::uint8_t* lit, std::size_t size) {
   return {points_.view(), normals_.view(), orgs_.view(), ids_, inside_.data(), lit, size};
 }
 

@@ -4,7 +4,7 @@
 
 namespace boule {
 
-/// What a ray along `direction` (any length) sees when it misses everything.
+/// The radiance that a ray along `direction`, of any length, sees if it misses everything.
 Color background_radiance(const Background& background, const Vec3f& direction);
 
 }  // namespace boule

@@ -1,4 +1,4 @@
-#include "render/shading/lobes.h"
+#include "render/shading/lobe_sampler.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace {
 
 double mean(const Color& c) { return (double{c.r} + double{c.g} + double{c.b}) / 3; }
 
-/// u within a share of the numbers in [0, 1) that begins at `first`, spread over all of them again.
+/// A number u of the interval of length `share` from `first` on, spread over [0, 1) again.
 double spread(double u, double first, double share) {
   constexpr double below_one = 1 - 0x1p-53;
   return std::clamp((u - first) / share, 0.0, below_one);
@@ -18,7 +18,7 @@ double spread(double u, double first, double share) {
 
 }  // namespace
 
-Lobes::Lobes(const FlatMaterial& material, const Surface& surface)
+LobeSampler::LobeSampler(const FlatMaterial& material, const Surface& surface)
     : material_(&material),
       normal_(surface.normal),
       mirrored_(surface.mirrored),
@@ -27,14 +27,14 @@ Lobes::Lobes(const FlatMaterial& material, const Surface& surface)
       reflection_(0),
       refraction_(0) {
   if (scatters(material)) {
-    way_ = scatter(material, surface);
-    reflection_ = mean(way_.reflection);
-    refraction_ = mean(way_.refraction);
+    weights_ = scatter(material, surface);
+    reflection_ = mean(weights_.reflection);
+    refraction_ = mean(weights_.refraction);
   }
   sum_ = diffuse_ + highlight_ + reflection_ + refraction_;
 }
 
-double Lobes::density(double cosine, const Vec3d& to_light) const {
+double LobeSampler::density(double cosine, const Vec3d& to_light) const {
   double density = diffuse_ * cosine_density(cosine);
   if (highlight_ > 0) {
     const double r_dot_l = std::min(dot(mirrored_, to_light), 1.0);
@@ -46,7 +46,7 @@ double Lobes::density(double cosine, const Vec3d& to_light) const {
   return density / sum_;
 }
 
-Lobes::Choice Lobes::choose(UnitPair numbers) const {
+LobeSampler::Choice LobeSampler::choose(UnitPair numbers) const {
   const double u = numbers.u * sum_;
   double first = 0;
   if (u < first + diffuse_) {
@@ -64,7 +64,7 @@ Lobes::Choice Lobes::choose(UnitPair numbers) const {
   return {Lobe::refraction};
 }
 
-Bounce Lobes::bounce(const Choice& choice, const Vec3d& direction) const {
+Bounce LobeSampler::bounce(const Choice& choice, const Vec3d& direction) const {
   switch (choice.lobe) {
     case Lobe::diffuse:
       if (diffuse_ < sum_) return scattered(direction);
@@ -72,18 +72,19 @@ Bounce Lobes::bounce(const Choice& choice, const Vec3d& direction) const {
     case Lobe::highlight:
       return scattered(direction);
     case Lobe::reflection:
-      return {mirrored_, Side::viewer, way_.reflection * static_cast<float>(sum_ / reflection_)};
+      return {mirrored_, Side::viewer,
+              weights_.reflection * static_cast<float>(sum_ / reflection_)};
     case Lobe::refraction:
-      return {way_.refracted, Side::beyond,
-              way_.refraction * static_cast<float>(sum_ / refraction_)};
+      return {weights_.refracted, Side::beyond,
+              weights_.refraction * static_cast<float>(sum_ / refraction_)};
     case Lobe::none:
       break;
   }
   return {};
 }
 
-/// Light from this direction by both lobes, over their density.
-Bounce Lobes::scattered(const Vec3d& direction) const {
+/// The bounce into a direction of the diffuse lobe or the highlight, which counts for both of them.
+Bounce LobeSampler::scattered(const Vec3d& direction) const {
   const double cosine = dot(normal_, direction);
   if (!(cosine > 0)) return {};
   const double density = this->density(cosine, direction);
