@@ -1,5 +1,5 @@
-// What the headers of render say of bad input, entry by entry. Options and results by number:
-// renderer_test.cpp, tracer_test.cpp; files: scene_file, image, cli.
+// What the headers of render promise for bad input, one after the other. renderer_test.cpp and
+// tracer_test.cpp test the numbers in options and results; scene_file, image and cli test files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ using testing::HasSubstr;
 constexpr auto nan = std::numeric_limits<float>::quiet_NaN();
 constexpr auto inf = std::numeric_limits<float>::infinity();
 
-/// What makes a scene invalid, and the key that says so.
+/// Something that makes a scene invalid, and the key that the Diagnostic names.
 struct Fault {
   const char* key;
   std::function<void(Scene&)> spoil;
@@ -104,7 +104,7 @@ const Fault faults[] = {
      }},
 };
 
-/// Each way to use a scene refuses it with the same words, and none of them sooner.
+/// Every use of an invalid scene refuses it with the same words.
 TEST(BadInput, EveryDoorRefusesAnInvalidScene) {
   for (const Fault& fault : faults) {
     Scene scene = mixed_scene(8, 8);
@@ -286,7 +286,7 @@ TEST(BadInput, DirectionsThatAreNoneSeeSomePixel) {
   }
 }
 
-/// Rays of a caller's own, in front of an image and of a gradient.
+/// A caller's own rays, before an image and before a gradient.
 TEST(BadInput, RaysThatAreNoneSeeSomeBackground) {
   Scene scene = mixed_scene(8, 8);
   for (const Background& background : std::initializer_list<Background>{
@@ -306,7 +306,7 @@ TEST(BadInput, RaysThatAreNoneSeeSomeBackground) {
   }
 }
 
-/// A callback that cannot be copied: it throws.
+/// A callback whose copying throws.
 struct Uncopyable {
   Uncopyable() = default;
   Uncopyable(Uncopyable&&) = default;

@@ -14,7 +14,8 @@
 
 namespace boule::test {
 
-/// A .npy file as numpy.save writes it: this header's dict, padded to 64 bytes, and the data.
+/// A .npy file as numpy.save writes it: the header with this dict, padded to 64 bytes, and the
+/// data.
 inline std::string npy_file(std::string dict, const std::string& data, char version = 1) {
   const std::size_t before = version == 1 ? 10 : 12;
   while ((before + dict.size() + 1) % 64 != 0) dict += ' ';
@@ -32,7 +33,7 @@ inline std::string npy_dict(const std::string& descr, const std::string& shape,
   return "{'descr': " + descr + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }";
 }
 
-/// A plain value's bytes, little-endian on the machines of the tests.
+/// The bytes of a plain value. The machines of the tests are little-endian.
 template <class T>
 void append_bytes(std::string& to, const T& value) {
   char bytes[sizeof(T)];
@@ -40,7 +41,7 @@ void append_bytes(std::string& to, const T& value) {
   to.append(bytes, sizeof bytes);
 }
 
-/// N x 4 spheres: centre, radius.
+/// A file of N x 4 numbers: the spheres' centres and radii.
 inline std::string sphere_file(const std::vector<Sphere>& spheres) {
   std::string data;
   for (const Sphere& s : spheres) {
@@ -49,7 +50,7 @@ inline std::string sphere_file(const std::vector<Sphere>& spheres) {
   return npy_file(npy_dict("'<f4'", "(" + std::to_string(spheres.size()) + ", 4)"), data);
 }
 
-/// N x 8 rays; their origins are floats.
+/// A file of N x 8 float32: rays whose origins are floats.
 inline std::string ray_rows(const std::vector<Ray>& rays) {
   std::string data;
   for (const Ray& ray : rays) {
@@ -63,7 +64,7 @@ inline std::string ray_file(const std::vector<Ray>& rays) {
   return npy_file(npy_dict("'<f4'", "(" + std::to_string(rays.size()) + ", 8)"), ray_rows(rays));
 }
 
-/// The same in float64, of any numbers: origin, tmin, direction, tmax.
+/// A file of N x 8 float64, of any numbers: origin, tmin, direction, tmax.
 using RayRow = std::array<double, 8>;
 inline std::string ray_file64(const std::vector<RayRow>& rows) {
   std::string data;
@@ -73,7 +74,7 @@ inline std::string ray_file64(const std::vector<RayRow>& rows) {
   return npy_file(npy_dict("'<f8'", "(" + std::to_string(rows.size()) + ", 8)"), data);
 }
 
-/// The file of these hits, to the last byte. NumPy leaves room for a count of 21 digits.
+/// The bytes of the file of these hits. NumPy leaves room for a count of 21 digits.
 inline std::string hit_dict(const std::string& descr, std::size_t count) {
   const std::string digits = std::to_string(count);
   return npy_dict(descr, "(" + digits + ",)") + std::string(21 - digits.size(), ' ');

@@ -9,7 +9,7 @@
 
 namespace boule::test {
 
-/// All that path tracing can meet, in a room without a background: a sphere light, a lamp, every
+/// A closed room with everything that path tracing can meet: a sphere light, a lamp, every
 /// material.
 inline Scene path_scene(int width, int height) {
   Scene scene = empty_scene(width, height);
@@ -36,7 +36,7 @@ inline double luminance(const Color& c) {
   return (static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b)) / 3;
 }
 
-/// Mean and variance of numbers that come one by one (Welford 1962).
+/// Mean and variance of numbers that are added one by one (Welford 1962).
 struct Moments {
   double mean = 0, squares = 0;
   int count = 0;

@@ -13,7 +13,7 @@
 
 namespace boule::test {
 
-/// The picture, or a failed test and an empty one.
+/// The picture of a scene. If there is none, the test fails and the picture is empty.
 inline Image render(const Scene& scene, const RenderOptions& options) {
   auto renderer = Renderer::create(scene, options);
   if (!renderer) {
@@ -43,7 +43,7 @@ inline int differing_pixels(const Image& a, const Image& b) {
   return count;
 }
 
-/// The oracle's colour for the centre of pixel (x, y).
+/// The oracle's colour of the centre of pixel (x, y).
 inline Rgb oracle_pixel(const Scene& scene, int x, int y) {
   const CameraBasis basis = camera_basis(*scene.camera, scene.image.width, scene.image.height);
   const Ray ray = reference::primary_ray(basis, x + 0.5, y + 0.5);
@@ -59,7 +59,8 @@ inline double distance(const Color& a, const Rgb& b) {
          scale;
 }
 
-/// The largest distance of a one-sample picture of the scene from the oracle's.
+/// The largest difference between a picture of the scene with one sample per pixel and the
+/// oracle's.
 inline double distance_to_oracle(const Scene& scene, const Image& image) {
   if (image.width != scene.image.width || image.height != scene.image.height) return HUGE_VAL;
   double largest = 0;

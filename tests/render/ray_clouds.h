@@ -27,7 +27,7 @@ inline std::vector<Sphere> sphere_cloud(int count) {
   return spheres;
 }
 
-/// Rays through that cube, float origins, directions of any length, some of them bounded.
+/// Rays through that cube, with float origins and directions of any length; some of them end.
 inline std::vector<Ray> ray_cloud(std::size_t count) {
   CaseRandom random(12);
   std::vector<Ray> rays;
@@ -42,7 +42,7 @@ inline std::vector<Ray> ray_cloud(std::size_t count) {
   return rays;
 }
 
-/// A scene of these objects alone: no camera, no light, one material.
+/// A scene of these objects and one material, without camera and lights.
 inline Scene objects(std::vector<Sphere> spheres, std::vector<Plane> planes = {}) {
   Scene scene;
   scene.materials = {{"default", Matte{}}};

@@ -30,7 +30,7 @@ inline Scene empty_scene(int width, int height) {
   return scene;
 }
 
-/// These primitives, matte, ready to be hit.
+/// A prepared scene of these primitives, which are matte.
 inline PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> planes) {
   Scene scene = empty_scene(4, 4);
   add_material(scene, Matte{});
@@ -39,8 +39,8 @@ inline PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> pl
   return prepare(scene, 4, 4).value();
 }
 
-/// Every material, light and background feature at once: spheres that touch, overlap and contain
-/// each other over a reflecting plane, under a gradient.
+/// Every kind of material and light at once: spheres that touch, overlap and contain each other,
+/// over a reflecting plane and under a gradient.
 inline Scene mixed_scene(int width, int height) {
   Scene scene = empty_scene(width, height);
   scene.camera = pinhole({0.5f, 1.6f, 6}, {0, 0.8f, 0}, 50);
@@ -65,7 +65,7 @@ inline Scene mixed_scene(int width, int height) {
   return scene;
 }
 
-/// A closed crowd of glass and mirror spheres: deep trees of rays.
+/// Glass and mirror spheres close together, which make deep trees of rays.
 inline Scene glass_cloud(int width, int height) {
   Scene scene = empty_scene(width, height);
   scene.background = GradientBackground{};
@@ -85,7 +85,7 @@ inline Scene glass_cloud(int width, int height) {
   return scene;
 }
 
-/// The same scene, everything moved by `by`.
+/// The scene with everything in it moved by `by`.
 inline Scene moved(Scene scene, const Vec3f& by) {
   for (Sphere& s : scene.spheres) s.center = s.center + by;
   for (Plane& p : scene.planes) p.point = p.point + by;

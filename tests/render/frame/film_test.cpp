@@ -48,7 +48,7 @@ TEST(Film, SumsOfTheLargestFloatsStayFinite) {
 TEST(Film, SmallSamplesBesideALargeOneAreKept) {
   Film film({0, 0, 1, 1});
   film.add(0, 0, gray(16777216));
-  for (int i = 0; i < 7; ++i) film.add(0, 0, gray(1));  // a float sum would lose each of them
+  for (int i = 0; i < 7; ++i) film.add(0, 0, gray(1));  // a float sum would not change
   EXPECT_EQ(film.to_image().at(0, 0).r, 16777223.0f / 8);
 }
 

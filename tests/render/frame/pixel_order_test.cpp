@@ -63,7 +63,7 @@ TEST(PixelOrder, FourPixelsAreTwoByTwoEightFourByTwoSixteenFourByFour) {
       EXPECT_EQ(seen.size(), size);
     }
   }
-  EXPECT_EQ(pixels[1].x, 1);  // x first
+  EXPECT_EQ(pixels[1].x, 1);  // x comes first
   EXPECT_EQ(pixels[1].y, 0);
 }
 

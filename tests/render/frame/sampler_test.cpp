@@ -22,8 +22,8 @@ TEST(Sampler, OneSampleIsThePixelCentre) {
   }
 }
 
-/// Any number of samples has its share in every cell of every dyadic grid: n of them are at worst
-/// one sample away from perfect stratification by rows, by columns, and by both.
+/// Any number n of samples is stratified: every cell of every dyadic grid has its share of them,
+/// rounded up or down.
 TEST(Sampler, EveryStratumHasItsShareForAnyNumber) {
   for (int n = 2; n <= 70; ++n) {
     const Sampler sampler(n, 5);
@@ -54,7 +54,7 @@ TEST(Sampler, EveryStratumHasItsShareForAnyNumber) {
   }
 }
 
-/// The standard error of n samples for edges through the pixel, from side to opposite side.
+/// The standard error of n samples for edges through the pixel, from one side to the opposite one.
 template <class Place>
 double edge_error(int n, const Place& place) {
   constexpr int edges = 8000;
@@ -63,7 +63,8 @@ double edge_error(int n, const Place& place) {
     const std::uint64_t words = mix64(golden_step * static_cast<unsigned>(i));
     const double from = unit_interval(static_cast<std::uint32_t>(words));
     const double to = unit_interval(static_cast<std::uint32_t>(words >> 32));
-    // From (from, 0) to (to, 1), or mirrored in the diagonal: before it lies (from + to) / 2.
+    // An edge from (from, 0) to (to, 1), or its mirror image in the diagonal: the area before it is
+    // (from + to) / 2.
     int before = 0;
     for (int s = 0; s < n; ++s) {
       const RasterPoint p = place(i % 100, i / 100, s);
@@ -75,8 +76,8 @@ double edge_error(int n, const Place& place) {
   return std::sqrt(sum / edges);
 }
 
-/// What one sample at a random place in each of the n strata of the area 1/n gives, in
-/// round(sqrt(n)) rows of as even counts as can be: the usual way to take any number of samples.
+/// The same for jittered samples, the usual way to take any number of them: one random sample in
+/// each of n strata of area 1/n, in round(sqrt(n)) rows of about equal counts.
 double jittered_error(int n) {
   const int m = static_cast<int>(std::lround(std::sqrt(n)));
   return edge_error(n, [&](int x, int y, int s) {
@@ -96,7 +97,7 @@ TEST(Sampler, EdgesAreAtLeastAsSmoothAsWithJitteredStrataForAnyNumber) {
       const RasterPoint p = sampler.position(x, y, s);
       return RasterPoint{p.x - x, p.y - y};
     });
-    EXPECT_LE(error, 1.03 * jittered_error(n)) << n;  // 8000 edges know it to 1 %
+    EXPECT_LE(error, 1.03 * jittered_error(n)) << n;  // with 8000 edges it is known to 1 %
   }
 }
 
@@ -129,7 +130,8 @@ TEST(Sampler, TakesTheLargestNumber) {
   }
 }
 
-/// Of a tent's area over -1 .. 1, (1 + x)^2 / 2 lies left of x <= 0: so do the samples.
+/// Left of x <= 0 lies the share (1 + x)^2 / 2 of a tent's area over -1 .. 1, and so of the
+/// samples.
 TEST(Sampler, TentSamplesAreDistributedAsTheTent) {
   const int n = 4096;
   const Sampler sampler(n, 3, PixelFilter::tent);

@@ -58,9 +58,8 @@ TEST(Scheduler, ZeroThreadsIsTheHardwaresNumberAndThereIsALimit) {
   EXPECT_EQ(Scheduler(4000000000u).workers(), Scheduler::max_workers);
 }
 
-/// More than are ever called: a loop of so many ends where it is stopped, or not at all. One that
-/// is not stopped would come to `far_too_many`, which no worker does while another is kept from
-/// running.
+/// A loop of so many indices ends only if it is stopped. Without that it would reach
+/// `far_too_many`, but no worker gets there just because another one is kept from running.
 constexpr std::size_t endless = std::numeric_limits<std::size_t>::max() / 2;
 constexpr std::size_t far_too_many = 10'000'000'000;
 
@@ -122,7 +121,7 @@ TEST(Scheduler, EveryWorkerHasTheDefaultFloatEnvironmentAndTheCallersReturns) {
   EXPECT_EQ(after, FE_UPWARD);
 }
 
-/// While it lives, no new thread can be had: its stack would not fit into memory.
+/// While it lives, no thread can be started, because its stack does not fit into memory.
 class NoMoreThreads {
  public:
   NoMoreThreads() {

@@ -23,7 +23,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// The names in a folder, hidden ones too.
+/// The names in a folder, also hidden ones.
 inline std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -32,7 +32,7 @@ inline std::set<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// A picture that no format packs well: 0..1 in every channel.
+/// A picture of noise, 0..1 in every channel, which no format compresses well.
 inline Image noise(int width, int height) {
   Image image(width, height);
   std::uint32_t state = 1;
@@ -44,7 +44,7 @@ inline Image noise(int width, int height) {
   return image;
 }
 
-/// Files of this process end at a number of bytes for a while, as on a full disk.
+/// While it lives, no file of this process can grow beyond a number of bytes, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,4 +1,4 @@
-// Which files count as pictures that are finished already.
+// Which files is_finished_picture() takes for finished pictures.
 
 #include "render/image/finished_picture.h"
 
@@ -50,7 +50,7 @@ TEST_F(FinishedPicture, HasTheChannelsThatAreAskedFor) {
   EXPECT_FALSE(is_finished_picture(at("a.exr"), {4, 3, {}, {"Z", "id"}}));
 }
 
-/// A TGA without rows, says its header.
+/// A TGA file whose header declares no rows.
 TEST_F(FinishedPicture, HasPixels) {
   ASSERT_FALSE(write_image(test::noise(4, 3), at("a.tga")));
   std::string bytes = test::read_bytes(at("a.tga"));
@@ -66,7 +66,7 @@ long most_mebibytes() {
   return used.ru_maxrss / 1024;
 }
 
-/// A BMP of 728 million pixels by 3, says its header; no pixels follow.
+/// A BMP file whose header declares 728 million by 3 pixels, and which ends there.
 TEST_F(FinishedPicture, IsNotReadIfItsHeaderSaysAnotherSize) {
   ASSERT_FALSE(write_image(test::noise(4, 3), at("small.bmp")));
   ASSERT_TRUE(is_finished_picture(at("small.bmp"), {4, 3, {}}));

@@ -1,4 +1,4 @@
-// Pictures read back by OpenImageIO itself: this program links it, unlike the others.
+// What is in written pictures, read back by OpenImageIO itself. Only this test program links it.
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ TEST_F(ImageContent, ExrKeepsEveryBit) {
   for (const Compression compression : {Compression::none, Compression::rle, Compression::zip}) {
     ImageFileOptions options;
     options.compression = compression;
-    options.exposure_stops = 3;  // LDR only
+    options.exposure_stops = 3;  // of LDR formats only
     for (const Image& image : {extremes(), test::noise(33, 200), Image(1, 1)}) {
       round_trip(image, "a.exr", options);
       EXPECT_EQ(spec().nchannels, 3);
@@ -126,7 +126,7 @@ TEST_F(ImageContent, LossyFormatsAreClose) {
     }
   }
   const std::vector<std::uint8_t> wanted = tone_map(image, 0);
-  // On a smooth ramp at quality 95 both stay within a few codes; a swapped channel or row does not.
+  // At quality 95 a smooth ramp stays within a few codes, but not with swapped channels or rows.
   for (const char* name : {"a.jpg", "a.jpeg", "a.jpe", "a.webp"}) {
     round_trip(image, name);
     ASSERT_EQ(spec().nchannels, 3) << name;
@@ -237,7 +237,7 @@ TEST_F(ImageContent, LdrHeadersSayWhoAndWhen) {
     round_trip(test::noise(9, 9), name, options);
     EXPECT_TRUE(std::string(spec().get_string_attribute("Software")).starts_with("boule ")) << name;
     EXPECT_EQ(spec().get_string_attribute("DateTime"), options.date_time) << name;
-    if (std::string(name) == "a.tif") continue;  // 8-bit TIFF has no place for it: sRGB by custom
+    if (std::string(name) == "a.tif") continue;  // 8-bit TIFF does not store it: sRGB is understood
     EXPECT_EQ(spec().get_string_attribute("oiio:ColorSpace"), "sRGB") << name;
   }
 }
@@ -249,7 +249,7 @@ TEST_F(ImageContent, WideAndTall) {
     round_trip(Image(1, 65000), name);
     EXPECT_EQ(spec().height, 65000) << name;
   }
-  const Image wide = test::noise(40000, 1);  // beyond the Radiance format's run-length limit
+  const Image wide = test::noise(40000, 1);  // wider than the Radiance format can run-length encode
   round_trip(wide, "a.hdr");
   EXPECT_NEAR(floats()[119999], wide.at(39999, 0).b, 0.01F);
 }

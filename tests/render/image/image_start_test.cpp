@@ -1,4 +1,5 @@
-// What is loaded and started before the work, in children: each begins with nothing.
+// What ImageStart loads and starts before the work. Each test runs in a child process, which begins
+// without OpenImageIO.
 #include "render/image/image_start.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +19,8 @@ namespace {
 
 std::size_t thread_count() { return names_in("/proc/self/task").size(); }
 
-/// Forks; how the child ended, which has the time it takes and a minute.
+/// Runs `run` in a forked child, which is killed after a minute. Returns its exit status, or 128
+/// plus the signal that ended it.
 int run_in_child(const std::function<int()>& run) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -48,7 +50,7 @@ class ImageStartTest : public testing::TestWithParam<std::string> {
   TempDir dir_;
 };
 
-/// A thread that could not be had later would end the program, after the work.
+/// A thread that cannot be had later would end the program after the work.
 TEST_P(ImageStartTest, AllThreadsThatThereWillBeAreThere) {
   const int code = run_in_child([&] {
     for (const int threads : {1, 3, 2}) {
@@ -68,7 +70,7 @@ TEST_P(ImageStartTest, AllThreadsThatThereWillBeAreThere) {
   EXPECT_EQ(code, 0);
 }
 
-/// Its pools are not there: it does without, or says so.
+/// A child does not have its parent's thread pools: it does without, or refuses.
 TEST_P(ImageStartTest, AChildWritesByItselfOrSaysWhyNot) {
   const bool needs_pool = GetParam() == "exr" || GetParam() == "tif";
   const int code = run_in_child([&] {

@@ -1,5 +1,5 @@
-// Texts of any length and bytes in a picture's header, of which libraries below OpenImageIO abort
-// or exit: in a child, which must come back.
+// Texts of any length and bytes in a picture's header. Libraries below OpenImageIO abort or exit
+// over some of them, so each test runs in a child process, which must come to its end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -28,8 +28,8 @@ std::string repeated(const std::string& what, std::size_t bytes) {
   return text;
 }
 
-/// Runs in a child of its own: what it logs of each case, and "whole" at its end; nothing is to
-/// appear on standard error.
+/// Runs `work` in a child process. Returns what it logged of each case, with "whole" at its end.
+/// Nothing may appear on standard error.
 std::string run_in_child(const TempDir& folder, const std::function<void(std::FILE*)>& cases) {
   const std::string log = (folder.path() / "log").string();
   const pid_t child = ::fork();
@@ -47,14 +47,14 @@ std::string run_in_child(const TempDir& folder, const std::function<void(std::FI
   return read_bytes(log);
 }
 
-/// A name that leads to /dev/null: nothing needs to be made durable.
+/// A name that leads to /dev/null, where no data have to be made durable.
 std::string to_nowhere(const TempDir& folder, const std::string& extension) {
   const auto path = folder.path() / ("a." + extension);
   std::filesystem::create_symlink("/dev/null", path);
   return path.string();
 }
 
-/// One picture with this text; a line about it before it is begun.
+/// Writes one picture with this text, after a line about it in the log.
 std::string write_with(std::FILE* log, const std::string& path, const std::string& name,
                        const std::string& text) {
   ImageFileOptions options;
@@ -66,7 +66,7 @@ std::string write_with(std::FILE* log, const std::string& path, const std::strin
   return bad ? bad->message : "";
 }
 
-/// Every text under every name in every format; what is refused is refused by name.
+/// Writes every text under every name in every format. What is refused is refused by its name.
 TEST(Metadata, NoTextEndsTheCaller) {
   const TempDir folder;
   const std::string texts[] = {"",
@@ -74,7 +74,7 @@ TEST(Metadata, NoTextEndsTheCaller) {
                                std::string(50'000, 'x'),
                                std::string(65'000, 'x'),
                                std::string(100'000, '&'),
-                               repeated("a;", 24'000),  // a list, with a length for each
+                               repeated("a;", 24'000),  // a list, with a length for each part
                                repeated("\x01\x1f\x7f\n\r\t", 100),
                                repeated("\xff\xfe\x80", 100),
                                std::string("\0a", 2),
@@ -124,7 +124,7 @@ TEST(Metadata, NorDoManyOrHugeOnesOrOddNames) {
   EXPECT_THAT(log, testing::Not(testing::HasSubstr("unexpected")));
 }
 
-/// None is what was asked for: not even the standard one.
+/// An empty text asks for no entry, not even the standard one.
 TEST(Metadata, AnEmptyTextMeansNoEntry) {
   const TempDir folder;
   const auto bytes_with = [&](const Metadata& metadata) {

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Wherever it was built, and whatever lies there now.
+/// The folders do not depend on where this was built, or on what is there now.
 TEST(ModuleSearch, AnInstalledOrCopiedProgramLooksAroundItselfOnly) {
   const std::vector<fs::path> folders = module_folders("/opt/boule/bin");
   ASSERT_EQ(folders.size(), 2U);

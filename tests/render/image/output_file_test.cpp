@@ -51,7 +51,7 @@ TEST_F(OutputFileTest, AppearsOnCommit) {
   ASSERT_TRUE(file.ok());
   EXPECT_FALSE(file.value().write("hello", 5));
   EXPECT_FALSE(fs::exists(at("a.npy")));
-  EXPECT_EQ(names(), Names{});  // it has no name yet
+  EXPECT_EQ(names(), Names{});  // the temporary file has no name yet
   EXPECT_EQ(test::read_bytes(file.value().path()), "hello");
   EXPECT_FALSE(file.value().commit());
   EXPECT_EQ(names(), Names{"a.npy"});
@@ -111,7 +111,7 @@ TEST_F(OutputFileTest, LinksAreFollowed) {
   EXPECT_EQ(test::names_in(at("sub")), Names{"real"});
 }
 
-/// Whatever the system's own fs.protected_symlinks is.
+/// Independent of the setting fs.protected_symlinks of this system.
 TEST_F(OutputFileTest, LinksOfOthersInOpenFoldersAreRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can make links of others";
   constexpr uid_t somebody = 65534, another = 65533;
@@ -135,7 +135,7 @@ TEST_F(OutputFileTest, LinksOfOthersInOpenFoldersAreRefused) {
       ASSERT_EQ(chown(at("open").c_str(), folder, folder), 0);
       ASSERT_EQ(chmod(at("open").c_str(), mode), 0);
       for (const std::string& output : {name, chain}) {
-        // (The kernel looks at links that lead to streams, too.)
+        // (The kernel also checks links that lead to streams.)
         EXPECT_EQ(create_error(output),
                   refused ? "cannot write '" + output + "': Permission denied" : "")
             << target << " " << mode << " " << folder << " " << link;
@@ -199,7 +199,7 @@ TEST_F(OutputFileTest, WhatIsDoneOrMovedAwayRefuses) {
   EXPECT_EQ(test::read_bytes(at("a.npy")), "");
 }
 
-/// The other way round from above: it must not have what the other one had.
+/// In the test above the file is moved from; here it is assigned to, and must drop what it had.
 TEST_F(OutputFileTest, WhatIsAssignedToAnotherRefusesAndDropsTheOthers) {
   Result<OutputFile> one = OutputFile::create(at("one.npy"));
   Result<OutputFile> two = OutputFile::create(at("two.npy"));

@@ -1,4 +1,4 @@
-// Pictures that were written are read again; what is none is refused.
+// Pictures that were written are read again, and other files are refused.
 #include "render/image/read_image.h"
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST_F(ReadImage, AFileCutShortIsRefused) {
   }
 }
 
-/// libpng and libjpeg would say so on standard error, or make up the rest.
+/// libpng and libjpeg would complain on standard error, or make up the rest.
 TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
   for (const char* name : {"cut.png", "cut.jpg"}) {
     const std::string bytes = read_bytes(written(noise(20, 20), name));
@@ -140,7 +140,7 @@ TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
   }
 }
 
-/// libpng would say so on standard error. What it may do without is no reason to refuse.
+/// libpng would complain on standard error. Damage in an optional chunk is no reason to refuse.
 TEST_F(ReadImage, OurselvesWeSeeThatAPngIsDamagedInside) {
   ImageFileOptions options;
   options.date_time = "1970:01:01 00:00:00";

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// The formula as the standard states it, in extended precision.
+/// The formula of the standard, in extended precision.
 int formula(float linear) {
   if (!(linear > 0)) return 0;
   if (linear >= 1) return 255;
@@ -20,7 +20,7 @@ int formula(float linear) {
   return static_cast<int>(std::floor(255 * s + 0.5L));
 }
 
-/// The least float to which the formula gives at least this code.
+/// The smallest float to which the formula gives at least this code.
 float boundary(int code) {
   std::uint32_t below = 0, at = std::bit_cast<std::uint32_t>(1.0F);
   while (at - below > 1) {

@@ -1,4 +1,4 @@
-// What write_image refuses and survives; what it writes is read back in image_content_test.cpp.
+// What write_image() refuses and survives. image_content_test.cpp reads back what it writes.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST_F(WriteImage, EqualPicturesAreEqualFiles) {
   for (const std::string extension : extensions) {
     ASSERT_EQ(reason(image, at("one." + extension)), "");
   }
-  // A time stamp would differ in another second.
+  // A time stamp would differ after a second.
   const std::time_t second = std::time(nullptr);
   while (std::time(nullptr) == second) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   for (const std::string extension : extensions) {
@@ -66,8 +66,8 @@ TEST_F(WriteImage, EqualPicturesAreEqualFiles) {
   EXPECT_EQ(names().size(), 2 * std::size(extensions));
 }
 
-/// The threads of this process. One that was joined may be listed for a while, but is leaving: flag
-/// PF_EXITING in the ninth field of "NUMBER (NAME) STATE ...".
+/// The number of threads of this process. One that was joined may be listed a little longer, but
+/// with the flag PF_EXITING in the ninth field of "NUMBER (NAME) STATE ...".
 std::size_t count_threads() {
   constexpr unsigned long exiting = 4;
   std::size_t count = 0;
@@ -211,7 +211,7 @@ TEST_F(WriteImage, NamesWithNulBytes) {
   EXPECT_FALSE(is_finished_picture(longer, {4, 3, {}}));
 }
 
-/// Others print; libpng, of a file without pixels.
+/// Libraries below print: libpng does so about a file without pixels.
 class Silence {
  public:
   Silence() { testing::internal::CaptureStderr(); }
@@ -275,8 +275,8 @@ TEST_F(WriteImage, NamesOfAnyAlphabet) {
   EXPECT_EQ(names(), Names{"b\xc3\xa4ll # 0001.png"});
 }
 
-/// The check after writing must see a file that lost its end. (PNG, too, but there libpng jumps
-/// over OpenImageIO's message, a leak that the leak checker reports.)
+/// The check after writing must notice a file that lost its end. (It notices a PNG file as well,
+/// but there libpng jumps over OpenImageIO's message, which the leak checker reports.)
 TEST_F(WriteImage, CheckFindsTruncatedFiles) {
   const auto loaded = load_image_module(*find_image_format("a.tif"));
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;

@@ -40,7 +40,7 @@ TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
     sums.start(3);
     sums.at_depth(0)[0] = gray(1);
     sums.at_depth(0)[1] = gray(1);
-    sums.at_depth(1)[1] = {0, nan, 0};  // one that is no number spoils the sample, and no other
+    sums.at_depth(1)[1] = {0, nan, 0};  // NaN spoils this sample and no other
     sums.at_depth(1)[2] = gray(2);
     Color result[3];
     sums.finish(result);
@@ -53,7 +53,7 @@ TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
 }
 
 TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
-  // 1 is lost beside 2^24, two of them are not: the order of the sum shows.
+  // 2^24 + 1 rounds to 2^24, but 2^24 + 2 does not: the sum depends on its order.
   constexpr float big = 16777216;
   DepthSums sums;
   Color result;

@@ -1,5 +1,5 @@
-// Path tracing by its statistics: its ways of seeking light agree, and its error falls as it
-// should. With a full size, run by hand: ctest -L long -V.
+// The statistics of path tracing: its ways of finding light agree, and its error falls as it
+// should. The full size is run by hand: ctest -L long -V.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace boule::test {
 namespace {
 
-/// Radiance of every pixel's centre, its mean over the samples [first, first + count).
+/// The radiance of every pixel's centre, as the mean of `count` samples.
 std::vector<Color> path_means(const Scene& scene, LightSampling search, std::uint64_t seed,
                               int count) {
   const int width = scene.image.width, height = scene.image.height;
@@ -48,14 +48,14 @@ std::vector<Color> path_means(const Scene& scene, LightSampling search, std::uin
   return radiance;
 }
 
-/// Student's t beyond which lies so much less than the normal distribution's z says: the first
-/// terms of its expansion (Abramowitz and Stegun 26.7.5).
+/// The quantile of Student's t distribution for the quantile z of the normal one: the first terms
+/// of its expansion (Abramowitz and Stegun 26.7.5).
 double student(double z, double freedom) {
   return z + (z * z * z + z) / (4 * freedom) +
          (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * freedom * freedom);
 }
 
-/// Means of independent pictures of so many samples, pixel by pixel.
+/// Mean and variance, pixel by pixel, of independent pictures with so many samples.
 std::vector<Moments> picture_moments(const Scene& scene, LightSampling search, int pictures,
                                      int samples) {
   std::vector<Moments> moments(static_cast<std::size_t>(scene.image.width * scene.image.height));
@@ -67,9 +67,9 @@ std::vector<Moments> picture_moments(const Scene& scene, LightSampling search, i
   return moments;
 }
 
-/// Welch's test in every pixel, at a level of 1 % for all of them together (Sidak's correction; 576
-/// pixels: 4.16 standard deviations). 99.75 % of the pixels must pass. Paths alone, which come upon
-/// small lights rarely, may have more samples.
+/// Welch's test in every pixel, at a level of 1 % for all of them together (Sidak's correction;
+/// with 576 pixels 4.16 standard deviations). 99.75 % of the pixels must pass. LightSampling::paths
+/// finds small lights rarely, so it may have more samples.
 void expect_ways_agree(const Scene& scene, int samples, int samples_of_paths) {
   const int pictures = static_cast<int>(test_size("BOULE_PATH_PICTURES", 24));
   const auto both = picture_moments(scene, LightSampling::both, pictures, samples);
@@ -91,7 +91,8 @@ void expect_ways_agree(const Scene& scene, int samples, int samples_of_paths) {
   }
 }
 
-/// Its lights large enough for paths to find; the last bounce is by light alone: none is the last.
+/// A scene whose lights are large enough to be found by directions of paths. At the last bounce
+/// light is found by light sampling only, so no bounce may be the last.
 Scene scene_of_large_lights() {
   Scene scene = path_scene(24, 24);
   scene.lights = {SphereLight{{2, 4, 3}, 1.6f, {2, 2, 2}}};
@@ -105,7 +106,7 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgree) {
   expect_ways_agree(scene_of_large_lights(), 16, 16);
 }
 
-/// Every pixel another colour, the sphere light and the lamp besides, every material.
+/// An environment with another colour in every pixel, a sphere light, a lamp and every material.
 TEST(PathStatistics, TheWaysOfSeekingLightAgreeInAnEnvironment) {
   Scene scene = scene_of_large_lights();
   EnvironmentBackground image{16, 8, {}, 40};
@@ -116,12 +117,12 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgreeInAnEnvironment) {
     image.pixels.push_back({tone(0), tone(8), tone(16)});
   }
   scene.background = image;
-  scene.planes.pop_back();  // the wall in the back
+  scene.planes.pop_back();  // the wall at the back
   expect_ways_agree(scene, 16, 16);
 }
 
-/// One bright pixel in a dim image gives most of the light. Nothing mirrors it: caustics of so
-/// small a light are found by paths alone, all too rarely for statistics.
+/// An image in which one bright pixel gives most of the light. No material mirrors it: caustics of
+/// such a small light are found by directions of paths only, too rarely for statistics.
 TEST(PathStatistics, TheWaysOfSeekingLightAgreeUnderASmallSun) {
   Scene scene = scene_of_large_lights();
   const auto paint = add_material(scene, Plastic{{0.2f, 0.3f, 0.6f}, 0.3f, 20, 0});
@@ -130,7 +131,7 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgreeUnderASmallSun) {
   }
   scene.planes.pop_back();
   EnvironmentBackground image{32, 16, std::vector<Color>(512, {0.1f, 0.15f, 0.3f}), 0};
-  image.pixels[4 * 32 + 22] = {120, 100, 80};  // the upper right, behind
+  image.pixels[4 * 32 + 22] = {120, 100, 80};  // upper right, behind the camera
   scene.background = image;
   expect_ways_agree(scene, 16, 512);
 }

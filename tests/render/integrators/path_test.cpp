@@ -12,7 +12,7 @@
 namespace boule::test {
 namespace {
 
-/// A white sphere, or several, in white light from everywhere: everything is white.
+/// A white sphere, or several of them, in white light from all directions: everything is white.
 Scene furnace(const Material& material) {
   Scene scene = empty_scene(32, 32);
   scene.background = ConstantBackground{gray(1)};
@@ -34,7 +34,7 @@ TEST(PathFurnace, OneSphereIsAsWhiteAsItsSurroundings) {
   }
 }
 
-/// The mean of a furnace's pixels, which are independent, and its standard error.
+/// The mean of a furnace's pixels and its standard error; the pixels are independent.
 void expect_white(Scene scene, int spp, double most) {
   scene.image.spp = spp;
   Moments moments;
@@ -58,7 +58,7 @@ TEST(PathFurnace, ThirtyTwoTouchingSpheresWithoutALimitAreWhiteInTheMean) {
   expect_white(scene, 64, 0.002);
 }
 
-/// No material sends on more than it gets, whatever its coefficients say.
+/// No material sends on more light than it gets, whatever its coefficients are.
 TEST(PathFurnace, NothingIsBrighterThanItsSurroundings) {
   for (const Material& material :
        {Material{Plastic{gray(0.9f), 0.5f, 30, 0.3f}}, Material{Plastic{gray(0.5f), 0.5f, 2, 0}},
@@ -74,7 +74,8 @@ TEST(PathFurnace, NothingIsBrighterThanItsSurroundings) {
   }
 }
 
-/// A white plane seen from above where (x, 0, 0) is, all of the picture within a hair's breadth.
+/// A white plane seen from above at (x, 0, 0), so close that all of the picture shows about one
+/// point.
 Scene lit_plane(float x, float tilt) {
   Scene scene = empty_scene(4, 4);
   scene.camera = OrthographicCamera{{{x, 0.1f, 0}, {x, 0, 0}, {0, 0, 1}}, 1e-4f};
@@ -87,8 +88,8 @@ Scene lit_plane(float x, float tilt) {
 
 constexpr double light_height = 3, light_radius = 1.25;
 
-/// Irradiance over pi of the sphere light above at the plane's point, by the midpoint rule over the
-/// cone: cos > 0 only.
+/// The irradiance over pi that the sphere light above gives the plane's point, by the midpoint rule
+/// over the part of the cone with cos > 0.
 double plane_radiance(double x, double tilt) {
   const Vec3d to_light = Vec3d{-x, light_height, 0};
   const double distance = length(to_light);
@@ -123,9 +124,9 @@ TEST(PathLight, IrradianceOfASphereLightIsTheAnalyticOne) {
     EXPECT_NEAR(plane_radiance(double{x}, 0) / analytic, 1, 1e-4);
     scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)}};
     EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.005) << x;
-    scene.render.method = Method::whitted;  // a point light of the same brightness
+    scene.render.method = Method::whitted;  // here it is a point light of the same brightness
     EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 1e-4) << x;
-    scene.render.method = Method::path;  // the same of an emissive sphere
+    scene.render.method = Method::path;  // the same with an emissive sphere
     scene.lights.clear();
     scene.spheres = {{{0, light_height, 0}, light_radius, add_material(scene, Emissive{gray(1)})}};
     EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.005) << x;
@@ -143,7 +144,7 @@ TEST(PathLight, ALightBehindTheHorizonCountsAsFarAsItIsSeen) {
   }
 }
 
-/// Without what only path tracing adds, both methods agree: direct light of points on matte.
+/// Both methods agree on what both compute: the direct light of point lights on matte objects.
 TEST(PathLight, PointLightsOnMatteAreWhittedsAtDepthZero) {
   Scene scene = mixed_scene(32, 24);
   scene.ambient = {};
@@ -151,14 +152,14 @@ TEST(PathLight, PointLightsOnMatteAreWhittedsAtDepthZero) {
     if (!std::holds_alternative<Emissive>(named.material))
       named.material = Matte{{0.5f, 0.6f, 0.7f}};
   }
-  scene.spheres.erase(scene.spheres.begin() + 6);  // the lamp, which path tracing makes a light
+  scene.spheres.erase(scene.spheres.begin() + 6);  // the lamp, which is a light for path tracing
   scene.render.max_depth = 0;
   const Image whitted = render(scene);
   scene.render.method = Method::path;
   EXPECT_EQ(differing_pixels(render(scene), whitted), 0);
 }
 
-/// A grey image with a bright spot straight up; nothing else shines.
+/// A grey image with a bright spot straight up, and no other light.
 EnvironmentBackground spotted_image(float rotation) {
   EnvironmentBackground image{16, 8, std::vector<Color>(128, gray(0.5f)), rotation};
   image.pixels[16 + 4] = {20, 10, 5};
@@ -192,8 +193,8 @@ TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
   EXPECT_LT(length(by_chance - integral), 0.01 * length(integral));
 }
 
-/// A pixel's light spreads to its neighbours, though they be black: wherever the image shines
-/// samples go. Held against a fine grid over all directions.
+/// A pixel's light spreads to its neighbours, even if these are black, and samples go to all of it.
+/// The irradiance is compared with a fine grid over all directions.
 TEST(PathLight, ASpotInTheDarkIsFoundWhole) {
   for (const int at : {4, 3 * 16 + 15, 7 * 16}) {
     EnvironmentBackground image{16, 8, std::vector<Color>(128), 0};
@@ -218,11 +219,11 @@ TEST(PathLight, ASpotInTheDarkIsFoundWhole) {
     }
     integral *= (elementary::pi / rows) * (elementary::pi / rows);
     EXPECT_NEAR(by_chance / integral, 1, 0.005) << at;
-    EXPECT_LT(most, 20 * integral) << at;  // no sample counts for a whole picture
+    EXPECT_LT(most, 20 * integral) << at;  // no single sample decides the picture
   }
 }
 
-/// A lamp beside one that is far stronger, far away, and below the horizon.
+/// A lamp beside a far stronger one that is far away and below the horizon.
 TEST(PathLight, NoLampStarvesTheOthers) {
   Scene scene = lit_plane(0, 0);
   scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)},
@@ -231,7 +232,8 @@ TEST(PathLight, NoLampStarvesTheOthers) {
   EXPECT_NEAR(mean_luminance(scene) / analytic, 1, 0.02);
 }
 
-/// Seen from afar a point is known less well; the rays to a lamp still end before it.
+/// From far away a point is known with a larger error; the shadow rays to a lamp still end before
+/// it.
 TEST(PathLight, ALampShinesHoweverFarTheEyeIs) {
   Scene scene = lit_plane(2, 0);
   scene.spheres = {{{0, -light_height, 0}, 0.5f, add_material(scene, Emissive{gray(1)})}};

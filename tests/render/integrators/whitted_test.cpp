@@ -15,8 +15,8 @@
 namespace boule::test {
 namespace {
 
-/// The renderer's radiance is float, the oracle's double; both see the same hits. Rounding adds up
-/// over eight bounces and lights of very different strength.
+/// The renderer's radiance is float and the oracle's is double; the hits are the same. Rounding
+/// errors add up over eight bounces and over lights of very different strength.
 constexpr double float_noise = 2e-5;
 
 TEST(Whitted, EqualsTheOracleOnEveryFeatureAtOnce) {
@@ -59,12 +59,12 @@ TEST(Whitted, EqualsTheOracleSeenFromInsideOfASphere) {
   Scene scene = mixed_scene(32, 32);
   scene.spheres.push_back({{0, 1, 0}, 30, 1});
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
-  scene.spheres.back() = {{0.5f, 1.6f, 6}, 1, 3};  // the eye at the centre of a glass ball
+  scene.spheres.back() = {{0.5f, 1.6f, 6}, 1, 3};  // a glass ball with the eye at its centre
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
 }
 
-/// Pixels of every colour, an odd number of them, turned by more than once around; and a picture of
-/// one pixel, of one row, of one column.
+/// An environment of an odd number of pixels of all colours, rotated by more than a turn; and
+/// images of one pixel, of one row and of one column.
 TEST(Whitted, EqualsTheOracleInAnEnvironment) {
   Scene scene = mixed_scene(64, 48);
   scene.planes.clear();
@@ -91,14 +91,14 @@ TEST(Whitted, AGlassFloorRefractsByTheSideItIsEnteredFrom) {
   }
 }
 
-/// The colour of the middle pixel of a one-pixel picture.
+/// The colour of the only pixel of a picture of 1 x 1.
 Color pixel_of(Scene scene) {
   scene.image = {1, 1, 1};
   const Image image = render(scene);
   return image.pixels.empty() ? gray(-1) : image.at(0, 0);
 }
 
-/// A unit sphere of one material before the camera, head on.
+/// A unit sphere of one material, straight before the camera.
 Scene one_sphere(const Material& material) {
   Scene scene = empty_scene(1, 1);
   scene.spheres = {{{0, 0, 0}, 1, add_material(scene, material)}};
@@ -116,7 +116,7 @@ TEST(Whitted, KnownColours) {
   scene.background = ConstantBackground{{4, 2, 1}};
   scene.materials[0].material = Metal{{0.5f, 0.5f, 1}};
   EXPECT_EQ(pixel_of(scene), (Color{2, 1, 1}));
-  // Glass in a uniform world loses nothing but what the last allowed bounce still carries.
+  // In uniform light glass loses only the light that is left after the last bounce.
   scene.materials[0].material = Glass{};
   scene.background = ConstantBackground{gray(1)};
   scene.render.max_depth = 40;
@@ -142,13 +142,14 @@ TEST(Whitted, EveryObjectCastsAShadowTransparentOnesToo) {
     EXPECT_GT(lit.r, 0);
     scene.spheres.push_back({{0, 4, 4.5f}, 0.5f, add_material(scene, blocker)});
     EXPECT_EQ(pixel_of(scene), gray(0));
-    scene.spheres.back().center = {0, 16, 16};  // behind the light: no shadow
+    scene.spheres.back().center = {0, 16, 16};  // behind the light, where it casts no shadow
     EXPECT_EQ(pixel_of(scene), lit);
   }
 }
 
 TEST(Whitted, ALightThatLiesOnASurfaceIsNotItsOwnShadow) {
-  // The light's place is rounded to float: just inside or outside of the little sphere it is on.
+  // The light's position is rounded to float: just inside or outside of the small sphere on which
+  // it is.
   int lit = 0;
   CaseRandom random(5);
   for (int i = 0; i < 50; ++i) {
@@ -190,7 +191,7 @@ TEST(Whitted, WhatOverflowsIsTheLargestFloatAndNeverNan) {
   for (const Color& c : render(scene).pixels) {
     for (const float x : {c.r, c.g, c.b}) EXPECT_TRUE(x >= 0 && x <= largest);
   }
-  scene.spheres.push_back({{0.5f, 1.6f, 5}, 1e-45f, 3});  // denormal, on the view's axis
+  scene.spheres.push_back({{0.5f, 1.6f, 5}, 1e-45f, 3});  // of denormal radius, straight ahead
   for (const Color& c : render(scene).pixels) {
     for (const float x : {c.r, c.g, c.b}) EXPECT_TRUE(x >= 0 && x <= largest);
   }
@@ -208,7 +209,7 @@ std::vector<Ray> camera_rays(const Scene& scene) {
   return rays;
 }
 
-/// Radiance of these rays from a new integrator.
+/// The radiance of these rays by a new integrator.
 std::vector<Color> trace(const PreparedScene& scene, const std::vector<Ray>& rays,
                          const IntegratorSettings& settings) {
   Whitted whitted(scene, *select_kernels("auto").value(), settings);
@@ -264,7 +265,7 @@ TEST(Whitted, CountsItsRays) {
   const RayCounts counts = whitted.counts();
   EXPECT_EQ(counts.primary, 1u);
   EXPECT_EQ(counts.continuation, 2u);  // one reflected, one refracted
-  // One light faces the first hit; the other, none: inside of the ball it faces the far wall.
+  // The light before the sphere faces both hits, also the far wall inside; the other faces neither.
   EXPECT_EQ(counts.shadow, 2u);
   EXPECT_EQ(counts.total(), 5u);
 }
@@ -296,7 +297,7 @@ TEST(Whitted, StopsWhenCancelledAndWorksAgainAfterwards) {
   EXPECT_EQ(differing(radiance, expected), 0);
 }
 
-/// Two parallel mirrors: one ray for ever. Memory must not grow with the depth.
+/// Two parallel mirrors, between which a ray goes on for ever. Memory must not grow with the depth.
 TEST(Whitted, AnEndlessHallOfMirrorsEnds) {
   Scene scene = empty_scene(2, 2);
   scene.background = ConstantBackground{gray(1)};

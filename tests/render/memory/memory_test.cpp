@@ -25,7 +25,7 @@ TEST(Memory, IsKnownAndNotAbsurd) {
   EXPECT_LT(available_memory(), std::uint64_t{1} << 50);
 }
 
-/// While it lives, the process' addresses are limited to so many bytes.
+/// While it lives, this process cannot map more than so many bytes.
 class AddressLimit {
  public:
   explicit AddressLimit(std::uint64_t bytes) {
@@ -47,7 +47,7 @@ std::uint64_t used_addresses() {
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
-/// What the heap may take or give back while a file's stream comes and goes: some 100 KiB, seen.
+/// How much the heap may grow or shrink while a file is read: some 100 KiB were measured.
 constexpr std::uint64_t heaps_breath = std::uint64_t{1} << 20;
 
 TEST(Memory, IsWhatTheLimitOnAddressesLeaves) {
@@ -64,7 +64,7 @@ TEST(Memory, IsWhatTheLimitOnAddressesLeaves) {
   EXPECT_FALSE(check_memory(1 << 20, "a thing needs"));
 }
 
-/// Stacks of threads and all that malloc gives count as data.
+/// The stacks of threads and all memory from malloc count as data.
 TEST(Memory, IsWhatTheLimitOnDataLeaves) {
   constexpr std::uint64_t room = std::uint64_t{100} << 20;
   rlimit saved{};
@@ -112,7 +112,7 @@ TEST_F(MemoryFiles, AControlGroupLeavesItsLimitLessWhatCannotBeGivenUp) {
   EXPECT_EQ(control_group_memory(folder()), 0u);
 }
 
-/// A scene whose groups show each other tenfold: 10^levels spheres.
+/// A scene whose groups each show the next one ten times, which makes 10^levels spheres.
 Scene tenfold(int levels) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
@@ -126,7 +126,7 @@ Scene tenfold(int levels) {
   return scene;
 }
 
-/// A second of this process's work.
+/// A limit of one second of this process's CPU time.
 class Limit {
  public:
   [[nodiscard]] bool holds() const { return std::clock() - begin_ < CLOCKS_PER_SEC; }
@@ -184,7 +184,7 @@ TEST_F(MemoryFiles, AFileOfInstancesIsRefusedAtOnce) {
   EXPECT_GT(loaded.error().line, 1);
 }
 
-/// What a file's header says, and no data behind it but a hole.
+/// A file with this header and a hole instead of data.
 TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
   const std::string header = npy_file(npy_dict("'<f4'", "(2000000000, 4)"), "");
   const std::string cloud = write("cloud.npy", header);
@@ -200,7 +200,7 @@ TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
 
 TEST_F(MemoryFiles, ATextThatDoesNotFitIsRefusedBeforeItIsRead) {
   for (const char* const name : {"scene.toml", "scene.nff"}) {
-    const std::string path = write(name, std::string(1 << 20, '\n'));  // it begins as a text does
+    const std::string path = write(name, std::string(1 << 20, '\n'));  // it begins like a text
     std::filesystem::resize_file(path, std::uintmax_t{1} << 42);
     const Limit second;
     const auto loaded = load_scene(path);
@@ -211,13 +211,13 @@ TEST_F(MemoryFiles, ATextThatDoesNotFitIsRefusedBeforeItIsRead) {
   }
 }
 
-/// Four bytes of a file, the lowest first.
+/// Four bytes of a number, the lowest first.
 void set_int32(std::string& file, std::size_t at, std::int32_t value) {
   for (std::size_t i = 0; i < 4; ++i)
     file[at + i] = static_cast<char>(static_cast<std::uint32_t>(value) >> 8 * i & 255);
 }
 
-/// An EXR picture whose header says another size.
+/// An EXR file whose header declares another size.
 std::string spoilt_exr(std::string file, std::int32_t width, std::int32_t height) {
   for (const char* const window : {"dataWindow", "displayWindow"}) {
     const std::size_t box =

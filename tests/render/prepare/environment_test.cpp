@@ -1,4 +1,4 @@
-// What an environment's picture shows where its pixels end: at the poles, and behind.
+// What an environment's image shows at its edges, which are at the poles and behind.
 #include "render/prepare/environment_light.h"
 
 #include <gtest/gtest.h>
@@ -8,14 +8,14 @@
 namespace boule::test {
 namespace {
 
-/// Four pixels around, two from pole to pole: each row is a quarter turn high.
+/// Four pixels wide and two high: each row covers a quarter turn.
 EnvironmentBackground picture() {
   EnvironmentBackground image{4, 2, {}};
   for (int i = 0; i < 8; ++i) image.pixels.push_back(gray(static_cast<float>(1 << i)));
   return image;
 }
 
-/// Turned to the right of -z, and upward, in degrees.
+/// The direction at these angles to the right of -z and upward, in degrees.
 Vec3d direction(double right, double up) {
   constexpr double degree = 3.14159265358979323846 / 180;
   return {std::cos(up * degree) * std::sin(right * degree), std::sin(up * degree),
@@ -26,7 +26,8 @@ float seen(double right, double up) {
   return environment_radiance(picture(), direction(right, up)).r;
 }
 
-/// Within half a row of them it is the row's colour, another one in each direction.
+/// Within half a row of a pole, a direction sees the colour of the first or last row, which depends
+/// on the direction.
 TEST(Environment, AtThePolesItIsItsOutermostRow) {
   const float top[] = {1, 2, 4, 8}, bottom[] = {16, 32, 64, 128};
   for (int i = 0; i < 4; ++i) {
@@ -38,7 +39,7 @@ TEST(Environment, AtThePolesItIsItsOutermostRow) {
   }
 }
 
-/// Its right edge is its left one; between the rows it is their mean.
+/// The right edge continues at the left one. Halfway between the rows the colour is their mean.
 TEST(Environment, HasNoEdgeBehind) {
   EXPECT_NEAR(seen(180, 60), (8 + 1) / 2.0, 1e-4);
   EXPECT_NEAR(seen(-180, 60), (8 + 1) / 2.0, 1e-4);

@@ -16,8 +16,8 @@ struct Size {
 };
 constexpr Size sizes[] = {{64, 64}, {96, 32}, {20, 90}};
 
-/// Checks that every sphere's silhouette lies inside of the picture: seen from the eye, its angle
-/// from the view's axis plus its angular radius stays below the film's half angle on each axis.
+/// Checks that every sphere's silhouette lies within the picture: along each axis, the sphere's
+/// angle from the view direction plus its angular radius is below the film's half angle.
 void expect_framed(const Scene& scene, Size size) {
   const Camera camera = default_camera(scene, size.width, size.height);
   ASSERT_FALSE(find_problem(camera));
@@ -62,7 +62,7 @@ TEST(DefaultView, IsValidWithoutSpheresAndWithTinyOnesFarOff) {
     const Ray ray =
         reference::primary_ray(camera_basis(default_camera(plane, 40, 30), 40, 30), 20, 15);
     EXPECT_EQ(reference::closest_hit(ray, {}, plane.planes).id, 0);
-    EXPECT_LT(dot(vec_cast<double>(ray.dir), vec_cast<double>(normal)), 0);  // sees its outside
+    EXPECT_LT(dot(vec_cast<double>(ray.dir), vec_cast<double>(normal)), 0);  // from its outside
   }
 }
 
@@ -89,11 +89,11 @@ TEST(Prepare, MakesALightAtTheEyeOnlyWhereNothingShines) {
   EXPECT_TRUE(lit().empty());
   scene.background = ConstantBackground{gray(1)};
   EXPECT_EQ(lit().size(), 1u);
-  scene.background = GradientBackground{{}, {}, {0, 1, 0}};  // black: it gives no light
+  scene.background = GradientBackground{{}, {}, {0, 1, 0}};  // black, which gives no light
   EXPECT_EQ(lit().size(), 1u);
   scene.background = ConstantBackground{};
   add_material(scene, Emissive{});
-  EXPECT_EQ(lit().size(), 1u);  // nothing is made of it
+  EXPECT_EQ(lit().size(), 1u);  // no object is made of the material
   scene.spheres = {{{0, 0, 0}, 1, 0}};
   EXPECT_TRUE(lit().empty());
   scene.materials[0].material = Emissive{gray(0)};
@@ -127,7 +127,8 @@ TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
   EXPECT_EQ(lights(), 1u);
 }
 
-/// It shines into mirrors only: without a light what is matte would be black.
+/// By method whitted an environment is seen in mirrors only; without a light matte objects would be
+/// black.
 TEST(Prepare, ByWhittedAnEnvironmentIsNoLight) {
   Scene scene = empty_scene(10, 10);
   scene.background = EnvironmentBackground{2, 1, {gray(1), gray(1)}};
@@ -144,7 +145,7 @@ TEST(FlatMaterial, GlassBrighterThanWhiteIsTheSameByBothMethods) {
     EXPECT_EQ(whitted.mirror, path.mirror);
     EXPECT_EQ(whitted.transmission, path.transmission);
     EXPECT_EQ(whitted.transmission, color * (1 / std::max(color.r, 1.0f)));
-    EXPECT_TRUE(is_black(whitted.constant));  // ambient light is nothing to glass
+    EXPECT_TRUE(is_black(whitted.constant));  // glass ignores ambient light
   }
   EXPECT_TRUE(is_black(flatten(Metal{{2, 2, 2}}, gray(1)).constant));
   EXPECT_EQ(flatten(Phong{{1, 1, 1}, 0, 1, 0.5f, 0, 0, 1}, gray(1)).highlight, 0);  // shininess 0
@@ -159,7 +160,7 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
   scene.spheres = {{{4, 5, 6}, 2, lamp}, {{7, 8, 9}, 5, dark}, {{7, 8, 9}, 1, lamp}};
   const AreaLights lights(scene);  // powers 4, 12 and 3
   EXPECT_EQ(lights.sphere_light_count(), 1u);
-  // Half by power, in 19ths, half evenly, in 3rds.
+  // By power in 19ths for one half, evenly in 3rds for the other.
   for (const auto& [at, share, x, rest] : {std::tuple{0.0, 31.0, 1.0, 0.0},
                                            {15.5, 31.0, 1.0, 0.5},
                                            {36.5, 55.0, 4.0, 5.5 / 55},
@@ -178,7 +179,7 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
 TEST(Prepare, SaysThatItMadeACamera) {
   Scene scene;
   scene.lights = {DirectionalLight{}};
-  EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());  // there is nothing to be framed
+  EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());  // there is nothing to frame
   scene.materials = {{"white", Matte{}}};
   scene.spheres = {{{0, 0, 0}, 1, 0}};
   const auto prepared = prepare(scene, 10, 10);

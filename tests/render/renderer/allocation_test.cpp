@@ -21,7 +21,7 @@
 namespace {
 
 std::atomic<long> allocations{0};
-std::atomic<long> last_allocation{-1};  ///< none after it; -1: there is memory enough
+std::atomic<long> last_allocation{-1};  ///< allocations after this one fail; -1: none fails
 
 void* counted(std::size_t size, std::size_t alignment) {
   const long number = ++allocations;
@@ -89,7 +89,7 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyStateOfPathTracing) {
   EXPECT_EQ(allocations, first);
 }
 
-/// Two parallel mirrors: one ray for ever.
+/// Two parallel mirrors, between which a ray goes on for ever.
 TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
   Scene scene = empty_scene(1, 1);
   const auto mirror = add_material(scene, Metal{gray(1)});
@@ -110,7 +110,7 @@ TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
   EXPECT_EQ(allocated_at_depth(10000), allocated_at_depth(100));
 }
 
-/// Allocations of the first and of the second render() of one renderer.
+/// The number of allocations of the first and the second render() of one renderer.
 struct RenderAllocations {
   long first, second;
 };
@@ -138,11 +138,11 @@ RenderOptions small_blocks(int width, int height, int spp, unsigned threads) {
   return options;
 }
 
-/// What one worker takes for good: its buffers, each of them again at most once per power of two of
-/// the rays in a stream, however many blocks it renders.
+/// An upper bound for the allocations of one worker: each of its buffers grows at most once per
+/// power of two of the rays in a stream, however many blocks it renders.
 constexpr long most_per_worker = 400;
 
-/// A second picture takes its own memory, and what starting threads takes.
+/// A second picture allocates the picture itself and what starting threads takes.
 TEST(Allocation, DoesNotGrowWithTheBlocksOfAPicture) {
   for (const Scene& scene : {mixed_scene(32, 32), glass_cloud(32, 32)}) {
     for (const int side : {32, 128, 512}) {  // 16, 256, 4096 blocks
@@ -155,7 +155,8 @@ TEST(Allocation, DoesNotGrowWithTheBlocksOfAPicture) {
   }
 }
 
-/// Which worker meets the fullest block is chance, so each may take its memory in either picture.
+/// It is chance which worker gets the block with the most rays, so each may allocate in either
+/// picture.
 TEST(Allocation, GrowsWithThreadsAtMost) {
   for (const unsigned threads : {2U, 4U}) {
     for (const int side : {128, 512}) {
@@ -166,8 +167,8 @@ TEST(Allocation, GrowsWithThreadsAtMost) {
   }
 }
 
-/// 64 blocks, each with 16 pixels more than the one before where two rays go on from a hit: streams
-/// grow by packets, past the camera's.
+/// 64 blocks. In each of them two rays go on from 16 pixels more than in the block before, so
+/// streams grow by packets until they are larger than those of the camera's rays.
 TEST(Allocation, DoesNotGrowAsBlocksFillUp) {
   constexpr int tile = 32, blocks = 64, width = tile * blocks;
   Scene scene = empty_scene(width, tile);
@@ -188,15 +189,15 @@ TEST(Allocation, DoesNotGrowAsBlocksFillUp) {
   EXPECT_EQ(second, 1);
 }
 
-/// While it lives, there is memory for so many allocations more.
+/// While it lives, only so many more allocations succeed.
 class ShortMemory {
  public:
   explicit ShortMemory(long allowed) { last_allocation = allocations + allowed; }
   ~ShortMemory() { last_allocation = -1; }
 };
 
-/// Makes what it likes with ever more memory, until it is done: the ways it ended before. One that
-/// ends otherwise than by `true` or bad_alloc ends the test.
+/// Calls `make` with ever more memory until it returns true, and counts the calls before. Each of
+/// them returns false or throws std::bad_alloc; any other end would end the test program.
 template <class Make>
 int failures_of(const Make& make) {
   int failures = 0;
@@ -205,7 +206,7 @@ int failures_of(const Make& make) {
     try {
       const ShortMemory memory(allowed);
       done = make();
-    } catch (const std::bad_alloc&) {  // not even for a Diagnostic
+    } catch (const std::bad_alloc&) {  // no memory even for a Diagnostic
     }
     if (done) return failures;
     ++failures;

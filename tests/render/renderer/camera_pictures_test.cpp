@@ -1,4 +1,5 @@
-// Pictures of every camera: the same bits whatever way the work is done, and what they show.
+// Pictures of every camera: their bits do not depend on how the work is done, and they show what
+// they should.
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
 #include "tests/render/test_scenes.h"
@@ -67,11 +68,11 @@ TEST_P(Cameras, PathsAreTheSameHoweverTheWorkIsCut) {
   traced.render.method = Method::path;
   const Image expected = render(traced);
   RenderOptions options = options_of(traced);
-  options.tile = 1;  // streams of a pixel, some without a ray
+  options.tile = 1;  // streams of one pixel, some of them without a ray
   EXPECT_EQ(differing_pixels(render(traced, options), expected), 0);
 }
 
-/// A glass with two equal faces, some five units from focus to film.
+/// A lens with two equal faces; from the focus to the film are about five units.
 LensCamera magnifier() {
   LensCamera camera{pose, {{20, 4, 1.5f, 12}, {-20, 0, 1, 12}}, 24, 0.1f};
   camera.focus = 4.5f;
@@ -139,7 +140,7 @@ TEST(ThinLens, ViewsAreThoseOfThePinhole) {
 }
 
 TEST(ThinLens, BlursWhatIsOutOfFocusOnly) {
-  // A lamp so small that a pinhole's picture of it is one pixel of 63.
+  // A lamp so small that a pinhole shows it in one of 63 pixels.
   Scene scene = empty_scene(63, 63);
   scene.image.spp = 512;
   const auto lamp = add_material(scene, Emissive{gray(1)});
@@ -154,14 +155,14 @@ TEST(ThinLens, BlursWhatIsOutOfFocusOnly) {
   };
   EXPECT_EQ(lit_pixels(5), 1);
   // Out of focus: a disc of radius 0.5 (1/2.5 - 1/5) = 0.1, on a film 2 tan 30 = 1.15 wide: 5.5 of
-  // 63 pixels, 94 of them in all. The lamp's light, a third of a pixel's, spreads over them: 1.8 of
-  // the 512 samples of each meet it, and chance leaves one in six unlit.
+  // 63 pixels, or 94 pixels in all. The lamp covers a third of a pixel, which spreads over them: in
+  // each pixel 1.8 of the 512 samples meet it on average, and in one of six none does.
   EXPECT_GT(lit_pixels(2.5f), 60);
   EXPECT_LT(lit_pixels(2.5f), 125);
 }
 
 TEST(Lens, IsTheRightWayUp) {
-  // A lamp to the upper left of what is looked at.
+  // A lamp to the upper left of the point that is looked at.
   Scene scene = empty_scene(32, 32);
   LensCamera camera = magnifier();
   camera.pose = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
@@ -186,7 +187,7 @@ TEST(Lens, StoppedRaysCostNothing) {
   ASSERT_TRUE(renderer);
   ASSERT_TRUE(renderer.value().render());
   const std::uint64_t rays = renderer.value().statistics().rays.primary;
-  EXPECT_LT(rays, 32U * 32 * 16 * 95 / 100);  // a disc in a square is 79 percent
+  EXPECT_LT(rays, 32U * 32 * 16 * 95 / 100);  // a disc covers 79 percent of a square
   EXPECT_GT(rays, 32U * 32 * 16 / 4);
 }
 
@@ -202,7 +203,7 @@ TEST(Distortion, MirrorsThePictureIfTheMapDoes) {
       same += std::fabs(a.r - b.r) < 1e-3f && std::fabs(a.g - b.g) < 1e-3f ? 1 : 0;
     }
   }
-  EXPECT_GT(same, 940);  // of 960: rays that touch a rim may go the other way
+  EXPECT_GT(same, 940);  // of 960: rays that touch a rim may differ
 }
 
 }  // namespace

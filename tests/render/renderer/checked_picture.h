@@ -20,7 +20,7 @@
 
 namespace boule::test {
 
-/// A picture of one sample a pixel, its AOVs, and the rays they stand for, all by pixel.
+/// A picture with one sample per pixel, its AOVs and its camera rays, all by pixel.
 struct CheckedPicture {
   Image image;
   std::vector<Ray> rays;
@@ -31,8 +31,8 @@ struct CheckedPicture {
 
 inline std::uint32_t view_id(const LongHit& hit) { return static_cast<std::uint32_t>(hit.id); }
 
-/// Matte and white, lit by one white light without falloff, before black: a pixel is either lit or
-/// black.
+/// Matte and white objects before black, lit by one white light without falloff: a pixel is either
+/// lit or black.
 inline Scene matte_scene(int width, int height) {
   Scene scene = empty_scene(width, height);
   add_material(scene, Matte{{1, 1, 1}});
@@ -47,7 +47,7 @@ inline Vec3f light_of(const Scene& scene) {
   return std::get<PointLight>(scene.lights.front()).position;
 }
 
-/// The rays that the kernels make of the pixels' centres.
+/// The rays through the pixels' centres, as the kernels make them.
 inline std::vector<Ray> pixel_rays(const PreparedScene& scene, const KernelTable& kernels,
                                    const ImageSettings& size) {
   SampleBuffer samples;
@@ -64,9 +64,9 @@ inline std::vector<Ray> pixel_rays(const PreparedScene& scene, const KernelTable
   return all;
 }
 
-/// The interface's formulas for a pinhole that spans the width, in long double.
+/// The scene format's formulas for a pinhole whose field of view spans the width, in long double.
 struct LongPinhole {
-  Vec3l forward, right, up;  ///< unit length; half the film's width; half its height
+  Vec3l forward, right, up;  ///< of lengths 1, half the film's width and half its height
   long double width, height;
 
   LongPinhole(const PinholeCamera& camera, const ImageSettings& size)
@@ -82,13 +82,14 @@ struct LongPinhole {
     up = up * (half * height / width);
   }
 
-  /// Of a place on the picture, (0, 0) its upper left corner; unit length.
+  /// The direction, of unit length, through a point of the picture; (0, 0) is its upper left
+  /// corner.
   [[nodiscard]] Vec3l direction(long double x, long double y) const {
     return unit(forward + right * ((2 * x - width) / width) + up * ((height - 2 * y) / height));
   }
 };
 
-/// Rays of a pinhole whose direction is not the exact one rounded to float.
+/// The number of a pinhole's rays whose direction is not the exact one, rounded to float.
 inline int strayed_rays(const Scene& scene, const std::vector<Ray>& rays) {
   const LongPinhole camera(std::get<PinholeCamera>(*scene.camera), scene.image);
   const auto differs = [](float rounded, long double exact) {
@@ -118,8 +119,8 @@ std::vector<T> samples_of(const std::vector<ImageChannel>& channels, const std::
   return {};
 }
 
-/// Renders a scene with one ISA's kernels: picture and AOVs. Fails if a ray is not where the
-/// interface has it.
+/// Renders a scene with one ISA's kernels, picture and AOVs. Fails if a ray is not that of the
+/// scene format's formulas.
 inline CheckedPicture render_checked(const Scene& scene, const std::string& isa) {
   RenderOptions options = options_of(scene);
   options.isa = isa;
@@ -141,10 +142,10 @@ inline CheckedPicture render_checked(const Scene& scene, const std::string& isa)
   return out;
 }
 
-/// What the oracle says to a picture.
+/// What the oracle says of a picture.
 struct Verdict {
   int pixels = 0, hits = 0, wrong_ids = 0;
-  int lit = 0, dark = 0, unsure = 0;  ///< of the hits, by the oracle
+  int lit = 0, dark = 0, unsure = 0;  ///< hits, by the oracle's answer
   int false_shadows = 0, leaks = 0;
 };
 inline std::ostream& operator<<(std::ostream& out, const Verdict& v) {
@@ -159,7 +160,7 @@ inline void count_light(Verdict& verdict, Lit expected, bool rendered) {
   if (expected == Lit::no) ++(rendered ? verdict.leaks : verdict.dark);
 }
 
-/// Compares a picture with the oracle. `expected_lit(hit)`: whether light arrives.
+/// Compares a picture with the oracle. expected_lit(hit) tells whether light arrives there.
 template <class ExpectedLit>
 Verdict judge(const Scene& scene, const CheckedPicture& picture, const ExpectedLit& expected_lit) {
   const LongDoubleTracer tracer(scene);
@@ -181,7 +182,8 @@ inline Verdict judge(const Scene& scene, const CheckedPicture& picture) {
                [&](const LongHit& hit) { return tracer.lit(hit, light_of(scene)); });
 }
 
-/// No pixel is wrong, and few of those in which something is to be seen are undecided.
+/// Expects that no pixel is wrong, and that the oracle decides almost all pixels that show
+/// something.
 inline void expect_right(const Verdict& verdict) {
   EXPECT_EQ(verdict.wrong_ids, 0) << verdict;
   EXPECT_EQ(verdict.false_shadows, 0) << verdict;

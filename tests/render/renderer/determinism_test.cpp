@@ -1,4 +1,4 @@
-// The same bits, however many threads there are and whoever of them comes first.
+// The bits of pictures and hits do not depend on the number of threads or on which comes first.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -22,7 +22,7 @@ std::uint64_t hash_of(const Image& image) {
   return hash.value();
 }
 
-/// Enough small spheres that threads divide the building of the tree.
+/// So many small spheres that several threads build the tree.
 Scene crowded(Scene scene) {
   for (Sphere& sphere : sphere_cloud(6000)) {
     scene.spheres.push_back({sphere.center, sphere.radius * 0.2f, 0});
@@ -30,13 +30,13 @@ Scene crowded(Scene scene) {
   return scene;
 }
 
-/// The hash of all pictures: one, or there are differences.
+/// The hashes of all pictures: a single one unless they differ.
 std::set<std::uint64_t> hashes_of_pictures(const Scene& scene) {
   std::set<std::uint64_t> hashes;
   for (const unsigned threads : thread_counts) {
     RenderOptions options = options_of(scene);
     options.threads = threads;
-    options.tile = 4;  // blocks for all of them
+    options.tile = 4;  // so that there are blocks for all of them
     for (int run = 0; run < runs; ++run) hashes.insert(hash_of(render(scene, options)));
   }
   return hashes;

@@ -1,5 +1,5 @@
-// Values that are extreme but legal: every pixel and every AOV is a number, the same on every
-// instruction set, and a scene that should be seen is seen.
+// Scenes of extreme but legal values: every pixel and every AOV is a number, and the same on every
+// instruction set, and the scenes that should be visible are visible.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -206,7 +206,7 @@ TEST_P(ExtremeScenes, HaveNumbersInEveryPixel) {
   }
 }
 
-/// A picture of one sample a pixel, and what was wrong with its samples.
+/// A picture with one sample per pixel, and what was wrong with its samples.
 struct Judged {
   Image image;
   SampleFaults faults;
@@ -250,7 +250,7 @@ TEST_P(ExtremeScenes, HaveViewsThatAreNumbers) {
     if (channel.name == "id") continue;
     const auto& samples = std::get<std::vector<float>>(channel.samples);
     for (const float x : samples) {
-      const bool distance = channel.name == "Z";  // of a miss: infinite
+      const bool distance = channel.name == "Z";  // which is infinite for a miss
       ASSERT_TRUE(distance ? x >= 0 : std::isfinite(x)) << channel.name << " " << x;
     }
   }

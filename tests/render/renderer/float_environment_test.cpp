@@ -1,4 +1,5 @@
-// What the caller's thread has been set to changes nothing that the library makes, and stays.
+// The settings of the caller's floating-point unit change nothing that the library makes, and the
+// library leaves them as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace {
 
 class CallersFloatEnvironment : public testing::TestWithParam<Oddity> {
  protected:
-  /// Does it under the oddity, which must still be there afterwards.
+  /// Calls `make` under the oddity, which must still be there afterwards.
   template <class Make>
   static auto oddly(const Make& make) {
     bool stayed = false;
@@ -56,7 +57,7 @@ class CallersFloatEnvironment : public testing::TestWithParam<Oddity> {
   TempDir folder_;
 };
 
-/// Rotated instances, a lens, several samples: numbers that need rounding at every step.
+/// A scene whose numbers are rounded at every step: rotated instances, a lens, several samples.
 Scene rounding_scene(Scene scene) {
   scene.image.spp = 3;
   scene.image.filter = PixelFilter::tent;
@@ -84,7 +85,7 @@ RenderOptions options_for(const Scene& scene, unsigned threads) {
   return options;
 }
 
-/// All ways to a picture.
+/// The pictures that all ways of rendering make.
 struct Pictures {
   Image whole, passes, live, halfway;
   std::vector<ImageChannel> aovs;
@@ -129,7 +130,7 @@ TEST_P(CallersFloatEnvironment, ChangesNoPicture) {
   }
 }
 
-/// A lens of real elements and an image of the surroundings are prepared in their own ways.
+/// A lens of real elements and an environment image, each of which is prepared by code of its own.
 TEST_P(CallersFloatEnvironment, ChangesNoPreparation) {
   Scene scene = scene_of(Method::path);
   scene.camera = LensCamera{{{0.5f, 1.6f, 6}, {0, 0.8f, 0}, {0, 1, 0}},
@@ -187,7 +188,8 @@ TEST_P(CallersFloatEnvironment, ChangesNoFile) {
   options.threads = 2;
   for (const std::string extension : {"exr", "png", "jpg", "hdr"}) {
     const std::string odd = "odd." + extension, plain = "plain." + extension;
-    const std::string odd_path = path(odd), plain_path = path(plain);  // joining them is inexact
+    // Outside of the odd environment: joining paths raises the inexact flag.
+    const std::string odd_path = path(odd), plain_path = path(plain);
     EXPECT_FALSE(oddly([&] { return write_image(image, odd_path, options); }));
     ASSERT_FALSE(write_image(image, plain_path, options));
     EXPECT_EQ(read(odd), read(plain)) << extension;
@@ -197,7 +199,7 @@ TEST_P(CallersFloatEnvironment, ChangesNoFile) {
   }
 }
 
-/// The first picture of all makes the table that later ones use.
+/// The first picture in the process makes the table that later ones use.
 TEST_P(CallersFloatEnvironment, ChangesNoToneCurve) {
   Image ramp(256, 1);
   for (int i = 0; i < 256; ++i) {
@@ -214,7 +216,7 @@ TEST_P(CallersFloatEnvironment, ChangesNoToneCurve) {
   }
 }
 
-/// Everything so small that it is denormal.
+/// Numbers so small that everything computed from them is denormal.
 Scene tiny(Scene scene) {
   for (Sphere& s : scene.spheres) s = {s.center * 0x1p-133f, s.radius * 0x1p-133f, 0};
   for (Plane& p : scene.planes) p.point = p.point * 0x1p-133f;

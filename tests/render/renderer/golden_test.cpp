@@ -1,6 +1,6 @@
-// Golden pictures: every feature in a few small pictures whose bits are known. They are the same on
-// every machine, so one number each is enough; `boule render` of the scene shows what it stands
-// for.
+// Golden pictures: a few small pictures with every feature, whose bits are known. They are the same
+// on every machine, so one hash per picture is enough. `boule render` of the scene shows the
+// picture.
 #include "tests/render/picture_comparison.h"
 #include "tests/render/test_scenes.h"
 #include "tests/support/bit_hash.h"

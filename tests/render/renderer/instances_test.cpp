@@ -1,4 +1,4 @@
-// Groups and their instances against the same scene written out by hand.
+// Groups and their instances, compared with the same scene written out by hand.
 #include "core/scene/instances.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ bool same(const std::vector<Primitive>& a, const std::vector<Primitive>& b) {
          std::equal(a.begin(), a.end(), b.begin(), [](auto& p, auto& q) { return same(p, q); });
 }
 
-/// The mixed scene with half of its objects in groups: "inner" inside "outer", shown twice.
+/// The mixed scene with half of its objects in two groups, "inner" within "outer", which is shown
+/// twice.
 Scene grouped_scene() {
   Scene scene = mixed_scene(60, 40);
   Group inner{"inner", {scene.spheres[4], scene.spheres[5]}, {}, {}};
@@ -75,7 +76,7 @@ TEST(Instances, PictureHashAndTracesAreThoseOfTheSceneWrittenOut) {
   EXPECT_EQ(count_primitives(grouped).planes, flat.planes.size());
   EXPECT_EQ(scene_hash(grouped), scene_hash(flat));
   EXPECT_EQ(differing_pixels(render(grouped), render(flat)), 0);
-  Scene framed = grouped;  // no camera: framed on what instances show
+  Scene framed = grouped;  // without a camera: framed on what the instances show
   framed.camera.reset();
   flat.camera.reset();
   EXPECT_EQ(differing_pixels(render(framed), render(flat)), 0);
@@ -123,7 +124,8 @@ struct LongPoint {
   long double x, y, z;
 };
 
-/// Scaled, turned about x, y, z, moved: step by step, with the library's functions.
+/// A point scaled, turned about x, y and z, and moved, one step after the other, with the functions
+/// of the C++ library.
 LongPoint twin(const Instance& instance, LongPoint p) {
   const long double s = static_cast<long double>(instance.scale);
   const long double radians = 3.14159265358979323846264338327950288L / 180;
@@ -138,7 +140,7 @@ LongPoint twin(const Instance& instance, LongPoint p) {
   return {p.x + move.x, p.y + move.y, p.z + move.z};
 }
 
-/// Half an ulp of float, and what double's rounding may add to numbers of size `scale`.
+/// Half an ulp of float, plus what the rounding of doubles of size `scale` may add.
 void expect_rounded_once(float found, long double expected, double scale) {
   const auto magnitude = static_cast<double>(std::fabs(expected));
   EXPECT_NEAR(static_cast<double>(found), static_cast<double>(expected),
@@ -154,7 +156,7 @@ TEST(Instances, NestedTransformsAreRoundedOnce) {
     Scene scene;
     add_material(scene, Matte{});
     constexpr std::uint32_t depth = 5;
-    std::vector<Instance> way;  // outer ones first
+    std::vector<Instance> way;  // the outer ones come first
     double scale = 1;
     for (std::uint32_t level = 0; level < depth; ++level) {
       Instance instance{level, {}, {}, draw(0.2, 3), {}};
@@ -246,7 +248,7 @@ TEST(Instances, BadOnesAreNamed) {
   }
 }
 
-/// Groups that multiply: each shows the next ten times.
+/// Groups of which each shows the next one ten times.
 Scene tower(int levels, bool with_sphere) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
@@ -279,7 +281,7 @@ TEST(Instances, TooManyAreRefusedBeforeMemoryIsTaken) {
     EXPECT_EQ(bad->key, "instance[0].group");
     EXPECT_NE(bad->message.find("more than 2147483647"), std::string::npos);
   }
-  // Nothing at all, however often it is shown, takes no time either.
+  // Empty groups take no time either, however often they are shown.
   Scene empty = tower(250, false);
   EXPECT_FALSE(validate(empty));
   expand_instances(empty);

@@ -1,4 +1,5 @@
-// Pictures in the making: every step a whole picture, the last one the picture.
+// Pictures that are shown as they grow: each step shows a whole picture, and the last one the
+// finished picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +70,7 @@ TEST(LivePasses, FramelessTakesEvenlySpreadSixteenths) {
   }
 }
 
-/// What partial_picture() promises, looked for pixel by pixel.
+/// What partial_picture() promises, found by searching all pixels for each pixel.
 Color expected_pixel(const Film& film, const Image& done, PixelOrder order, int x, int y) {
   const PixelRect& rect = film.rect();
   const auto known = [&](int px, int py) { return film.samples(rect.x0 + px, rect.y0 + py) > 0; };
@@ -133,7 +134,7 @@ class Live : public testing::Test {
     }
   }
 
-  /// Pixels with samples that are not those of the same pixel rendered otherwise.
+  /// The number of pixels with samples whose colour is not that of the pixel with as many samples.
   int wrong_pixels(const Film& film) const {
     const Image image = film.to_image();
     int wrong = 0;
@@ -205,7 +206,7 @@ TEST_F(Live, StoppedAnywhereItKeepsWhatIsDoneAndGoesOn) {
       std::atomic<bool> cancel{false};
       RenderOptions options = options_of(scene_);
       options.order = order;
-      options.threads = 1;  // it alone tells how far it is
+      options.threads = 1;  // only the rendering thread reports progress
       options.tile = 8;
       options.cancel = &cancel;
       bool impatient = true;

@@ -7,7 +7,8 @@
 namespace boule::test {
 namespace {
 
-/// Odd sizes, several samples, every feature: what all the pictures below must equal.
+/// A picture of odd size with several samples and every feature, which all pictures below must
+/// equal.
 const Scene& scene() {
   static const Scene s = [] {
     Scene mixed = mixed_scene(53, 37);
@@ -98,8 +99,8 @@ TEST(Picture, RightIsRight) {
 }
 
 TEST(Picture, PixelCentresAreTheSlides) {
-  // 4 x 4 pixels over -1..1: centres at -.75, -.25, .25, .75. Film at distance 1, seen as the tiny
-  // lamps that stand exactly there.
+  // 4 x 4 pixels over -1..1, with centres at -.75, -.25, .25, .75 on a film at distance 1. Tiny
+  // lamps are exactly there.
   Scene slide = empty_scene(4, 4);
   slide.camera = pinhole({0, 0, 0}, {0, 0, -1}, 90);
   const auto lamp = add_material(slide, Emissive{gray(1)});

@@ -1,5 +1,5 @@
-// A picture is the same whichever way its rays are traced: with a scan of all spheres or a tree, in
-// bundles, in packets or one by one.
+// A picture does not depend on how its rays are traced: with a scan of all spheres or with a tree,
+// in bundles, in packets or one by one.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int side = 64;
 
-/// mixed_scene() amid a thousand small spheres.
+/// mixed_scene() among a thousand small spheres.
 Scene crowded_scene() {
   Scene scene = mixed_scene(side, side);
   CaseRandom random(77);
@@ -37,8 +37,8 @@ Scene crowded_scene() {
   return scene;
 }
 
-// Kernels of one ISA that trace all rays in one form. KernelTable has plain functions, so what they
-// forward to is global.
+// Kernels of one ISA that trace all rays in one form. A KernelTable has plain functions, so the
+// kernels to which they forward are in a global variable.
 const KernelTable* forwarded = nullptr;
 std::uint64_t calls = 0;
 
@@ -62,7 +62,7 @@ KernelTable kernels_in() {
   return kernels;
 }
 
-/// The pixels' bits.
+/// The bits of the pixels.
 std::vector<std::uint32_t> picture(const Scene& scene, Structure structure,
                                    const KernelTable& kernels) {
   PreparedScene prepared = prepare(scene, side, side).value();

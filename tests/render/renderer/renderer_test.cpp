@@ -65,7 +65,7 @@ TEST(Renderer, RefusesAPictureLargerThanTheMemory) {
   ASSERT_FALSE(renderer);
   EXPECT_EQ(renderer.error().key, "image.size");
   RenderOptions part = options_of(scene);
-  part.crop = PixelRect{65530, 65530, 65535, 65535};  // what counts is what is rendered
+  part.crop = PixelRect{65530, 65530, 65535, 65535};  // only rendered pixels take memory
   EXPECT_TRUE(Renderer::create(scene, part));
 }
 
@@ -153,7 +153,7 @@ TEST(Renderer, SoIsOneThatComesAtTheEnd) {
   bool done = false;
   options.progress = [&done](const Progress& progress) {
     if (done && progress.share == 1) throw std::runtime_error("enough");
-    done = progress.share == 1;  // of the last block; what follows is outside of all work
+    done = progress.share == 1;  // after the last block
   };
   auto renderer = Renderer::create(scene, options);
   const auto image = renderer.value().render();
@@ -180,8 +180,8 @@ TEST(Renderer, ReportsProgressUpToTheEnd) {
   EXPECT_EQ(rays, renderer.value().statistics().rays.total());
 }
 
-/// What another thread can see at any time; here the one that renders looks, as nothing else is
-/// certain to come at a certain time.
+/// LiveProgress, which any thread may read. Here the rendering thread reads it, because no other
+/// thread is certain to run at a certain time.
 TEST(Renderer, KeepsLiveProgressUpToDate) {
   const Scene scene = mixed_scene(64, 48);
   for (const PixelOrder order : {PixelOrder::tiles, PixelOrder::progressive}) {

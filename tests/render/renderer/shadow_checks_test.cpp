@@ -1,4 +1,4 @@
-// What is lit and what is in shadow, pixel by pixel, as a tracer in long double has it.
+// Which pixels are lit and which are in shadow, compared with a tracer in long double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Scene ground_scene(double radius) {
   return scene;
 }
 
-// NUMERICS 4: t > 1e-6 and its like cost 5 to 35 % false shadow here.
+// An offset such as t > 1e-6 makes 5 to 35 % false shadow here (docs/numerics.md).
 TEST_P(ShadowChecks, BallsOnAGroundSphere) {
   for (const double radius : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     for (const Vec3f& light : {Vec3f{4, 6, 3}, {-7, 1.5f, 5}, {2, 2.5f, -9}}) {
@@ -46,7 +46,7 @@ TEST_P(ShadowChecks, BallsOnAGroundSphere) {
   }
 }
 
-/// A ball on a plane, touching at the origin, seen along the ground: the lower the eye, the nearer
+/// A ball that touches a plane at the origin, seen along the ground. The lower the eye, the closer
 /// to the contact it sees.
 Scene resting_scene(float eye_height, float fov) {
   Scene scene = matte_scene(128, 128);
@@ -72,12 +72,12 @@ TEST_P(ShadowChecks, AroundTheContactOfABallWithAPlane) {
       light_from(scene, light);
       const Verdict verdict = judge(scene, render_checked(scene, GetParam()));
       expect_right(verdict);
-      EXPECT_EQ(verdict.lit == 0, light.y < 0) << verdict;  // from below nothing is
+      EXPECT_EQ(verdict.lit == 0, light.y < 0) << verdict;  // from below nothing is lit
     }
   }
 }
 
-// What a hit leaves is known by its id; a twin in the same place is not.
+// A ray leaves its surface by id, so it does meet a copy of the surface at the same position.
 TEST_P(ShadowChecks, TwinsInTheSamePlace) {
   for (const CloseUp& view : close_ups) {
     Scene scene = resting_scene(view.eye_height, view.fov);
@@ -91,7 +91,7 @@ TEST_P(ShadowChecks, TwinsInTheSamePlace) {
   }
 }
 
-/// Coordinates of 1/16: they stay exact when moved by 1e6.
+/// Coordinates that are multiples of 1/16 stay exact when they are moved by 1e6.
 Scene scene_of_sixteenths() {
   Scene scene = matte_scene(192, 144);
   scene.camera = pinhole({0.25f, 3, 9}, {0, 0.5f, 0}, 55);
@@ -115,8 +115,8 @@ TEST_P(ShadowChecks, FarFromTheWorldsOrigin) {
   }
 }
 
-/// Where the light lies on a surface, a shadow ray with the slope s to it is 4 u s off the surface
-/// when it ends, and by rounding its direction up to u: below s = 1/4 the oracle is unsure.
+/// Where the light lies on a surface, a shadow ray of slope s ends 4 u s above the surface, and the
+/// rounding of its direction moves that by up to u. So the oracle is unsure below s = 1/4.
 void expect_right_beside_the_light(const Scene& scene, const std::string& isa) {
   const Vec3f light = light_of(scene);
   SCOPED_TRACE(testing::Message() << "light " << light.x << " " << light.y << " " << light.z);
@@ -144,7 +144,7 @@ TEST_P(ShadowChecks, ALightOnAPlane) {
     expect_right_beside_the_light(floor_scene({3, 4, 0}, light), GetParam());
 }
 
-/// Places whose distance from the origin is a float too.
+/// Points whose distance from the origin is a float as well.
 constexpr Vec3f whole_lengths[] = {{1, 2, 2}, {2, 3, 6}, {4, 4, 7}, {6, 6, 7}, {9, 8, 12}};
 
 float radius_of(const Vec3f& place) { return static_cast<float>(length(vec_cast<double>(place))); }
@@ -173,7 +173,7 @@ TEST_P(ShadowChecks, ALightOnASphereSeenFromInside) {
   }
 }
 
-// From inside, a sphere's own shell keeps out all light from beyond it.
+// Inside of a sphere, its own shell keeps out all light from outside.
 TEST_P(ShadowChecks, NoLightEntersAClosedSphere) {
   for (const float r : {1.0f, 1e2f, 1e4f, 1e6f}) {
     for (const float beyond : {1.00001f, 1.1f, 10.0f}) {

@@ -47,7 +47,7 @@ std::vector<std::uint8_t> any(Tracer& tracer, const std::vector<Ray>& rays) {
   return met;
 }
 
-/// What the scalar path says, the normal that of shading.
+/// The hit by the scalar reference, with the normal of shading.
 std::vector<TracedHit> reference_hits(const Scene& scene, const std::vector<Ray>& rays) {
   std::vector<TracedHit> hits;
   for (const Ray& ray : rays) {
@@ -122,7 +122,7 @@ TEST_P(TracerIsa, AnyTellsWhatClosestTells) {
   }
 }
 
-/// Rays past a distant sphere's rim, too close for float to tell.
+/// Rays that pass a distant sphere's rim so closely that float cannot decide.
 std::vector<Ray> rays_at_the_rim() {
   CaseRandom random(13);
   std::vector<Ray> rays;
@@ -161,7 +161,7 @@ TEST_P(TracerIsa, TheSolverReachesTheKernels) {
   EXPECT_NE(met[0], met[1]);
 }
 
-/// Rays that would hit, with one number spoilt.
+/// Rays that would hit, each with one number spoilt.
 std::vector<Ray> spoilt_rays() {
   std::vector<Ray> rays;
   const Ray good{{0, 0, 5}, {0.01f, 0.02f, -1}};
@@ -249,13 +249,13 @@ TEST(Tracer, BoundsChooseTheRootAndTheNormalFollows) {
            std::fabs(found.normal.x) + std::fabs(found.normal.y) == 0;
   };
   EXPECT_TRUE(is(hit(5, 0), 4, 1));        // from outside
-  EXPECT_TRUE(is(hit(5, 4), 6, 1));        // the first root is left out: the far side's inside
+  EXPECT_TRUE(is(hit(5, 4), 6, 1));        // the far side, as the first root is not in range
   EXPECT_TRUE(is(hit(0, 0), 1, 1));        // from inside
-  EXPECT_TRUE(is(hit(0, -5), -1, 1));      // behind the origin, met from outside
-  EXPECT_TRUE(is(hit(-5, -9), -6, 1));     // both behind
-  EXPECT_TRUE(is(hit(-5, -5.5f), -4, 1));  // the second of them
+  EXPECT_TRUE(is(hit(0, -5), -1, 1));      // behind the origin, from outside
+  EXPECT_TRUE(is(hit(-5, -9), -6, 1));     // both roots behind the origin
+  EXPECT_TRUE(is(hit(-5, -5.5f), -4, 1));  // the second of these roots
   EXPECT_EQ(hit(-5, 0).id, no_primitive);
-  EXPECT_EQ(hit(5, 6).id, no_primitive);  // tmin itself is outside
+  EXPECT_EQ(hit(5, 6).id, no_primitive);  // t = tmin is not in range
 }
 
 TEST(Tracer, SpheresComeBeforePlanesAndEqualsGoToTheLowerId) {

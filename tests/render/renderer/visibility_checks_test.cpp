@@ -1,4 +1,4 @@
-// What is seen, and how far it is, pixel by pixel, as a tracer in long double has it.
+// What each pixel shows and how far it is, compared with a tracer in long double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ long double error_of(const Vec3f& normal, const Vec3l& exact) {
   return length(vec_cast<long double>(normal) - exact);
 }
 
-/// The unit sphere, so far away, filling the view.
+/// The unit sphere at this distance, which fills the picture.
 Scene distant_sphere(double distance) {
   Scene scene = matte_scene(160, 160);
   scene.spheres = {{{0, 0, 0}, 1, 0}};
@@ -39,10 +39,10 @@ Scene distant_sphere(double distance) {
   return scene;
 }
 
-/// What is wrong with a picture's depths and normals.
+/// The largest errors of a picture's depths and normals.
 struct Errors {
-  long double depth = 0, curvature = 0;  ///< ulp: the largest, and its second difference
-  long double normal = 0;                ///< where the surface is not seen edge-on
+  long double depth = 0, curvature = 0;  ///< in ulp; curvature: the second difference of depth
+  long double normal = 0;                ///< except where the surface is seen edge-on
 };
 
 Errors errors_of(const Scene& scene, const CheckedPicture& picture) {
@@ -68,7 +68,8 @@ Errors errors_of(const Scene& scene, const CheckedPicture& picture) {
 
 class WhatIsSeen : public OnEachIsa {};
 
-// Rings are errors of t that come and go along a scanline. Half an ulp is the rounding to float.
+// Errors of t that rise and fall along a scanline are visible as rings. The rounding to float is
+// half an ulp.
 TEST_P(WhatIsSeen, NoRingsOnADistantSphere) {
   for (const double distance : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     SCOPED_TRACE(distance);
@@ -96,15 +97,15 @@ TEST_P(WhatIsSeen, TheHorizonOfAGroundSphere) {
     const auto sky = std::count(picture.ids.begin(), picture.ids.end(), no_aov_id);
     EXPECT_GT(sky, 256 * 48);
     EXPECT_LT(sky, 256 * 144);
-    int turns = 0;  // from sky to ground or back, down the columns
+    int turns = 0;  // changes from sky to ground or back, down the columns
     for (std::size_t k = 256; k < picture.ids.size(); ++k)
       turns += picture.ids[k] != picture.ids[k - 256] ? 1 : 0;
     EXPECT_EQ(turns, 256);
   }
 }
 
-/// Spheres of about a pixel: every fourth anywhere, the others with their rims 2^-k of their
-/// radius beside a pixel's centre.
+/// Spheres about as large as a pixel. Every fourth is anywhere; the rims of the others are 2^-k
+/// radii from a pixel's centre.
 Scene speck_scene(int count, float fov) {
   Scene scene = matte_scene(128, 96);
   scene.camera = pinhole({0, 0, 0}, {0, 0, -1}, fov);
@@ -127,7 +128,7 @@ Scene speck_scene(int count, float fov) {
   return scene;
 }
 
-// Few spheres are scanned, many are in a tree.
+// Few spheres are scanned, many are put in a tree.
 TEST_P(WhatIsSeen, SilhouettesOfAPixel) {
   for (const int count : {24, 1500}) {
     for (const float fov : {40.0f, 1.0f, 0.02f, 1e-3f}) {
@@ -142,7 +143,7 @@ TEST_P(WhatIsSeen, SilhouettesOfAPixel) {
   }
 }
 
-/// Shells 4e-5 apart from radius 1 on, in no order; by id.
+/// Concentric shells from radius 1 on, 4e-5 apart, in random order of their ids.
 constexpr std::uint32_t outermost = 2, innermost = 3;
 Scene shell_scene() {
   Scene scene = matte_scene(160, 120);
@@ -152,7 +153,7 @@ Scene shell_scene() {
   return scene;
 }
 
-/// Whether all that is seen, and something is, has this id.
+/// Whether the picture shows something, and nothing with another id.
 void expect_all(const CheckedPicture& picture, std::uint32_t id) {
   const auto all = static_cast<std::ptrdiff_t>(picture.ids.size());
   const auto those = std::count(picture.ids.begin(), picture.ids.end(), id);
@@ -163,8 +164,8 @@ void expect_all(const CheckedPicture& picture, std::uint32_t id) {
 
 TEST_P(WhatIsSeen, TheNearestOfShells) {
   const PinholeCamera outside[] = {
-      pinhole({0, 0, 3}, {0, 0, 0}, 45),           // all of them
-      pinhole({0, 0, 3}, {1, 0, 0}, 20),           // cut by the picture's edge
+      pinhole({0, 0, 3}, {0, 0, 0}, 45),           // shows them whole
+      pinhole({0, 0, 3}, {1, 0, 0}, 20),           // the picture's edge cuts them
       pinhole({0, 0.5f, 2000}, {0, 0, 0}, 0.05f),  // float cannot tell them apart from here
       pinhole({0, 0, 10}, {1, 0, 0}, 1e-2f),       // the rim: the shells fan out
       pinhole({0, 0, 1.0003f}, {0.5f, 0, 0}, 90)};
@@ -185,7 +186,7 @@ TEST_P(WhatIsSeen, TheNearestOfShells) {
   }
 }
 
-// From between two shells one is seen below and the other above; a plane cuts them open.
+// From between two shells one is visible below and the other above. A plane cuts them open.
 TEST_P(WhatIsSeen, ShellsFromBetweenThemAndCutOpen) {
   Scene between = shell_scene();
   between.camera = pinhole({0, 1.0001f, 0}, {1, 1.0001f, 0}, 60);
@@ -201,7 +202,7 @@ TEST_P(WhatIsSeen, ShellsFromBetweenThemAndCutOpen) {
   }
 }
 
-/// Every length times 2^k, lights with falloff as much stronger.
+/// The scene with every length times 2^k, and with lights with falloff so much stronger.
 Scene times_power_of_two(Scene scene, int k) {
   const float s = std::ldexp(1.0f, k);
   for (Sphere& sphere : scene.spheres) sphere.center = sphere.center * s, sphere.radius *= s;
@@ -228,7 +229,8 @@ int differing_depths(const CheckedPicture& a, const CheckedPicture& b, int k) {
   return count;
 }
 
-// No length is special: with glass, mirrors and all lights the colours are the same bit for bit.
+// No length is special: in a scene with glass, mirrors and all lights the colours have the same
+// bits.
 TEST_P(WhatIsSeen, TheSameAtAnyScale) {
   Scene perspective = mixed_scene(64, 48), parallel = perspective;
   parallel.camera = OrthographicCamera{{{2, 4, 6}, {0, 0.5f, 0}, {0, 1, 0}}, 6};

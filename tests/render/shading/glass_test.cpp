@@ -11,9 +11,9 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-/// A ray that meets a sphere of index `ior`, as geometry has it. With s = |l| / r, l the line's
-/// closest approach, sin of the angle of incidence is s, inside of the sphere it is s / ior; each
-/// crossing bends the ray by the difference, towards the centre where ior > 1.
+/// A ray that meets a sphere of index `ior`, by geometry. With s = |l| / r, where l is the line's
+/// closest approach, the sine of the angle of incidence is s, and inside of the sphere it is s /
+/// ior. Each crossing bends the ray by the difference of the angles, towards the centre if ior > 1.
 struct ClosedForm {
   Vec3d view, towards_centre;  ///< unit, at right angles
   double outside, inside;      ///< angles to the normal; inside: NaN at total reflection
@@ -42,7 +42,7 @@ struct ClosedForm {
   }
 };
 
-/// Rays from all sides at one sphere, their impact parameters up to `widest` radii.
+/// Rays from all sides at one sphere, with impact parameters up to `widest` radii.
 std::vector<Ray> rays_at(const Sphere& sphere, double widest, std::size_t count,
                          CaseRandom& random) {
   std::vector<Ray> rays;
@@ -97,19 +97,19 @@ TEST(Glass, RefractsAMillionRaysThroughASphereBySnellsLaw) {
       for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_TRUE(exits[i].inner);
         const Scatter out = scatter(glass.material, exits[i]);
-        ASSERT_FALSE(is_black(out.refraction));  // by symmetry what enters can leave
+        ASSERT_FALSE(is_black(out.refraction));  // by symmetry a ray that enters can leave
         const ClosedForm expected(rays[i], glass.sphere, static_cast<double>(ior));
         const double error = length(out.refracted - expected.leaving());
         // The direction inside is rounded to float: u in each component, so 1.74 u in its angle.
-        // That turns the ray and, twice, through the exit's place, its normal; the exit itself
-        // makes more of the change of the angle inside.
+        // It turns the ray once, and the normal twice, because the exit point moves; the exit makes
+        // the change of the angle inside larger.
         const double bound = 1.74 * u * (2 + 2 * expected.growth(static_cast<double>(ior)));
         ASSERT_LE(error, bound) << ior << " " << radius;
         worst = std::max(worst, error / bound);
       }
     }
   }
-  EXPECT_GT(worst, 0.1);  // the bound is not an empty one
+  EXPECT_GT(worst, 0.1);  // the bound is not far too wide
 }
 
 TEST(Glass, SplitsTheLightByFresnelsEquations) {
@@ -130,7 +130,7 @@ TEST(Glass, SplitsTheLightByFresnelsEquations) {
 }
 
 TEST(Glass, ReflectsTotallyWhatCannotEnter) {
-  // A bubble: beyond an impact parameter of ior radii nothing goes in.
+  // A bubble: if the impact parameter is above ior radii, nothing goes in.
   CaseRandom random(103);
   const float ior = 0.75f;
   const Glassy bubble({{5, 1, -2}, 2, 0}, ior);
@@ -150,8 +150,9 @@ TEST(Glass, ReflectsTotallyWhatCannotEnter) {
   EXPECT_GT(total, 40'000);
 }
 
-/// Under a white sky a sphere of clear glass sends back all light but what is still inside after
-/// the last bounce: F + (1 - F)^2 (1 + F + F^2 + ..), since every chord meets the same angle.
+/// Under a white sky a sphere of clear glass sends back all light except what is still inside after
+/// the last bounce: F + (1 - F)^2 (1 + F + F^2 + ..), because every chord has the same angle to the
+/// normal.
 TEST(Glass, IsInvisibleUnderAWhiteSkyButForTheLastBounce) {
   Scene scene = empty_scene(48, 48);
   scene.background = ConstantBackground{{1, 1, 1}};

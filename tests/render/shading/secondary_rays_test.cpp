@@ -1,6 +1,7 @@
-// Secondary rays at scale: no ray meets the convex surface it leaves, none gets lost inside a
-// sphere, none escapes from a closed room. BOULE_SECONDARY_HITS sets the size (`ctest -L long`: one
-// million surface points, ten million bounces; by default few enough for every day).
+// Secondary rays in large numbers: no ray meets the convex surface that it leaves, none gets lost
+// inside a sphere, and none escapes from a closed room. BOULE_SECONDARY_HITS sets the size (`ctest
+// -L long`: one million surface points and ten million bounces; by default few enough for every
+// day).
 #include <cstdio>
 
 #include "core/surface.h"
@@ -16,7 +17,7 @@ constexpr std::size_t directions = 1000;
 
 std::size_t surface_points() { return test_size("BOULE_SECONDARY_HITS", 20'000); }
 
-/// A sphere, and how far from it the eye is: its centre lies `far` from the world's origin.
+/// A sphere whose centre lies `far` from the origin, and how far from it the eye is.
 struct Place {
   const char* name;
   Sphere (*sphere)(CaseRandom& random);
@@ -73,9 +74,9 @@ Ray primary(CaseRandom& random, const Sphere& sphere, const Vec3d& eye) {
   return {org, vec_cast<float>(normalize(target - org))};
 }
 
-/// What leaves a surface point, by where it must go.
+/// Rays that leave a surface point, by the side to which they must go.
 struct Leaving {
-  std::vector<Ray> outward;  ///< reflected, scattered and shadow rays, and those that go out again
+  std::vector<Ray> outward;  ///< reflected, scattered and shadow rays, and those that leave again
   std::vector<Ray> inward;   ///< refracted and scattered
 };
 
@@ -98,7 +99,7 @@ struct Count {
   std::size_t rays = 0, self_hits = 0, lost = 0;
 };
 
-/// All rays that leave one sphere, checked with the kernels.
+/// All rays that leave one sphere. The kernels check them.
 void check_sphere(CaseRandom& random, const Place& place, Count& count) {
   const Sphere sphere = place.sphere(random);
   const PreparedScene scene = prepared({sphere}, {});
@@ -117,7 +118,7 @@ void check_sphere(CaseRandom& random, const Place& place, Count& count) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].id != 0) continue;
     const Surface surface = find_surface(scene, rays[i], hits[i]);
-    if (!surface.inner) leave_outside(random, surface, first);  // the rounded eye may be inside
+    if (!surface.inner) leave_outside(random, surface, first);  // rounding may put the eye inside
   }
   const auto inner = trace(first.inward);
   for (std::size_t i = 0; i < inner.size(); ++i) {
@@ -157,7 +158,7 @@ TEST(SecondaryRays, NeitherMeetTheirSurfaceAgainNorGetLost) {
   EXPECT_GT(all_rays, 4 * surface_points());
 }
 
-/// Something that no ray leaves, and where its walls are.
+/// A closed room that no ray can leave; holds() tells whether a point lies within its walls.
 struct Room {
   const char* name;
   std::vector<Sphere> spheres;
@@ -195,7 +196,7 @@ const Room rooms[] = {
      }},
 };
 
-/// Walkers that bounce about: each goes on from where it landed, in any direction of that side.
+/// Rays that bounce about: each goes on from its hit in a random direction of that side.
 TEST(SecondaryRays, NoneEscapesFromAClosedRoom) {
   constexpr std::size_t walkers = 2000;
   const std::size_t steps = 10 * surface_points() / walkers / std::size(rooms) + 1;

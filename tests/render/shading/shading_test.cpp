@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = 3.141592653589793 / 180;
 
-/// A ray in the x-y plane that comes down on y = 0 at `angle` radians from the normal.
+/// The direction, in the x-y plane, that comes down on y = 0 at `angle` radians from the normal.
 Vec3d coming_down(double angle) { return {std::sin(angle), -std::cos(angle), 0}; }
 const Vec3d up{0, 1, 0};
 
@@ -46,7 +46,7 @@ TEST(Dielectric, ReflectsTotallyBeyondTheCriticalAngle) {
   const double critical = std::asin(1 / 1.5);
   EXPECT_FALSE(refract(coming_down(critical - 1e-6), up, std::cos(critical - 1e-6), 1.5).total);
   EXPECT_TRUE(refract(coming_down(critical + 1e-6), up, std::cos(critical + 1e-6), 1.5).total);
-  EXPECT_TRUE(refract({1, 0, 0}, up, 0, 1).total);  // along the surface: nothing goes through
+  EXPECT_TRUE(refract({1, 0, 0}, up, 0, 1).total);  // along the surface nothing goes through
   EXPECT_FALSE(refract({1, 0, 0}, up, 0, 0.99).total);
 }
 
@@ -59,12 +59,13 @@ TEST(Dielectric, FresnelHasItsKnownValues) {
   EXPECT_NEAR(reflected(0, 1 / 1.5), 0.04, 1e-15);
   EXPECT_NEAR(reflected(0, 1.5), 0.04, 1e-15);
   EXPECT_NEAR(reflected(0, 1 / 2.0), 1.0 / 9, 1e-15);
-  // At Brewster's angle one polarisation vanishes: half of ((1 - n^2) / (1 + n^2))^2 is left.
+  // At Brewster's angle one polarisation is not reflected: half of ((1 - n^2) / (1 + n^2))^2 is
+  // left.
   const double n = 1.5, brewster = std::atan(n);
   EXPECT_NEAR(reflected(brewster, 1 / n), 0.5 * std::pow((1 - n * n) / (1 + n * n), 2), 1e-15);
-  // Grazing: everything.
+  // At grazing incidence everything is reflected.
   EXPECT_NEAR(reflected(90 * degree, 1 / 1.5), 1, 1e-12);
-  // No boundary at all.
+  // With equal indices nothing is reflected.
   EXPECT_NEAR(reflected(30 * degree, 1), 0, 1e-15);
   // The same both ways along one path (Stokes).
   for (double angle = 1 * degree; angle < 89 * degree; angle += degree) {

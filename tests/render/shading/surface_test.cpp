@@ -50,7 +50,7 @@ TEST(Surface, RaysThatLeaveItKnowTheirSourceAndSide) {
   struct Case {
     bool sphere, from_inside;
     Side side;
-    bool inside;  ///< of the ray that leaves
+    bool inside;  ///< Ray::inside of the ray that leaves
   };
   const Case cases[] = {{true, false, Side::viewer, false},  {true, false, Side::beyond, true},
                         {true, true, Side::viewer, true},    {true, true, Side::beyond, false},
@@ -80,7 +80,7 @@ TEST(Surface, ShadowRaysEndBeforeTheLight) {
   const Ray ray = shadow_ray_to(surface, {0, 3, 1});
   EXPECT_EQ(ray.dir.x, 0);
   EXPECT_EQ(ray.dir.y, 3);
-  EXPECT_NEAR(ray.dir.z, 0, 0x1p-45);  // what the origin was moved by
+  EXPECT_NEAR(ray.dir.z, 0, 0x1p-45);  // by so much the origin was moved
   EXPECT_EQ(ray.tmax, 1 - 0x1p-22f);
   EXPECT_EQ(ray.source, 0);
   EXPECT_FALSE(ray.inside);
@@ -90,7 +90,7 @@ TEST(Surface, ShadowRaysEndBeforeTheLight) {
 }
 
 TEST(Surface, ASphereTooSmallForItsPlaceHasANormal) {
-  // p - c is exactly 0 here: no direction to be had from it.
+  // p - c is exactly 0 here, and gives no direction.
   const PreparedScene scene = prepared({{{1, 1, 1}, 1e-30f, 0}}, {});
   const Ray ray{{1, 1, 5}, {0, 0, -1}};
   const Surface surface = hit_by(scene, ray);
@@ -144,7 +144,7 @@ std::vector<Place> places() {
   return list;
 }
 
-/// The kernels of the best ISA and the reference path: both must see no source twice.
+/// With the kernels of the best ISA and with the reference, no ray meets its source again.
 TEST(Surface, ReflectedAndShadowRaysNeverMeetAConvexSourceAgain) {
   for (const Place& place : places()) {
     const PreparedScene scene = prepared(place.spheres, place.planes);
@@ -170,7 +170,8 @@ TEST(Surface, ReflectedAndShadowRaysNeverMeetAConvexSourceAgain) {
   }
 }
 
-/// A ray on the inside crosses the sphere: no leak, and no second meeting at its start.
+/// A ray on the inside crosses the sphere: it does not leak, and does not meet the sphere at its
+/// start.
 TEST(Surface, RaysThatGoInsideMeetTheFarSide) {
   for (const Place& place : places()) {
     if (place.spheres.empty()) continue;
@@ -188,16 +189,16 @@ TEST(Surface, RaysThatGoInsideMeetTheFarSide) {
     ASSERT_GT(hits.size(), 300u) << place.name;
     for (std::size_t k = 0; k < hits.size(); ++k) {
       ASSERT_EQ(hits[k].id, 0) << place.name;
-      // The direction is a float: the chord is known to 6e-8 of the diameter, not better.
+      // The direction is float, so the chord is known to 6e-8 of the diameter only.
       ASSERT_NEAR(hits[k].t, chords[k], 4e-7 * static_cast<double>(place.spheres[0].radius))
           << place.name;
     }
   }
 }
 
-/// What lies right behind a surface in contact with another is not seen through it.
+/// Two surfaces that touch: what is right behind one of them is not seen through it.
 TEST(Surface, ReflectedRaysDoNotPassThroughASphereInContact) {
-  // Two spheres share every point: a ray that leaves one to the outside has left both.
+  // Two spheres have the same points. A ray that leaves one of them to the outside has left both.
   const PreparedScene scene = prepared({{{3, 2, 1}, 1, 0}, {{3, 2, 1}, 1, 0}}, {});
   std::vector<Ray> rays;
   for (const Bounce& b : bounces(scene, {3, 2, 4}, 1, 13)) {

@@ -63,7 +63,7 @@ TEST_F(TraceFiles, RaysComeBackAsTheyWereWhateverThePieces) {
   }
 }
 
-/// The rays of a file of float64.
+/// The rays that are read from a file of float64.
 std::vector<Ray> read_rays(RayFile& file) {
   std::vector<Ray> rays(file.size());
   EXPECT_FALSE(file.read(rays));
@@ -87,7 +87,7 @@ TEST_F(TraceFiles, DoublesAreRoundedToTheNearestFloatOnce) {
     ray.tmax = x[7];
     expected.push_back(ray);
   }
-  rows[0][0] = 1 + 0x1p-24;  // halfway: to the even one
+  rows[0][0] = 1 + 0x1p-24;  // halfway between two floats: the even one
   expected[0].org.x = 1;
   rows[1][0] = 1 + 0x1p-24 + 0x1p-50;
   expected[1].org.x = 1 + 0x1p-23;
@@ -104,13 +104,13 @@ TEST_F(TraceFiles, DoublesThatNoFloatHoldsBecomeInfinite) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const RayRow good = {1, 2, 3, 0, 0, 0, -1, inf};
   std::vector<RayRow> rows(9, good);
-  rows[1][7] = huge;  // as good as infinite
+  rows[1][7] = huge;  // becomes infinite
   rows[2][3] = -huge;
   rows[3][0] = huge;   // lost
   rows[4][6] = -huge;  // lost
   rows[5][6] = 1e-60;  // lost: no direction
-  rows[6][6] = 0;      // had none
-  rows[7][4] = inf;    // was infinite
+  rows[6][6] = 0;      // not lost: had no direction
+  rows[7][4] = inf;    // not lost: was infinite
   rows[8][1] = nan;
   auto file = RayFile::open(write("r.npy", ray_file64(rows)));
   ASSERT_TRUE(file) << format_diagnostic(file.error());
@@ -174,7 +174,7 @@ TEST_F(TraceFiles, MoreRaysThanThereAreAreAnError) {
   EXPECT_TRUE(file.value().read(rays));
 }
 
-/// Not even what the other one had.
+/// A file that was moved from refuses, also what the other one had.
 TEST_F(TraceFiles, WhatIsAssignedToAnotherRefuses) {
   const std::vector<Ray> cloud = ray_cloud(10);
   auto one = RayFile::open(write("one.npy", ray_file(cloud)));
@@ -233,7 +233,7 @@ TEST_F(TraceFiles, WithoutCommitNothingIsLeft) {
     auto file = HitFile::create(path("h.npy"), HitKind::closest, 5000);
     ASSERT_TRUE(file);
     EXPECT_FALSE(file.value().append(std::vector<TracedHit>(5000)));
-    EXPECT_EQ(file_count(), 1u);  // it has no name yet
+    EXPECT_EQ(file_count(), 1u);  // the temporary file has no name yet
   }
   EXPECT_EQ(read("h.npy"), "old");
   EXPECT_EQ(file_count(), 1u);
