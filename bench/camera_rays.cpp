@@ -40,18 +40,4 @@ RayBuffer primary_rays(const BenchScene& scene, int side) {
   return rays;
 }
 
-RayStream part_of(const RayStream& s, std::size_t first, std::size_t size) {
-  return {s.org_x + first,
-          s.org_y + first,
-          s.org_z + first,
-          s.dir_x + first,
-          s.dir_y + first,
-          s.dir_z + first,
-          s.tmin + first,
-          s.tmax + first,
-          s.source + first,
-          s.inside + first,
-          size};
-}
-
 }  // namespace boule::bench

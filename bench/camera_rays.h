@@ -3,7 +3,6 @@
 #include <cstddef>
 
 #include "bench/bench_scenes.h"
-#include "simd/abi/stream.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule::bench {
@@ -15,8 +14,5 @@ SampleBuffer pixel_centers(int side);
 
 /// The camera's rays through these, in their order, by Boule's widest kernel.
 RayBuffer primary_rays(const BenchScene& scene, int side);
-
-/// Rays first .. first + size - 1 of a stream; `first` a multiple of max_width.
-RayStream part_of(const RayStream& rays, std::size_t first, std::size_t size);
 
 }  // namespace boule::bench

@@ -36,7 +36,7 @@ class BouleContender final : public Contender {
     const RayStream rays = workload_.rays->view();
     const std::size_t stream_size = info().width;
     for (; first < last; first += stream_size) {
-      const RayStream stream = part_of(rays, first, std::min(stream_size, last - first));
+      const RayStream stream = boule::part(rays, first, std::min(stream_size, last - first));
       if (asks_any(workload_.kind)) {
         kernels_.any_hit(geometry_, stream, query_, memory_.occluded->data() + first);
       } else {

@@ -54,7 +54,7 @@ void trace(Way& way, const Geometry& geometry, RayKind kind, RayBuffer& rays, An
   const double begin = thread_seconds();
   for (std::size_t first = 0; first < rays.size(); first += block) {
     const std::size_t size = std::min(block, rays.size() - first);
-    const RayStream part = part_of(all, first, size);
+    const RayStream part = boule::part(all, first, size);
     if (asks_any(kind)) {
       way.kernels->any_hit(geometry.view(), part, way.query, answers.occluded.data() + first);
     } else {

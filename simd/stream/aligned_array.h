@@ -11,9 +11,9 @@
 
 namespace boule {
 
-/// An owning array of plain values on a cache line, its length padded to the widest packet. Places
-/// are not checked: preconditions. Throws std::bad_alloc, and is as it was then; one that was moved
-/// away is empty.
+/// An owning array of plain values that starts on a cache line, its length padded to the widest
+/// packet. An index within it is a precondition. Throws std::bad_alloc and is then as it was; an
+/// array that was moved away is empty.
 template <class T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);

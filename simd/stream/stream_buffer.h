@@ -11,64 +11,57 @@
 
 namespace boule {
 
-/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it. As of all
-/// buffers here, what places there are is not checked: i < size() is a precondition. resize()
-/// throws std::bad_alloc, and the size stays what it was. One that was moved away is resized first.
+/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it. No buffer
+/// here checks indices: i < size() is a precondition. resize() throws std::bad_alloc, and the size
+/// stays what it was. A buffer that was moved away must be resized before it is used again.
 class RayBuffer {
  public:
   RayBuffer() = default;
   explicit RayBuffer(std::size_t size) { resize(size); }
 
   void resize(std::size_t size) {
-    org_x_.resize(size);
-    org_y_.resize(size);
-    org_z_.resize(size);
-    dir_x_.resize(size);
-    dir_y_.resize(size);
-    dir_z_.resize(size);
-    tmin_.resize(size);
-    tmax_.resize(size);
-    source_.resize(size);
-    inside_.resize(size);
+    each_array([size](auto& array) { array.resize(size); }, rays_);
     size_ = size;
   }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   void set(std::size_t i, const Ray& ray) {
-    org_x_[i] = ray.org.x;
-    org_y_[i] = ray.org.y;
-    org_z_[i] = ray.org.z;
-    dir_x_[i] = ray.dir.x;
-    dir_y_[i] = ray.dir.y;
-    dir_z_[i] = ray.dir.z;
-    tmin_[i] = ray.tmin;
-    tmax_[i] = ray.tmax;
-    source_[i] = ray.source;
-    inside_[i] = ray.inside ? 1 : 0;
+    rays_.org_x[i] = ray.org.x;
+    rays_.org_y[i] = ray.org.y;
+    rays_.org_z[i] = ray.org.z;
+    rays_.dir_x[i] = ray.dir.x;
+    rays_.dir_y[i] = ray.dir.y;
+    rays_.dir_z[i] = ray.dir.z;
+    rays_.tmin[i] = ray.tmin;
+    rays_.tmax[i] = ray.tmax;
+    rays_.source[i] = ray.source;
+    rays_.inside[i] = ray.inside ? 1 : 0;
   }
-  [[nodiscard]] Vec3d org(std::size_t i) const { return {org_x_[i], org_y_[i], org_z_[i]}; }
-  [[nodiscard]] Vec3f dir(std::size_t i) const { return {dir_x_[i], dir_y_[i], dir_z_[i]}; }
+  [[nodiscard]] Vec3d org(std::size_t i) const {
+    return {rays_.org_x[i], rays_.org_y[i], rays_.org_z[i]};
+  }
+  [[nodiscard]] Vec3f dir(std::size_t i) const {
+    return {rays_.dir_x[i], rays_.dir_y[i], rays_.dir_z[i]};
+  }
   [[nodiscard]] Ray get(std::size_t i) const {
-    Ray ray{{org_x_[i], org_y_[i], org_z_[i]}, {dir_x_[i], dir_y_[i], dir_z_[i]}};
-    ray.tmin = tmin_[i];
-    ray.tmax = tmax_[i];
-    ray.source = source_[i];
-    ray.inside = inside_[i] != 0;
+    Ray ray{org(i), dir(i)};
+    ray.tmin = rays_.tmin[i];
+    ray.tmax = rays_.tmax[i];
+    ray.source = rays_.source[i];
+    ray.inside = rays_.inside[i] != 0;
     return ray;
   }
 
   /// The rays as the kernels see them; valid until the next resize.
   RayStream view() {
-    return {org_x_.data(),  org_y_.data(),  org_z_.data(), dir_x_.data(),
-            dir_y_.data(),  dir_z_.data(),  tmin_.data(),  tmax_.data(),
-            source_.data(), inside_.data(), size_};
+    RayStream rays{};
+    each_array([](auto& pointer, auto& array) { pointer = array.data(); }, rays, rays_);
+    rays.size = size_;
+    return rays;
   }
 
  private:
-  AlignedArray<double> org_x_, org_y_, org_z_;
-  AlignedArray<float> dir_x_, dir_y_, dir_z_, tmin_, tmax_;
-  AlignedArray<std::int32_t> source_;
-  AlignedArray<std::uint8_t> inside_;
+  RayArrays<AlignedArray> rays_;
   std::size_t size_ = 0;
 };
 

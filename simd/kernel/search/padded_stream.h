@@ -41,28 +41,22 @@ class GatheredRays {
  public:
   /// Takes ray i of the stream as its k-th.
   BOULE_INLINE void set(std::size_t k, const RayStream& rays, std::size_t i) {
-    org_x_[k] = rays.org_x[i];
-    org_y_[k] = rays.org_y[i];
-    org_z_[k] = rays.org_z[i];
-    dir_x_[k] = rays.dir_x[i];
-    dir_y_[k] = rays.dir_y[i];
-    dir_z_[k] = rays.dir_z[i];
-    tmin_[k] = rays.tmin[i];
-    tmax_[k] = rays.tmax[i];
-    source_[k] = rays.source[i];
-    inside_[k] = rays.inside[i];
+    each_array([k, i](auto& to, auto& from) { to.values[k] = from[i]; }, rays_, rays);
   }
   /// The first `size`.
   [[nodiscard]] RayStream view(std::size_t size) {
-    return {org_x_, org_y_, org_z_, dir_x_, dir_y_, dir_z_, tmin_, tmax_, source_, inside_, size};
+    RayStream rays{};
+    each_array([](auto& pointer, auto& array) { pointer = array.values; }, rays, rays_);
+    rays.size = size;
+    return rays;
   }
 
  private:
-  alignas(64) double org_x_[capacity], org_y_[capacity], org_z_[capacity];
-  alignas(64) float dir_x_[capacity], dir_y_[capacity], dir_z_[capacity];
-  alignas(64) float tmin_[capacity], tmax_[capacity];
-  alignas(64) std::int32_t source_[capacity];
-  alignas(64) std::uint8_t inside_[capacity];
+  template <class T>
+  struct Fixed {
+    alignas(stream_alignment) T values[capacity];
+  };
+  RayArrays<Fixed> rays_;
 };
 
 /// The last packet is filled up with copies of the last ray: they can neither change nor slow down
