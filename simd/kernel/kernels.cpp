@@ -1,4 +1,10 @@
-// Compiled once per instruction set (simd/isa.cmake), each time into a namespace of its own.
+// The kernels of one instruction set and the table that exports them. This file is compiled once
+// per instruction set (simd/isa.cmake), each time into a namespace of its own. Which rays go which
+// way through search/ is decided here, but for the trial in scattered_stream.h:
+//   bundles    the caller promises a common origin, direction or end and leaves the form open
+//   scattered  nothing is promised, there is a tree, and the solver is robust: in flight, or as
+//              packets, whichever a trial finds faster
+//   packets    everything else: a scan, the fast solver, or a form that was asked for
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/camera/primary_rays.h"
 #include "simd/kernel/search/bundle_stream.h"
@@ -13,8 +19,7 @@ namespace boule::BOULE_KERNEL_ISA {
 namespace {
 
 bool may_bundle(const GeometryView& geometry, const Query& query) {
-  return query.form == Form::automatic &&
-         geometry.spheres.block_count <= most_bundle_slots / bvh_leaf_size;
+  return query.form == Form::automatic && geometry.spheres.block_count <= no_slot / bvh_leaf_size;
 }
 
 bool may_fly(const GeometryView& geometry, const Query& query) {

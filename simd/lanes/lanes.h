@@ -1,8 +1,10 @@
 #pragma once
 
 // The lane types of one instruction set, in a namespace of their own:
-//   Real, RealMask   `width` floats          Wide, WideMask   the same lanes in double
-// A kernel is written once over these; the build compiles it once per ISA.
+//   Real   `width` floats            Bits   as many integers of 32 bits
+//   Wide   the same lanes in double  RealMask, WideMask   the lanes in which something is true
+// Comments call the number of lanes, `width`, W. A kernel is written once over these types; the
+// build compiles it once per instruction set.
 #ifdef BOULE_KERNEL_SCALAR
 #include "simd/lanes/scalar_lanes.h"
 #else
@@ -21,6 +23,15 @@ BOULE_INLINE bool any(Mask m) {
 template <class Mask>
 BOULE_INLINE bool all(Mask m) {
   return bits(m) == all_lanes;
+}
+
+/// values[indices], lane by lane: one load each, which was faster than gather instructions.
+BOULE_INLINE Bits gather(const std::int32_t* values, Bits indices) {
+  alignas(64) std::uint32_t index[width];
+  alignas(64) std::int32_t value[width];
+  store(index, indices);
+  for (int lane = 0; lane < width; ++lane) value[lane] = values[index[lane]];
+  return load_integers(value);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

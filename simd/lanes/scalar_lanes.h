@@ -7,8 +7,8 @@
 
 #include "core/base/platform.h"
 
-/// One lane: the same face as xsimd_lanes.h over plain float and double, so that every kernel also
-/// runs, and can be checked, without SIMD.
+/// One lane of plain float and double, with the same functions as xsimd_lanes.h, which documents
+/// them: every kernel can also run, and be checked, without SIMD.
 namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr int width = 1;
@@ -36,8 +36,12 @@ struct Bits {
   std::uint32_t v;
   Bits() = default;
   BOULE_INLINE explicit Bits(std::uint32_t x) : v(x) {}
+  BOULE_INLINE explicit Bits(std::int32_t x) : v(static_cast<std::uint32_t>(x)) {}
 };
 BOULE_INLINE Bits load_integers(const std::uint32_t* p) { return Bits(*p); }
+BOULE_INLINE Bits load_integers(const std::int32_t* p) { return Bits(*p); }
+BOULE_INLINE void store(std::uint32_t* p, Bits a) { *p = a.v; }
+BOULE_INLINE void store(std::int32_t* p, Bits a) { *p = static_cast<std::int32_t>(a.v); }
 BOULE_INLINE Bits operator+(Bits a, Bits b) { return Bits(a.v + b.v); }
 BOULE_INLINE Bits operator*(Bits a, Bits b) { return Bits(a.v * b.v); }
 BOULE_INLINE Bits operator^(Bits a, Bits b) { return Bits(a.v ^ b.v); }
@@ -45,35 +49,32 @@ BOULE_INLINE Bits operator&(Bits a, Bits b) { return Bits(a.v & b.v); }
 BOULE_INLINE Bits operator|(Bits a, Bits b) { return Bits(a.v | b.v); }
 BOULE_INLINE Bits operator<<(Bits a, int by) { return Bits(a.v << by); }
 BOULE_INLINE Bits operator>>(Bits a, int by) { return Bits(a.v >> by); }
+BOULE_INLINE RealMask operator==(Bits a, Bits b) { return {a.v == b.v}; }
+BOULE_INLINE RealMask operator<=(Bits a, Bits b) { return {a.v <= b.v}; }
+BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return m.m ? a : b; }
 BOULE_INLINE Wide to_wide(Bits a) { return static_cast<double>(a.v); }
+BOULE_INLINE Bits count_from(std::uint32_t first) { return Bits(first); }
 
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
-/// Integers as doubles, and the lanes whose byte is not 0.
 BOULE_INLINE Wide load_as_wide(const std::int32_t* p) { return static_cast<double>(*p); }
 BOULE_INLINE WideMask load_set(const std::uint8_t* p) { return {*p != 0}; }
-/// The bits of integers, not to be calculated with.
-BOULE_INLINE Real load_bits(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
-BOULE_INLINE Real count_from(std::uint32_t first) { return std::bit_cast<float>(first); }
-/// Lanes in which integers are equal to one.
-BOULE_INLINE RealMask equal(const std::int32_t* p, std::int32_t value) { return {*p == value}; }
-BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
-BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
-BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
-  *p = chosen.m ? a.v : rest.v;
-}
-BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen, Real rest) {
-  *p = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(chosen.m ? a.v : rest.v) << 1 >> 16);
-}
-BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) {
-  std::size_t place = 0;
-  for (std::size_t k = 1; k < 16; ++k) place = p[k] < p[place] ? k : place;
-  return place;
-}
-BOULE_INLINE void store_chosen(double* p, Wide a, unsigned) { *p = a.v; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
-/// A row of four floats as columns, and back: see xsimd_lanes.h.
+BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
+BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { *p = a.v; }
+BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
+BOULE_INLINE void store_chosen(std::uint32_t* p, Bits a, unsigned) { *p = a.v; }
+BOULE_INLINE void store_chosen(double* p, Wide a, unsigned) { *p = a.v; }
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen) {
+  const std::uint32_t whole = chosen.m ? std::bit_cast<std::uint32_t>(a.v) : 0xffffffffU;
+  *p = static_cast<std::uint16_t>(whole << 1 >> 16);
+}
+BOULE_INLINE std::size_t index_of_least(const std::uint16_t* p) {
+  std::size_t index = 0;
+  for (std::size_t k = 1; k < 16; ++k) index = p[k] < p[index] ? k : index;
+  return index;
+}
 struct Columns {
   Real x, y, z, w;
 };
@@ -86,7 +87,6 @@ BOULE_INLINE void store_rows(float* p, const Columns& columns) {
   p[2] = columns.z.v;
   p[3] = columns.w.v;
 }
-BOULE_INLINE Wide lane_numbers() { return 0.0; }
 
 BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }
 BOULE_INLINE Real operator-(Real a, Real b) { return a.v - b.v; }
@@ -110,6 +110,8 @@ BOULE_INLINE WideMask operator&(WideMask a, WideMask b) { return {a.m && b.m}; }
 BOULE_INLINE WideMask operator|(WideMask a, WideMask b) { return {a.m || b.m}; }
 BOULE_INLINE WideMask operator~(WideMask a) { return {!a.m}; }
 
+BOULE_INLINE RealMask uniform(bool is_set) { return {is_set}; }
+
 BOULE_INLINE unsigned bits(RealMask a) { return a.m ? 1U : 0U; }
 BOULE_INLINE unsigned bits(WideMask a) { return a.m ? 1U : 0U; }
 
@@ -125,10 +127,8 @@ BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return a.v * b.v + c.v; }
 
 BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) { return c.v - a.v * b.v; }
 
-/// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return a.v < b.v ? a : b; }
 BOULE_INLINE Real filter_max(Real a, Real b) { return a.v < b.v ? b : a; }
-/// a where it is smaller, where it is greater, than b; else, and beside NaN, b.
 BOULE_INLINE Real lesser_or(Real a, Real b) { return a.v < b.v ? a : b; }
 BOULE_INLINE Real greater_or(Real a, Real b) { return b.v < a.v ? a : b; }
 BOULE_INLINE float least_lane(Real a) { return a.v; }
@@ -137,5 +137,6 @@ BOULE_INLINE float greatest_lane(Real a) { return a.v; }
 BOULE_INLINE Wide widen(Real a) { return static_cast<double>(a.v); }
 BOULE_INLINE Real narrow(Wide a) { return static_cast<float>(a.v); }
 BOULE_INLINE WideMask widen(RealMask a) { return {a.m}; }
+BOULE_INLINE RealMask narrow(WideMask a) { return {a.m}; }
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/platform.h"
+#include "simd/lanes/xsimd_compress.h"
 #include "simd/lanes/xsimd_gaps.h"
+#include "simd/lanes/xsimd_integers.h"
 
-/// W lanes over xsimd: Real is one register of floats, Wide the same lanes in double, two
-/// registers. + - * / and sqrt are correctly rounded and never fused.
+/// W lanes over xsimd, where W is `width`. Real is a register of floats, Bits one of integers, and
+/// Wide two registers that hold the same lanes in double. + - * / and sqrt are correctly rounded
+/// and never fused. Addresses are aligned to the register unless a function says otherwise.
 namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr int width = static_cast<int>(Floats::size);
@@ -32,14 +34,22 @@ struct Wide {
   BOULE_INLINE Wide(Doubles l, Doubles h) : lo(l), hi(h) {}
 };
 
-/// Unsigned integers of 32 bits, modulo 2^32.
+/// Unsigned integers of 32 bits, modulo 2^32. What compares them gives the masks of floats.
 struct Bits {
   Integers v;
   Bits() = default;
   BOULE_INLINE explicit Bits(std::uint32_t x) : v(x) {}
+  BOULE_INLINE explicit Bits(std::int32_t x) : v(static_cast<std::uint32_t>(x)) {}
   BOULE_INLINE Bits(Integers x) : v(x) {}
 };
 BOULE_INLINE Bits load_integers(const std::uint32_t* p) { return Integers::load_aligned(p); }
+BOULE_INLINE Bits load_integers(const std::int32_t* p) {
+  return xsimd::bitwise_cast<Integers>(xsimd::batch<std::int32_t, Arch>::load_aligned(p));
+}
+BOULE_INLINE void store(std::uint32_t* p, Bits a) { a.v.store_aligned(p); }
+BOULE_INLINE void store(std::int32_t* p, Bits a) {
+  xsimd::bitwise_cast<xsimd::batch<std::int32_t, Arch>>(a.v).store_aligned(p);
+}
 BOULE_INLINE Bits operator+(Bits a, Bits b) { return a.v + b.v; }
 BOULE_INLINE Bits operator*(Bits a, Bits b) { return a.v * b.v; }
 BOULE_INLINE Bits operator^(Bits a, Bits b) { return a.v ^ b.v; }
@@ -47,85 +57,79 @@ BOULE_INLINE Bits operator&(Bits a, Bits b) { return a.v & b.v; }
 BOULE_INLINE Bits operator|(Bits a, Bits b) { return a.v | b.v; }
 BOULE_INLINE Bits operator<<(Bits a, int by) { return a.v << by; }
 BOULE_INLINE Bits operator>>(Bits a, int by) { return a.v >> by; }
+BOULE_INLINE RealMask operator==(Bits a, Bits b) { return {gaps::equal(a.v, b.v)}; }
+BOULE_INLINE RealMask operator<=(Bits a, Bits b) { return {gaps::at_most(a.v, b.v)}; }
+BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return gaps::select(m.m, a.v, b.v); }
 /// Exactly.
 BOULE_INLINE Wide to_wide(Bits a) { return {gaps::to_double_low(a.v), gaps::to_double_high(a.v)}; }
+/// first, first + 1, ...
+BOULE_INLINE Bits count_from(std::uint32_t first) { return Integers(first) + gaps::counted(); }
 
 BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
 }
-/// Integers as doubles, and the lanes whose byte is not 0.
+/// Integers as doubles.
 BOULE_INLINE Wide load_as_wide(const std::int32_t* p) {
   return {gaps::load_as_doubles(p), gaps::load_as_doubles(p + width / 2)};
 }
+/// The lanes whose byte is not 0.
 BOULE_INLINE WideMask load_set(const std::uint8_t* p) {
   return {gaps::load_set(p), gaps::load_set(p + width / 2)};
-}
-/// The bits of integers, not to be calculated with.
-BOULE_INLINE Real load_bits(const std::uint32_t* p) { return gaps::load_bits(p); }
-/// The bits of first, first + 1, ..
-BOULE_INLINE Real count_from(std::uint32_t first) { return gaps::count_from(first); }
-/// Lanes in which integers are equal to one.
-BOULE_INLINE RealMask equal(const std::int32_t* p, std::int32_t value) {
-  return {gaps::equal(p, value)};
-}
-/// To any address: all lanes; those `chosen` one after the other, behind them anything, or `rest`,
-/// the same in every lane.
-BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
-BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
-  gaps::store_chosen(p, a.v, chosen);
-}
-BOULE_INLINE void store_chosen(float* p, Real a, RealMask chosen, Real rest) {
-  gaps::store_chosen(p, a.v, chosen.m, rest.v);
-}
-/// Of each the 16 bits behind the sign.
-BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen, Real rest) {
-  gaps::store_chosen_halves(p, a.v, chosen.m, rest.v);
-}
-/// A place of the least of 16 numbers; `p`: 32 bytes aligned.
-BOULE_INLINE std::size_t place_of_least(const std::uint16_t* p) { return gaps::place_of_least(p); }
-BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
-  const unsigned lo = chosen & ((1U << (width / 2)) - 1);
-  gaps::store_chosen(p, a.lo, lo);
-  gaps::store_chosen(p + __builtin_popcount(lo), a.hi, chosen >> (width / 2));
 }
 BOULE_INLINE void store(float* p, Real a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(double* p, Wide a) {
   a.lo.store_aligned(p);
   a.hi.store_aligned(p + width / 2);
 }
+/// To any address.
+BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
+BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { a.v.store_unaligned(p); }
+/// The lanes whose bit is set in `chosen`, one after the other, to any address. W numbers are
+/// written: what follows those of `chosen` is undefined.
+BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
+  gaps::store_chosen(p, a.v, chosen);
+}
+BOULE_INLINE void store_chosen(std::uint32_t* p, Bits a, unsigned chosen) {
+  gaps::store_chosen(p, a.v, chosen);
+}
+BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
+  const unsigned lo = chosen & ((1U << (width / 2)) - 1);
+  gaps::store_chosen(p, a.lo, lo);
+  gaps::store_chosen(p + __builtin_popcount(lo), a.hi, chosen >> (width / 2));
+}
+/// Of floats that are not negative the upper 16 bits behind the sign, which are in the floats'
+/// order: those of the lanes `chosen` one after the other, and then 0xffff up to W.
+BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen) {
+  gaps::store_chosen_halves(p, a.v, chosen.m);
+}
+/// The index of the least of 16 numbers, of equal ones any. `p` is aligned to 32 bytes.
+BOULE_INLINE std::size_t index_of_least(const std::uint16_t* p) { return gaps::index_of_least(p); }
 
 /// W rows of four floats as columns; row k is lane k.
 struct Columns {
   Real x, y, z, w;
 };
-/// Columns to rows in fours of lanes, and back.
+/// Makes rows of columns, and columns of rows, within each four lanes.
 BOULE_INLINE Columns transpose(const Columns& c) {
-  // xsimd zips 128 bits at a time.
+  // xsimd's zip works within 128 bits.
   const Floats xz = xsimd::zip_lo(c.x.v, c.z.v), yw = xsimd::zip_lo(c.y.v, c.w.v);
   const Floats xz_high = xsimd::zip_hi(c.x.v, c.z.v), yw_high = xsimd::zip_hi(c.y.v, c.w.v);
   return {xsimd::zip_lo(xz, yw), xsimd::zip_hi(xz, yw), xsimd::zip_lo(xz_high, yw_high),
           xsimd::zip_hi(xz_high, yw_high)};
 }
-/// `rows`: one pointer for each, to any address.
+/// `rows` has a pointer for each of W rows, to any address.
 BOULE_INLINE Columns load_rows(const float* const* rows) {
   return transpose({gaps::load_fours(rows), gaps::load_fours(rows + 1), gaps::load_fours(rows + 2),
                     gaps::load_fours(rows + 3)});
 }
-/// One after the other, 16 bytes aligned each.
+/// The rows follow each other in memory. `p` is aligned to 16 bytes.
 BOULE_INLINE void store_rows(float* p, const Columns& columns) {
   const Columns rows = transpose(columns);
   gaps::store_fours(p, rows.x.v);
   gaps::store_fours(p + 4, rows.y.v);
   gaps::store_fours(p + 8, rows.z.v);
   gaps::store_fours(p + 12, rows.w.v);
-}
-
-/// 0, 1, .. W - 1.
-BOULE_INLINE Wide lane_numbers() {
-  alignas(64) double numbers[width];
-  for (int i = 0; i < width; ++i) numbers[i] = i;
-  return load(numbers);
 }
 
 BOULE_INLINE Real operator+(Real a, Real b) { return a.v + b.v; }
@@ -151,7 +155,10 @@ BOULE_INLINE WideMask operator&(WideMask a, WideMask b) { return {a.lo & b.lo, a
 BOULE_INLINE WideMask operator|(WideMask a, WideMask b) { return {a.lo | b.lo, a.hi | b.hi}; }
 BOULE_INLINE WideMask operator~(WideMask a) { return {~a.lo, ~a.hi}; }
 
-/// Bit k is lane k.
+/// The same in every lane.
+BOULE_INLINE RealMask uniform(bool is_set) { return {gaps::uniform(is_set)}; }
+
+/// Bit k is set if lane k is.
 BOULE_INLINE unsigned bits(RealMask a) { return gaps::bits(a.m); }
 BOULE_INLINE unsigned bits(WideMask a) {
   return gaps::bits(a.lo) | (gaps::bits(a.hi) << (width / 2));
@@ -170,8 +177,8 @@ BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) {
   return {xsimd::copysign(magnitude.lo, sign.lo), xsimd::copysign(magnitude.hi, sign.hi)};
 }
 
-/// a b + c and c - a b, fused where the ISA can: for filters and solver fast only, never for an
-/// exact path.
+/// a b + c and c - a b, fused where the instruction set can. They are for filters and for the fast
+/// solver only, because their bits differ from one instruction set to the next.
 BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return gaps::multiply_add(a.v, b.v, c.v); }
 BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
   return gaps::negated_multiply_add(a.v, b.v, c.v);
@@ -180,15 +187,16 @@ BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
 /// The smaller and the greater of two numbers that are not NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return xsimd::min(a.v, b.v); }
 BOULE_INLINE Real filter_max(Real a, Real b) { return xsimd::max(a.v, b.v); }
-/// a where it is smaller, where it is greater, than b; else, and beside NaN, b.
+/// a where it is smaller (greater) than b; b where not, and where either is NaN.
 BOULE_INLINE Real lesser_or(Real a, Real b) { return gaps::lesser_or(a.v, b.v); }
 BOULE_INLINE Real greater_or(Real a, Real b) { return gaps::greater_or(a.v, b.v); }
-/// The least and the greatest lane, none of which is NaN.
+/// The least and the greatest lane. None may be NaN.
 BOULE_INLINE float least_lane(Real a) { return gaps::least(a.v); }
 BOULE_INLINE float greatest_lane(Real a) { return gaps::greatest(a.v); }
 
 BOULE_INLINE Wide widen(Real a) { return {gaps::widen_low(a.v), gaps::widen_high(a.v)}; }
 BOULE_INLINE WideMask widen(RealMask a) { return {gaps::widen_low(a.m), gaps::widen_high(a.m)}; }
+BOULE_INLINE RealMask narrow(WideMask a) { return {gaps::narrow(a.lo, a.hi)}; }
 
 /// Rounded to nearest.
 BOULE_INLINE Real narrow(Wide a) { return gaps::narrow(a.lo, a.hi); }

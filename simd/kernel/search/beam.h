@@ -5,22 +5,26 @@
 
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/slabs.h"
+#include "simd/kernel/tuning.h"
 
-/// All rays of a packet as one, by intervals: what the beam misses all of them miss. Sixteen boxes,
-/// or spheres, are turned away for the price of one that is tested against each ray.
+/// All rays of a packet as one beam, by interval arithmetic: what the beam misses every ray misses.
+/// W boxes, or the boxes of W spheres, are tested at once; what remains is tested ray by ray.
+/// Chosen for packets whose rays go the same way along two axes at least. The slack is derived in
+/// simd/abi/filter_bounds.h (beam).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Along an axis that all rays go up, or down: they meet its planes at t >= x near_inverse + near,
-/// where that is not behind them, and at t <= x far_inverse + far.
+/// An axis along which all rays go up, or all go down. They meet its plane at x at t >= x
+/// near_inverse + near, where that is not behind them, and at t <= x far_inverse + far.
 struct BeamSlab {
   float near_inverse, near, far_inverse, far;
   float forth;              ///< 1, or -1 where they go down
-  std::uint32_t first_row;  ///< in a node, of the planes that are met first
+  std::uint32_t first_row;  ///< offset, in floats, of a node's planes that are met first
   std::uint32_t last_row;   ///< and of the others
 
-  /// False where rays go either way, or nearly along the planes.
+  /// Returns false where some rays go up and others down, or some nearly along the planes.
   BOULE_INLINE bool set(std::uint32_t axis, const Slab& slab, const Real& org, const Real& unit) {
-    const unsigned ups = bits(Real(least) <= unit), downs = bits(unit <= Real(-least));
+    const unsigned ups = bits(Real(tuning::least_beam_slope) <= unit),
+                   downs = bits(unit <= Real(-tuning::least_beam_slope));
     const bool down = downs != 0;
     forth = down ? -1.0F : 1.0F;
     first_row = (down ? axis + 3 : axis) * bvh_width;
@@ -37,18 +41,16 @@ struct BeamSlab {
     far = static_cast<float>((filter::floor - first) * double{fast});
     return true;
   }
-  /// [begin, end] cut to what lies between the plane that is met first and the other one.
+  /// Cuts [begin, end] to what lies between the plane that is met first and the other one.
   BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
     begin = filter_max(filter_fma(first, Real(near_inverse), Real(near)), begin);
     end = filter_min(filter_fma(last, Real(far_inverse), Real(far)), end);
   }
-  /// Likewise, of the planes that touch spheres; r is not rounded when it is turned.
+  /// The same for the planes that touch spheres. (r forth is exact: forth is 1 or -1.)
   BOULE_INLINE void cut_around(const Real& center, const Real& r, Real& begin, Real& end) const {
     const Real back = r * Real(forth);
     cut(center - back, center + back, begin, end);
   }
-
-  static constexpr float least = 0x1p-20F;
 };
 
 class Beam {
@@ -58,17 +60,17 @@ class Beam {
     axes += x_.set(0, rays.slabs.x, filter.org.x, filter.unit.x) ? 1 : 0;
     axes += y_.set(1, rays.slabs.y, filter.org.y, filter.unit.y) ? 1 : 0;
     axes += z_.set(2, rays.slabs.z, filter.org.z, filter.unit.z) ? 1 : 0;
-    // Two make a beam of it. And no ray looks behind its origin.
+    // Two axes are enough for a beam, if no ray has hits behind its origin.
     is_beam_ = axes >= 2 && all(Real(0.0F) <= rays.from);
     is_straight_ = is_beam_ && axes == 3;
     slack_ = extent * static_cast<float>(filter::beam * filter::u) +
              static_cast<float>(2 * filter::floor);
   }
-  /// Whether anything can be said of these rays together.
+  /// Whether these rays form a beam at all; else nothing else here may be used.
   [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
-  /// Whether they also all go up, or down, along each axis.
+  /// Whether they go the same way along all three axes.
   [[nodiscard]] BOULE_INLINE bool is_straight() const { return is_straight_; }
-  /// The rows of a node's planes that they then meet first, and of the others.
+  /// The rows of a node's planes that a straight beam meets first, and of the others.
   struct Rows {
     const float *first_x, *first_y, *first_z;
     const float *last_x, *last_y, *last_z;
@@ -80,8 +82,8 @@ class Beam {
             rows + x_.last_row,  rows + y_.last_row,  rows + z_.last_row};
   }
 
-  /// The children of a node, bit by bit, that may be entered before `limit`; `near`: no ray enters
-  /// one before it.
+  /// The children of a node that may be entered before `limit`, as bits. Writes to `near` a lower
+  /// bound of where each is entered.
   BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
     const Rows rows = rows_of(node);
     unsigned in = 0;
@@ -95,7 +97,7 @@ class Beam {
     }
     return in;
   }
-  /// The spheres of a leaf that may be met before `limit`, by the boxes around them.
+  /// The spheres of a leaf whose boxes may be entered before `limit`, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf, float limit) const {
     const Real outward(static_cast<float>(1 + filter::beam * filter::u)), slack(slack_);
     unsigned in = 0;

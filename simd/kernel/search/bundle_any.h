@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <limits>
 
-#include "simd/kernel/search/bundle_closest.h"
-#include "simd/kernel/search/bundle_discs.h"
 #include "simd/kernel/search/bundle_grid.h"
-#include "simd/kernel/search/bundle_rays.h"
+#include "simd/kernel/search/bundle_lines.h"
+#include "simd/kernel/tuning.h"
 
-/// Whether a bundle's rays meet anything. Float decides nearly always; the double solver where a
-/// sphere's rim, or its depth, is too close to call.
+/// Whether the rays of a bundle hit anything. Float decides nearly always; the double solver does
+/// where a ray passes too close to a sphere's rim, or ends too close to it, for float to tell.
+/// Where few rays are near a leaf's spheres they are met one by one, W spheres at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// (std::popcount() may be a call that kernels must not make.)
+/// (std::popcount() may be a call of a library function, which kernels must not make.)
 BOULE_INLINE int count_bits(unsigned bits) {
   bits -= bits >> 1 & 0x55555555U;
   bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
@@ -24,7 +24,7 @@ BOULE_INLINE int count_bits(unsigned bits) {
 template <Common common, class Source>
 class BundleAny {
  public:
-  static constexpr Seek seek = Seek::any;
+  static constexpr Sought sought = Sought::any;
 
   BundleAny(const Source& source, const SphereView& spheres, const BundleRays& rays)
       : source_(source), spheres_(spheres), rays_(rays) {
@@ -33,14 +33,17 @@ class BundleAny {
     update();
   }
 
+  /// For each group the v beyond which its open rays do not live; -inf if it has none. A ray is
+  /// open until it has hit something.
   [[nodiscard]] const float* limits() const { return limits_; }
   [[nodiscard]] float limit() const { return limit_; }
   [[nodiscard]] bool done() const { return limit_ == -static_cast<float>(no_hit); }
-  /// Too much is too close to call: spheres that are small for how far they are from the light, but
-  /// not for the rays, which begin among them.
-  [[nodiscard]] bool too_close() const { return unclear_ > most_unclear * rays_.packets; }
+  /// Whether float could not tell too often. That happens among spheres that are tiny for their
+  /// distance from the light, but not for their distance from the rays, which begin among them.
+  [[nodiscard]] bool too_close() const { return unclear_ > tuning::most_unclear * rays_.packets; }
 
-  /// A simple sphere against a group; true if that changes its hits: update() then.
+  /// A simple sphere against the rays of a group. Returns whether that may have changed their hits;
+  /// update() is then to be called before limit().
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
     const PacketRange packets = packets_of(rays_, group);
     bool changed = false;
@@ -52,19 +55,19 @@ class BundleAny {
     return changed;
   }
 
-  /// Spheres against the rays that their discs are in the way of, one by one. False, and nothing
-  /// done, if those are not few.
+  /// Discs against the rays that are near them, one by one. Returns false, and does nothing, if
+  /// those are not few.
   BOULE_INLINE bool meet_few(const Discs& discs, const BlockSpheres& spheres) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
     if (count_bits(groups) > few_.groups) return false;
-    int rays[few_among_many.rays + group_size], count = 0;
+    int rays[tuning::few_if_sparse.rays + group_size], count = 0;
     for (unsigned left = groups; left != 0; left &= left - 1) {
       const int group = std::countr_zero(left), first_ray = packets_of(rays_, group).begin * width;
       for (unsigned in = open_amid(group, discs); in != 0; in &= in - 1)
         rays[count++] = first_ray + std::countr_zero(in);
       if (count > few_.rays) return false;
     }
-    // Those that miss all of them drop out without a branch for each.
+    // First those that miss all discs are dropped, without a branch for each.
     int near = 0;
     for (int i = 0; i < count; ++i) {
       rays[near] = rays[i];
@@ -78,14 +81,14 @@ class BundleAny {
     return true;
   }
 
-  /// Tells the grid which rays are still to be answered. A bundle that comes to that has many
-  /// spheres for its rays: more of them are few.
+  /// Fills the grid with the open rays. That is done for sparse bundles, in which more rays count
+  /// as few.
   void fill(RayGrid& grid) {
     grid.fill(rays_, hit_, end_high_);
-    few_ = few_among_many;
+    few_ = tuning::few_if_sparse;
   }
 
-  /// Any other sphere against all rays.
+  /// A sphere that is not simple against all rays.
   BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
     for (int p = 0; p < rays_.packets; ++p) {
       if (hit_[p] != all_lanes) resolve(p, slot, all_lanes & ~hit_[p]);
@@ -95,9 +98,9 @@ class BundleAny {
   }
 
   /// Finds limit() again.
-  BOULE_INLINE void update() { limit_ = greatest_limit(limits_); }
+  BOULE_INLINE void update() { limit_ = greatest_of_groups(limits_); }
 
-  /// Adds the planes and writes it all.
+  /// Adds the planes and writes the answers.
   void finish(const PlaneView& planes, std::uint8_t* occluded) {
     for (int p = 0; p < rays_.packets; ++p) {
       if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
@@ -114,8 +117,8 @@ class BundleAny {
     limits_[group] = most;
   }
 
-  /// Finds between which v the rays live. From their common end they run backwards, from v = (1 -
-  /// tmax) scale to scale.
+  /// Finds between which v rays live. Seen from a common end they run from v = (1 - tmax) scale,
+  /// where they end, to scale, where they begin.
   BOULE_INLINE void start(int p) {
     const int ray = p * width;
     const Real zero(0.0F), shift(rays_.shift);
@@ -136,12 +139,13 @@ class BundleAny {
     hit_[p] = 0;
   }
 
-  /// Where rays live, in v.
+  /// Between which v rays live.
   struct Lives {
-    Real begin;              ///< for certain from here
-    Real end_low, end_high;  ///< until here, or there
+    Real begin;              ///< upper bound of the begin
+    Real end_low, end_high;  ///< bounds of the end
   };
-  /// What float knows: lanes that may hit, and those that do unless they leave that sphere.
+  /// What float knows, as bits: lanes that may hit, and lanes that certainly do unless they leave
+  /// that very sphere.
   struct Verdict {
     unsigned open, certain;
   };
@@ -150,14 +154,15 @@ class BundleAny {
     const Real from = first_root<common>(line, disc, q), to = from + disc.spread;
     RealMask open = from <= lives.end_high;  // false for Q < 0
     if constexpr (common == Common::direction) {
-      const Real second = to + sqrt(q) + sqrt(q);  // bounds the other root
+      const Real second = to + sqrt(q) + sqrt(q);  // upper bound of the second root
       open = open & (Real(0.0F) <= second);
     }
     const RealMask certain = open & (disc.sure <= q) & (lives.begin < from) & (to < lives.end_low);
     return {bits(open), bits(certain)};
   }
 
-  /// What float knows of a sphere in W rays; true if that changes anything.
+  /// Lets float decide about a sphere and W rays, and double what float cannot. Returns whether
+  /// that may have changed anything.
   BOULE_INLINE bool consider(int p, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
     const int ray = p * width;
     const Verdict verdict =
@@ -175,7 +180,8 @@ class BundleAny {
     return true;
   }
 
-  /// Bits of a group's rays that are amid these discs, do not end before them and have met nothing.
+  /// The open rays of a group, as bits, that lie within the extent of the discs and do not end
+  /// before the first of them.
   BOULE_INLINE unsigned open_amid(int group, const Discs& discs) const {
     const Extent& e = discs.all;
     const Real near(discs.all_near);
@@ -191,7 +197,7 @@ class BundleAny {
     return result;
   }
 
-  /// Whether float cannot rule out that a ray meets one of some simple spheres.
+  /// Whether float cannot rule out that a ray hits one of the simple spheres.
   BOULE_INLINE bool touches(int ray, const Discs& discs) const {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Real end(end_high_[ray]);
@@ -204,7 +210,7 @@ class BundleAny {
     return (in & discs.simple) != 0;
   }
 
-  /// Simple spheres against one ray; true if it meets one.
+  /// The simple spheres against one ray. Returns whether it hits one.
   BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const BlockSpheres& spheres) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
@@ -220,8 +226,8 @@ class BundleAny {
     return false;
   }
 
-  /// One ray and those of W spheres from place `at` on that it may hit, and that it does; true if
-  /// so.
+  /// Decides whether a ray hits one of W spheres, from index `at` of their block on. `open`: those
+  /// that it may hit, as bits, `certain`: those that it does unless it leaves them.
   BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const BlockSpheres& spheres,
                            int at) {
     const int p = ray / width, lane = ray % width;
@@ -231,7 +237,7 @@ class BundleAny {
       const int k = std::countr_zero(left);
       const std::uint32_t slot = spheres.slot(at + k);
       const bool own = spheres_.id[slot] == source;
-      if (own && source_.insides(p * width)[lane] == 0) continue;  // it cannot be met again
+      if (own && source_.insides(p * width)[lane] == 0) continue;  // never met again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
         resolve(p, slot, bit);
@@ -243,56 +249,48 @@ class BundleAny {
     return false;
   }
 
-  /// Lanes whose rays leave this very sphere.
+  /// Lanes, as bits, whose rays leave the primitive `id`.
   BOULE_INLINE unsigned own_sphere(int ray, std::int32_t id) const {
-    return bits(load_as_wide(source_.sources(ray)) == Wide(static_cast<double>(id)));
+    return bits(load_integers(source_.sources(ray)) == Bits(id));
   }
-  /// Of those that leave their sphere the ones on its outside: they cannot meet it again.
+  /// Of the lanes in `own`, whose rays leave a sphere, those that leave it on its outside: they
+  /// never meet it again.
   BOULE_INLINE unsigned leaves_outside(int ray, unsigned own) const {
     if (own == 0) return 0;
     return own & ~bits(load_set(source_.insides(ray)));
   }
 
-  /// Solves a sphere for those of W rays that `lanes` names.
-  BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned lanes) {
-    const PacketPlace place = source_.packet(p * width, lanes);
+  /// Solves a sphere for those rays of packet p whose bits are set in `open`.
+  BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned open) {
+    const PacketRef packet = source_.packet(p * width, open);
     ExactRays rays;
-    load_exact(*place.rays, place.first, rays);
-    hit_[p] |= lanes & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
+    load_exact(*packet.rays, packet.first, rays);
+    hit_[p] |= open & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
   }
 
   BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
     const unsigned open = all_lanes & ~hit_[p];
-    const PacketPlace place = source_.packet(p * width, open);
+    const PacketRef packet = source_.packet(p * width, open);
     ExactRays rays;
-    load_exact(*place.rays, place.first, rays);
+    load_exact(*packet.rays, packet.first, rays);
     for (std::size_t k = 0; k < planes.size; ++k)
       hit_[p] |= open & bits(solve_robust(rays, get_plane<OneForAll>(planes, k)).hit);
   }
 
-  /// Packets are not cheaper before so many solves for each.
-  static constexpr int most_unclear = 2;
   static constexpr int group_size = bundle_size / bundle_groups;
-  static_assert(group_size <= 32);
-
-  /// As many groups, and rays in them, are few; measured.
-  struct Few {
-    int groups, rays;
-  };
-  static constexpr Few few_at_first = width < 16 ? Few{6, 24} : Few{8, 32};
-  static constexpr Few few_among_many = width < 16 ? Few{10, 48} : Few{12, 64};
+  static_assert(group_size <= 32);  // bits of an unsigned
 
   const Source& source_;
   const SphereView& spheres_;
   const BundleRays& rays_;
-  Few few_ = few_at_first;
-  int unclear_ = 0;  ///< times that float could not tell
+  tuning::Few few_ = tuning::few_at_first;
+  int unclear_ = 0;  ///< how often float could not tell
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];
-  float last_[bundle_packets];  ///< the greatest v that a packet's rays live at
-  unsigned hit_[bundle_packets];
-  alignas(64) float begin_[bundle_size];                            ///< live from here for certain
-  alignas(64) float end_low_[bundle_size], end_high_[bundle_size];  ///< and until here, or there
+  float last_[bundle_packets];            ///< the greatest v that a packet's rays live at
+  unsigned hit_[bundle_packets];          ///< by packet, the rays that have hit something, as bits
+  alignas(64) float begin_[bundle_size];  ///< as in Lives
+  alignas(64) float end_low_[bundle_size], end_high_[bundle_size];  ///< as in Lives
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -5,32 +5,35 @@
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/search/primitive_access.h"
 
-/// Spheres as a bundle sees them, a block at a time: each a disc around (X, Y) at the depth Z.
+/// Spheres as discs in a bundle's frame, a block of sixteen at a time: each around (X, Y) at the
+/// depth Z. Where a sphere is simple for the bundle, its disc and the bounds kept with it decide
+/// nearly everything in float; simd/abi/filter_bounds.h derives them (bundle_axis and after) under
+/// the names used here.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Up to 16 spheres of one block, the first ones.
+/// The first spheres of a block, up to sixteen.
 class BlockSpheres {
  public:
   static constexpr int size = bvh_leaf_size;
 
-  /// `count` spheres from slot `first` on, a multiple of 16.
+  /// `count` spheres from slot `first` on, a multiple of sixteen.
   BOULE_INLINE BlockSpheres(const SphereView& spheres, std::size_t first, unsigned count)
       : block_(spheres.blocks[first / bvh_leaf_size]),
         first_(static_cast<std::uint32_t>(first)),
         count_(count) {}
 
-  /// The places that spheres are in: bits.
+  /// Bit k is set if there is a k-th sphere.
   [[nodiscard]] BOULE_INLINE unsigned there() const { return (1U << count_) - 1; }
-  [[nodiscard]] BOULE_INLINE std::uint32_t slot(int place) const {
-    return first_ + static_cast<std::uint32_t>(place);
+  [[nodiscard]] BOULE_INLINE std::uint32_t slot(int index) const {
+    return first_ + static_cast<std::uint32_t>(index);
   }
-  /// Of W places, the part `part` of them.
+  /// Those of the W spheres of a part: part p has the indices from p W on.
   BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
     const std::size_t at = part * width;
     return {load(block_.center_x + at), load(block_.center_y + at), load(block_.center_z + at)};
   }
   BOULE_INLINE Real radii(std::size_t part) const { return load(block_.radius + part * width); }
-  /// Before this part there is a sphere in every part, and none from it on.
+  /// The number of parts that have a sphere.
   [[nodiscard]] BOULE_INLINE std::size_t parts() const { return (count_ + width - 1) / width; }
 
  private:
@@ -39,7 +42,7 @@ class BlockSpheres {
   unsigned count_;
 };
 
-/// Their discs.
+/// The discs of a block's spheres.
 struct Discs {
   static constexpr int size = BlockSpheres::size;
   alignas(64) float x[size], y[size], z[size];
@@ -47,26 +50,23 @@ struct Discs {
   alignas(64) float squared[size];  ///< R2
   alignas(64) float sure[size];     ///< D2
   alignas(64) float depth[size];    ///< Z - E1
-  alignas(64) float spread[size];   ///< from the lower to the upper bound of v
-  alignas(64) float near[size];     ///< nothing of it is nearer than this v; no_hit: not simple
-  alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];
+  alignas(64) float spread[size];   ///< upper less lower bound of v of a hit
+  alignas(64) float near[size];     ///< no point of the sphere has a smaller v; inf if not simple
+  alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];  ///< its extent
 
-  Extent all;      ///< of the simple ones together
-  float all_near;  ///< the least
+  Extent all;      ///< of all simple ones; only where any hit is sought
+  float all_near;  ///< the least of `near`; likewise
 
-  unsigned simple;   ///< bits: discs that may be hit and that these bounds hold for
-  unsigned awkward;  ///< bits: spheres that may be hit and that they do not hold for
+  unsigned simple;   ///< as bits, spheres that may be hit and that these bounds hold for
+  unsigned awkward;  ///< as bits, spheres that may be hit and that they do not hold for
 };
 
-/// The bounds' factors for one bundle.
+/// The factors of the bounds, the same for all spheres of one bundle.
 struct DiscFactors {
-  Real axis, constant;  ///< delta = axis |Z| + exact F1 + constant
-  Real exact;
-  Real depth;         ///< E1 = depth F1
-  Real square;        ///< G = square r^2 + ...
-  Real plane_length;  ///< |n| of the bundle's sides, outward
-
-  Real depth_shift;  ///< what E1 has besides
+  Real axis, constant, exact;  ///< delta = axis |Z| + exact F1 + constant
+  Real depth, depth_shift;     ///< E1 = depth F1 + depth_shift
+  Real square;                 ///< G = square r^2 + 4 delta (r + delta)
+  Real plane_length;           ///< length of the normals of the bundle's sides, rounded up
 
   BOULE_INLINE DiscFactors(const BundleRays& rays, Common common) {
     constexpr auto u = static_cast<float>(filter::u);
@@ -82,7 +82,8 @@ struct DiscFactors {
   }
 };
 
-/// Lanes of spheres that no ray of the bundle meets: beyond one of its four sides.
+/// Lanes of spheres that lie beyond one of the bundle's four sides, so that no ray hits them.
+/// `reach`: how near the centre a line that hits the sphere comes.
 template <Common common>
 BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, const Real& reach) {
   const Real zero(0.0F);
@@ -97,8 +98,8 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
   }
 }
 
-/// Where the spheres of part `part` are, and whether the bundle may meet them before `limit`.
-template <Common common, Seek seek>
+/// Finds where the spheres of a part lie and whether the bundle may hit them before `limit`.
+template <Common common, Sought sought>
 BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
                              const BlockSpheres& spheres, std::size_t part, const Real& limit,
                              Discs& discs) {
@@ -112,18 +113,18 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
       filter_fma(abs(center.z), factors.axis, filter_fma(f1, factors.exact, factors.constant));
   const Real depth = filter_fnma(f1, factors.depth, center.z - factors.depth_shift);
   const Real near = depth - r - rays.c_high;
-  // A line that meets the sphere is this near its centre.
   const Real reach = (r + delta + delta) * factors.plane_length;
   const RealMask judged = f1 < Real(filter::bundle_far);
   const RealMask missed = judged & outside<common>(rays.extent, center, reach);
   RealMask simple = judged & (r < Real(filter::bundle_far));
-  // Parallel rays may begin anywhere among the spheres: any hit then asks where.
-  if constexpr (common != Common::direction || seek == Seek::nearest)
+  // Parallel rays begin anywhere among the spheres. Where any hit is sought, bounds of v tell
+  // whether a sphere lies behind the origin.
+  if constexpr (common != Common::direction || sought == Sought::nearest)
     simple = simple & (r + r + Real(rays.c_high) <= center.z);
   if constexpr (common != Common::direction)
-    simple = simple & (Real(static_cast<float>(filter::floor)) <= center.z);  // for 1 / Z
+    simple = simple & (Real(static_cast<float>(filter::floor)) <= center.z);  // 1 / Z is finite
   const std::size_t at = part * width;
-  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // NaN is hit by nothing
+  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // nothing hits NaN
   store(discs.x + at, center.x);
   store(discs.y + at, center.y);
   store(discs.z + at, center.z);
@@ -135,20 +136,20 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
   discs.simple |= bits(simple) << at;
 }
 
-/// Finds those that matter.
-template <Common common, Seek seek>
+/// Finds which spheres of a block may be hit, and where they lie.
+template <Common common, Sought sought>
 BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
                               const BlockSpheres& spheres, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
   for (std::size_t part = 0; part < spheres.parts(); ++part)
-    place_part<common, seek>(rays, factors, spheres, part, limit, discs);
+    place_part<common, sought>(rays, factors, spheres, part, limit, discs);
   const unsigned there = spheres.there();
   discs.simple &= there;
   discs.awkward &= there;
 }
 
-/// The bounds of those that matter and are simple: see filter_bounds.h.
-template <Common common, Seek seek>
+/// Finds the bounds of the spheres that may be hit.
+template <Common common, Sought sought>
 BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Discs& discs) {
   ExtentLanes all;
   Real all_near(static_cast<float>(no_hit));
@@ -161,7 +162,7 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Dis
     store(discs.squared + at, squared);
     store(discs.sure + at, sure);
     store(discs.spread + at, filter_fma(e1, Real(filter::bundle_twice), sqrt(sure)));
-    // Where a group's extent may meet the disc: |a - X / Z| <= (r' + 2 delta) / Z.
+    // The a of a ray that hits the sphere: |a - X / Z| <= (sqrt(R2) + 2 delta) / Z.
     const Real half = sqrt(squared) + delta + delta;
     Real a = x, b = y, wide = half;
     if constexpr (common != Common::direction) {
@@ -174,21 +175,20 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Dis
     store(discs.a_high + at, a + wide);
     store(discs.b_low + at, b - wide);
     store(discs.b_high + at, b + wide);
-    if constexpr (seek == Seek::any) {
+    if constexpr (sought == Sought::any) {
       const Real near = load(discs.near + at);
       const RealMask simple = near < Real(static_cast<float>(no_hit));
       all.add(simple, {a - wide, b - wide}, {a + wide, b + wide});
       all_near = filter_min(all_near, near);
     }
   }
-  if constexpr (seek == Seek::any) {
+  if constexpr (sought == Sought::any) {
     discs.all = all.total();
     discs.all_near = least_lane(all_near);
   }
 }
 
-/// Bits of the groups of which some ray may be within these extents, no farther than its group's
-/// limit.
+/// The groups, as bits, with a ray that may lie in an extent and whose limit is not below `least`.
 BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits, const Extent& e,
                                   float least) {
   const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high), near(least);
@@ -202,7 +202,7 @@ BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limit
   return result;
 }
 
-/// The same for disc k.
+/// The same for the extent of disc k.
 BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits,
                                   const Discs& discs, int k) {
   return groups_near(groups, limits,

@@ -5,19 +5,20 @@
 #include <cstdint>
 
 #include "simd/kernel/search/bundle_rays.h"
+#include "simd/kernel/tuning.h"
 
-/// Where a bundle's rays are, coarsely. Rays that are fewer than the spheres around them leave gaps
-/// between each other, and more so as they meet things and are done: what lies in a gap, or beyond
-/// the ends of the rays around, need not be visited.
+/// A coarse map of where a bundle's rays are. In a sparse bundle, one with many spheres for its
+/// rays, there are gaps between rays, and the more so the more rays have their answer. Boxes that
+/// lie in a gap, or beyond the ends of all rays around them, need not be visited.
 namespace boule::BOULE_KERNEL_ISA {
 
 class RayGrid {
  public:
-  /// Nothing is known before it is filled.
+  /// Whether it was filled; before that nothing is known.
   [[nodiscard]] bool known() const { return known_; }
 
-  /// Enters the rays but those that `done` has a bit for, packet by packet. `ends`: no ray lives
-  /// beyond that v.
+  /// Enters all rays but those whose bit is set in `done`, packet by packet. No ray lives beyond
+  /// its v in `ends`.
   BOULE_NOINLINE void fill(const BundleRays& rays, const unsigned* done, const float* ends) {
     a_ = axis(rays.extent.a_low, rays.extent.a_high);
     b_ = axis(rays.extent.b_low, rays.extent.b_high);
@@ -38,7 +39,8 @@ class RayGrid {
     known_ = true;
   }
 
-  /// Lanes of W ranges of a and b, NaN for unknown.
+  /// The cells at the ends of W ranges of a and b, still to be rounded down. An end that is NaN,
+  /// because it is not known, gives the first or the last cell.
   struct Cells {
     Real a_low, a_high, b_low, b_high;
   };
@@ -47,7 +49,8 @@ class RayGrid {
     return {cell(a_, a_low), cell_above(a_, a_high), cell(b_, b_low), cell_above(b_, b_high)};
   }
 
-  /// Whether there are rays in these cells, and some around that live at and beyond `near`.
+  /// Whether there are rays in these cells, and rays in the coarse cells around that live at
+  /// `near`.
   [[nodiscard]] bool any_in(float a_low, float a_high, float b_low, float b_high,
                             float near) const {
     const int left = static_cast<int>(a_low), right = static_cast<int>(a_high);
@@ -60,14 +63,14 @@ class RayGrid {
   }
 
  private:
-  static constexpr int side = 32;
-  /// Ends are kept for so many cells, squared, together.
-  static constexpr int coarse = 4;
+  static constexpr int side = tuning::grid_side;
+  static constexpr int coarse = tuning::grid_coarse;
+  static_assert(side < 64 && side % coarse == 0);  // a row is 64 bits, and `columns` needs one more
 
   void enter(int column, int row, float end) {
     rows_[row] |= std::uint64_t{1} << column;
     float& last = ends_[row / coarse][column / coarse];
-    last = last < end ? end : last;  // NaN is left out
+    last = last < end ? end : last;  // skips NaN
   }
   BOULE_INLINE bool any_lives(int left, int right, int begin, int end, float near) const {
     for (int row = begin / coarse; row <= end / coarse; ++row) {
@@ -84,11 +87,11 @@ class RayGrid {
   static Axis axis(float low, float high) {
     return {low, high > low ? static_cast<float>(side) / (high - low) : 0.0F};
   }
-  /// Rises with x, as the roundings do; 0 for NaN.
+  /// The cell of a coordinate; it never falls as x rises, because no rounding does. 0 for NaN.
   BOULE_INLINE static Real cell(const Axis& axis, const Real& x) {
     return cut_to_cells((x - Real(axis.low)) * Real(axis.scale), side - 1);
   }
-  /// The same, but the last for NaN.
+  /// The same, but the last cell for NaN.
   BOULE_INLINE static Real cell_above(const Axis& axis, const Real& x) {
     const Real zero(0.0F), last(static_cast<float>(side - 1));
     const Real at = (x - Real(axis.low)) * Real(axis.scale);
@@ -98,8 +101,8 @@ class RayGrid {
 
   bool known_ = false;
   Axis a_, b_;
-  std::uint64_t rows_[side];
-  float ends_[side / coarse][side / coarse];
+  std::uint64_t rows_[side];                  ///< for each row the columns that have a ray, as bits
+  float ends_[side / coarse][side / coarse];  ///< the greatest end of the rays in a coarse cell
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -6,18 +6,19 @@
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/search/ray_lanes.h"
+#include "simd/kernel/tuning.h"
 
-/// Rays that have something in common, as bundles take them.
+/// Where a bundle's rays come from. Bundles ask a source, packet by packet: here rays that are
+/// neighbours in a stream (RaysInOrder), in ray_pool.h neighbours in a sorted pool (RaysOfPool).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle's rays have in common. `end`: the point at t = 1; such rays are seen from there,
-/// backwards.
+/// What a bundle's rays have in common: their origin, their direction, or their end, the point at t
+/// =
+/// 1. Rays with a common end are looked at from there, backwards.
 enum class Common { origin, direction, end };
 
-/// What is asked for.
-enum class Seek { nearest, any };
-
-inline constexpr int bundle_size = 1024;
+/// What is asked: the nearest hit, or whether there is any.
+enum class Sought { nearest, any };
 
 BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
   return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
@@ -31,10 +32,11 @@ BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
 BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
 BOULE_INLINE Real sum_abs_of(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-/// Bits as bytes, 0 or 1.
+/// Writes W bits as bytes, 0 or 1.
 BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
   for (int at = 0; at < width; at += 8) {
-    // Eight copies, of which each keeps one bit; the sum's top bits tell which are not 0.
+    // Eight copies of the byte, each of which keeps one bit; adding 0x7f to each sets the top bit
+    // of those that are not 0.
     const std::uint64_t one_each = (bits >> at & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
     const std::uint64_t ones = (one_each + 0x7f7f7f7f7f7f7f7fU) >> 7 & 0x0101010101010101U;
     __builtin_memcpy(bytes + at, &ones, 8);
@@ -59,13 +61,14 @@ BOULE_INLINE bool none_leaves(const std::int32_t* sources) {
   return both == ~std::uint64_t{0};
 }
 
-/// How W rays differ: by their directions, or, with one direction, by their origins less O.
+/// By what W rays differ: by their directions, or, with a common direction, by their origins less
+/// O. O is the common origin or end, or, with a common direction, the origin of one of the rays.
 struct Sight {
   Vec3<Real> sight;
-  Real shift;  ///< with a common end: how far from O the ray's is
+  Real shift;  ///< with a common end: how far from O this ray ends
 };
 
-/// What rays share, as one of them has it: O and, with one direction, that.
+/// What rays share, taken from one of them: O and, with a common direction, that.
 template <Common common>
 class SharedByRays {
  public:
@@ -76,36 +79,37 @@ class SharedByRays {
   [[nodiscard]] const Vec3d& org() const { return org_; }
   [[nodiscard]] const Vec3d& dir() const { return dir_; }
 
-  BOULE_INLINE Sight sight(const PacketPlace& place) const {
-    const RayStream& rays = *place.rays;
+  BOULE_INLINE Sight sight(const PacketRef& packet) const {
+    const RayStream& rays = *packet.rays;
     if constexpr (common == Common::origin) {
-      return {load_direction(rays, place.first), Real(0.0F)};
+      return {load_direction(rays, packet.first), Real(0.0F)};
     } else if constexpr (common == Common::end) {
-      const Vec3<Real> dir = load_direction(rays, place.first);
-      const Vec3<Wide> end = load_origin(rays, place.first) + widen(dir);
+      const Vec3<Real> dir = load_direction(rays, packet.first);
+      const Vec3<Wide> end = load_origin(rays, packet.first) + widen(dir);
       return {dir, sum_abs_of(narrow(end - wide_all(org_)))};
     } else {
-      return {narrow(load_origin(rays, place.first) - wide_all(org_)), Real(0.0F)};
+      return {narrow(load_origin(rays, packet.first) - wide_all(org_)), Real(0.0F)};
     }
   }
 
-  /// Lanes whose rays may be in a bundle: what they must share they do, they live from t = 0 on
-  /// and, to seek the nearest hit, leave nothing.
-  template <Seek seek>
-  BOULE_INLINE RealMask belongs(const PacketPlace& place) const {
-    const RayStream& rays = *place.rays;
-    const std::size_t first = place.first;
+  /// Lanes whose rays may be in a bundle. They share what they must, their tmin is 0 and, where the
+  /// nearest hit is sought, they leave no primitive.
+  template <Sought sought>
+  BOULE_INLINE RealMask belongs(const PacketRef& packet) const {
+    const RayStream& rays = *packet.rays;
+    const std::size_t first = packet.first;
     const Real zero(0.0F), tmin = load(rays.tmin + first);
     RealMask fresh = (tmin <= zero) & (zero <= tmin);
-    if constexpr (seek == Seek::nearest)
-      fresh = fresh & (Real(none_leaves(rays.source + first) ? 0.0F : 1.0F) <= zero);
+    if constexpr (sought == Sought::nearest)
+      fresh = fresh & uniform(none_leaves(rays.source + first));
     if constexpr (common == Common::end) {
-      // `shift` tells the rest; what is behind the end is not seen.
+      // That they share their end is judged by Sight::shift. From the end nothing beyond it is
+      // seen.
       return fresh & (load(rays.tmax + first) <= Real(1.0F));
     } else if constexpr (common == Common::origin) {
       const Vec3<Wide> org = load_origin(rays, first), same_org = wide_all(org_);
       const WideMask same = (org.x == same_org.x) & (org.y == same_org.y) & (org.z == same_org.z);
-      return fresh & (bits(same) == all_lanes ? zero <= zero : zero < zero);
+      return fresh & uniform(all(same));
     } else {
       const Vec3<Real> dir = load_direction(rays, first), one = narrow_all(dir_);
       return fresh & (dir.x <= one.x) & (one.x <= dir.x) & (dir.y <= one.y) & (one.y <= dir.y) &
@@ -124,13 +128,12 @@ class SharedByRays {
   Vec3d dir_, org_;
 };
 
-/// Where a bundle's rays come from, asked packet by packet: here neighbours in a stream, in
-/// ray_pool.h those of a pool.
+/// Neighbours in a stream, in its order.
 template <Common common>
-class RaysInPlace {
+class RaysInOrder {
  public:
-  /// Rays first .. first + count - 1 of the stream, count at most bundle_size.
-  RaysInPlace(const PaddedStream& stream, std::size_t first, std::size_t count)
+  /// Rays first .. first + count - 1 of the stream, count at most tuning::bundle_size.
+  RaysInOrder(const PaddedStream& stream, std::size_t first, std::size_t count)
       : stream_(stream),
         first_(first),
         count_(static_cast<int>(count)),
@@ -141,37 +144,38 @@ class RaysInPlace {
   [[nodiscard]] const Vec3d& org() const { return shared_.org(); }
   [[nodiscard]] const Vec3d& dir() const { return shared_.dir(); }
 
-  /// Of ray i alone.
+  /// The sight of ray i alone.
   BOULE_INLINE Vec3d one_sight(int i) const {
     const std::size_t at = first_ + static_cast<std::size_t>(i);
     return common == Common::direction ? origin_of(stream_.rays(), at) - shared_.org()
                                        : direction_of(stream_.rays(), at);
   }
-  /// Of W rays.
+  /// Those of W rays, from `ray` on; likewise below.
   BOULE_INLINE Sight sight(int ray) const { return shared_.sight(packet(ray)); }
-  template <Seek seek>
+  template <Sought sought>
   BOULE_INLINE RealMask belongs(int ray) const {
-    return shared_.template belongs<seek>(packet(ray));
+    return shared_.template belongs<sought>(packet(ray));
   }
   BOULE_INLINE Real tmax(int ray) const {
-    const PacketPlace place = packet(ray);
-    return load(place.rays->tmax + place.first);
+    const PacketRef rays = packet(ray);
+    return load(rays.rays->tmax + rays.first);
   }
-  /// The ids that W rays leave, or -1.
+  /// The ids of the primitives that they leave, or -1.
   BOULE_INLINE const std::int32_t* sources(int ray) const {
-    const PacketPlace place = packet(ray);
-    return place.rays->source + place.first;
+    const PacketRef rays = packet(ray);
+    return rays.rays->source + rays.first;
   }
-  /// Which of them leave it on its inside.
+  /// 1 for those that leave it on its inside.
   BOULE_INLINE const std::uint8_t* insides(int ray) const {
-    const PacketPlace place = packet(ray);
-    return place.rays->inside + place.first;
+    const PacketRef rays = packet(ray);
+    return rays.rays->inside + rays.first;
   }
-  /// All there is to know of those that `wanted` names, until the next call.
-  BOULE_INLINE PacketPlace packet(int ray, unsigned /*wanted*/ = all_lanes) const {
+  /// Those named by the bits of `wanted`, in memory; valid until the next call.
+  BOULE_INLINE PacketRef packet(int ray, unsigned /*wanted*/ = all_lanes) const {
     return stream_.packet(first_ + static_cast<std::size_t>(ray));
   }
-  /// Writes which of them met something to an array for the stream.
+  /// Writes which of them met something, as bits, to `answers`, which has a byte for each ray of
+  /// the stream.
   BOULE_INLINE void answer(int ray, unsigned met, std::uint8_t* answers) const {
     std::uint8_t bytes[max_width];
     bytes_of(met, bytes);
@@ -183,13 +187,13 @@ class RaysInPlace {
         answers[first + lane] = bytes[lane];
     }
   }
-  /// How many of them are no copies.
+  /// How many of them are not copies of the stream's last ray.
   BOULE_INLINE int live(int ray) const {
     return static_cast<int>(stream_.live(first_ + static_cast<std::size_t>(ray)));
   }
-  /// Of the next bundle.
+  /// Fetches the packet of the next bundle that stands where `ray` does in this one.
   BOULE_INLINE void prefetch_next(int ray) const {
-    prefetch_packet(stream_.rays(), first_ + static_cast<std::size_t>(ray + bundle_size));
+    prefetch_packet(stream_.rays(), first_ + static_cast<std::size_t>(ray + tuning::bundle_size));
   }
 
  private:

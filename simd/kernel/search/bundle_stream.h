@@ -7,40 +7,37 @@
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/ray_pool.h"
 
-/// Streams of rays that have something in common: bundle by bundle. Which rays share one is a
-/// question of time only.
+/// Streams of rays with something in common, bundle by bundle. Chosen where the caller promises a
+/// common origin, direction or end (Coherence) and asks for no other form. Rays that are no bundle
+/// after all are halved until they are, and few rays go as packets, so that the hits do not depend
+/// on which rays make a bundle. Shadow rays (any hit) are taken in their order as long as that goes
+/// well, and then sorted (ray_pool.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Fewer rays are packets.
-inline constexpr std::size_t fewest_rays = 32;
-
-/// Rays that have more leaves in their way than one for so many of them are sorted.
-inline constexpr std::size_t rays_per_leaf_in_place = 12;
-
-/// What does not fit into bundles goes as packets.
+/// Traces rays that fit into no bundle, as packets.
 template <class Answers>
 BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
                              std::size_t begin, std::size_t end, Answers answers) {
   trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
 }
 
-/// Rays of the stream as one bundle.
+/// Traces `count` rays of the stream as one bundle.
 template <Common common, class Answers>
-BOULE_INLINE Outcome trace_in_place(const GeometryView& geometry, const PaddedStream& stream,
+BOULE_INLINE Outcome trace_in_order(const GeometryView& geometry, const PaddedStream& stream,
                                     std::size_t first, std::size_t count, Effort& effort,
                                     Answers answers) {
-  return trace_bundle<common>(geometry, RaysInPlace<common>(stream, first, count), effort, answers);
+  return trace_bundle<common>(geometry, RaysInOrder<common>(stream, first, count), effort, answers);
 }
 
-/// Rays begin .. end - 1, at most a bundle: halved until they fit; packets where they are too few,
-/// or better off.
+/// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they are one, or
+/// as packets where they are few or their bundle gave up.
 template <Common common, class Answers>
 void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
                   std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
-  if (count >= fewest_rays) {
+  if (count >= tuning::fewest_bundle_rays) {
     Effort effort;
-    const Outcome outcome = trace_in_place<common>(geometry, stream, begin, count, effort, answers);
+    const Outcome outcome = trace_in_order<common>(geometry, stream, begin, count, effort, answers);
     if (outcome == Outcome::traced) return;
     if (outcome == Outcome::no_bundle) {
       const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
@@ -52,7 +49,7 @@ void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std:
   trace_rest(geometry, stream, begin, end, answers);
 }
 
-/// The nearest hits of all rays, in their order.
+/// Finds the nearest hits of all rays.
 template <Common common>
 BOULE_INLINE void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
                                       const HitStream& hits) {
@@ -63,24 +60,24 @@ BOULE_INLINE void closest_hit_bundled(const GeometryView& geometry, const Padded
   }
 }
 
-/// Whether rays begin .. end - 1 meet anything, in their order, as long as that goes well: returns
-/// the first ray that still waits for an answer.
+/// Finds whether rays begin .. end - 1 hit anything, in their order, as long as that goes well.
+/// Returns the first ray that has no answer yet.
 template <Common common>
-BOULE_INLINE std::size_t any_hit_in_place(const GeometryView& geometry, const PaddedStream& stream,
+BOULE_INLINE std::size_t any_hit_in_order(const GeometryView& geometry, const PaddedStream& stream,
                                           std::size_t begin, std::size_t end,
                                           std::uint8_t* occluded) {
-  while (end - begin >= fewest_rays) {
+  while (end - begin >= tuning::fewest_bundle_rays) {
     const std::size_t count = end - begin < bundle_size ? end - begin : bundle_size;
-    Effort effort{count / rays_per_leaf_in_place};
-    if (trace_in_place<common>(geometry, stream, begin, count, effort, occluded) != Outcome::traced)
+    Effort effort{count / tuning::rays_per_leaf_in_order};
+    if (trace_in_order<common>(geometry, stream, begin, count, effort, occluded) != Outcome::traced)
       break;
     begin += count;
   }
   return begin;
 }
 
-/// Rays first .. first + count - 1 of a pool whose bundle went that way, with all there is to know
-/// of them: halved if they are no bundle, else as packets.
+/// Traces rays first .. first + count - 1 of a pool, whose bundle had this outcome: halved if they
+/// were no bundle, else as packets.
 template <Common common>
 BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<common>& pool,
                                    std::size_t first, std::size_t count, Outcome outcome,
@@ -97,7 +94,8 @@ BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<c
   for (std::size_t k = 0; k < count; ++k) occluded[pool.index(first + k)] = met[k];
 }
 
-/// Whether rays begin .. end - 1, at most a pool, meet anything, sorted.
+/// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted by where they lie for
+/// their light.
 template <Common common>
 BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStream& stream,
                                    std::size_t begin, std::size_t end, std::uint8_t* occluded) {
@@ -105,7 +103,7 @@ BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStr
   for (std::size_t done = 0; done < pool.size(); done += bundle_size) {
     const std::size_t rest = pool.size() - done, count = rest < bundle_size ? rest : bundle_size;
     Outcome outcome = Outcome::no_bundle;
-    if (pool.all_belong() && count >= fewest_rays) {
+    if (pool.all_belong() && count >= tuning::fewest_bundle_rays) {
       const RaysOfPool<common> rays(pool, done, static_cast<int>(count));
       Effort effort;
       outcome = trace_bundle<common>(geometry, rays, effort, occluded);
@@ -114,15 +112,16 @@ BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStr
   }
 }
 
-/// Whether rays meet anything: where neighbours have too little in common, sorted.
+/// Finds whether rays hit anything: in their order, and sorted from where neighbours have too
+/// little in common.
 template <Common common>
 BOULE_INLINE void any_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
                                   std::uint8_t* occluded) {
   const std::size_t size = stream.rays().size;
-  for (std::size_t begin = 0; begin < size; begin += pool_size) {
-    const std::size_t end = size - begin < pool_size ? size : begin + pool_size;
-    const std::size_t rest = any_hit_in_place<common>(geometry, stream, begin, end, occluded);
-    if (end - rest < fewest_rays) {
+  for (std::size_t begin = 0; begin < size; begin += tuning::pool_size) {
+    const std::size_t end = size - begin < tuning::pool_size ? size : begin + tuning::pool_size;
+    const std::size_t rest = any_hit_in_order<common>(geometry, stream, begin, end, occluded);
+    if (end - rest < tuning::fewest_bundle_rays) {
       trace_rest(geometry, stream, rest, end, occluded);
     } else {
       any_hit_sorted<common>(geometry, stream, rest, end, occluded);

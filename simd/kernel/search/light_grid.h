@@ -4,24 +4,24 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
-#include "simd/kernel/search/bundle_rays.h"
+#include "simd/kernel/search/bundle_extent.h"
+#include "simd/kernel/search/bundle_frame.h"
+#include "simd/kernel/tuning.h"
 
-/// Neighbours in the picture may be far apart as a light sees them, and others close together: a
-/// pool of rays is sorted by where they are for the light. Only the time depends on the order, so
-/// plain floats do.
+/// The order of sorted shadow rays. Neighbours in the picture may lie far apart for a light, and
+/// rays of distant pixels close together; sorted by where they lie for the light they make good
+/// bundles. Only the time depends on the order, so everything here is plain float.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Rays that are sorted together.
-inline constexpr std::size_t pool_size = 65536;
-
-/// Where rays are on a square that the light sees.
+/// Maps rays to a plane as a light sees them: by their directions from it, or, with a common
+/// direction, by their origins.
 template <Common common>
-class LightView {
+class LightMap {
  public:
-  /// Rays begin .. end - 1.
-  LightView(const RayStream& rays, std::size_t begin, std::size_t end) {
+  /// A map for rays begin .. end - 1: its middle is their mean direction.
+  LightMap(const RayStream& rays, std::size_t begin, std::size_t end) {
     Vec3d forward{0, 0, 0};
-    const std::size_t step = (end - begin + 31) / 32;
+    const std::size_t step = (end - begin + tuning::light_samples - 1) / tuning::light_samples;
     for (std::size_t i = begin; i < end; i += step)
       forward = forward + scaled_to_unit(direction_of(rays, i));
     const BundleFrame frame = make_frame({0, 0, 0}, forward, {1, 0, 0});
@@ -30,10 +30,10 @@ class LightView {
     w_ = narrow_all(frame.w);
   }
 
-  struct Place {
+  struct Point {
     Real x, y;
   };
-  BOULE_INLINE Place place(const Vec3<Real>& sight) const {
+  BOULE_INLINE Point point_of(const Vec3<Real>& sight) const {
     const Real x = filter_dot(sight, u_), y = filter_dot(sight, v_);
     if constexpr (common == Common::direction) {
       return {x, y};
@@ -54,18 +54,13 @@ class LightView {
   Vec3<Real> u_{Real(0.0F), Real(0.0F), Real(0.0F)}, v_ = u_, w_ = u_;
 };
 
-/// A square grid on what the light sees, its cells along a Morton curve.
+/// A square grid over a light's map; its cells are numbered along a Morton curve.
 class LightGrid {
  public:
-  static constexpr unsigned most_cells = 4096;
-
-  /// Fits one to where some of `size` rays are; the others are cut to it.
+  /// A grid for `size` rays over the points of some of them. Others may lie beyond it and then
+  /// belong to the cells at its border.
   LightGrid(const Extent& some, std::size_t size)
-      : x_low_(some.a_low),
-        y_low_(some.b_low),
-        side_(size < 1024   ? 16
-              : size < 4096 ? 32
-                            : 64) {
+      : x_low_(some.a_low), y_low_(some.b_low), side_(tuning::light_grid_side(size)) {
     const float x_size = some.a_high - some.a_low, y_size = some.b_high - some.b_low;
     const float larger = x_size > y_size ? x_size : y_size;
     scale_ = larger > 0 ? static_cast<float>(side_) / larger : 0.0F;
@@ -74,16 +69,16 @@ class LightGrid {
   [[nodiscard]] unsigned cells() const { return static_cast<unsigned>(side_ * side_); }
 
   /// The cells of W rays.
-  template <class Place>
-  BOULE_INLINE void find_cells(const Place& place, std::uint16_t* cell) const {
+  template <class Point>
+  BOULE_INLINE void find_cells(const Point& point, std::uint16_t* cell) const {
     alignas(64) float x[width], y[width];
-    store(x, cut_to_cells((place.x - x_low_) * scale_, side_ - 1));
-    store(y, cut_to_cells((place.y - y_low_) * scale_, side_ - 1));
+    store(x, cut_to_cells((point.x - x_low_) * scale_, side_ - 1));
+    store(y, cut_to_cells((point.y - y_low_) * scale_, side_ - 1));
     for (int lane = 0; lane < width; ++lane) cell[lane] = curve_position(x[lane], y[lane]);
   }
 
  private:
-  /// The bits of x and y, of which there are six, in turn.
+  /// The six bits of x and those of y in turn.
   BOULE_INLINE static std::uint16_t curve_position(float x, float y) {
     unsigned both = static_cast<unsigned>(static_cast<int>(x)) |
                     static_cast<unsigned>(static_cast<int>(y)) << 16;
@@ -94,7 +89,7 @@ class LightGrid {
   }
 
   Real x_low_, y_low_, scale_{0.0F};
-  int side_;  ///< in cells: a power of two
+  int side_;  ///< in cells
 };
 
 /// A counting sort of rays by their cells.
@@ -103,9 +98,9 @@ class CellSort {
   explicit CellSort(unsigned cells) : cells_(cells) {
     for (unsigned c = 0; c < cells; ++c) next_[c] = 0;
   }
-  /// To be told of every ray once.
+  /// Call it once for every ray, with the cell of the ray,
   BOULE_INLINE void count(std::uint16_t cell) { ++next_[cell]; }
-  /// Then: the order of the rays that have these cells.
+  /// and then this, which gives the order of the rays that have these cells.
   void find_order(const std::uint16_t* cell, std::size_t size, std::uint16_t* order) {
     unsigned before = 0;
     for (unsigned c = 0; c < cells_; ++c) {
@@ -117,9 +112,9 @@ class CellSort {
   }
 
  private:
-  static_assert(pool_size <= 65536 && LightGrid::most_cells <= 65536);
+  static_assert(tuning::pool_size <= 65536 && tuning::most_light_cells <= 65536);
   unsigned cells_;
-  unsigned next_[LightGrid::most_cells];
+  unsigned next_[tuning::most_light_cells];
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -6,20 +6,23 @@
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/search/traverse.h"
+#include "simd/kernel/tuning.h"
 
-/// Streams of rays that have nothing in common: packet by packet, or ray by ray.
+/// Streams of rays as packets of W neighbours, and single rays where those would not fill a packet.
+/// Chosen for both solvers where Form says so, where there is no tree, and where a trial finds
+/// packets faster than flights (scattered_stream.h). Neighbours should have much in common, but
+/// need not: only the time depends on it.
 namespace boule::BOULE_KERNEL_ISA {
 
-inline constexpr auto lanes = static_cast<std::size_t>(width);
-
-/// Rays of a stream's end that fill half a packet or less go one by one.
+/// Whether the next ray goes alone. `remaining`: rays of the stream from it on.
 BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
-  if (form == Form::automatic) return remaining <= lanes / 2;
+  if (form == Form::automatic) return remaining <= tuning::most_single_rays;
   return form == Form::single;
 }
 
-/// Calls packet(rays, first, live lanes) and single(rays, index) so as to cover rays begin .. end,
-/// `begin` a multiple of W.
+/// Calls packet(rays, first, live) for packets, `live` of whose lanes are rays of the stream, and
+/// single(rays, index) for single rays, so that rays begin .. end - 1 are covered once. `begin` is
+/// a multiple of W.
 template <class Packet, class Single>
 BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end,
                                  Form form, const Packet& packet, const Single& single) {
@@ -31,41 +34,48 @@ BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, 
       single(rays, first);
       ++first;
     } else {
-      const PacketPlace place = stream.packet(first);
-      prefetch_packet(stream.rays(), first + prefetch_distance);
-      load_packet(*place.rays, place.first, rays);
+      const PacketRef from = stream.packet(first);
+      prefetch_packet(stream.rays(), first + tuning::prefetch_distance);
+      load_packet(*from.rays, from.first, rays);
       packet(rays, first, stream.live(first));
-      first += lanes;
+      first += width;
     }
   }
 }
 
 BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, std::size_t first,
                                std::size_t live) {
-  alignas(64) double t[lanes], id[lanes];
+  if (live == width) {
+    store(hits.t + first, best.t);
+    store(hits.id + first, best.id);
+    return;
+  }
+  alignas(64) double t[width];
+  alignas(64) std::int32_t id[width];
   store(t, best.t);
   store(id, best.id);
   for (std::size_t lane = 0; lane < live; ++lane) {
     hits.t[first + lane] = t[lane];
-    hits.id[first + lane] = static_cast<std::int32_t>(id[lane]);
+    hits.id[first + lane] = id[lane];
   }
 }
 
 /// One ray's hit is the nearest over the lanes; equal t: the lower id.
 BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
-  alignas(64) double t[lanes], id[lanes];
+  alignas(64) double t[width];
+  alignas(64) std::int32_t id[width];
   store(t, best.t);
   store(id, best.id);
   std::size_t nearest = 0;
-  for (std::size_t lane = 1; lane < lanes; ++lane) {
+  for (std::size_t lane = 1; lane < width; ++lane) {
     const bool tie = t[lane] == t[nearest] && id[lane] < id[nearest];
     if (t[lane] < t[nearest] || tie) nearest = lane;
   }
   hits.t[index] = t[nearest];
-  hits.id[index] = static_cast<std::int32_t>(id[nearest]);
+  hits.id[index] = id[nearest];
 }
 
-/// Returns the visits of all groups.
+/// Finds the nearest hits of rays begin .. end - 1. Returns how many nodes and leaves were visited.
 template <Solver solver>
 BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,
@@ -86,6 +96,7 @@ BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const Padd
   return visits;
 }
 
+/// Finds whether they hit anything. Returns the same.
 template <Solver solver>
 BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,

@@ -9,27 +9,29 @@
 #include "simd/abi/stream.h"
 #include "simd/lanes/lanes.h"
 
-/// Rays in registers: a packet of W different rays, or one ray in every lane.
+/// Rays in lanes, as every search has them: W different rays (a packet) or one ray in every lane. A
+/// ray has two faces: ExactRays in double for the solver that decides, and FilterRays in float for
+/// the filters that only turn away what certainly misses (simd/abi/filter_bounds.h).
 namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 
-/// The rays as the exact double solve sees them.
+/// Rays for the exact solver, in double.
 struct ExactRays {
   Vec3<Wide> org, dir;
   Wide a;           ///< dir.dir
   Wide inverse_a;   ///< 1 / a
   Wide tmin, tmax;  ///< live: tmin < t <= tmax; tmax is at most FLT_MAX
-  Wide source;      ///< id the ray leaves, or -1
+  Bits source;      ///< id of the primitive that the ray leaves, or -1
   WideMask inside;  ///< it leaves `source` on its inside
-  bool has_source;  ///< some lane has one
+  bool has_source;  ///< some lane's source is not -1
 };
 
-/// The rays as the float filter sees them: distances along the unit direction h.
+/// Rays for the filters, in float. Distances are t |dir|: along the unit direction.
 struct FilterRays {
   Vec3<Real> org;           ///< rounded to float
-  Vec3<Real> h;             ///< dir / |dir| (1 + slack u / 2), rounded; NaN: let everything pass
-  Vec3<Real> unit;          ///< dir / |dir|, rounded: for solver fast
+  Vec3<Real> h;             ///< dir / |dir| (1 + slack u / 2), rounded; NaN: rejects nothing
+  Vec3<Real> unit;          ///< dir / |dir|, rounded
   Real origin_error;        ///< bound of |org - exact origin|, plus filter::floor
   bool origins_exact;       ///< every origin is a float
   Wide length;              ///< |dir|
@@ -41,8 +43,7 @@ struct FilterRays {
 struct RayLanes {
   ExactRays exact;
   FilterRays filter;
-  alignas(64) std::int32_t source[width];  ///< exact.source
-  unsigned inside;                         ///< exact.inside, bit by bit
+  unsigned inside;  ///< the lanes of exact.inside, as bits
 };
 
 BOULE_INLINE Wide sum_abs(const Vec3<Wide>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
@@ -82,48 +83,46 @@ BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
 }
 
-/// Finishes lanes whose org, dir, tmin, tmax, source and inside are set.
+/// Finds what follows from org, dir, tmin, tmax and source.
 BOULE_INLINE void finish(ExactRays& rays) {
   rays.a = dot(rays.dir, rays.dir);
   rays.inverse_a = Wide(1.0) / rays.a;
   const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
   rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
-  rays.has_source = any(Wide(-1.0) < rays.source);
+  rays.has_source = !all(rays.source == Bits(-1));
 }
 
-/// Rays first .. first + W - 1.
+/// Loads rays first .. first + W - 1; `first` is a multiple of W.
 BOULE_INLINE void load_exact(const RayStream& s, std::size_t first, ExactRays& r) {
   r.org = {load(s.org_x + first), load(s.org_y + first), load(s.org_z + first)};
   r.dir = widen(Vec3<Real>{load(s.dir_x + first), load(s.dir_y + first), load(s.dir_z + first)});
   r.tmin = widen(load(s.tmin + first));
   r.tmax = widen(load(s.tmax + first));
-  r.source = load_as_wide(s.source + first);
+  r.source = load_integers(s.source + first);
   r.inside = load_set(s.inside + first);
   finish(r);
 }
 BOULE_INLINE void load_packet(const RayStream& s, std::size_t first, RayLanes& rays) {
   load_exact(s, first, rays.exact);
   make_filter(rays.exact, rays.filter);
-  __builtin_memcpy(rays.source, s.source + first, sizeof rays.source);
   rays.inside = bits(rays.exact.inside);
 }
 
-/// Ray `index` in every lane.
+/// Loads ray `index` into every lane.
 BOULE_INLINE void load_single(const RayStream& s, std::size_t index, RayLanes& rays) {
   ExactRays& r = rays.exact;
   r.org = {Wide(s.org_x[index]), Wide(s.org_y[index]), Wide(s.org_z[index])};
   r.dir = widen(Vec3<Real>{Real(s.dir_x[index]), Real(s.dir_y[index]), Real(s.dir_z[index])});
   r.tmin = widen(Real(s.tmin[index]));
   r.tmax = widen(Real(s.tmax[index]));
-  r.source = Wide(static_cast<double>(s.source[index]));
-  r.inside = Wide(0.0) < Wide(static_cast<double>(s.inside[index]));
+  r.source = Bits(s.source[index]);
+  r.inside = widen(uniform(s.inside[index] != 0));
   finish(r);
   make_filter(r, rays.filter);
-  for (std::int32_t& source : rays.source) source = s.source[index];
   rays.inside = bits(r.inside);
 }
 
-/// Roots found, and the lanes in which they count.
+/// The t of a hit per lane, and the lanes that have one.
 struct Roots {
   Wide t;
   WideMask hit;
@@ -133,7 +132,7 @@ BOULE_INLINE WideMask in_range(const Wide& t, const ExactRays& rays) {
   return (rays.tmin < t) & (t <= rays.tmax);
 }
 
-/// Of two ordered roots the first in range.
+/// Of two ordered roots the first that is in range.
 BOULE_INLINE Roots first_in_range(const Wide& first, const Wide& second, const ExactRays& rays) {
   const WideMask first_ok = in_range(first, rays);
   return {select(first_ok, first, second), first_ok | in_range(second, rays)};

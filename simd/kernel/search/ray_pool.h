@@ -8,16 +8,19 @@
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/search/bundle_source.h"
 #include "simd/kernel/search/light_grid.h"
+#include "simd/kernel/tuning.h"
 
-/// Pools of shadow rays, sorted for their light, and the bundles that come from them.
+/// Pools of shadow rays, sorted by where they lie for their light, and the bundles that are made of
+/// them. Chosen for any hit where a stream's neighbours have too little in common
+/// (bundle_stream.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Rays of a stream in an order of their own. What a bundle needs of one is kept in one place:
-/// sorted, neighbours are no longer side by side in memory.
+/// Rays of a stream in an order of their own. What a bundle needs of a ray is kept together,
+/// because neighbours in this order are not neighbours in memory.
 template <Common common>
 class RayPool {
  public:
-  /// Rays begin .. end - 1 of the stream, at most pool_size; `begin` is a multiple of W.
+  /// Rays begin .. end - 1 of the stream, at most tuning::pool_size; `begin` is a multiple of W.
   RayPool(const PaddedStream& stream, std::size_t begin, std::size_t end)
       : stream_(stream), begin_(begin), size_(end - begin), shared_(stream.rays(), begin) {
     sort();
@@ -32,28 +35,29 @@ class RayPool {
   [[nodiscard]] bool all_belong() const { return all_belong_; }
   /// Whether any leaves a sphere on its inside.
   [[nodiscard]] bool any_inside() const { return any_inside_; }
-  /// The greatest of Sight.
+  /// The greatest Sight::shift.
   [[nodiscard]] float shift() const { return shift_; }
   [[nodiscard]] std::size_t begin() const { return begin_; }
-  /// Which rays from begin() on come one after the other; the last one more often, up to a packet.
+  /// The order: indices of rays, counted from begin() on. The last one is repeated up to a whole
+  /// packet.
   [[nodiscard]] const std::uint16_t* order() const { return order_; }
-  /// The ray of the stream that comes k-th.
+  /// The index in the stream of the ray that comes k-th.
   [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
-  /// x, y and z of its sight and tmax, of the i-th ray from begin() on.
+  /// Four numbers of the ray begin() + i: x, y and z of its sight, and tmax.
   [[nodiscard]] const float* ray(std::size_t i) const { return rays_ + 4 * i; }
 
  private:
-  static constexpr std::size_t chunk = 128;
+  static constexpr std::size_t chunk = tuning::pool_chunk;
 
   struct PoolSums {
-    RealMask belong = Real(0.0F) <= Real(0.0F);
+    RealMask belong = uniform(true);
     bool inside = false;
     Real shift{0.0F};
   };
   BOULE_NOINLINE void sort() {
     const RayStream& rays = stream_.rays();
-    const LightView<common> view(rays, begin_, begin_ + size_);
-    const LightGrid grid = fit_grid(view);
+    const LightMap<common> map(rays, begin_, begin_ + size_);
+    const LightGrid grid = fit_grid(map);
     CellSort cells(grid.cells());
     PoolSums sums;
     for (std::size_t at = 0; at < size_; at += chunk) {
@@ -66,7 +70,7 @@ class RayPool {
         store(z + (i - at), sight.z);
       }
       for (std::size_t i = 0; i < end - at; i += width)
-        grid.find_cells(view.place({load(x + i), load(y + i), load(z + i)}), cell_ + at + i);
+        grid.find_cells(map.point_of({load(x + i), load(y + i), load(z + i)}), cell_ + at + i);
       for (std::size_t i = at; i < end; ++i) cells.count(cell_[i]);
     }
     all_belong_ = all(sums.belong);
@@ -76,12 +80,13 @@ class RayPool {
     for (std::size_t k = size_; k % width != 0; ++k) order_[k] = order_[size_ - 1];
   }
 
-  /// Notes what will be asked of W rays.
+  /// Enters W rays. Returns the x, y and z of their sights.
   BOULE_INLINE Vec3<Real> enter(std::size_t i, PoolSums& sums) {
-    const PacketPlace packet = stream_.packet(begin_ + i);
+    const PacketRef packet = stream_.packet(begin_ + i);
     prefetch_packet(stream_.rays(), begin_ + i + chunk);
     const Sight s = shared_.sight(packet);
-    sums.belong = sums.belong & shared_.template belongs<Seek::any>(packet) & (s.shift <= s.shift);
+    sums.belong =
+        sums.belong & shared_.template belongs<Sought::any>(packet) & (s.shift <= s.shift);
     sums.inside = sums.inside || !all_zero(packet.rays->inside + packet.first);
     sums.shift = filter_max(sums.shift, s.shift);
     const Real tmax = load(packet.rays->tmax + packet.first);
@@ -89,12 +94,12 @@ class RayPool {
     return s.sight;
   }
 
-  LightGrid fit_grid(const LightView<common>& view) const {
-    constexpr std::size_t step = 128;
+  LightGrid fit_grid(const LightMap<common>& map) const {
+    constexpr std::size_t step = tuning::pool_chunk;
     ExtentLanes some;
     for (std::size_t at = 0; at < size_; at += step) {
-      const auto place = view.place(shared_.sight(stream_.packet(begin_ + at)).sight);
-      some.add(place.x, place.y);
+      const auto point = map.point_of(shared_.sight(stream_.packet(begin_ + at)).sight);
+      some.add(point.x, point.y);
     }
     return {some.total(), size_};
   }
@@ -104,16 +109,18 @@ class RayPool {
   SharedByRays<common> shared_;
   bool all_belong_ = false, any_inside_ = false;
   float shift_ = 0;
-  alignas(64) float rays_[4 * (pool_size + max_width)];
-  std::uint16_t order_[pool_size + max_width];
-  std::uint16_t cell_[pool_size + max_width];
+  static constexpr std::size_t room = tuning::pool_size + max_width;
+  alignas(64) float rays_[4 * room];
+  std::uint16_t order_[room];
+  std::uint16_t cell_[room];
 };
 
-/// Neighbours in a sorted pool, all of which share what they must: a source as RaysInPlace is one.
+/// Neighbours in a sorted pool, all of which share what they must. A source of a bundle's rays:
+/// what its members mean is said at RaysInOrder (bundle_source.h).
 template <Common common>
 class RaysOfPool {
  public:
-  /// The first-th ray of the pool and its successors, count at most bundle_size.
+  /// `count` rays of the pool, at most bundle_size, from its first-th one on.
   RaysOfPool(const RayPool<common>& pool, std::size_t first, int count)
       : pool_(pool), first_(first), count_(count), packet_view_(packet_.view(width)) {
     const std::int32_t* const sources = pool.stream().source + pool.begin();
@@ -146,9 +153,9 @@ class RaysOfPool {
   BOULE_INLINE Sight sight(int ray) const {
     return {{load(x_ + ray), load(y_ + ray), load(z_ + ray)}, Real(pool_.shift())};
   }
-  template <Seek seek>
+  template <Sought sought>
   BOULE_INLINE RealMask belongs(int /*ray*/) const {
-    return Real(0.0F) <= Real(0.0F);
+    return uniform(true);
   }
   BOULE_INLINE Real tmax(int ray) const { return load(tmax_ + ray); }
   BOULE_INLINE const std::int32_t* sources(int ray) const { return source_ + ray; }
@@ -156,7 +163,7 @@ class RaysOfPool {
     static constexpr std::uint8_t none[width] = {};
     return pool_.any_inside() ? inside_ + ray : none;
   }
-  BOULE_NOINLINE PacketPlace packet(int ray, unsigned wanted) const {
+  BOULE_NOINLINE PacketRef packet(int ray, unsigned wanted) const {
     for (unsigned left = wanted; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
       packet_.set(static_cast<std::size_t>(lane), pool_.stream(),
@@ -180,7 +187,7 @@ class RaysOfPool {
   alignas(64) float x_[bundle_size], y_[bundle_size], z_[bundle_size], tmax_[bundle_size];
   alignas(64) std::int32_t source_[bundle_size];
   alignas(64) std::uint8_t inside_[bundle_size];
-  mutable GatheredRays<width> packet_{};  ///< lanes never asked for hold anything
+  mutable GatheredRays<width> packet_{};  ///< of packet(); lanes that were not wanted are stale
   RayStream packet_view_;
 };
 

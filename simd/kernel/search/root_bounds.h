@@ -4,33 +4,34 @@
 
 #include "simd/kernel/search/sphere.h"
 
-/// What float knows for certain of a sphere that survived the reject: where its roots lie. Most
-/// survivors need no double solve then: another sphere is certainly nearer.
+/// What float knows for certain about a sphere that the reject let through: bounds of its two
+/// roots. With them most spheres need no double solve, because another one is certainly nearer. The
+/// bounds are derived in simd/abi/filter_bounds.h (spread).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Bounds of both roots as distances t |dir|, outward by filter_bounds.h. NaN where float cannot
-/// tell: every comparison with it is false, so nothing follows from it.
+/// Bounds of both roots, as distances t |dir|. Where float cannot tell they are NaN: comparisons
+/// with NaN are false, so nothing is concluded from it.
 struct RootBounds {
   Real first_low, first_high, second_low, second_high;
-  RealMask certain;  ///< the line meets the sphere: all four bounds hold
-  RealMask misses;   ///< it does not
+  RealMask certain;  ///< the line meets the sphere for certain, and all four bounds hold
+  RealMask misses;   ///< it misses for certain
 };
 
-/// Bound of the error of b and l (filter_bounds.h) of a sphere that may be hit.
+/// Bound of the errors of b and l (filter_bounds.h) for a sphere that may be hit.
 BOULE_INLINE Real root_spread(const FilterRays& rays, const Real& b, const Real& r) {
   constexpr auto unit_spread = static_cast<float>(filter::spread * filter::u);
   return filter_fma(abs(b) + (r + r), Real(unit_spread), rays.origin_error);
 }
 
-/// Less than either root: what can be said without roots. sqrt(r^2 + doubt) is no more than r + 2
-/// spread, for spread is at least 14 u r.
+/// A number below both roots that needs no square root: sqrt(r^2 + doubt) is no more than r + 2
+/// spread, because spread is at least 14 u r.
 BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& signed_radius) {
   const Real b = filter_dot(center - rays.org, rays.unit), r = abs(signed_radius);
   return b - r - Real(4.0F) * root_spread(rays, b, r);
 }
 
-/// How lines and spheres lie to each other: what their roots follow from.
+/// How a line and a sphere lie to each other; the roots follow from it.
 struct Approach {
   Real along;         ///< b, where the line is nearest to the centre
   Real discriminant;  ///< of the roots; off by less than `doubt`
@@ -52,7 +53,8 @@ BOULE_INLINE Approach find_approach(const FilterRays& rays, const Vec3<Real>& ce
   return {b, discriminant, spread, filter_fma(square, Real(unit_spread), width_doubt)};
 }
 
-/// Lanes that may have a root between 0 and `reach`, by less than roots: see before_roots().
+/// Lanes that may have a root between 0 and `reach`, found without a square root as in
+/// before_roots().
 BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radius,
                                const Real& reach) {
   const auto& [b, discriminant, spread, doubt] = approach;
@@ -65,7 +67,7 @@ BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
   RootBounds bounds;
   const Real largest(std::numeric_limits<float>::max());
   bounds.certain = doubt < discriminant;
-  // Beyond filter::limit l.l may overflow: nothing follows from infinity.
+  // Beyond filter::limit l.l may overflow, and nothing follows from an infinite number.
   bounds.misses = (Real(0.0F) - largest <= discriminant) & (discriminant + doubt < Real(0.0F));
   const Real least = sqrt(discriminant - doubt), most = sqrt(discriminant + doubt);
   bounds.first_low = b - spread - most;
@@ -75,17 +77,17 @@ BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
   return bounds;
 }
 
-/// Lower bound of the root that could be the hit.
+/// Lower bound of the root that may be the hit: the second one where the first is behind the ray.
 BOULE_INLINE Real lowest(const RootBounds& roots, const FilterRays& rays) {
   return select(roots.first_high < rays.dead_below, roots.second_low, roots.first_low);
 }
 
-/// Lanes without a live root.
+/// Lanes that certainly have no live root.
 BOULE_INLINE RealMask dead(const RootBounds& roots, const FilterRays& rays) {
   return roots.misses | (roots.second_high < rays.dead_below);
 }
 
-/// Upper bound of the first live root, or inf: nothing live lies beyond it that could be nearer.
+/// Upper bound of the first live root; inf where float is not certain that there is one.
 BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
   const Real none(static_cast<float>(no_hit));
   const Real second = select(rays.live_from < roots.second_low, roots.second_high, none);
@@ -93,7 +95,7 @@ BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
   return select(roots.certain, first, none);
 }
 
-/// Lanes with a root that is live for certain.
+/// Lanes that certainly have a live root.
 BOULE_INLINE RealMask live(const RootBounds& roots, const FilterRays& rays) {
   const RealMask first = (rays.live_from < roots.first_low) & (roots.first_high <= rays.live_to);
   const RealMask second = (rays.live_from < roots.second_low) & (roots.second_high <= rays.live_to);

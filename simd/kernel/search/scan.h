@@ -4,116 +4,18 @@
 #include <cstdint>
 
 #include "simd/abi/isa.h"
+#include "simd/kernel/search/best_hit.h"
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/root_bounds.h"
 
-/// A run of primitives against the rays. A hot float loop lists the steps that some lane survives;
-/// the double solves run over that list, outside it.
+/// Scans: rays against one primitive after the other. Chosen for the spheres of every leaf, for
+/// those that are in no leaf (all of them in small scenes), and for planes. A hot loop in float
+/// lists the steps that the reject lets through in some lane. What float cannot decide about those
+/// is solved in double, outside that loop: inside, the double code would take its registers and 15
+/// % of the speed. The hits are exact, whatever the order of the steps.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The nearest hit so far, per lane. Most lanes need one double solve at all: while float can tell
-/// for certain which sphere is the nearest, that sphere is only `pending`; settle() solves it.
-struct ClosestHit {
-  Wide t, id;    ///< the nearest hit that is solved
-  Real pending;  ///< bits of the slot of a sphere that is hit for certain, nearer for certain
-  RealMask is_pending;
-  Real
-      nearest;  ///< lower bound of t |dir| of the pending hit, else the solved one's, or tmax |dir|
-  Real reach;  ///< upper bound of live t |dir|: of the hit so far, or of one that is still to solve
-
-  BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
-      : t(no_hit),
-        id(-1.0),
-        pending(0.0F),
-        is_pending(Real(0.0F) < Real(0.0F)),
-        nearest(rays.filter.live_to),
-        reach(distance(rays.exact.tmax, rays)) {}
-
-  /// t |dir|, rounded: the bounds that it is compared with pay for that (filter_bounds.h).
-  BOULE_INLINE static Real distance(const Wide& t, const RayLanes& rays) {
-    return narrow(t * rays.filter.length);
-  }
-
-  /// Takes what float knows of a sphere, whose roots begin at `low` in lanes not `out`. False if
-  /// that is all it takes: only where float cannot tell which hit is nearer is it left to solve.
-  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
-                             const Real& slot, const FilterRays& rays) {
-    const Real high = highest(roots, rays);
-    const RealMask first = high < nearest;
-    out |= bits(first | (reach < low));
-    reach = select(high < reach, high, reach);
-    nearest = select(first, low, nearest);
-    pending = select(first, slot, pending);
-    is_pending = is_pending | first;
-    return out != all_lanes;
-  }
-  /// Whether a sphere whose roots begin at `low` could still be the nearest in a lane not `out`.
-  BOULE_INLINE bool wants(const Real& low, unsigned out) const {
-    return (bits(reach < low) | out) != all_lanes;
-  }
-
-  /// Nothing beyond this t |dir| is of interest.
-  [[nodiscard]] BOULE_INLINE Real limit() const { return reach; }
-
-  BOULE_INLINE void offer(const Roots& roots, const Wide& primitive, const RayLanes& rays) {
-    const WideMask nearer = (roots.t < t) | ((roots.t == t) & (primitive < id));
-    const WideMask better = roots.hit & nearer;
-    if (any(better)) take(roots.t, primitive, better, rays);
-  }
-  /// Solves the pending hits: one double solve, each lane against its own sphere.
-  BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
-    if (bits(is_pending) == 0) return;
-    const SphereLanes each = gather_spheres(spheres, pending);
-    const Roots roots = solve_robust(rays.exact, each);
-    take(roots.t, each.id, roots.hit & widen(is_pending), rays);
-    is_pending = nearest < nearest;
-  }
-  static constexpr bool done() { return false; }
-  static constexpr bool ordered = true;  ///< what is nearer had better come first
-  static constexpr std::size_t chunk = 1024;
-
- private:
-  BOULE_INLINE void take(const Wide& new_t, const Wide& new_id, const WideMask& lanes,
-                         const RayLanes& rays) {
-    t = select(lanes, new_t, t);
-    id = select(lanes, new_id, id);
-    const Real solved = distance(t, rays);
-    reach = select(solved < reach, solved, reach);
-    nearest = select(solved < rays.filter.live_to, solved, rays.filter.live_to);
-  }
-};
-
-/// Whether anything is hit, per lane; `one_ray`: all lanes are the same ray, one hit is enough.
-template <bool one_ray>
-struct AnyHit {
-  unsigned hit = 0;
-  Real far;  ///< upper bound of live t |dir| that is still of interest
-
-  BOULE_INLINE explicit AnyHit(const RayLanes& rays)
-      : far(ClosestHit::distance(rays.exact.tmax, rays)) {}
-
-  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Real&,
-                             const FilterRays& rays) {
-    const RealMask found = live(roots, rays);
-    hit |= bits(found);
-    far = select(found, Real(-std::numeric_limits<float>::max()), far);
-    return wants(low, out);
-  }
-  BOULE_INLINE bool wants(const Real&, unsigned out) const {
-    return !done() && (out | hit) != all_lanes;
-  }
-  [[nodiscard]] BOULE_INLINE Real limit() const { return far; }
-
-  BOULE_INLINE void offer(const Roots& roots, const Wide&, const RayLanes&) {
-    hit |= bits(roots.hit);
-  }
-  static void settle(const SphereView&, const RayLanes&) {}
-  [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
-  static constexpr bool ordered = false;
-  static constexpr std::size_t chunk = 64;
-};
-
-/// Steps that the float reject lets through.
+/// Steps that the reject lets through.
 template <std::size_t capacity>
 struct Survivors {
   std::uint32_t offset[capacity + 4];  ///< from the chunk's first step
@@ -125,7 +27,8 @@ struct Survivors {
   }
 };
 
-/// The hot loop: 4 steps a branch, so that the common case is one test of four masks.
+/// The hot loop. It takes four steps a branch, so that the common case, nothing survives, costs one
+/// test of four masks: 15 to 20 % faster than a branch for each.
 template <bool origins_exact, class Spheres, std::size_t capacity>
 BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres, std::size_t begin,
                                  std::size_t end, Survivors<capacity>& survivors) {
@@ -148,7 +51,7 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres,
   for (; step < end; ++step) append(step, test(step));
 }
 
-/// Survivors that only the double solve can decide.
+/// Survivors that only the double solver can decide.
 template <std::size_t capacity>
 struct Candidates {
   alignas(64) float low[capacity][width];  ///< lower bounds of their roots
@@ -163,7 +66,7 @@ struct Candidates {
   }
 };
 
-/// Everything that float can decide about the survivors; what it cannot is left to the solver.
+/// Lets float decide what it can about the survivors and lists the others.
 template <class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, std::size_t begin,
                                   const Survivors<capacity>& survivors,
@@ -172,7 +75,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     const std::size_t step = begin + survivors.offset[k];
     const RealMask own = spheres.own(rays, step);  // rays that leave this very sphere
     const unsigned leaving = bits(own);
-    if ((leaving & rays.inside) != 0) {  // only the solver knows where it is met again
+    if ((leaving & rays.inside) != 0) {  // only the solver knows where they meet it again
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
     }
@@ -181,7 +84,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     RootBounds roots =
         bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
     Real low = lowest(roots, rays.filter);
-    // From the outside it is never met again.
+    // Those that leave it on its outside never meet it again.
     roots.certain = roots.certain & ~own;
     low = select(own, Real(static_cast<float>(no_hit)), low);
     unsigned out = bits(dead(roots, rays.filter)) | leaving;
@@ -191,8 +94,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
   }
 }
 
-/// Solver robust on survivors: first everything that float can decide, then the double solves that
-/// are left.
+/// Solver robust on survivors: first what float can decide, then the double solves that are left.
 template <class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
                                   const Spheres& spheres, std::size_t begin,
@@ -207,7 +109,8 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
   }
 }
 
-/// What is left of the spheres from step `begin` on; `all` of which they are a part.
+/// Meets the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: the
+/// view that they are a part of.
 template <Solver solver, class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void meet_survivors(const RayLanes& rays, const SphereView& all,
                                  const Spheres& spheres, std::size_t begin,
@@ -222,7 +125,7 @@ BOULE_INLINE void meet_survivors(const RayLanes& rays, const SphereView& all,
   }
 }
 
-/// The spheres that are in no leaf.
+/// Scans the spheres that are in no leaf.
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, Best& best) {
   const std::size_t steps = Access::steps(spheres.scanned);
@@ -235,6 +138,7 @@ BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, 
   }
 }
 
+/// Scans the planes.
 template <Solver solver, class Access, class Best>
 BOULE_INLINE void scan_planes(const RayLanes& rays, const PlaneView& planes, Best& best) {
   const std::size_t steps = Access::steps(planes.size);

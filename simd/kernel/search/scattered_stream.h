@@ -5,23 +5,15 @@
 
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/flight_stream.h"
+#include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/tuning.h"
 
-/// Streams of rays of which nothing is known: in flight, or as packets where they turn out to have
-/// much in common.
+/// Streams of rays of which nothing is promised: they fly, or go as packets. Now and then some rays
+/// are traced either way, and what did better traces the next ones. Which way a ray goes changes
+/// nothing but the time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Rays that are traced either way now and then, to see which is the better one, and those that
-/// then go that way: at first, and at most, for they double while trials, which cost time, agree.
-/// What earlier trials saw counts half as much: 32 rays may mislead.
-inline constexpr std::size_t rays_on_trial = 32;
-inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
-/// A packet's visit takes as long as so many steps of rays in flight. Measured where the choice is
-/// close, scenes of 1,000 to 600,000 spheres, 8 and 16 lanes: nearest hits of bounced rays 3.3 to
-/// 3.8, and 5.3 to 6.6; any hit 3.1 to 4.1, and 5 to 6.4, the more the larger the scene.
-template <bool any>
-inline constexpr float steps_a_visit = any ? (width < 16 ? 3.7F : 5.9F)
-                                           : (width < 16 ? 3.6F : 5.7F);
-
+/// Traces all rays. `form`: automatic, or flight, which has no trials.
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
                                     Form form, const Answers& answers) {
@@ -31,23 +23,25 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     flights.run(0, size);
     return;
   }
-  std::size_t begin = 0, rays_that_way = rays_after_trial / 2;
+  std::size_t begin = 0, rays_that_way = tuning::rays_after_trial / 2;
   bool was_packets = false;
   float visits = 0, steps = 0;
   const auto next = [&](std::size_t rays) { return size - begin < rays ? size : begin + rays; };
   while (begin < size) {
-    const std::size_t packets_end = next(rays_on_trial);
-    visits = visits * 0.5F + static_cast<float>(trace_groups<Solver::robust>(
-                                 geometry, stream, begin, packets_end, Form::automatic, answers));
+    const std::size_t packets_end = next(tuning::rays_on_trial);
+    visits = visits * tuning::share_of_earlier_trials +
+             static_cast<float>(trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
+                                                             Form::automatic, answers));
     begin = packets_end;
     if (begin == size) return;
-    const std::size_t flights_end = next(rays_on_trial);
-    steps = steps * 0.5F + static_cast<float>(flights.run(begin, flights_end));
+    const std::size_t flights_end = next(tuning::rays_on_trial);
+    steps = steps * tuning::share_of_earlier_trials +
+            static_cast<float>(flights.run(begin, flights_end));
     begin = flights_end;
-    const bool packets = visits * steps_a_visit<Flights<Answers>::seeks_any> < steps;
-    rays_that_way = packets != was_packets             ? rays_after_trial
-                    : rays_that_way < most_after_trial ? 2 * rays_that_way
-                                                       : most_after_trial;
+    const bool packets = visits * tuning::steps_a_visit<Flights<Answers>::any_hit> < steps;
+    rays_that_way = packets != was_packets                     ? tuning::rays_after_trial
+                    : rays_that_way < tuning::most_after_trial ? 2 * rays_that_way
+                                                               : tuning::most_after_trial;
     was_packets = packets;
     const std::size_t end = next(rays_that_way);
     if (packets) {

@@ -3,12 +3,14 @@
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Rays against boxes: a box is what three slabs, the spaces between two planes, have in common.
+/// Rays against boxes, W rays against one or one ray against W. A box is what three slabs have in
+/// common, a slab being the space between two parallel planes. The test only turns away boxes that
+/// are certainly missed; its slack is derived in simd/abi/filter_bounds.h (box, slab_least).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where rays meet the planes of an axis: t = x inverse + near for the planes met first, x inverse
-/// + far for the others, a little outward (filter_bounds.h, slab_least). `farthest`: the tree ends
-/// before this distance.
+/// Where rays meet the planes of an axis. A plane at x is met at t = x inverse + near if it is the
+/// first of its slab, at x inverse + far if it is the second: `near` is rounded down and `far` up.
+/// `farthest`: the tree ends before this distance.
 struct Slab {
   Real inverse, near, far;
 
@@ -24,15 +26,15 @@ struct Slab {
     far = narrow(slack - at);
   }
 
-  /// [begin, end] cut to what lies between the plane that is met first and the other one. NaN, of a
-  /// ray that the filter cannot judge, cuts nothing.
+  /// Cuts [begin, end] to what lies between the plane that is met first and the other one. Rays
+  /// that float cannot judge have NaN, which cuts nothing.
   BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
     begin = greater_or(filter_fma(first, inverse, near), begin);
     end = lesser_or(filter_fma(last, inverse, far), end);
   }
 };
 
-/// The slabs of a packet's rays, or of one ray in every lane.
+/// The slabs along the three axes. `extent`: BvhView::extent.
 BOULE_INLINE Vec3<Slab> slabs_of(const RayLanes& rays, float extent) {
   const Vec3<Real>& from = rays.filter.org;
   const Real farthest = abs(from.x) + abs(from.y) + abs(from.z) + Real(extent);
@@ -42,7 +44,7 @@ BOULE_INLINE Vec3<Slab> slabs_of(const RayLanes& rays, float extent) {
           Slab(org.z, unit.z, farthest)};
 }
 
-/// Rays as box tests see them.
+/// Rays for box tests.
 struct BoxRays {
   Vec3<Slab> slabs;
   Real from;  ///< nothing is live below this t |dir|; NaN: every box is entered
@@ -53,26 +55,26 @@ struct BoxRays {
                     rays.filter.unit.x)) {}
 };
 
-/// Boxes in lanes: one for a packet, or several for a ray.
+/// Boxes in lanes: the same one in all, for a packet, or W, for a single ray.
 struct Boxes {
   Vec3<Real> min, max;
 };
 
-/// Where rays enter boxes, and the lanes in which they certainly do not before a limit.
+/// Where rays enter boxes, and the lanes in which they certainly do not do so before a limit.
 struct Entry {
   Real near;
   RealMask out;
 };
 
-/// Lanes in which an interval is certainly empty: 2 filter::box u of its begin are for the
-/// rounding of both ends. None where the begin is NaN.
+/// Lanes in which an interval is certainly empty, whatever was rounded at its ends: it is by more
+/// than 2 filter::box u of its begin. Where the begin is NaN it is not.
 BOULE_INLINE RealMask is_empty(const Real& begin, const Real& end) {
   const Real slack(static_cast<float>(2 * filter::box * filter::u));
   return end < filter_fnma(abs(begin), slack, begin);
 }
 
-/// For rays that all go up, or down, along each axis: `first` and `last` are the planes that they
-/// meet first, and the others.
+/// Enters boxes whose planes are sorted: `first` are those that the rays meet first, `last` the
+/// others.
 BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
                                  const Vec3<Real>& last, const Real& limit) {
   Real near = rays.from, far = limit;

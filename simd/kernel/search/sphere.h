@@ -2,18 +2,20 @@
 
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Ray against sphere, lane by lane: the conservative reject and the two solvers behind it.
+/// Ray against sphere, lane by lane: a conservative reject in float, and the two solvers for what
+/// it lets through. The robust solver decides in double, exactly as core/reference.cpp does, bit
+/// for bit; the fast one answers in float. How good the reject's bound is: filter_bounds.h.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Spheres in lanes: one for a whole packet, or W for a single ray.
+/// Spheres in lanes: the same one in all, for a packet, or W, for a single ray.
 struct SphereLanes {
   Vec3<Real> center;
   Real radius;
-  Wide id;
+  Bits id;
 };
 
-/// Lanes that certainly miss (filter_bounds.h). `origins_exact` is FilterRays::origins_exact: else
-/// the sphere grows by the origin's rounding error.
+/// Lanes that certainly miss (filter_bounds.h). `origins_exact` must be FilterRays::origins_exact;
+/// without it the sphere grows by the rounding error of the origin.
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& reject_squared, const Real& reject_radius) {
@@ -28,7 +30,7 @@ BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
   return filter_fma(b, b, rest) < Real(0.0F);
 }
 
-/// The same for a sphere of which nothing was computed before.
+/// The same for a sphere whose reject_squared and reject_radius were not computed in advance.
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Real>& center,
                                            const Real& radius) {
@@ -39,7 +41,7 @@ BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Re
   return rejected<origins_exact>(rays, center, squared, grown);
 }
 
-/// Solver robust: closest approach in double, never fused; core/reference.cpp derives it.
+/// Solver robust: closest approach in double, never fused. core/reference.cpp derives the formula.
 BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
   const Vec3<Wide> f = widen(sphere.center) - rays.org;
   const Wide r = widen(sphere.radius);
@@ -49,7 +51,8 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
 
   const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
   const Wide from_a = q * rays.inverse_a;
-  // A tangent has one root twice. (And cc / q could be noise over noise.)
+  // A tangent line has the same root twice, and cc / q might be the quotient of two rounding
+  // errors.
   const WideMask secant = Wide(0.0) < discriminant;
   const Wide from_cc = select(secant, (dot(f, f) - r * r) / q, from_a);
 
@@ -59,8 +62,9 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
   roots.hit = roots.hit & (Wide(0.0) <= discriminant);
 
   if (rays.has_source) {
-    // On its own sphere cc = 0: no root outside, the far one, 2b / a, from the inside.
-    const WideMask leaves = rays.source == sphere.id;
+    // The origin lies on the ray's own sphere, where cc = 0: from outside the ray does not meet it
+    // again, from inside it does at 2b / a.
+    const WideMask leaves = widen(rays.source == sphere.id);
     const Wide across = (b + b) * rays.inverse_a;
     const WideMask is_sphere = r == r;  // padding is not
     const WideMask again = rays.inside & is_sphere & in_range(across, rays);
@@ -70,8 +74,9 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
   return roots;
 }
 
-/// Solver fast: closest approach in float along the unit direction. Wrong decisions only within
-/// 3u max(F, r) of the rim, for sizes from 1e-18 to filter::limit: beyond it spheres are missed.
+/// Solver fast: closest approach in float along the unit direction. For sizes from 1e-18 to
+/// filter::limit it is wrong about hit or miss only within 3u max(F, r) of the rim, F being the
+/// distance of origin and centre; larger spheres are missed.
 BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   const FilterRays& filter = rays.filter;
   const Vec3<Real> f = sphere.center - filter.org;
@@ -86,7 +91,7 @@ BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   roots.hit = roots.hit & widen(Real(0.0F) <= discriminant);
 
   if (rays.exact.has_source) {
-    const WideMask leaves = rays.exact.source == sphere.id;
+    const WideMask leaves = widen(rays.exact.source == sphere.id);
     const Wide across = widen((b + b) * filter.inverse_length);
     const WideMask is_sphere = widen(sphere.radius <= sphere.radius);
     const WideMask again = rays.exact.inside & is_sphere & in_range(across, rays.exact);

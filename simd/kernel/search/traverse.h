@@ -8,104 +8,30 @@
 #include "simd/kernel/search/beam.h"
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
+#include "simd/kernel/search/visit_stack.h"
 
-/// Spheres in a tree. Boxes are filters like the reject: what they turn away is missed for certain,
-/// whatever order they are visited in, so the answer is the scan's.
+/// Packets and single rays on their way through the tree: depth first, near children first. Chosen
+/// where rays have no promised coherence and Form or a trial (scattered_stream.h) says packet or
+/// single. Boxes are filters as the reject is: what they turn away is missed for certain. The hits
+/// are therefore the scan's, whatever the order of visits.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where the nodes and leaves of a tree are. No branch: whether a child is a leaf cannot be
-/// foretold.
-class TreeBlocks {
- public:
-  BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
-      : first_{as_bytes(geometry.bvh.nodes),
-               as_bytes(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size)},
-        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)},
-        is_far_(geometry.spheres.block_count > near_blocks) {}
-
-  /// Whether the tree is larger than the caches near by.
-  [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
-  /// The node or the leaf that a child is. Asks for what its visit will read, unless the tree is
-  /// small enough for a cache near by.
-  BOULE_INLINE const void* fetch(std::uint32_t child) const {
-    const std::size_t leaf = child >> 31, place = index_of(child);
-    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
-    const char* const block = first_[leaf] + (place << (9 - leaf));
-    if (!is_far_) return block;
-    prefetch(block);
-    prefetch(block + (256 - 256 * leaf));
-    static_assert(bvh_leaf_size * sizeof(std::int32_t) == 64);
-    __builtin_prefetch(ids_[leaf] + (place << (9 - 3 * leaf)));
-    return block;
-  }
-
- private:
-  /// Leaves, with their part of the nodes 400 bytes each, of a quarter of a MiB.
-  static constexpr std::size_t near_blocks = 640;
-
-  template <class T>
-  BOULE_INLINE static const char* as_bytes(const T* p) {
-    return reinterpret_cast<const char*>(p);
-  }
-  /// 256 bytes.
-  BOULE_INLINE static void prefetch(const char* begin) {
-    __builtin_prefetch(begin);
-    __builtin_prefetch(begin + 64);
-    __builtin_prefetch(begin + 128);
-    __builtin_prefetch(begin + 192);
-  }
-
-  const char* first_[2];  ///< the first node, and the first leaf
-  const char* ids_[2];    ///< the first leaf's ids; a node has none, and asks for itself once more
-  bool is_far_;           ///< what is fetched has some way to go
-};
-
-/// A child to visit: where the first ray enters it.
-struct Visit {
-  float near;
-  std::uint32_t child;
-  std::uint32_t leaf_size;
-};
-
-/// Children that are to be visited, nearest on top.
-class VisitStack {
- public:
-  [[nodiscard]] bool empty() const { return count_ == 0; }
-  Visit pop() { return visits_[--count_]; }
-  /// Keeps what one node adds sorted; `base` is the count before its first child.
-  void push(const Visit& visit, int base) {
-    int place = count_++;
-    for (; place > base && visits_[place - 1].near < visit.near; --place)
-      visits_[place] = visits_[place - 1];
-    visits_[place] = visit;
-  }
-  /// Where any order will do. No branch: whether it is pushed cannot be foretold.
-  void push_if(bool really, const Visit& visit) {
-    visits_[count_] = visit;
-    count_ += really ? 1 : 0;
-  }
-  [[nodiscard]] int count() const { return count_; }
-
- private:
-  Visit visits_[bvh_max_depth * (bvh_width - 1) + 2];  ///< one for what is not really pushed
-  int count_ = 0;
-};
-
-/// Where the first ray enters a box, of those that are not out; -inf if one cannot tell.
+/// Where the first of the rays that are not out enters a box; -inf where that is not known.
 BOULE_INLINE float first_entry(const Entry& entry) {
   const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
   const Real near = select(entry.near <= entry.near, entry.near, unknown);
   return least_lane(select(entry.out, never, near));
 }
 
-/// A packet on its way through a tree; `ordered`: the nearest child comes first.
+/// A packet on its way through a tree. `ordered`: the nearest child is visited first.
 template <bool ordered>
 class PacketWalk {
  public:
   BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
       : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
 
-  /// The children of a node that some ray enters. `farthest`: the farthest limit.
+  /// Adds the children of a node that some ray enters before its limit. `farthest`: the greatest of
+  /// the limits.
   BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float farthest,
                                    VisitStack& stack) const {
     const int base = stack.count();
@@ -132,7 +58,7 @@ class PacketWalk {
     }
   }
 
-  /// The spheres of a leaf that float does not rule out for every ray.
+  /// Lists the spheres of a leaf that float does not rule out for every ray.
   template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
                                    float farthest, Survivors<bvh_leaf_size>& survivors) const {
@@ -148,7 +74,7 @@ class PacketWalk {
   }
 
  private:
-  /// Unless all rays are out. `near`: where the beam enters, if that is known.
+  /// Adds child k unless all rays are out. `near`: where the beam enters it, or null.
   BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
                                 int base, VisitStack& stack) {
     const bool in = bits(entry.out) != all_lanes;
@@ -166,7 +92,7 @@ class PacketWalk {
   Beam beam_;
 };
 
-/// One ray, the same in every lane.
+/// One ray, the same in every lane, on its way through a tree: W children at a time.
 class SingleWalk {
  public:
   BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
@@ -202,15 +128,15 @@ class SingleWalk {
   BoxRays box_rays_;
 };
 
-/// Nothing beyond this is of interest: of W rays the farthest limit, of one ray, which all lanes
-/// search for, the nearest. inf where that is not known.
+/// Nothing beyond this is of interest: the greatest limit of W rays; for one ray, which all lanes
+/// search for, the least. inf if a lane's limit is NaN.
 template <class Access>
 BOULE_INLINE float limit_of_all(const Real& limit) {
   if (bits(limit <= limit) != all_lanes) return static_cast<float>(no_hit);
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
-/// Returns how many nodes and leaves were visited.
+/// Searches the tree. Returns how many nodes and leaves were visited.
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
                                           Best& best) {
@@ -241,7 +167,7 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
   return visits;
 }
 
-/// All spheres, wherever they are.
+/// Searches all spheres: those in no leaf first, then the tree.
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
                                         Best& best) {
@@ -251,7 +177,7 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView
   return visits;
 }
 
-/// All primitives against these rays. Returns how many nodes and leaves were visited.
+/// Searches all primitives. Returns how many nodes and leaves were visited.
 template <Solver solver, class Access, class Best>
 BOULE_NOINLINE std::size_t search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
   const std::size_t visits = rays.filter.origins_exact

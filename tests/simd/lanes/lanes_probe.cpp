@@ -6,6 +6,45 @@
 
 namespace boule::BOULE_KERNEL_ISA {
 
+namespace {
+
+void probe_integers(const test::LaneInputs& in, test::LaneOutputs& out) {
+  const Real a = load(in.a), b = load(in.b);
+  const Bits i = load_integers(in.i), j = load_integers(in.j);
+  store(out.counted, count_from(77));
+  store(out.integer_sum, i + j);
+  store(out.integer_product, i * j);
+  store(out.integer_and, i & j);
+  store(out.integer_or, i | j);
+  store(out.integer_xor, i ^ j);
+  store(out.left_shift, i << 5);
+  store(out.right_shift, i >> 5);
+  store(out.integer_select, select(a < b, i, j));
+  store(out.signed_integers, i);
+  out.integer_equal = bits(load_integers(out.signed_integers) == j);
+  out.integer_less_equal = bits(i <= j);
+  constexpr std::int32_t squares[16] = {0,   -1,  -4,   -9,   -16,  -25,  -36,  -49,
+                                        -64, -81, -100, -121, -144, -169, -196, -225};
+  store(out.gathered, gather(squares, i & Bits(15)));
+  store(out.integer_as_wide, to_wide(i));
+  store(out.signed_as_wide, load_as_wide(out.signed_integers));
+  out.set_bytes = bits(load_set(in.bytes));
+}
+
+void probe_compressed(const test::LaneInputs& in, test::LaneOutputs& out) {
+  const Real a = load(in.a), b = load(in.b);
+  const Wide x = load(in.x), y = load(in.y);
+  const Bits i = load_integers(in.i);
+  store_chosen(out.chosen + 1, a, bits(a < b));
+  store_chosen(out.chosen_integers + 1, i, bits(a < b));
+  store_chosen(out.wide_chosen + 1, x, bits(x < y));
+  store_chosen_halves(out.chosen_halves + 1, abs(a), a < b);
+  store_anywhere(out.anywhere + 1, i);
+  out.least_of_sixteen = index_of_least(in.sixteen);
+}
+
+}  // namespace
+
 void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   const Real a = load(in.a), b = load(in.b), c = load(in.c);
   const Wide x = load(in.x), y = load(in.y);
@@ -29,14 +68,6 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_copysign, copysign(x, y));
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
-  store(out.lane_numbers, lane_numbers());
-  store(out.counted, count_from(77));
-  store_chosen(out.chosen + 1, a, bits(a < b));
-  store_chosen(out.chosen_or + 1, a, a < b, Real(-1.0F));
-  store_chosen(out.wide_chosen + 1, x, bits(x < y));
-  alignas(64) std::int32_t integers[width];
-  for (int i = 0; i < width; ++i) integers[i] = i % 3;
-  out.equal_integers = bits(equal(integers, 2));
   store_rows(out.rows, {a, b, c, a + b});
   const float* rows[width];
   for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);
@@ -57,10 +88,15 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.wide_or = bits((x < y) | (x == y));
   out.wide_not = bits(~(x < y));
   out.widened_mask = bits(widen(a < b));
+  out.narrowed_mask = bits(narrow(x < y));
+  out.uniform_true = bits(uniform(true));
+  out.uniform_false = bits(uniform(false));
   out.any_less = any(a < b);
   out.all_less = all(a < b);
   out.any_none = any((a < b) & ~(a < b));
   out.all_all = all((x < y) | ~(x < y));
+  probe_integers(in, out);
+  probe_compressed(in, out);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

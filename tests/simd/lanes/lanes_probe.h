@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace boule::test {
 
 inline constexpr int most_lanes = 16;
@@ -8,6 +11,9 @@ inline constexpr int most_lanes = 16;
 struct LaneInputs {
   alignas(64) float a[most_lanes], b[most_lanes], c[most_lanes];
   alignas(64) double x[most_lanes], y[most_lanes];
+  alignas(64) std::uint32_t i[most_lanes], j[most_lanes];
+  alignas(64) std::uint8_t bytes[most_lanes];
+  alignas(64) std::uint16_t sixteen[16];  ///< always all of them
 };
 
 /// Results, one array an operation. Masks come as bits.
@@ -20,15 +26,29 @@ struct LaneOutputs {
   alignas(64) double wide_add[most_lanes], wide_sub[most_lanes], wide_mul[most_lanes];
   alignas(64) double wide_div[most_lanes], wide_sqrt[most_lanes], wide_abs[most_lanes];
   alignas(64) double wide_copysign[most_lanes], wide_select[most_lanes], widen[most_lanes];
-  alignas(64) double lane_numbers[most_lanes];
-  alignas(64) float counted[most_lanes];  ///< bits of 77 and on
-  /// The lanes where a < b of a, one after the other, from place 1 on; then -1.
-  alignas(64) float chosen[most_lanes + 1], chosen_or[most_lanes + 1];
-  alignas(64) double wide_chosen[most_lanes + 1];  ///< the same of x where x < y
-  alignas(64) float rows[4 * most_lanes];          ///< from a, b, c and a + b, lane by lane
-  alignas(64) float columns[4][most_lanes];        ///< from these rows, the last one first
-  unsigned less, less_equal, equal_integers, wide_less, wide_less_equal, wide_equal;
-  unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, widened_mask;
+  alignas(64) std::uint32_t counted[most_lanes];  ///< from 77 on
+  alignas(64) std::uint32_t integer_sum[most_lanes], integer_product[most_lanes];
+  alignas(64) std::uint32_t integer_and[most_lanes], integer_or[most_lanes],
+      integer_xor[most_lanes];
+  alignas(64) std::uint32_t left_shift[most_lanes], right_shift[most_lanes];  ///< of i, by 5
+  alignas(64) std::uint32_t integer_select[most_lanes];  ///< i where a < b, else j
+  alignas(64) std::int32_t signed_integers[most_lanes];  ///< i, through signed arrays
+  alignas(64) std::uint32_t gathered[most_lanes];        ///< of 0, -1, -4, .. the number i % 16
+  alignas(64) double integer_as_wide[most_lanes], signed_as_wide[most_lanes];  ///< of i
+  /// From index 1 on: the lanes where a < b, of a, one after the other; the same of i; the same of
+  /// x where x < y; and of |a| the halves.
+  alignas(64) float chosen[most_lanes + 1];
+  alignas(64) std::uint32_t chosen_integers[most_lanes + 1];
+  alignas(64) double wide_chosen[most_lanes + 1];
+  alignas(64) std::uint16_t chosen_halves[most_lanes + 1];
+  alignas(64) std::uint32_t anywhere[most_lanes + 1];  ///< i from index 1 on
+  alignas(64) float rows[4 * most_lanes];              ///< from a, b, c and a + b, lane by lane
+  alignas(64) float columns[4][most_lanes];            ///< from these rows, the last one first
+  unsigned less, less_equal, wide_less, wide_less_equal, wide_equal;
+  unsigned integer_equal, integer_less_equal, set_bytes;
+  unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, widened_mask, narrowed_mask;
+  unsigned uniform_true, uniform_false;
+  std::size_t least_of_sixteen;
   bool any_less, all_less, any_none, all_all;
 };
 

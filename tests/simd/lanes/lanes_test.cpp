@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include "simd/dispatch/cpu.h"
@@ -86,6 +87,12 @@ T draw(CaseRandom& random) {
   return static_cast<T>(random.sign() * magnitude);
 }
 
+std::uint32_t draw_integer(CaseRandom& random) {
+  constexpr std::uint32_t special[] = {0, 1, 0x7fffffff, 0x80000000, 0xfffffffe, 0xffffffff};
+  if (random.chance(0.3)) return special[random.below(6)];
+  return static_cast<std::uint32_t>(random.uniform(0, 0x1p32)) >> random.below(32);
+}
+
 LaneInputs draw_inputs(CaseRandom& random) {
   LaneInputs in{};
   for (int i = 0; i < most_lanes; ++i) {
@@ -94,6 +101,12 @@ LaneInputs draw_inputs(CaseRandom& random) {
     in.c[i] = draw<float>(random);
     in.x[i] = draw<double>(random);
     in.y[i] = random.chance(0.2) ? in.x[i] : draw<double>(random);
+    in.i[i] = draw_integer(random);
+    in.j[i] = random.chance(0.2) ? in.i[i] : draw_integer(random);
+    in.bytes[i] = static_cast<std::uint8_t>(random.chance(0.5) ? 0 : 1 + random.below(255));
+  }
+  for (std::uint16_t& number : in.sixteen) {
+    number = static_cast<std::uint16_t>(draw_integer(random) >> 16);
   }
   return in;
 }
@@ -160,7 +173,6 @@ TEST_P(Lanes, Conversions) {
   for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
     ASSERT_TRUE(same(out.widen[i], static_cast<double>(in.a[i])));
     ASSERT_TRUE(same(out.narrow[i], static_cast<float>(in.x[i])));
-    ASSERT_TRUE(same(out.lane_numbers[i], i));
   });
 }
 
@@ -175,9 +187,26 @@ TEST_P(Lanes, RowsAndColumns) {
 }
 
 TEST_P(Lanes, Integers) {
-  for_all_lanes([](const LaneInputs&, const LaneOutputs& out, int i) {
-    ASSERT_EQ(std::bit_cast<std::int32_t>(out.counted[i]), 77 + i);
-    ASSERT_EQ(bit(out.equal_integers, i), i % 3 == 2);
+  for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int k) {
+    const std::uint32_t i = in.i[k], j = in.j[k];
+    ASSERT_EQ(out.counted[k], 77U + static_cast<std::uint32_t>(k));
+    ASSERT_EQ(out.integer_sum[k], i + j);
+    ASSERT_EQ(out.integer_product[k], i * j);
+    ASSERT_EQ(out.integer_and[k], i & j);
+    ASSERT_EQ(out.integer_or[k], i | j);
+    ASSERT_EQ(out.integer_xor[k], i ^ j);
+    ASSERT_EQ(out.left_shift[k], i << 5);
+    ASSERT_EQ(out.right_shift[k], i >> 5);
+    ASSERT_EQ(out.integer_select[k], in.a[k] < in.b[k] ? i : j);
+    ASSERT_EQ(out.signed_integers[k], static_cast<std::int32_t>(i));
+    ASSERT_EQ(bit(out.integer_equal, k), i == j);
+    ASSERT_EQ(bit(out.integer_less_equal, k), i <= j);
+    const auto root = static_cast<std::int32_t>(i % 16);
+    ASSERT_EQ(static_cast<std::int32_t>(out.gathered[k]), -root * root);
+    ASSERT_EQ(out.integer_as_wide[k], static_cast<double>(i));
+    ASSERT_EQ(out.signed_as_wide[k], static_cast<double>(static_cast<std::int32_t>(i)));
+    ASSERT_EQ(bit(out.set_bytes, k), in.bytes[k] != 0);
+    ASSERT_EQ(out.anywhere[k + 1], i);
   });
 }
 
@@ -188,15 +217,25 @@ TEST_P(Lanes, ChosenOneAfterTheOther) {
     for (int k = 0; k < out.width; ++k) {
       if (!(in.a[k] < in.b[k])) continue;
       ASSERT_TRUE(same(out.chosen[next], in.a[k]));
-      ASSERT_TRUE(same(out.chosen_or[next], in.a[k]));
+      ASSERT_EQ(out.chosen_integers[next], in.i[k]);
+      const auto whole = std::bit_cast<std::uint32_t>(std::fabs(in.a[k]));
+      ASSERT_EQ(out.chosen_halves[next], whole >> 15);
       ++next;
     }
-    for (; next <= out.width; ++next) ASSERT_EQ(out.chosen_or[next], -1);
+    for (; next <= out.width; ++next) ASSERT_EQ(out.chosen_halves[next], 0xffff);
     next = 1;
     for (int k = 0; k < out.width; ++k) {
       if (!(in.x[k] < in.y[k])) continue;
       ASSERT_TRUE(same(out.wide_chosen[next++], in.x[k]));
     }
+  });
+}
+
+TEST_P(Lanes, LeastOfSixteen) {
+  for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int) {
+    ASSERT_LT(out.least_of_sixteen, 16U);
+    const std::uint16_t least = in.sixteen[out.least_of_sixteen];
+    ASSERT_EQ(least, *std::min_element(std::begin(in.sixteen), std::end(in.sixteen)));
   });
 }
 
@@ -223,6 +262,9 @@ TEST_P(Lanes, Masks) {
     ASSERT_EQ(bit(out.wide_or, i), x <= y);
     ASSERT_EQ(bit(out.wide_not, i), !(x < y));
     ASSERT_EQ(bit(out.widened_mask, i), a < b);
+    ASSERT_EQ(bit(out.narrowed_mask, i), x < y);
+    ASSERT_TRUE(bit(out.uniform_true, i));
+    ASSERT_FALSE(bit(out.uniform_false, i));
     const unsigned full = (1U << out.width) - 1;
     ASSERT_EQ(out.any_less, out.less != 0);
     ASSERT_EQ(out.all_less, out.less == full);

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "simd/abi/geometry.h"
+#include "simd/kernel/search/primitive_access.h"
+#include "simd/kernel/search/root_bounds.h"
+#include "simd/kernel/tuning.h"
+
+/// What packets and single rays have found so far: the nearest hit per lane, or whether there is
+/// one at all. A search offers spheres in two ways. consider() takes what float knows about a
+/// sphere and says whether double must decide; offer() takes what the double solver found.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The nearest hit per lane. Most rays need only one double solve, at the end: as long as float is
+/// certain which sphere is the nearest, that sphere is only `pending`, and settle() solves it.
+struct ClosestHit {
+  Wide t;        ///< of the nearest hit that is solved
+  Bits id;       ///< of that hit's primitive
+  Bits pending;  ///< slot of a sphere that is certainly hit, and certainly nearer than t
+  RealMask is_pending;
+  Real nearest;  ///< lower bound of t |dir|: of the pending hit, else of the solved one or of tmax
+  Real reach;    ///< upper bound of a live t |dir| that may still be nearer than what was found
+
+  BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
+      : t(no_hit),
+        id(-1),
+        pending(0),
+        is_pending(uniform(false)),
+        nearest(rays.filter.live_to),
+        reach(distance(rays.exact.tmax, rays)) {}
+
+  /// t |dir|, rounded. The bounds that it is compared with allow for that (filter_bounds.h).
+  BOULE_INLINE static Real distance(const Wide& t, const RayLanes& rays) {
+    return narrow(t * rays.filter.length);
+  }
+
+  /// Takes what float knows about the sphere in `slot`. `low` is a lower bound of its hit; lanes in
+  /// `out` do not hit it. Returns whether the double solver must decide: it must unless every lane
+  /// is out, has found a nearer sphere, or certainly has its nearest hit here. Adds these to `out`.
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
+                             const Bits& slot, const FilterRays& rays) {
+    const Real high = highest(roots, rays);
+    const RealMask first = high < nearest;
+    out |= bits(first | (reach < low));
+    reach = select(high < reach, high, reach);
+    nearest = select(first, low, nearest);
+    pending = select(first, slot, pending);
+    is_pending = is_pending | first;
+    return out != all_lanes;
+  }
+  /// Whether a sphere with the lower bound `low` may still be the nearest in a lane not in `out`.
+  BOULE_INLINE bool wants(const Real& low, unsigned out) const {
+    return (bits(reach < low) | out) != all_lanes;
+  }
+
+  /// Nothing beyond this t |dir| is of interest.
+  [[nodiscard]] BOULE_INLINE Real limit() const { return reach; }
+
+  BOULE_INLINE void offer(const Roots& roots, const Bits& primitive, const RayLanes& rays) {
+    const WideMask lower_id = widen(~(id <= primitive));
+    const WideMask nearer = (roots.t < t) | ((roots.t == t) & lower_id);
+    const WideMask better = roots.hit & nearer;
+    if (any(better)) take(roots.t, primitive, better, rays);
+  }
+  /// Solves the pending hits by one double solve, each lane against its own sphere.
+  BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
+    if (bits(is_pending) == 0) return;
+    const SphereLanes each = gather_spheres(spheres, pending);
+    const Roots roots = solve_robust(rays.exact, each);
+    take(roots.t, each.id, roots.hit & widen(is_pending), rays);
+    is_pending = uniform(false);
+  }
+  static constexpr bool done() { return false; }
+  static constexpr bool ordered = true;  ///< visiting near children first saves work
+  static constexpr std::size_t chunk = tuning::nearest_chunk;
+
+ private:
+  BOULE_INLINE void take(const Wide& new_t, const Bits& new_id, const WideMask& lanes,
+                         const RayLanes& rays) {
+    t = select(lanes, new_t, t);
+    id = select(narrow(lanes), new_id, id);
+    const Real solved = distance(t, rays);
+    reach = select(solved < reach, solved, reach);
+    nearest = select(solved < rays.filter.live_to, solved, rays.filter.live_to);
+  }
+};
+
+/// Whether anything is hit, per lane. With `one_ray` all lanes are the same ray: one hit will do.
+template <bool one_ray>
+struct AnyHit {
+  unsigned hit = 0;  ///< lanes as bits
+  Real far;          ///< upper bound of a live t |dir|; below everything in lanes that have a hit
+
+  BOULE_INLINE explicit AnyHit(const RayLanes& rays)
+      : far(ClosestHit::distance(rays.exact.tmax, rays)) {}
+
+  BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned out, const Bits&,
+                             const FilterRays& rays) {
+    const RealMask found = live(roots, rays);
+    hit |= bits(found);
+    far = select(found, Real(-std::numeric_limits<float>::max()), far);
+    return wants(low, out);
+  }
+  BOULE_INLINE bool wants(const Real&, unsigned out) const {
+    return !done() && (out | hit) != all_lanes;
+  }
+  [[nodiscard]] BOULE_INLINE Real limit() const { return far; }
+
+  BOULE_INLINE void offer(const Roots& roots, const Bits&, const RayLanes&) {
+    hit |= bits(roots.hit);
+  }
+  static void settle(const SphereView&, const RayLanes&) {}
+  [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
+  static constexpr bool ordered = false;
+  static constexpr std::size_t chunk = tuning::any_chunk;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/bvh.h"
+#include "simd/kernel/search/bundle_discs.h"
+#include "simd/kernel/search/bundle_grid.h"
+#include "simd/kernel/search/bundle_rays.h"
+
+/// A bundle against the boxes of a node: sixteen of them, W at a time, against the four planes that
+/// hold all rays. It only turns away boxes that no ray enters; the slack is derived in
+/// simd/abi/filter_bounds.h (box).
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The four sides of a bundle, and its depth, for boxes in world coordinates.
+template <Common common>
+class BundleSides {
+ public:
+  explicit BundleSides(const BundleRays& rays) : org_(narrow_all(rays.frame.org)) {
+    const BundleFrame& frame = rays.frame;
+    // a and b are off by no more than this.
+    const double off = double{filter::bundle_axis} * filter::u * double{rays.across};
+    const Extent& e = rays.extent;
+    if constexpr (common == Common::direction) {
+      const float c_off = static_cast<float>(filter::bundle_depth * filter::u) * rays.across;
+      c_low_ = rays.c_low - c_off;
+      c_high_ = rays.c_high + c_off;
+    }
+    set_side(sides_[0], frame.u, frame.w, double{e.a_low} - off, 1);
+    set_side(sides_[1], frame.u, frame.w, double{e.a_high} + off, -1);
+    set_side(sides_[2], frame.v, frame.w, double{e.b_low} - off, 1);
+    set_side(sides_[3], frame.v, frame.w, double{e.b_high} + off, -1);
+    set_side(depth_, frame.w, frame.w, 0, 1);
+    set_side(across_[0], frame.u, frame.w, 0, 1);
+    set_side(across_[1], frame.v, frame.w, 0, 1);
+    off_ = static_cast<float>(off);
+    shift_ = rays.shift + static_cast<float>(filter::floor);
+  }
+
+  /// Of the boxes in `entered`, as bits, those that the grid has rays for. `near`: as enter() gave
+  /// it.
+  BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid, const float* near,
+                                    unsigned entered) const {
+    alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
+        b_high[Discs::size];
+    for (std::size_t part = 0; part * width < bvh_width; ++part) {
+      const Boxes boxes = boxes_of(node, part);
+      const Range depth = distances(depth_, boxes);
+      const Range a = slopes(across_[0], boxes, depth), b = slopes(across_[1], boxes, depth);
+      const RayGrid::Cells cells = grid.cells(a.low, a.high, b.low, b.high);
+      store(a_low + part * width, cells.a_low);
+      store(a_high + part * width, cells.a_high);
+      store(b_low + part * width, cells.b_low);
+      store(b_high + part * width, cells.b_high);
+    }
+    unsigned result = 0;
+    for (unsigned left = entered; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k], near[k])) result |= 1U << k;
+    }
+    return result;
+  }
+
+  /// The children of a node that no ray enters before `limit`, as bits. Writes to `near` a lower
+  /// bound of the v at which each is entered.
+  BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
+    unsigned out = 0;
+    for (std::size_t part = 0; part * width < bvh_width; ++part)
+      out |= enter_part(node, part, limit, near) << (part * width);
+    return out;
+  }
+
+ private:
+  /// A plane; points with n.(p - O) >= offset are inside. `far` and `near` say which of a box's
+  /// rows (min x, y, z, max x, y, z) have the corner that lies farthest inside, and least.
+  struct Side {
+    float x, y, z, offset;
+    int far[3], near[3];
+  };
+
+  static void set_side(Side& side, const Vec3d& axis, const Vec3d& w, double at, double sign) {
+    const bool one_origin = common != Common::direction;
+    const Vec3d n = (one_origin ? axis - w * at : axis) * sign;
+    side.x = static_cast<float>(n.x);
+    side.y = static_cast<float>(n.y);
+    side.z = static_cast<float>(n.z);
+    side.offset = one_origin ? 0.0F : static_cast<float>(at * sign);
+    const double along[3] = {n.x, n.y, n.z};
+    for (int k = 0; k < 3; ++k) {
+      side.far[k] = along[k] > 0 ? k + 3 : k;
+      side.near[k] = along[k] > 0 ? k : k + 3;
+    }
+  }
+
+  /// W boxes relative to O, and a bound of the error of their corners' distances (filter_bounds.h).
+  struct Boxes {
+    Real rows[6];
+    Real slack;
+  };
+  BOULE_INLINE Boxes boxes_of(const BvhNode& node, std::size_t part) const {
+    const std::size_t at = part * width;
+    Boxes boxes = {{load(node.min_x + at) - org_.x, load(node.min_y + at) - org_.y,
+                    load(node.min_z + at) - org_.z, load(node.max_x + at) - org_.x,
+                    load(node.max_y + at) - org_.y, load(node.max_z + at) - org_.z},
+                   Real(0.0F)};
+    const Real(&rows)[6] = boxes.rows;
+    const Real size = filter_max(abs(rows[0]), abs(rows[3])) +
+                      filter_max(abs(rows[1]), abs(rows[4])) +
+                      filter_max(abs(rows[2]), abs(rows[5]));
+    boxes.slack = filter_fma(size, Real(static_cast<float>(filter::box * filter::u)), shift_);
+    return boxes;
+  }
+
+  struct Range {
+    Real low, high;
+  };
+  /// The range of the boxes along an axis.
+  BOULE_INLINE static Range distances(const Side& axis, const Boxes& boxes) {
+    return {reach(axis, axis.near, boxes.rows) - boxes.slack,
+            reach(axis, axis.far, boxes.rows) + boxes.slack};
+  }
+  /// The range of a, or of b, of rays that may enter the boxes; everything, or NaN, for boxes that
+  /// reach behind O.
+  BOULE_INLINE Range slopes(const Side& axis, const Boxes& boxes, const Range& depth) const {
+    const auto [low, high] = distances(axis, boxes);
+    if constexpr (common == Common::direction) {
+      return {low - off_, high + off_};
+    } else {
+      const Real zero(0.0F), one(1.0F);
+      const Real least = low * (one / select(low < zero, depth.low, depth.high));
+      const Real most = high * (one / select(high < zero, depth.high, depth.low));
+      const Real none(static_cast<float>(no_hit));
+      const RealMask behind = depth.low <= zero;
+      return {select(behind, zero - none, least - off_), select(behind, none, most + off_)};
+    }
+  }
+
+  /// The same for W boxes; filter_bounds.h says how they are rounded (box).
+  BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
+                                   float* near) const {
+    const Boxes boxes = boxes_of(node, part);
+    RealMask out = Real(0.0F) < Real(0.0F);
+    for (const Side& side : sides_) {
+      const Real most = reach(side, side.far, boxes.rows) + boxes.slack;
+      out =
+          out | (most < Real(side.offset) - abs(Real(side.offset)) *
+                                                Real(static_cast<float>(filter::box * filter::u)));
+    }
+    const Range depth = distances(depth_, boxes);
+    const Real begin = depth.low - c_high_;
+    out = out | (depth.high < c_low_) | (Real(limit) < begin);
+    store(near + part * width, begin);
+    return bits(out);
+  }
+
+  /// The distance of a corner along the normal of a side.
+  BOULE_INLINE static Real reach(const Side& side, const int (&corner)[3], const Real (&rows)[6]) {
+    return filter_fma(Real(side.z), rows[corner[2]],
+                      filter_fma(Real(side.y), rows[corner[1]], Real(side.x) * rows[corner[0]]));
+  }
+
+  Vec3<Real> org_;
+  Real c_low_{0.0F}, c_high_{0.0F};
+  Real shift_{0.0F};
+  Side sides_[4], depth_;
+  Side across_[2];  ///< along U and V
+  Real off_;        ///< of a and b
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/geometry.h"
+#include "simd/kernel/tuning.h"
+#include "simd/lanes/lanes.h"
+
+/// Where the nodes and leaves of a tree are in memory, for bundles and flights, which fetch what
+/// they will visit into the cache.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Finds the node or the leaf that a child is, without a branch: no CPU could predict which of the
+/// two it is.
+class TreeBlocks {
+ public:
+  BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
+      : first_{as_bytes(geometry.bvh.nodes),
+               as_bytes(geometry.spheres.blocks + geometry.spheres.scanned / bvh_leaf_size)},
+        ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)},
+        is_far_(geometry.spheres.block_count > tuning::most_near_blocks) {}
+
+  /// Whether the tree is too large for a cache near by.
+  [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
+  /// The node or the leaf that a child is. In a far tree, also fetches what its visit will read.
+  BOULE_INLINE const void* fetch(std::uint32_t child) const {
+    const std::size_t leaf = child >> 31, index = index_of(child);
+    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
+    const char* const block = first_[leaf] + (index << (9 - leaf));
+    if (!is_far_) return block;
+    prefetch(block);
+    prefetch(block + (256 - 256 * leaf));
+    static_assert(bvh_leaf_size * sizeof(std::int32_t) == 64);
+    __builtin_prefetch(ids_[leaf] + (index << (9 - 3 * leaf)));
+    return block;
+  }
+
+ private:
+  template <class T>
+  BOULE_INLINE static const char* as_bytes(const T* p) {
+    return reinterpret_cast<const char*>(p);
+  }
+  /// Fetches 256 bytes.
+  BOULE_INLINE static void prefetch(const char* begin) {
+    __builtin_prefetch(begin);
+    __builtin_prefetch(begin + 64);
+    __builtin_prefetch(begin + 128);
+    __builtin_prefetch(begin + 192);
+  }
+
+  const char* first_[2];  ///< the first node, and the first leaf
+  const char* ids_[2];  ///< the first leaf's ids; for nodes, which have none, the first node again
+  bool is_far_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <cstddef>
+
+#include "simd/lanes/lanes.h"
+
+/// The numbers of the kernels that were chosen for speed. Change them as you like: the hits stay
+/// the same. (Bounds that hits depend on are in simd/abi/filter_bounds.h; the numbers of the
+/// builders in simd/geometry/tuning.h.)
+///
+/// Each says what was measured and the command that measures it again; "set by trial" means that
+/// the number won when it was chosen and that no figure was kept. The benchmarks are built with
+/// -DBOULE_BENCH=ON. A figure of one run means little: build twice, run both programs in turn, and
+/// compare medians. `bench_peers --json` writes its figures to a file, and `valgrind
+/// --tool=callgrind` counts instructions of bench_trace or boule, which repeat exactly.
+namespace boule::BOULE_KERNEL_ISA::tuning {
+
+// ---- Scans: search/scan.h -------------------------------------------------------------------
+
+/// Spheres whose survivors are listed before the first of them is solved: for nearest hits, and for
+/// any hit, which may be over after the first one. With the hot loop's present form 1024 brought
+/// the robust scan, against half-b in float at the same width, from 0.92 to 0.98 (sse42), 0.92 to
+/// 0.97 (avx2) and 1.01 to 1.04 (avx512). Again: bench_intersect --benchmark_filter=sparse
+inline constexpr std::size_t nearest_chunk = 1024, any_chunk = 64;
+
+// ---- Packets: search/packet_stream.h, traverse.h, beam.h --------------------------------------
+
+/// The rays at the end of a stream go one by one where they are no more than this. Set by trial.
+/// Again: bench_peers --scenes u1000 --rays mirror, whose streams end anywhere
+inline constexpr std::size_t most_single_rays = width / 2;
+
+/// A packet is fetched into the cache so many rays before it is used. Set by trial.
+/// Again: bench_peers --scenes u1000,flake4 --rays mirror,diffuse
+inline constexpr std::size_t prefetch_distance = 4 * static_cast<std::size_t>(width);
+
+/// Rays whose direction along an axis is smaller than this, of unit length, form no beam along it:
+/// the intervals of where they meet its planes would be too wide. Set by trial.
+/// Again: bench_peers --scenes u1000,flake4 --rays mirror
+inline constexpr float least_beam_slope = 0x1p-20F;
+
+/// With more leaves than this a tree counts as far away and what a visit will read is fetched
+/// ahead: a leaf and its share of the nodes take 400 bytes, and 640 of them a quarter of a MiB, a
+/// good part of a second-level cache. Set by trial.
+/// Again: bench_peers --scenes u1000,u10000,u100000 --rays diffuse
+inline constexpr std::size_t most_near_blocks = 640;
+
+// ---- Bundles: search/bundle_*.h ---------------------------------------------------------------
+
+/// Rays of a bundle, at most: 32 x 32 pixels of a stream in Morton order. The first prototype had
+/// 8 x 8 and 16 x 16; the smaller ones had 0.55 to 0.95 of the larger ones' speed. 32 x 32 was set
+/// by trial.
+/// Again: bench_peers --scenes u1000,u10000,flake4 --rays primary,shadow
+inline constexpr int bundle_size = 1024;
+
+/// A bundle's rays are tested in so many groups: of 1024 rays, 32 in each. Set by trial.
+/// Again: as bundle_size
+inline constexpr int bundle_groups = 32;
+
+/// Fewer rays go as packets. Set by trial.
+/// Again: bench_peers --scenes flake4,flake6 --rays shadow
+inline constexpr std::size_t fewest_bundle_rays = 32;
+
+/// Lines that miss their common end by more than this share of their length make a poor bundle: its
+/// bounds would hold but turn little away. Set by trial.
+/// Again: bench_peers --scenes u1000,flake4 --rays shadow
+inline constexpr float farthest_end = 0x1p-10F;
+
+/// A disc is compared ray by ray, not packet by packet, where it lies within at most so many groups
+/// and, in them, at most so many rays: at first, and once a bundle is known to be sparse, that is,
+/// to have many spheres for its rays. Together with the grid of the next lines, any hit by avx2 in
+/// streams of 16,384 rays: 1.45 to 2.7 Mray/s on u1000000, 4.3 to 6.4 on flake6, other scenes
+/// within 2 %. Again: bench_peers --scenes u1000000,flake6 --rays shadow
+struct Few {
+  int groups, rays;
+};
+inline constexpr Few few_at_first = width < 16 ? Few{6, 24} : Few{8, 32};
+inline constexpr Few few_if_sparse = width < 16 ? Few{10, 48} : Few{12, 64};
+
+/// The grid of a bundle's rays has so many cells along each side, and for each square of so many
+/// cells along a side keeps where rays end. A bundle is sparse, and its grid is filled, once it has
+/// visited a leaf for so many of its rays. Set by trial.
+/// Again: as few_if_sparse
+inline constexpr int grid_side = 32, grid_coarse = 4;
+inline constexpr std::size_t rays_per_leaf_if_sparse = 8;
+
+/// A bundle is given up after so many double solves for each of its packets, on average, because
+/// packets would be no slower. Shadow rays amid specks that are 8.7e6 of their radii from their
+/// light: 0.16 Mray/s without this, 4.5 with it.
+/// Again: bench_errors, and bench_peers --scenes flake6 --rays shadow
+inline constexpr int most_unclear = 2;
+
+/// Shadow rays are taken in the order of the stream until a bundle of them needs more than one leaf
+/// for so many rays; from there on they are sorted. Set by trial.
+/// Again: bench_peers --scenes u10000,u100000 --rays shadow
+inline constexpr std::size_t rays_per_leaf_in_order = 12;
+
+// ---- Sorted shadow rays: search/ray_pool.h, light_grid.h --------------------------------------
+
+/// Rays that are sorted together, at most. A stack frame holds them: 1.5 MiB. Set by trial, with
+/// fitting_stream_size() in simd/abi/stream.h.
+/// Again: bench_peers --scenes u100000,u1000000,flake6 --rays shadow
+inline constexpr std::size_t pool_size = 65536;
+
+/// Cells along a side of the square that rays are sorted into, for a pool of so many rays. Set by
+/// trial.
+/// Again: as pool_size
+constexpr int light_grid_side(std::size_t rays) { return rays < 1024 ? 16 : rays < 4096 ? 32 : 64; }
+inline constexpr unsigned most_light_cells = 64 * 64;
+
+/// Rays that are read, and then sorted into cells, at a time; the square is fitted to each packet
+/// that starts at a multiple of this; it faces the mean of so many directions. Set by trial.
+/// Again: as pool_size
+inline constexpr std::size_t pool_chunk = 128;
+inline constexpr std::size_t light_samples = 32;
+
+// ---- Flights: search/flight*.h ----------------------------------------------------------------
+
+/// Rays in flight: in a near tree (most_near_blocks), whose memory need not be waited for but whose
+/// rounds want to be full, and in a far one. In the first prototype 16 rays instead of one
+/// gave 1.25 on small and 1.5 to 1.7 on large scenes, and 8 most of that; these were set by trial.
+/// Again: bench_peers --scenes u1000,u100000,u1000000 --rays diffuse
+inline constexpr std::size_t flights_nearby = 24, most_flights = 32;
+
+/// Steps that are taken together, at most. Set by trial.
+/// Again: bench_peers --scenes u1000,u10000,flake4 --rays diffuse,light
+inline constexpr std::size_t steps_together = 12;
+
+/// Children that wait for a ray are kept in order up to this number; of more the last one is taken.
+/// Set by trial; a ray seldom has more.
+/// Again: bench_peers --scenes flake6,u1000000 --rays diffuse
+inline constexpr std::size_t most_sorted_children = 48;
+
+/// A ray with more candidates than this has them solved at once. Set by trial; ordinary rays have
+/// one or two.
+/// Again: bench_errors, and bench_peers --scenes u1000 --rays diffuse
+inline constexpr unsigned most_candidates = 8;
+
+/// So many of those solves count as one step where packets and flights are compared. Set by trial.
+inline constexpr unsigned solves_a_step = 2;
+
+// ---- The choice between packets and flights: search/scattered_stream.h ------------------------
+
+/// Rays that are traced either way to see which is the better one, and rays that then go that way:
+/// at first, and at most, because their number doubles while trials agree. What earlier trials saw
+/// counts half as much as the last one, for 32 rays may mislead. Set by trial.
+/// Again: bench_peers --scenes u1000,u10000,flake4 --rays mirror,diffuse,light
+inline constexpr std::size_t rays_on_trial = 32;
+inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
+inline constexpr float share_of_earlier_trials = 0.5F;
+
+/// A packet's visit takes as long as so many steps of rays in flight. Measured on scenes of 1,000
+/// to 600,000 spheres where the two are about as fast, 8 and 16 lanes: nearest hits of bounced rays
+/// 3.3 to 3.8, and 5.3 to 6.6; any hit 3.1 to 4.1, and 5 to 6.4, the more the larger the scene.
+/// Again: bench_trace --benchmark_filter='(packet|flight)/' and the visits of bench_tree; or
+/// bench_peers --scenes u1000,u10000,flake4,flake6 --rays mirror,diffuse,light
+template <bool any>
+inline constexpr float steps_a_visit = any ? (width < 16 ? 3.7F : 5.9F)
+                                           : (width < 16 ? 3.6F : 5.7F);
+
+}  // namespace boule::BOULE_KERNEL_ISA::tuning
