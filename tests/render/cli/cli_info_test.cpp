@@ -90,8 +90,7 @@ plane = [{}, {point = [0, 5, 0], normal = [-1, 0, 0]}]
   }
 }
 
-TEST_F(Info, EveryKindOfThingIsNamed) {
-  const json found = info(write("all.toml", R"(schema = 1
+const char* const every_kind = R"(schema = 1
 [camera]
 type = "orthographic"
 eye = [0, 0, 5]
@@ -121,7 +120,10 @@ type = "sphere"
 radius = 0.5
 [render]
 method = "path"
-)"));
+)";
+
+TEST_F(Info, EveryKindOfThingIsNamed) {
+  const json found = info(write("all.toml", every_kind));
   EXPECT_EQ(found.at("camera").at("type"), "orthographic");
   EXPECT_EQ(found.at("camera").at("height"), 3);
   EXPECT_EQ(found.at("background").at("type"), "gradient");

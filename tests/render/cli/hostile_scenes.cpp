@@ -10,12 +10,16 @@ std::function<std::string()> toml(const std::string& text) { return just("schema
 /// An NFF scene, from line 7 on.
 std::function<std::string()> nff(const std::string& text) { return just(nff_view + text); }
 
-}  // namespace
+std::vector<HostileScene> joined(const std::vector<std::vector<HostileScene>>& lists) {
+  std::vector<HostileScene> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
 
-std::vector<HostileScene> hostile_toml() {
+/// Cut off, empty, binary, of another encoding.
+std::vector<HostileScene> broken_toml() {
   const char* const a = "a.toml";
   return {
-      // cut off, empty, binary, of another encoding
       {"Empty", a, just(""), "1:1", "the scene is empty", "schema"},
       {"OnlyAMark", a, just("\xef\xbb\xbf"), "1:1", "the scene is empty", "schema"},
       {"Binary", a, binary, "1:1", "only strings and comments may hold such a character"},
@@ -31,7 +35,13 @@ std::vector<HostileScene> hostile_toml() {
        "camera.type"},
       {"Nul", a, just(std::string("schema = 1\n#\0\n", 14)), "2:2", "holds a NUL"},
       {"AllNul", a, [] { return std::string(16 * mebibyte, '\0'); }, "1:1", "holds a NUL"},
-      // long and deep
+  };
+}
+
+/// Long and deep.
+std::vector<HostileScene> long_toml() {
+  const char* const a = "a.toml";
+  return {
       {"LongKey", a, [] { return std::string(16 * mebibyte, 'k') + " = 1\n"; }, "1:1", "unknown"},
       {"LongLine", a,
        [] { return "schema = 1\na = \"" + std::string(16 * mebibyte, 'x') + "\"\n"; }, "2:1",
@@ -58,7 +68,13 @@ std::vector<HostileScene> hostile_toml() {
        "a key has at most 32 dotted parts"},
       {"DottedTable", a, [] { return "schema = 1\n[a" + repeated(".a", 200'000) + "]\n"; }, "2:65",
        "a key has at most 32 dotted parts"},
-      // numbers
+  };
+}
+
+/// Numbers.
+std::vector<HostileScene> numbers_toml() {
+  const char* const a = "a.toml";
+  return {
       {"SchemaBeyond32", a, just("schema = 4294967297\n"), "1:10", "must be an integer", "schema"},
       {"SppBeyond32", a, toml("[image]\nspp = 4294967297\n"), "3:7", "must be an integer",
        "image.spp"},
@@ -81,7 +97,13 @@ std::vector<HostileScene> hostile_toml() {
        "light[0].intensity"},
       {"IorInf", a, toml("[material.g]\ntype = \"glass\"\nior = inf\n"), "4:7", "must be finite",
        "material.g.ior"},
-      // types and components
+  };
+}
+
+/// Types and components.
+std::vector<HostileScene> types_toml() {
+  const char* const a = "a.toml";
+  return {
       {"TextForANumber", a, toml("[[sphere]]\nradius = \"1\"\n"), "3:10", "expected a number",
        "sphere[0].radius"},
       {"NumberForText", a, toml("[camera]\ntype = 1\n"), "3:8", "expected a string", "camera.type"},
@@ -98,7 +120,13 @@ std::vector<HostileScene> hostile_toml() {
       {"NoComponents", a, toml("[[plane]]\nnormal = []\n"), "3:10", "got 0", "plane[0].normal"},
       {"MissingComponent", a, toml("[camera]\neye = [0, 0, 5]\n"), "2:1", "missing key 'look_at'",
        "camera.look_at"},
-      // names
+  };
+}
+
+/// Names.
+std::vector<HostileScene> names_toml() {
+  const char* const a = "a.toml";
+  return {
       {"UnknownTable", a, toml("[camara]\n"), "2:2", "did you mean 'camera'?", "camara"},
       {"UnknownKey", a, toml("[[sphere]]\nraduis = 1\n"), "3:1", "did you mean 'radius'?",
        "sphere[0].raduis"},
@@ -111,7 +139,13 @@ std::vector<HostileScene> hostile_toml() {
       {"TableTwice", a, toml("[image]\n[render]\n[image]\n"), "4:1", "cannot redefine", "image"},
       {"MaterialTwice", a, toml("[material.a]\n[material.a]\n"), "3:1", "cannot redefine",
        "material.a"},
-      // files that are missing, or name themselves
+  };
+}
+
+/// Files that are missing, or name themselves.
+std::vector<HostileScene> files_toml() {
+  const char* const a = "a.toml";
+  return {
       {"IsItsOwnSpheres", a, just(spheres_of(a)), "3:8", "'a.toml': ", "spheres[0].file"},
       {"IsItsOwnLens", a, just(lens_of(a)), "3:8", "'a.toml': line 1: ", "camera.file"},
       {"IsItsOwnSky", a, just(sky_of(a)), "3:8", "'a.toml': cannot read it", "background.file"},
@@ -133,10 +167,10 @@ std::vector<HostileScene> hostile_toml() {
   };
 }
 
-std::vector<HostileScene> hostile_nff() {
+/// Cut off, empty, binary, of another encoding.
+std::vector<HostileScene> broken_nff() {
   const char* const a = "a.nff";
   return {
-      // cut off, empty, binary, of another encoding
       {"Empty", a, just(""), "1:1", "the file has no v block", "v"},
       {"Binary", a, binary, "1:1", "unknown entity"},
       {"EndsInTheView", a, just("v\nfrom 0 0 5\nat 0 0"), "3:7", "the line ends here", "v.at"},
@@ -148,7 +182,13 @@ std::vector<HostileScene> hostile_nff() {
       {"Utf16", a, [] { return utf16(nff_view); }, "1:1", "is UTF-16 text"},
       {"Utf16HighFirst", a, [] { return utf16_high_first(nff_view); }, "1:1", "is UTF-16 text"},
       {"Nul", a, nff(std::string("s 0 0 0 1\n#\0\n", 13)), "8:2", "holds a NUL"},
-      // long
+  };
+}
+
+/// Long.
+std::vector<HostileScene> long_nff() {
+  const char* const a = "a.nff";
+  return {
       {"LongWord", a, [] { return nff_view + std::string(16 * mebibyte, 'k') + "\n"; }, "7:1",
        "unknown entity"},
       {"LongLine", a, [] { return nff_view + repeated("s 0 0 0 1 ", 16 * mebibyte) + "\n"; },
@@ -159,7 +199,13 @@ std::vector<HostileScene> hostile_nff() {
       {"LongComment", a, [] { return "#" + std::string(16 * mebibyte, '-') + "\n"; }, "1:1",
        "the file has no v block", "v"},
       {"Brackets", a, nff(std::string(100'000, '(')), "7:1", "unknown entity"},
-      // numbers
+  };
+}
+
+/// Numbers.
+std::vector<HostileScene> numbers_nff() {
+  const char* const a = "a.nff";
+  return {
       {"CountBeyond32", a, nff("p 4294967299\n0 0 0\n1 0 0\n0 1 0\n"), "7:3",
        "an integer of 32 bits", "p"},
       {"CountWithoutData", a, nff("p 2147483647\n0 0 0\n"), "8:6",
@@ -174,7 +220,13 @@ std::vector<HostileScene> hostile_nff() {
       {"BeyondDouble", a, nff("s 0 1e999 0 1\n"), "7:5", "too large for a 32-bit float",
        "s.center"},
       {"FromNan", a, just("v\nfrom 0 0 nan\n"), "2:10", "must be finite", "v.from"},
-      // words and components
+  };
+}
+
+/// Words and components.
+std::vector<HostileScene> types_nff() {
+  const char* const a = "a.nff";
+  return {
       {"TextForANumber", a, nff("s zero 0 0 1\n"), "7:3", "expected a number, got 'zero'",
        "s.center"},
       {"FractionForACount", a, nff("p 3.5\n"), "7:3", "an integer of 32 bits", "p"},
@@ -189,6 +241,17 @@ std::vector<HostileScene> hostile_nff() {
        "v.from"},
       {"BackgroundTwice", a, nff("b 0 0 0\nb 0 0 0\n"), "8:1", "a second background", "b"},
   };
+}
+
+}  // namespace
+
+std::vector<HostileScene> hostile_toml() {
+  return joined(
+      {broken_toml(), long_toml(), numbers_toml(), types_toml(), names_toml(), files_toml()});
+}
+
+std::vector<HostileScene> hostile_nff() {
+  return joined({broken_nff(), long_nff(), numbers_nff(), types_nff()});
 }
 
 }  // namespace boule::test

@@ -5,92 +5,94 @@
 #include <functional>
 #include <set>
 
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {
 
+/// The first changes nothing.
+const std::function<void(Scene&)> changes[] = {
+    [](Scene&) {},
+    [](Scene& s) { s.camera.reset(); },
+    [](Scene& s) { s.camera = OrthographicCamera{}; },
+    [](Scene& s) { s.camera = FisheyeCamera{}; },
+    [](Scene& s) {
+      s.camera = FisheyeCamera{{}, 181};
+    },
+    [](Scene& s) { s.camera = LensCamera{}; },
+    [](Scene& s) {
+      s.camera = LensCamera{{}, {{1, 2, 3, 4}}};
+    },
+    [](Scene& s) {
+      s.camera = LensCamera{{}, {{1, 2, 3, 5}}};
+    },
+    [](Scene& s) {
+      s.camera = LensCamera{{}, {{1, 2, 3, 5}}, 24};
+    },
+    [](Scene& s) { s.camera = ThinLensCamera{}; },
+    [](Scene& s) {
+      s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, {}};
+    },
+    [](Scene& s) {
+      s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, 2.0f};
+    },
+    [](Scene& s) {
+      s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.5f)};
+    },
+    [](Scene& s) {
+      s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.25f)};
+    },
+    [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov = 51; },
+    [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov_axis = FovAxis::max; },
+    [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.eye.x += 1; },
+    [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.look_at.z += 1; },
+    [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.up.x += 1; },
+    [](Scene& s) { s.background = ConstantBackground{}; },
+    [](Scene& s) { std::get<GradientBackground>(s.background).up.x = 1; },
+    [](Scene& s) { std::get<GradientBackground>(s.background).top.r = 1; },
+    [](Scene& s) { std::get<GradientBackground>(s.background).bottom.r = 0; },
+    [](Scene& s) { s.ambient.b = 0; },
+    [](Scene& s) { std::get<Matte>(s.materials[0].material).color.g = 0; },
+    [](Scene& s) { std::get<Plastic>(s.materials[1].material).specular = 0; },
+    [](Scene& s) { std::get<Plastic>(s.materials[1].material).shininess = 1; },
+    [](Scene& s) { std::get<Plastic>(s.materials[1].material).reflect = 1; },
+    [](Scene& s) {
+      s.materials[2].material = Matte{{0.9f, 0.8f, 0.6f}};
+    },  // metal's colour
+    [](Scene& s) { std::get<Glass>(s.materials[3].material).ior = 2; },
+    [](Scene& s) { std::get<Emissive>(s.materials[4].material).radiance.r = 1; },
+    [](Scene& s) { std::get<Phong>(s.materials[5].material).ka = 1; },
+    [](Scene& s) { std::get<Phong>(s.materials[5].material).kd = 1; },
+    [](Scene& s) { std::get<Phong>(s.materials[5].material).ks = 1; },
+    [](Scene& s) { std::get<Phong>(s.materials[5].material).transmission = 1; },
+    [](Scene& s) { std::get<Phong>(s.materials[5].material).ior = 1; },
+    [](Scene& s) { std::swap(s.lights[0], s.lights[1]); },
+    [](Scene& s) { s.lights.pop_back(); },
+    [](Scene& s) { std::get<PointLight>(s.lights[0]).falloff = Falloff::inverse_square; },
+    [](Scene& s) { std::get<PointLight>(s.lights[0]).position.x = 0; },
+    [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).direction.x = 0; },
+    [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).intensity.r = 0; },
+    [](Scene& s) { s.lights.emplace_back(SphereLight{}); },
+    [](Scene& s) {
+      s.lights.emplace_back(SphereLight{{0, 1, 0}});
+    },
+    [](Scene& s) {
+      s.lights.emplace_back(SphereLight{{}, 2});
+    },
+    [](Scene& s) {
+      s.lights.emplace_back(SphereLight{{}, 1, {1, 1, 2}});
+    },
+    [](Scene& s) { s.spheres[7].center.y += 0x1p-20f; },
+    [](Scene& s) { s.spheres[7].radius += 0x1p-20f; },
+    [](Scene& s) { s.spheres[7].material = 0; },
+    [](Scene& s) { std::swap(s.spheres[0], s.spheres[1]); },
+    [](Scene& s) { s.planes[0].point.y = 1; },
+    [](Scene& s) { s.planes[0].normal.y = 1; },
+    [](Scene& s) { s.planes[0].material = 0; },
+    [](Scene& s) { s.planes.clear(); },
+};
+
 TEST(SceneHash, ChangesWithEveryValueThatShows) {
-  const std::function<void(Scene&)> changes[] = {
-      [](Scene&) {},
-      [](Scene& s) { s.camera.reset(); },
-      [](Scene& s) { s.camera = OrthographicCamera{}; },
-      [](Scene& s) { s.camera = FisheyeCamera{}; },
-      [](Scene& s) {
-        s.camera = FisheyeCamera{{}, 181};
-      },
-      [](Scene& s) { s.camera = LensCamera{}; },
-      [](Scene& s) {
-        s.camera = LensCamera{{}, {{1, 2, 3, 4}}};
-      },
-      [](Scene& s) {
-        s.camera = LensCamera{{}, {{1, 2, 3, 5}}};
-      },
-      [](Scene& s) {
-        s.camera = LensCamera{{}, {{1, 2, 3, 5}}, 24};
-      },
-      [](Scene& s) { s.camera = ThinLensCamera{}; },
-      [](Scene& s) {
-        s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, {}};
-      },
-      [](Scene& s) {
-        s.camera = ThinLensCamera{{}, 45, FovAxis::x, 1, 2.0f};
-      },
-      [](Scene& s) {
-        s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.5f)};
-      },
-      [](Scene& s) {
-        s.distortion = DistortionMap{2, 2, std::vector<float>(8, 0.25f)};
-      },
-      [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov = 51; },
-      [](Scene& s) { std::get<PinholeCamera>(*s.camera).fov_axis = FovAxis::max; },
-      [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.eye.x += 1; },
-      [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.look_at.z += 1; },
-      [](Scene& s) { std::get<PinholeCamera>(*s.camera).pose.up.x += 1; },
-      [](Scene& s) { s.background = ConstantBackground{}; },
-      [](Scene& s) { std::get<GradientBackground>(s.background).up.x = 1; },
-      [](Scene& s) { std::get<GradientBackground>(s.background).top.r = 1; },
-      [](Scene& s) { std::get<GradientBackground>(s.background).bottom.r = 0; },
-      [](Scene& s) { s.ambient.b = 0; },
-      [](Scene& s) { std::get<Matte>(s.materials[0].material).color.g = 0; },
-      [](Scene& s) { std::get<Plastic>(s.materials[1].material).specular = 0; },
-      [](Scene& s) { std::get<Plastic>(s.materials[1].material).shininess = 1; },
-      [](Scene& s) { std::get<Plastic>(s.materials[1].material).reflect = 1; },
-      [](Scene& s) {
-        s.materials[2].material = Matte{{0.9f, 0.8f, 0.6f}};
-      },  // metal's colour
-      [](Scene& s) { std::get<Glass>(s.materials[3].material).ior = 2; },
-      [](Scene& s) { std::get<Emissive>(s.materials[4].material).radiance.r = 1; },
-      [](Scene& s) { std::get<Phong>(s.materials[5].material).ka = 1; },
-      [](Scene& s) { std::get<Phong>(s.materials[5].material).kd = 1; },
-      [](Scene& s) { std::get<Phong>(s.materials[5].material).ks = 1; },
-      [](Scene& s) { std::get<Phong>(s.materials[5].material).transmission = 1; },
-      [](Scene& s) { std::get<Phong>(s.materials[5].material).ior = 1; },
-      [](Scene& s) { std::swap(s.lights[0], s.lights[1]); },
-      [](Scene& s) { s.lights.pop_back(); },
-      [](Scene& s) { std::get<PointLight>(s.lights[0]).falloff = Falloff::inverse_square; },
-      [](Scene& s) { std::get<PointLight>(s.lights[0]).position.x = 0; },
-      [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).direction.x = 0; },
-      [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).intensity.r = 0; },
-      [](Scene& s) { s.lights.emplace_back(SphereLight{}); },
-      [](Scene& s) {
-        s.lights.emplace_back(SphereLight{{0, 1, 0}});
-      },
-      [](Scene& s) {
-        s.lights.emplace_back(SphereLight{{}, 2});
-      },
-      [](Scene& s) {
-        s.lights.emplace_back(SphereLight{{}, 1, {1, 1, 2}});
-      },
-      [](Scene& s) { s.spheres[7].center.y += 0x1p-20f; },
-      [](Scene& s) { s.spheres[7].radius += 0x1p-20f; },
-      [](Scene& s) { s.spheres[7].material = 0; },
-      [](Scene& s) { std::swap(s.spheres[0], s.spheres[1]); },
-      [](Scene& s) { s.planes[0].point.y = 1; },
-      [](Scene& s) { s.planes[0].normal.y = 1; },
-      [](Scene& s) { s.planes[0].material = 0; },
-      [](Scene& s) { s.planes.clear(); },
-  };
   std::set<std::uint64_t> seen;
   for (const auto& change : changes) {
     Scene scene = mixed_scene(8, 8);

@@ -66,8 +66,7 @@ max_depth = 5
   EXPECT_EQ(dump(scene), dump(expected));
 }
 
-TEST(TomlScene, EveryKeyOfEveryType) {
-  const Scene scene = load(R"(schema = 1
+const char* const every_key = R"(schema = 1
 image = {size = [1, 65535], spp = 2147483647, filter = "tent"}
 render = {max_depth = 0, method = "path"}
 [camera]
@@ -129,7 +128,10 @@ normal = [0, 0, 4]
 material = "a.b c"
 [[sphere]]
 material = "v"
-)");
+)";
+
+TEST(TomlScene, EveryKeyOfEveryType) {
+  const Scene scene = load(every_key);
   Scene expected;
   expected.image = {1, 65535, 2147483647, PixelFilter::tent};
   expected.render = {0, Method::path};
