@@ -16,10 +16,11 @@
 #include "render/frame/partial_picture.h"
 #include "render/integrators/whitted.h"
 #include "render/memory/scene_memory.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/tracer.h"
 #include "simd/dispatch/dispatch.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 

@@ -8,10 +8,11 @@
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/renderer/renderer.h"
 #include "simd/dispatch/dispatch.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

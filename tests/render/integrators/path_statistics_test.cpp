@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/integrators/path.h"
+#include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
 #include "tests/support/test_size.h"

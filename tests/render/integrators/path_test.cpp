@@ -6,6 +6,7 @@
 
 #include "core/math/geometry.h"
 #include "core/math/warp.h"
+#include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
 

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "render/prepare/prepared_scene.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -14,8 +14,8 @@
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
 #include "tests/render/npy_files.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/temp_dir.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

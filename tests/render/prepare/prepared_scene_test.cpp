@@ -6,7 +6,7 @@
 
 #include "core/reference.h"
 #include "render/prepare/default_camera.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -10,13 +10,14 @@
 #include "core/reference.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/temp_dir.h"
+#include "tests/support/test_scenes.h"
 
 namespace {
 

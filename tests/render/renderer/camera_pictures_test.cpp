@@ -2,8 +2,8 @@
 // they should.
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/camera_samples.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

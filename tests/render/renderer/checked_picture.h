@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "render/integrators/aovs.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/renderer/renderer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/long_double_tracer.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 

@@ -9,7 +9,7 @@
 
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

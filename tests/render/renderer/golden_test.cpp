@@ -2,8 +2,8 @@
 // on every machine, so one hash per picture is enough. `boule render` of the scene shows the
 // picture.
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/bit_hash.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "render/frame/partial_picture.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

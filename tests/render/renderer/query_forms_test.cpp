@@ -11,9 +11,10 @@
 #include "core/math/vec.h"
 #include "render/frame/film.h"
 #include "render/integrators/whitted.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/renderer/block_worker.h"
-#include "tests/render/test_scenes.h"
 #include "tests/support/kernel_runs.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

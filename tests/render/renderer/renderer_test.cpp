@@ -8,7 +8,7 @@
 
 #include "render/memory/available_memory.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -14,7 +14,7 @@
 #include "simd/dispatch/dispatch.h"
 #include "simd/stream/stream_buffer.h"
 #include "tests/render/ray_clouds.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

@@ -3,7 +3,7 @@
 #include "render/shading/bsdf.h"
 #include "render/shading/dielectric.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "tests/render/prepared.h"
 #include "tests/support/kernel_runs.h"
 
 namespace boule::test {

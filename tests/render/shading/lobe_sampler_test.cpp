@@ -5,7 +5,7 @@
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/math/warp.h"
-#include "tests/render/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace boule::test {
 namespace {

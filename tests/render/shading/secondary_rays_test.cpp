@@ -6,7 +6,7 @@
 
 #include "core/surface.h"
 #include "render/shading/dielectric.h"
-#include "tests/render/test_scenes.h"
+#include "tests/render/prepared.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/test_size.h"
 

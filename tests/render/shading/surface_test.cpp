@@ -6,8 +6,9 @@
 #include <bit>
 
 #include "core/reference.h"
+#include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
-#include "tests/render/test_scenes.h"
+#include "tests/render/prepared.h"
 #include "tests/support/kernel_runs.h"
 
 namespace boule::test {

@@ -1,4 +1,4 @@
-// Groups and their instances, compared with the same scene written out by hand.
+// Groups and their instances, compared with the same objects written out by hand.
 #include "core/scene/instances.h"
 
 #include <gtest/gtest.h>
@@ -7,10 +7,9 @@
 #include <cmath>
 #include <functional>
 
-#include "render/renderer/scene_hash.h"
-#include "render/renderer/tracer.h"
-#include "tests/render/picture_comparison.h"
-#include "tests/render/test_scenes.h"
+#include "core/math/similarity.h"
+#include "core/scene/scene.h"
+#include "tests/support/grouped_scene.h"
 
 namespace boule::test {
 namespace {
@@ -25,21 +24,6 @@ template <class Primitive>
 bool same(const std::vector<Primitive>& a, const std::vector<Primitive>& b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](auto& p, auto& q) { return same(p, q); });
-}
-
-/// The mixed scene with half of its objects in two groups, "inner" within "outer", which is shown
-/// twice.
-Scene grouped_scene() {
-  Scene scene = mixed_scene(60, 40);
-  Group inner{"inner", {scene.spheres[4], scene.spheres[5]}, {}, {}};
-  Group outer{"outer", {scene.spheres[3]}, {{{0, -3, 0}, {0.1f, 1, 0}, 0}}, {}};
-  scene.spheres.resize(3);
-  outer.instances = {{1, {0.5f, 0.25f, 0}, {0, 90, 0}, 0.5f, {}}};
-  scene.groups = {outer, inner};
-  scene.instances = {{0, {-1, 0.5f, 0.25f}, {0, 0, 180}, 0.75f, {}},
-                     {1, {0.5f, 0, 1}, {}, 1, 2u},
-                     {0, {1, 1, -1}, {90, 0, 0}, 1, 1u}};
-  return scene;
 }
 
 TEST(Instances, AreWhatIsWrittenOutByHandInThisOrder) {
@@ -64,60 +48,6 @@ TEST(Instances, AreWhatIsWrittenOutByHandInThisOrder) {
   EXPECT_TRUE(same(scene.spheres, spheres));
   EXPECT_TRUE(same(scene.planes, planes));
   EXPECT_TRUE(scene.groups.empty() && scene.instances.empty());
-}
-
-TEST(Instances, PictureHashAndTracesAreThoseOfTheSceneWrittenOut) {
-  const Scene grouped = grouped_scene();
-  EXPECT_FALSE(validate(grouped));
-  Scene flat = grouped;
-  expand_instances(flat);
-  EXPECT_EQ(flat.spheres.size(), 3u + 3 + 2 + 3);
-  EXPECT_EQ(count_primitives(grouped).spheres, flat.spheres.size());
-  EXPECT_EQ(count_primitives(grouped).planes, flat.planes.size());
-  EXPECT_EQ(scene_hash(grouped), scene_hash(flat));
-  EXPECT_EQ(differing_pixels(render(grouped), render(flat)), 0);
-  Scene framed = grouped;  // without a camera: framed on what the instances show
-  framed.camera.reset();
-  flat.camera.reset();
-  EXPECT_EQ(differing_pixels(render(framed), render(flat)), 0);
-
-  std::vector<Ray> rays;
-  CaseRandom random(5);
-  for (int i = 0; i < 300; ++i) {
-    const Vec3d from = random.direction() * 6.0, to = random.direction();
-    rays.push_back({from, vec_cast<float>(to - from)});
-  }
-  std::vector<TracedHit> a(rays.size()), b(rays.size());
-  EXPECT_FALSE(Tracer::create(grouped).value().closest(rays, a));
-  EXPECT_FALSE(Tracer::create(flat).value().closest(rays, b));
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    EXPECT_TRUE(a[i].t == b[i].t && a[i].id == b[i].id && a[i].normal == b[i].normal);
-  }
-}
-
-TEST(Instances, EveryIsaThreadsAndTilesGiveThePictureWrittenOut) {
-  Scene flat = grouped_scene();
-  expand_instances(flat);
-  const Image expected = render(flat);
-  for (const char* isa : {"scalar", "auto"}) {
-    for (const unsigned threads : {1u, 3u}) {
-      RenderOptions options = options_of(flat);
-      options.isa = isa;
-      options.threads = threads;
-      options.tile = threads == 1 ? 7 : 0;
-      EXPECT_EQ(differing_pixels(render(grouped_scene(), options), expected), 0);
-    }
-  }
-}
-
-TEST(Instances, PathsSeeTheLampsInGroups) {
-  Scene grouped = grouped_scene();
-  grouped.groups[1].spheres[0].material = 4;  // the lamp
-  grouped.image.spp = 4;
-  grouped.render.method = Method::path;
-  Scene flat = grouped;
-  expand_instances(flat);
-  EXPECT_EQ(differing_pixels(render(grouped), render(flat)), 0);
 }
 
 struct LongPoint {

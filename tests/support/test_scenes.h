@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "render/prepare/prepared_scene.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {
@@ -28,15 +27,6 @@ inline Scene empty_scene(int width, int height) {
   scene.image = {width, height, 1};
   scene.camera = pinhole({0, 0, 5}, {0, 0, 0}, 45);
   return scene;
-}
-
-/// A prepared scene of these primitives, which are matte.
-inline PreparedScene prepared(std::vector<Sphere> spheres, std::vector<Plane> planes) {
-  Scene scene = empty_scene(4, 4);
-  add_material(scene, Matte{});
-  scene.spheres = std::move(spheres);
-  scene.planes = std::move(planes);
-  return prepare(scene, 4, 4).value();
 }
 
 /// Every kind of material and light at once: spheres that touch, overlap and contain each other,
