@@ -16,7 +16,7 @@ Vec3d turn(const Vec3d& v, const Vec3d& axis, double cosine, double sine) {
   return v * cosine + cross(axis, v) * sine + axis * (dot(axis, v) * (1 - cosine));
 }
 
-/// Where the nine children of a sphere that grows along +z lie.
+/// The directions of the nine children of a sphere that grows along +z.
 Directions child_directions() {
   const double h = std::sqrt(0.5);
   const Vec3d trio[] = {{h, h, 0}, {h, 0, -h}, {0, h, -h}};
@@ -33,7 +33,7 @@ Directions child_directions() {
   return directions;
 }
 
-/// v turned as +z is turned to become `up`; straight down about y.
+/// v under the rotation that takes +z to `up`; if `up` is -z, that is half a turn about y.
 Vec3d turn_with_z(const Vec3d& v, const Vec3d& up) {
   if (up.z >= 1) return v;
   if (up.z <= -1 + 1e-12) return {-v.x, v.y, -v.z};

@@ -43,7 +43,7 @@ ParallelFor threads_for(unsigned threads) {
   };
 }
 
-/// Four floats a sphere, as Embree wants them.
+/// Four floats a sphere, in the layout of Embree's spheres.
 std::vector<float> embree_points(const std::vector<Sphere>& spheres) {
   std::vector<float> points;
   for (const Sphere& s : spheres)

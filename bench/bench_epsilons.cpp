@@ -46,7 +46,7 @@ double percent(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// In %; nothing at all is not the same as little.
+/// The share in percent. A share of exactly 0 is written differently from one that rounds to 0.
 std::string cell(std::size_t wrong, std::size_t points) {
   const double share = percent(wrong, points);
   if (wrong == 0) return "0";
@@ -111,7 +111,7 @@ bool write_pictures(const EpsilonScene& scene, const std::filesystem::path& fold
 }
 
 bool write_pictures(const std::filesystem::path& folder) {
-  std::error_code problem;  // writing tells it better
+  std::error_code problem;  // ignored: writing the picture reports it better
   std::filesystem::create_directories(folder, problem);
   for (const EpsilonScene& scene : {scene_of_scale(1), scene_of_scale(1e-3), scene_of_scale(1e3),
                                     scene_at_distance(1e4), scene_on_ground(1e4)}) {

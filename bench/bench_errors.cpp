@@ -1,7 +1,8 @@
-// What our solvers and those of textbooks do wrong on the hard cases, in three columns: wrong
-// decisions and roots, ulp of t, distance from the surface. The truth has 1400 bits; the speed of
-// the same code is bench_intersect's. Textbooks' solvers give t as a float, even those that find it
-// in double: where both roots lie within its step the wrong one may be the nearer.
+// The errors of our solvers and of textbooks' solvers on the hard cases, in three columns: wrong
+// decisions and roots, ulp of t, distance from the surface. The oracle of 1400 bits is the truth;
+// bench_intersect measures the speed of the same code. Textbooks' solvers return t as a float, even
+// those that compute it in double: where both roots round to neighbouring floats, the wrong root
+// may be the nearer one.
 //
 //   bench_errors [rays per case, 2000]
 #include <algorithm>
@@ -22,7 +23,7 @@ void print_head() {
               "max", "u max(F, r)");
 }
 
-/// Over all cases.
+/// The sums and maxima over all cases.
 struct Sum {
   std::size_t pairs = 0, wrong_decisions = 0, wrong_roots = 0;
   double worst_p99 = 0, residual = 0;

@@ -1,5 +1,5 @@
 // Throughput of ray-sphere and ray-plane tests: every ISA, solver and form against the plain scalar
-// half-b loop and against the solvers of textbooks, as wide, in one run.
+// half-b loop and against the solvers of textbooks with as many lanes, in one run.
 //
 //   bench_intersect [--benchmark_filter=...]
 //
@@ -50,7 +50,7 @@ void run_book(benchmark::State& state, const BookSolver& solver, BenchData& data
   state.SetItemsProcessed(tests(state, data));
 }
 
-/// The plain loop that a textbook has, as the compiler makes it at -O3 for the base CPU.
+/// A textbook's plain loop, compiled at -O3 for the base CPU.
 void run_scalar_loop(benchmark::State& state, BenchData& data) {
   const BookData& d = data.book.data();
   for (auto _ : state) {
@@ -117,7 +117,7 @@ void register_kernels(const std::string& kind, std::size_t n, RatioReporter& rep
   }
 }
 
-/// The contenders answer the same question: their hits agree where float can tell.
+/// Checks that the contenders answer the same question: their hits agree to float's precision.
 void check_answers(const std::string& kind, std::size_t n) {
   BenchData& data = bench_data(kind, n);
   const auto kernels = select_kernels("auto").value();

@@ -1,5 +1,5 @@
-// How fast scenes are read, on one thread, from the page cache: the text of NFF, the rows of .npy,
-// and whole scenes of either, beside what the system takes to hand over the bytes.
+// How fast one thread reads scenes from the page cache: the text of NFF, the rows of .npy, and
+// whole scenes of either, beside the rate at which the system hands over the bytes.
 //
 //   bench_load [spheres]
 //
@@ -43,7 +43,7 @@ std::vector<Sphere> cloud(std::size_t n) {
   return spheres;
 }
 
-/// 6 digits are what the SPD programs write, 9 tell all floats apart.
+/// With 6 digits as the SPD programs write, or with 9, which tell all floats apart.
 std::string nff_text(const std::vector<Sphere>& spheres, int digits) {
   std::string text = "v\nfrom 0 0 50\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\n";
   char line[128];
@@ -121,7 +121,7 @@ class LoadBench {
   }
 
  private:
-  /// How fast the system hands over the file's bytes, into the same block of memory every time.
+  /// Reads the file's bytes into the same block of memory, and nothing else.
   void add_read(const std::string& name, const std::string& path, std::uint64_t bytes) {
     rows_.push_back({name + ": read() alone", bytes, [this, path, bytes] {
                        std::vector<char> block(1U << 18);
@@ -140,7 +140,7 @@ class LoadBench {
                      }});
   }
 
-  /// Writes a file; its path.
+  /// Writes a file and returns its path.
   [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path path = folder_.path() / name;
     std::ofstream(path, std::ios::binary) << bytes;

@@ -1,5 +1,5 @@
-// Path tracing, measured: what share of the time goes to rays, and the error at equal time of our
-// samples beside plain random ones, as figures for a plot.
+// Path tracing, measured: the share of the time that is spent on tracing rays, and the error at
+// equal time of our samples and of plain random ones, as figures for a plot.
 //   bench_path SCENE [SAMPLES]     SCENE: .toml; SAMPLES of the reference, 4096 if left out
 
 #include <charconv>
@@ -15,8 +15,8 @@
 namespace boule::bench {
 namespace {
 
-/// The kernels that are timed, and how long they took. Kernel tables hold plain functions, so this
-/// cannot live anywhere else; one thread.
+/// The kernels that are timed, and the time they took. These are globals because a kernel table
+/// holds plain functions; one thread uses them.
 const KernelTable* timed_kernels = nullptr;
 double kernel_seconds = 0;
 
@@ -34,7 +34,7 @@ void timed_any_hit(const GeometryView& geometry, const RayStream& rays, const Qu
   kernel_seconds += thread_seconds() - begin;
 }
 
-/// Rays per second of the whole, and of the kernels that trace them, in one run: the same rays.
+/// Rays per second of the whole renderer and of its tracing kernels alone, over the same rays.
 void measure_speed(const PathScene& scene, const KernelTable& kernels) {
   timed_kernels = &kernels;
   KernelTable timed = kernels;

@@ -26,7 +26,7 @@ namespace {
 constexpr int side = 256;                                    // pixels
 constexpr std::size_t stream_size = fitting_stream_size(0);  // rays, as the renderer has them
 
-/// One scene as one structure, and rays to ask it with.
+/// One scene in one structure, and the rays that are traced through it.
 struct Trace {
   BenchScene scene;
   Geometry geometry;
@@ -40,7 +40,7 @@ struct Trace {
         hits(rays.size()) {}
 };
 
-/// Made when first asked for, and kept.
+/// The experiment's data, made at the first call and kept.
 Trace& trace_of(const std::string& scene, Structure structure) {
   static std::map<std::pair<std::string, Structure>, std::unique_ptr<Trace>> made;
   auto& trace = made[{scene, structure}];

@@ -1,6 +1,6 @@
-// The quality of the tree: what the surface area heuristic says of it, how full its leaves are, its
-// bytes and those of all that is kept, how many nodes and leaves a camera ray visits, and what the
-// kernels make of it.
+// The quality of the tree: its cost by the surface area heuristic, how full its leaves are, its
+// bytes and those of all that a picture keeps, how many nodes and leaves a camera ray visits, and
+// the kernels' rays per second.
 //
 //   bench_tree [spheres...]
 #include <algorithm>
@@ -83,7 +83,8 @@ void make_rays(RayBuffer& rays) {
   reference_kernels().primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
 }
 
-/// What one ray visits, nearest first, until the hit that is known to be the nearest.
+/// Counts the nodes and leaves that one ray visits, nearest first, until its nearest hit is
+/// certain.
 struct Visits {
   std::uint64_t nodes = 0, leaves = 0;
 };

@@ -34,7 +34,7 @@ class BookArrays {
     set(dir_, i, ray.dir);
   }
 
-  /// What is to be traversed; made with Structure::bvh, it must outlive this.
+  /// Sets the tree to traverse; the geometry is made with Structure::bvh and must outlive this.
   void set(const GeometryView& tree) {
     data_.nodes = tree.bvh.size > 0 ? tree.bvh.nodes : nullptr;
     data_.blocks = tree.spheres.blocks;

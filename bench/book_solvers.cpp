@@ -24,7 +24,7 @@ struct Ball {
   V x, y, z, r;
 };
 
-/// In t. Where the discriminant is negative the others mean nothing.
+/// Roots in t; meaningless where the discriminant is negative.
 template <class V>
 struct Roots {
   V discriminant, first, second;
@@ -57,7 +57,7 @@ BOULE_INLINE V with_sign_of(V magnitude, V sign) {
   return pick(sign < all<V>(0.0F), -magnitude, magnitude);
 }
 
-/// The formula that school teaches: A t^2 + B t + C = 0 with o - c, 4 A C and all.
+/// The quadratic formula of school, for A t^2 + B t + C = 0 with o - c, unsimplified.
 struct Textbook {
   using V = Floats;
   BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
@@ -108,8 +108,8 @@ struct StableQ {
   }
 };
 
-/// Kahan's b^2 - a c: what rounding the products has lost is found by fused operations and added
-/// again. Where nothing is fused nothing is found, and there is no such contender.
+/// Kahan's b^2 - a c: fused operations compute the rounding errors of the products, and these are
+/// added. An ISA without fused operations has no such contender.
 struct Kahan {
   using V = Floats;
   BOULE_INLINE static V difference(V b, V a, V c) {
@@ -130,8 +130,8 @@ struct Kahan {
   }
 };
 
-/// r^2 less the squared distance of the centre from the line, |F - (F.h) h|^2: Ray Tracing Gems,
-/// chapter 7, and what Embree and Cycles do.
+/// r^2 minus the squared distance of the centre from the line, |F - (F.h) h|^2, as in Ray Tracing
+/// Gems, chapter 7, in Embree and in Cycles.
 template <class Vector>
 struct ClosestApproach {
   using V = Vector;

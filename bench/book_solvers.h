@@ -9,7 +9,7 @@
 namespace boule::bench {
 
 /// What the solvers of textbooks read: spheres and rays as structures of arrays of float, padded to
-/// 16 and aligned to 64 bytes. Radii positive; spheres that fill up have the radius NaN.
+/// 16 and aligned to 64 bytes. Radii are positive; padding spheres have the radius NaN.
 struct BookData {
   const float *center_x, *center_y, *center_z, *radius;
   std::size_t spheres;
@@ -23,9 +23,9 @@ struct BookData {
   std::size_t apart;  ///< blocks in front that are in no leaf: to be scanned
 };
 
-/// A way of solving |o + t d - c| = r that is in books and programs, W rays at a time, as fast as
-/// it goes in the loop shape of the kernels: W rays against one sphere, four spheres a branch,
-/// roots outside the hot loop. What each computes stands in book_solvers.cpp.
+/// A way of solving |o + t d - c| = r from books and programs, for W rays at a time and as fast as
+/// the kernels' kind of loop allows: W rays against one sphere, four spheres per branch, roots
+/// outside the hot loop. book_solvers.cpp shows what each computes.
 struct BookSolver {
   const char* name;
   void (*nearest)(const BookData&);   ///< every ray against all spheres
@@ -33,8 +33,8 @@ struct BookSolver {
   void (*traverse)(const BookData&);  ///< every ray against the spheres of the tree
 };
 
-/// Those of an ISA: none where this program or this CPU has no such kernels. Which, and in which
-/// order, is the same for all but Kahan's, which comes last where operations are fused.
+/// The solvers of an ISA; none where this program or this CPU lacks it. Every ISA has the same
+/// solvers in the same order; those with fused operations have Kahan's as well, at the end.
 std::span<const BookSolver> book_solvers(Isa isa);
 
 }  // namespace boule::bench

@@ -1,4 +1,4 @@
-// The solvers of textbooks find the same in a tree as by a scan.
+// The solvers of textbooks find the same hits by a tree as by a scan.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -28,7 +28,7 @@ std::vector<Ray> camera_rays_of(const std::string& scene) {
   return all;
 }
 
-/// From everywhere around the unit cube and from within, along all axes, with either zero.
+/// Rays from around the unit cube and from within it; some along axes, with zeros of either sign.
 std::vector<Ray> axis_rays() {
   std::vector<Ray> rays;
   for (int k = 0; k < 4096; ++k) {
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> bits_of(const BookData& data) {
   return bits;
 }
 
-/// Rays whose t by the tree has other bits than by the scan.
+/// Counts the rays whose t differs in any bit between tree and scan.
 std::size_t count_differing(const BookSolver& solver, const BookData& data) {
   solver.nearest(data);
   const std::vector<std::uint32_t> scanned = bits_of(data);
@@ -81,7 +81,7 @@ TEST_P(BookSolvers, FindTheSameInATreeAsByAScan) {
 
 TEST_P(BookSolvers, FindTheSameAlongTheAxes) { expect_same(spheres_of("u1000"), axis_rays()); }
 
-/// The flake's greatest balls are in no leaf, nor are those of a scene of few.
+/// The largest balls of a flake are in no leaf, and in a small scene no ball is.
 TEST_P(BookSolvers, ScanWhatIsApartFromTheTree) {
   for (const char* scene : {"flake2", "u1", "u5"})
     expect_same(spheres_of(scene), camera_rays_of(scene));

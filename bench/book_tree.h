@@ -9,9 +9,9 @@
 #include "core/base/platform.h"
 #include "simd/abi/bvh.h"
 
-/// What any solver of textbooks needs to find its way in a tree: boxes against as many rays as a
-/// register has floats, and a stack. For solvers in double, too: with boxes in double they are a
-/// third slower. Faces chosen by the signs of a packet's directions would gain 3 to 10 %.
+/// How all solvers of textbooks traverse a tree: tests of boxes against as many rays as a register
+/// has floats, and a stack. Solvers in double use float boxes as well: with boxes in double they
+/// are a third slower. Choosing faces by the signs of a packet's directions would gain 3 to 10 %.
 namespace boule::bench::BOULE_KERNEL_ISA {
 
 /// The greatest coordinate of any box, without its sign.
@@ -26,9 +26,9 @@ inline float extent_of(const BvhNode& root) {
 }
 
 /// Rays between the planes of an axis: t of the lower plane x is x / d - (o + m) / d, of the upper
-/// one x / d - (o - m) / d. The margin m = 16 u (|o| + extent), u = 2^-24, pays for the 5 u that
-/// this is rounded and leaves something for t, which was rounded, too. A ray along the plane has a
-/// very small d instead of none, so that nothing is infinite or NaN.
+/// one x / d - (o - m) / d. The margin m = 16 u (|o| + extent), u = 2^-24, covers the 5 u of this
+/// computation's rounding and the rounding of t. A ray along the plane gets a very small d instead
+/// of 0, so that nothing is infinite or NaN.
 struct Slab {
   Floats inverse, low, high;
 

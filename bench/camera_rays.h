@@ -7,12 +7,12 @@
 
 namespace boule::bench {
 
-/// The pixel centres of a picture of side x side along the Morton curve: 16x16 tiles one after the
-/// other, and within each any 4, 8, 16 consecutive pixels in a block (of a side that is a power of
-/// two; of others what is left of the curve).
+/// The pixel centres of a picture of side x side in Morton order: 16x16 tiles one after the other,
+/// and within each tile any 4, 8 or 16 consecutive pixels form a block. If the side is no power of
+/// two, the points of the curve outside the picture are left out.
 SampleBuffer pixel_centers(int side);
 
-/// The camera's rays through these, in their order, by Boule's widest kernel.
+/// The camera's rays through these points, in the same order, by Boule's widest kernel.
 RayBuffer primary_rays(const BenchScene& scene, int side);
 
 }  // namespace boule::bench

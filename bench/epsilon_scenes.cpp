@@ -26,7 +26,7 @@ Sphere ball(const Vec3d& center, double radius) {
   return {vec_cast<float>(center), static_cast<float>(radius), 0};
 }
 
-/// The top of a ground sphere is in the middle of the world; `up` is along no axis, or many sums
+/// A ground sphere whose top is the world's origin. `up` is along no axis: along one, many sums
 /// would be exact by luck.
 struct Ground {
   Vec3d up = normalize({1, 4, 2}), right = normalize(cross(up, {0, 0, 1})), back = cross(right, up);
@@ -34,7 +34,7 @@ struct Ground {
 
   explicit Ground(double radius) : sphere(ball(up * -radius, radius)) {}
 
-  /// So far above the ground (not the top), this far to the right and to the back.
+  /// The point at this height above the ground sphere, this far to the right and to the back.
   [[nodiscard]] Vec3d above(double height, double x, double z) const {
     const double from_center = double{sphere.radius} + height;
     const double rise = std::sqrt(from_center * from_center - x * x - z * z);
@@ -53,7 +53,7 @@ EpsilonScene scene_of_scale(double factor) {
       {{-0.75, 0.5, 2}, 0.5}, {{2.75, 1.25, -2}, 1.25}};
   for (const auto& [center, radius] : balls)
     made.scene.spheres.push_back(ball(center * factor, radius * factor));
-  // A floor along the axes, whose points may be exact by luck, and a wall that is not.
+  // The floor is along the axes: its points may be exact by luck. The wall is oblique.
   made.scene.planes = {{{0, 0, 0}, {0, 1, 0}, 0},
                        {vec_cast<float>(Vec3d{0, 0, -7} * factor), {2, 1, 8}, 0}};
   return made;

@@ -26,8 +26,8 @@ EpsilonScene scene_at_distance(double distance);
 /// 2 above the ground.
 EpsilonScene scene_on_ground(double radius);
 
-/// All that is measured: scale 10^-4 .. 10^6, distance 10^0.5 .. 10^6 in half powers, ground
-/// 10^1 .. 10^6.
+/// All scenes that are measured: scales 10^-4 .. 10^6, distances 10^0.5 .. 10^6 in half powers,
+/// grounds 10^1 .. 10^6.
 std::vector<EpsilonScene> epsilon_scenes();
 
 }  // namespace boule::bench

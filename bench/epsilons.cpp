@@ -10,7 +10,7 @@ namespace {
 
 using test::Lit;
 
-/// By remedy, then by point.
+/// Whether each remedy finds each point lit: indexed by remedy, then by point.
 std::vector<std::vector<std::uint8_t>> all_answers(const LitScene& scene,
                                                    const std::vector<SeenPoint>& points) {
   std::vector<std::vector<std::uint8_t>> lit;
@@ -19,7 +19,7 @@ std::vector<std::vector<std::uint8_t>> all_answers(const LitScene& scene,
   return lit;
 }
 
-/// What the truth knows, and what was left out on the way.
+/// The points with their true answers, and counts of the points that were left out.
 struct Sample {
   std::vector<SeenPoint> points;
   std::size_t undecided = 0, wrong_hits = 0;

@@ -10,9 +10,9 @@
 
 namespace boule::bench {
 
-/// What one remedy against false shadows does to the points that a camera sees. All remedies get
-/// the same hits, normals and N.L; what differs is the shadow ray. The truth is the tests' tracer
-/// in long double; points that it is unsure of are left out.
+/// The errors of one remedy against false shadows on the points that a camera sees. All remedies
+/// get the same hits, normals and N.L; only their shadow rays differ. The tests' tracer in long
+/// double is the truth; points that it is unsure of are left out.
 struct EpsilonFigure {
   std::string experiment, remedy;
   double x = 0;
@@ -24,19 +24,19 @@ struct EpsilonFigure {
   std::size_t leaks = 0;          ///< in truth in shadow
 };
 
-/// The floats' (float_remedies.h), then "ours": the renderer's surface.h and kernels.
+/// The names of the remedies: those in float (float_remedies.h), then "ours", the renderer's.
 std::vector<std::string> epsilon_remedies();
 
 /// Every remedy on `points` random points of a scene (fewer if it is hard to find them).
 std::vector<EpsilonFigure> epsilon_figures(const EpsilonScene& scene, std::size_t points,
                                            std::uint64_t seed);
 
-/// The same over all of epsilon_scenes(), scene by scene.
+/// The same for all of epsilon_scenes(), scene by scene.
 std::vector<EpsilonFigure> run_epsilon_experiment(std::size_t points_per_figure,
                                                   std::uint64_t seed);
 
-/// A scene under one remedy, linear grey, a sample a pixel; and the same with false shadows in red
-/// and leaks in blue.
+/// Pictures of a scene under one remedy, in linear grey with one sample per pixel: as it is, and
+/// with false shadows in red and leaks in blue.
 struct EpsilonPicture {
   std::string remedy;
   Image plain, marked;

@@ -1,4 +1,4 @@
-// The experiment with remedies against false shadows finds what it is for.
+// The experiment with remedies against false shadows finds false shadows and leaks.
 #include "bench/epsilons.h"
 
 #include <gtest/gtest.h>

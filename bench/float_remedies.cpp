@@ -38,7 +38,7 @@ bool meets(const FloatRay& ray, const Plane& plane) {
   return ray.holds(dot(plane.point - ray.org, plane.normal) / dot(ray.h, plane.normal));
 }
 
-/// The ways to the light that remain when the origin has been moved.
+/// The shadow ray of a remedy: its origin moved, its direction and length what remains.
 FloatRay shadow_ray(const FloatRemedy& remedy, const FloatPoint& from, const Vec3f& light) {
   const Vec3f org = from.point + from.normal * remedy.along_normal;
   const Vec3f way = light - org;

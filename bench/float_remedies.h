@@ -7,9 +7,9 @@
 
 namespace boule::bench {
 
-/// A lecture's or a textbook's remedy against false shadows: lengths in units of the scene, for the
-/// shadow ray's direction is of unit length; 0 where not used. For the experiment alone: the
-/// renderer has core/surface.h.
+/// A lecture's or a textbook's remedy against false shadows. Lengths are in units of the scene,
+/// because the shadow ray's direction has unit length; an unused one is 0. Only the experiment uses
+/// these: the renderer needs no epsilon.
 struct FloatRemedy {
   const char* name;
   float least_t = 0;        ///< the shadow ray begins here (the lecture's small_num)

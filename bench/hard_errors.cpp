@@ -26,7 +26,7 @@ Pairs judged_pairs(HardCase all) {
   Pairs pairs{std::move(all), {}};
   for (std::size_t i = 0; i < pairs.all.rays.size(); ++i) {
     Ray& ray = pairs.all.rays[i];
-    ray.tmin = 0;  // textbooks' solvers know no other bounds
+    ray.tmin = 0;  // the only bounds that textbooks' solvers have
     ray.tmax = std::numeric_limits<float>::infinity();
     pairs.truth.push_back(test::oracle_hit(ray, pairs.sphere(i)));
   }

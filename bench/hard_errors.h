@@ -10,17 +10,17 @@
 
 namespace boule::bench {
 
-/// What one contender did wrong in one hard case, the bounds of its rays aside.
+/// The errors of one contender in one hard case; the bounds of rays do not count.
 struct HardErrors {
   std::string contender;
   test::HardFigures figures;
 };
 
-/// Rows that every contender can be asked: spheres, float origins, finite inputs, t > 0.
+/// The rows that every contender can answer: spheres, float origins, finite inputs, t > 0.
 std::vector<test::HardCaseSpec> sphere_cases();
 
 /// Every contender on pairs of a ray and the sphere that it is aimed at, ray i at sphere i %
-/// spheres, judged by 1400 bits: our solvers first, then those of textbooks, as the ISA has them.
+/// spheres, judged by the oracle: our solvers first, then the ISA's solvers of textbooks.
 /// Origins are floats.
 std::vector<HardErrors> errors_of(test::HardCase pairs, Isa isa);
 

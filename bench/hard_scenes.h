@@ -8,7 +8,7 @@
 
 namespace boule::bench {
 
-/// Scenes that are hard on a bundle's bounds: each is u1000, but
+/// Scenes that are hard on a bundle's bounds: each is u1000, with one change.
 ///   copies       every sphere is there three times
 ///   near-copies  two of the three moved by an ulp along z, to either side
 ///   far          4e6 radii away

@@ -9,10 +9,10 @@
 
 namespace boule::bench {
 
-/// The questions asked. primary: the nearest hits of the camera's rays; shadow: whether the light
-/// is hidden from them, one ray for each that faces it; mirror: the nearest hits of one mirrored
-/// ray from each; diffuse: of one cosine-distributed bounce; light: whether a random point of a
-/// ball of radius 0.25 around the light is hidden.
+/// Kinds of rays. primary: nearest hits of the camera's rays. From each primary hit: shadow: any
+/// hit on the way to the light, if the surface faces it; mirror: the nearest hit of the mirrored
+/// ray; diffuse: the nearest hit of a cosine-distributed bounce; light: any hit on the way to a
+/// random point of a ball of radius 0.25 around the light.
 enum class RayKind { primary, shadow, mirror, diffuse, light };
 
 /// All of them.
@@ -20,7 +20,7 @@ std::vector<RayKind> ray_kinds();
 
 std::string name_of(RayKind kind);
 
-/// Whether only any hit is asked for.
+/// Whether rays of this kind are traced for any hit instead of the nearest.
 constexpr bool asks_any(RayKind kind) { return kind == RayKind::shadow || kind == RayKind::light; }
 
 /// The secondary rays of primary hits, in their order, made as the renderer makes them.

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t stream_size = 1024;
 constexpr std::size_t most_scanned = 2000;  // spheres
 
-/// One scene in one structure, its rays, and room for everybody's answers.
+/// One scene in one structure, its rays, and room for the contenders' answers.
 struct Arena {
   BenchScene scene;
   Structure structure;
@@ -104,7 +104,7 @@ std::vector<Contender> make_contenders(Arena& arena) {
   return all;
 }
 
-/// One repetition more for everybody, beginning with another one each time.
+/// Runs every contender once more, beginning with a different one each time.
 void take_turns(std::vector<Contender>& contenders, std::size_t turn, std::size_t rays) {
   for (std::size_t k = 0; k < contenders.size(); ++k) {
     Contender& contender = contenders[(turn + k) % contenders.size()];

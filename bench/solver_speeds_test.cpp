@@ -1,4 +1,4 @@
-// The speeds of all solvers are measured, and everybody answers.
+// The speeds of all solvers are measured, and all of them answer.
 #include "bench/solver_speeds.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 namespace boule::bench {
 
-/// Processor seconds of this thread so far: what else the machine does counts little.
+/// Processor seconds of this thread so far. Other load on the machine changes them little.
 inline double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -8,9 +8,9 @@
 #include <immintrin.h>
 #endif
 
-/// Vectors of floats and of doubles by the compiler's own extension, one register each, so that
-/// contenders share no code with what they are held against. For sources that are compiled once per
-/// ISA. Multiplications and additions are fused where the ISA can.
+/// Vectors of floats and of doubles by the compiler's vector extension, one register each, so that
+/// contenders share no code with Boule's kernels. For sources that are compiled once per ISA.
+/// Multiplications and additions are fused where the ISA can.
 namespace boule::bench::BOULE_KERNEL_ISA {
 
 #if defined(__AVX512F__)

@@ -10,10 +10,10 @@
 
 namespace boule::bench {
 
-/// The truth that every contender is held against: the reference's sphere solve, one ray at a time,
-/// over a plain binary tree of boxes in double. It shares no code with the kernels. Boxes are grown
-/// by 1e-9 of the scene's size, far above the rounding of anything in double: they turn away no
-/// hit, so the answers are those of brute force.
+/// The truth that every contender is compared with: the reference's sphere solve, one ray at a
+/// time, over a plain binary tree of boxes in double. It shares no code with the kernels. Boxes are
+/// grown by 1e-9 of the scene's size, far more than any rounding in double, so no hit is lost and
+/// the answers are those of brute force.
 class DoubleTree {
  public:
   /// `spheres` must outlive the tree; finite numbers.
@@ -23,8 +23,8 @@ class DoubleTree {
   [[nodiscard]] Hit closest_hit(const Ray& ray) const;
   [[nodiscard]] bool any_hit(const Ray& ray) const;
 
-  /// Calls visit(id) for every sphere whose box the ray enters, a few others too; all that it hits
-  /// are among them.
+  /// Calls visit(id) for every sphere whose box the ray enters, and for a few others. All spheres
+  /// that the ray hits are among them.
   void for_each_candidate(const Ray& ray, const std::function<void(std::int32_t)>& visit) const;
 
  private:

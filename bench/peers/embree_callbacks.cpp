@@ -1,4 +1,4 @@
-// Embree's user geometry, as fast as it goes: compiled once per ISA with that ISA's flags.
+// Callbacks for Embree's user geometry, as fast as they can be: compiled once per ISA.
 #include "bench/peers/embree_callbacks.h"
 
 #include <bit>
@@ -9,8 +9,8 @@
 namespace boule::bench::BOULE_KERNEL_ISA {
 namespace {
 
-/// Where a field of ray 0 lies in Embree's structures of N rays, in arrays of N. After the ray's
-/// twelve comes the hit.
+/// The number of the array in which a field lies in Embree's structures of N rays, which consist of
+/// arrays of N: twelve for the ray, then those of the hit.
 enum Field { org_x, org_y, org_z, tnear, dir_x, dir_y, dir_z, tfar = 8, prim_id = 17, geom_id };
 
 const PackedSphere& sphere_of(const void* spheres, unsigned id) {

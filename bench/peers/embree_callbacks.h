@@ -9,9 +9,10 @@ struct alignas(16) PackedSphere {
   float x, y, z, radius_squared;
 };
 
-/// User geometry's answers for N rays at a time, its user data the PackedSpheres. Closest approach
-/// in float, the directions taken to be of unit length: no division. Only t and the ids are
-/// written, no normal: nobody asks for it.
+/// Intersection and occlusion callbacks for N rays at a time; their user data are the
+/// PackedSpheres. They solve by the closest approach in float and take directions to have unit
+/// length, so that they need no division. They write t and the ids, but no normal, which no
+/// benchmark reads.
 struct EmbreeCallbacks {
   RTCIntersectFunctionN intersect;
   RTCOccludedFunctionN occluded;

@@ -7,7 +7,7 @@
 
 namespace boule::bench {
 
-/// How Embree is asked: so many rays a call, or a stream of single rays.
+/// The rays per call to Embree, or a stream of single rays.
 enum class EmbreeCall { rays1, rays4, rays8, rays16, stream };
 
 /// Rays of one stream: 80 KiB, in the second-level cache.
@@ -15,7 +15,7 @@ inline constexpr std::size_t embree_stream_size = 1024;
 
 class EmbreeContender final : public Contender {
  public:
-  /// `memory`: shared with others; whoever has prepared owns it.
+  /// `memory` is shared with other contenders: it holds the rays of the last one to prepare.
   EmbreeContender(Info info, const Workload& workload, RTCScene scene, EmbreeCall call,
                   RTCIntersectContextFlags coherence, AlignedArray<float>& memory);
 
@@ -39,15 +39,15 @@ class EmbreeContender final : public Contender {
   AlignedArray<float>& memory_;
 };
 
-/// What Embree gets of a ray: float origin, unit float direction. It cannot be told which surface a
-/// ray leaves, so secondary rays begin at 1e-5 from their origin, in the scene's units: the scenes
-/// are of size 1, 1e-5 is 170 u, and the smallest spheres are 70 times as large.
+/// A ray as Embree takes it: float origin, unit float direction. Embree cannot be told which
+/// surface a ray leaves, so secondary rays begin 1e-5 from their origin. The scenes have size 1, so
+/// that is 170 u, and the radius of the smallest spheres is 70 times as large.
 struct EmbreeRay {
   float org[3], tnear, dir[3], tfar;
 };
 EmbreeRay embree_ray(const Ray& ray);
 
-/// t of Embree's along its unit direction as t of the ray's own.
+/// Converts t along Embree's unit direction to t along the ray's own direction.
 double ray_t(const Ray& ray, double embree_t);
 
 }  // namespace boule::bench

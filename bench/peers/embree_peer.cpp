@@ -27,7 +27,7 @@ constexpr Mode modes[] = {{"1", EmbreeCall::rays1, 1},
                           {"16", EmbreeCall::rays16, 16},
                           {"1M", EmbreeCall::stream, embree_stream_size}};
 
-/// What Embree is told of the rays.
+/// The hint about coherence that Embree gets.
 struct Flag {
   const char* suffix;
   RTCIntersectContextFlags coherence;

@@ -7,7 +7,7 @@
 
 namespace boule::bench {
 
-/// How a file's 8-bit numbers stand for light.
+/// How a file's 8-bit numbers encode light.
 enum class Curve { linear, srgb };
 
 /// A picture read from a file, as linear colours.
@@ -19,8 +19,9 @@ struct Difference {
   double share = 0;  ///< of pixels that differ by more than 0.1 in a channel
 };
 
-/// How far `theirs` is from `ours`, both cut to 0..1. `habit` is what they may add to a pixel by
-/// design: taken off a pixel where that brings it nearer.
+/// How far `theirs` is from `ours`, both clamped to 0..1. `habit` is a colour that the other
+/// program adds to some pixels by design: it is subtracted where that brings a pixel nearer to
+/// ours.
 Difference compare_pictures(const Image& ours, const Image& theirs, const Color& habit);
 
 /// The most two pictures of one scene may differ.

@@ -1,5 +1,5 @@
-// The comparison of pictures bites: what a peer's scene file may get wrong, Boule gets wrong here,
-// and even the tolerance of the peer that differs most notices.
+// The comparison of pictures bites: each mistake that a peer's scene file could contain is made in
+// Boule's scene here, and even the widest tolerance of any peer notices it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ TEST(FramePictures, AMissingOrMovedLightIsNoticed) {
   expect_noticed(moved, "moved light");
 }
 
-/// The floor as it is where nothing stands on it, the balls as they are.
+/// The floor without the balls' shadows and mirror images, the balls unchanged.
 TEST(FramePictures, MissingShadowsAreNoticed) {
   Scene bare = flake();
   bare.spheres.resize(1);

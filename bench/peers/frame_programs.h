@@ -12,11 +12,11 @@
 
 namespace boule::bench {
 
-/// Mirrors that a ray meets at most; more would mirror black.
+/// The most mirrors that a ray meets; beyond these a mirror shows black.
 inline constexpr int frame_bounces = 1;
 
-/// POV-Ray's pictures are Boule's but for a few edges. Tachyon's samples cannot be shifted by half
-/// a pixel everywhere at once, so its edges differ, and what its mirrors mirror last does.
+/// POV-Ray's pictures differ from Boule's at a few edges only. Tachyon's samples cannot be shifted
+/// by half a pixel everywhere at once, so its edges differ, and so do its last mirror images.
 inline constexpr Tolerance pov_tolerance = {0.005, 0.002};
 inline constexpr Tolerance tachyon_tolerance = {0.02, 0.05};
 

@@ -39,7 +39,7 @@ Vec mirrored(const Vec& v) {
   return {-v.x, v.y, v.z};
 }
 
-/// Where Tachyon is to look so that its samples, half a pixel off, are ours.
+/// The point that Tachyon looks at so that its samples, half a pixel off, are ours.
 Vec3d tachyon_view(const PinholeCamera& camera, int side) {
   const CameraBasis basis = camera_basis(camera, side, side);
   return basis.forward - (basis.right + basis.up) * (1.0 / side);

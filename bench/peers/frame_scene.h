@@ -27,8 +27,8 @@ std::string as_tachyon(const BenchScene& flake, Floor floor, int side, int ray_d
 /// In POV-Ray's language, the floor as a plane.
 std::string as_pov(const BenchScene& flake, int trace_level);
 
-/// What Tachyon adds to a mirror image that would have to mirror on: the background, by the first
-/// mirror's weight alone. Boule and POV-Ray add nothing there.
+/// The colour that Tachyon adds where its last mirror meets another mirror: the background,
+/// weighted by the first mirror alone. Boule and POV-Ray add nothing there.
 Color beyond_tachyons_last_mirror();
 
 }  // namespace boule::bench

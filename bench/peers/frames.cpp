@@ -22,7 +22,7 @@ struct Times {
   std::vector<double> cpu, wall;
 };
 
-/// The whole times less the median of the start-ups.
+/// The times of whole runs minus the median start-up time.
 Spread less(std::vector<double> whole, const std::vector<double>& start_ups) {
   const double start_up = median(start_ups);
   for (double& time : whole) time -= start_up;
@@ -30,7 +30,7 @@ Spread less(std::vector<double> whole, const std::vector<double>& start_ups) {
   return {median(whole), *min, *max};
 }
 
-/// One program in one scene, with its pictures' files and its times so far.
+/// One program on one scene, with the files of its pictures and its times so far.
 class Run {
  public:
   Run(FrameProgram program, path folder) : program_(std::move(program)), folder_(folder) {}

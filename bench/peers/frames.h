@@ -38,7 +38,7 @@ struct FrameRow {
   [[nodiscard]] bool alike() const { return !difference || within(*difference, *tolerance); }
 };
 
-/// Boule on two threads: on the wall, less what 8x8 pixels take.
+/// Boule on two threads: wall-clock time, minus the time of a frame of 8x8 pixels.
 struct ScalingRow {
   std::string scene, program;
   Spread one, two;
@@ -50,8 +50,8 @@ struct FrameResults {
   std::vector<ScalingRow> scaling;
 };
 
-/// Renders every scene by every program, repetitions interleaved, and holds the pictures against
-/// Boule's. `report` hears of each scene when it is done.
+/// Renders every scene by every program, repetitions interleaved, and compares the pictures with
+/// Boule's. Calls `report` after each scene.
 Result<FrameResults> compare_frames(const FrameSettings& settings,
                                     const std::function<void(const FrameResults&)>& report);
 

@@ -14,7 +14,7 @@ namespace boule::bench {
 /// or 1e-5 |dir| (the scenes are of size 1); another sphere is right if it is met within that too.
 bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, const Hit& truth);
 
-/// What is right, and who differs from it.
+/// Knows the right answers of a workload and counts those that differ.
 class Judge {
  public:
   /// Finds the truth of a workload by `tree`, which must hold the scene's spheres and outlive the

@@ -4,7 +4,7 @@
 
 namespace boule::bench {
 
-/// What the figures were measured on and with.
+/// The machine and the libraries that the figures were measured with.
 struct Machine {
   std::string cpu;  ///< model
   unsigned cores;

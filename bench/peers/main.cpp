@@ -82,7 +82,7 @@ void add_frame_options(CLI::App& app, Arguments& arguments) {
   });
 }
 
-/// What this machine lacks, or the first name that cannot be had.
+/// The first ISA that this machine lacks, or the first unknown name; empty if there is none.
 Status find_problem(const Arguments& arguments) {
   if (!arguments.whole_frames && !select_kernels("avx2")) {
     return Diagnostic{"Embree's callbacks need AVX2", {}, {}, 0, 0};

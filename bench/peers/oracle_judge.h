@@ -10,13 +10,14 @@
 
 namespace boule::bench {
 
-/// Of `judged` answers that differ from the truth, how many exact arithmetic finds wrong.
+/// The number of answers judged, of those that differ from the truth, and how many are wrong.
 struct OracleVerdict {
   std::size_t judged = 0, wrong = 0;
 };
 
 /// Decides between a contender and the truth by the tests' oracle of 1400 bits. It judges the ray
-/// that was asked for, its origin in double: who rounds it to float answers for that as well.
+/// that the workload holds, its origin in double: a contender that rounds it to float answers for
+/// that error as well.
 class OracleJudge {
  public:
   /// `tree` holds the scene's spheres; all must outlive the judge.

@@ -1,4 +1,4 @@
-// The referee on a small picture: everyone answers, and Boule's exact contenders are right.
+// The referee on a small picture: all contenders answer, and Boule's exact ones are right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -56,7 +56,7 @@ double time_pass(Contender& contender, const Workload& workload, unsigned thread
   return seconds_of(clock) - begin;
 }
 
-/// The best rate that Embree, or Boule, has shown so far.
+/// The best rate so far of Embree's contenders, or of Boule's.
 double best_of(const std::vector<Entrant>& entrants, bool embree) {
   double best = 0;
   for (const Entrant& e : entrants) {
@@ -140,7 +140,7 @@ class Arena {
         primary_(primary_rays(scene_, settings.side)),
         primary_judge_({&scene_, RayKind::primary, &primary_}, tree_, parallel_for_) {}
 
-  /// Asks everybody for one kind of rays. No rows where the scene has no such rays.
+  /// Runs all contenders on one kind of rays. No rows where the scene has no such rays.
   std::vector<Row> compare(RayKind kind, Check& check) {
     if (kind == RayKind::primary) {
       return compare({&scene_, kind, &primary_}, primary_judge_, check);

@@ -36,7 +36,7 @@ struct Row {
   bool exact = false;                   ///< a mismatch is a fault
 };
 
-/// One workload and how the truth about it stood the test against brute force.
+/// One workload, and how well its truth agrees with brute force.
 struct Check {
   std::string scene, rays;
   std::size_t count = 0;             ///< rays
@@ -54,8 +54,7 @@ inline constexpr std::size_t reference_samples = 4096;
 
 /// Runs all contenders on all workloads, repetitions interleaved, and judges their answers. A
 /// contender that is below a quarter of the best rate of its side after one repetition, or below
-/// half of it after two, gets no more. `report` hears of each workload when it is done: its check
-/// and its rows.
+/// half of it after two, gets no more. Calls `report` after each workload with its check and rows.
 Result<Results> compare(const RefereeSettings& settings,
                         const std::function<void(const Check&, const std::vector<Row>&)>& report);
 

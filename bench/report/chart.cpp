@@ -12,7 +12,7 @@
 namespace boule::bench {
 namespace {
 
-// Pixels of the drawing's own; it is scaled to the page.
+// Sizes in the drawing's own pixels; the page scales it.
 constexpr double width = 720, height = 430;
 constexpr double left = 92, right = 16, top = 34, bottom = 68;
 constexpr double legend_line = 20;
@@ -23,7 +23,7 @@ const char* color_of(const Look& look) {
   return colors.series[static_cast<std::size_t>(look.color) % colors.series.size()];
 }
 
-/// From values to places along one axis.
+/// Maps values to positions along one axis.
 class Scale {
  public:
   Scale(const Axis& axis, double begin, double end) : axis_(axis), begin_(begin), end_(end) {}
@@ -177,7 +177,7 @@ std::string draw_series(const Series& series, const Scale& x, const Scale& y) {
          markers + "\n";
 }
 
-/// What is within an <svg>, and the labels that it shows.
+/// The contents of an <svg>, and the labels that it shows.
 struct Drawing {
   std::string svg;
   std::vector<std::string> labels;
@@ -208,7 +208,7 @@ void draw_labels(const Chart& chart, const Scale& x, const Scale& y, Drawing& dr
   }
 }
 
-/// What the chart itself does not name.
+/// The series that no label in the chart names.
 std::vector<LegendEntry> not_labelled(const std::vector<LegendEntry>& legend,
                                       const std::vector<std::string>& labels) {
   std::vector<LegendEntry> rest;
@@ -218,14 +218,14 @@ std::vector<LegendEntry> not_labelled(const std::vector<LegendEntry>& legend,
   return rest;
 }
 
-/// Entries in a row of the legend: as many as the longest leaves room for.
+/// The number of legend entries in a row, by the width of the longest.
 std::size_t legend_columns(const std::vector<LegendEntry>& entries) {
   std::size_t longest = 0;
   for (const LegendEntry& entry : entries) longest = std::max(longest, entry.name.size());
   return longest <= 18 ? 4 : 3;
 }
 
-/// Below the axes.
+/// Draws the legend below the axes.
 std::string legend_lines(const std::vector<LegendEntry>& entries) {
   std::string svg;
   const std::size_t columns = legend_columns(entries);

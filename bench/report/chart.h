@@ -7,7 +7,7 @@ namespace boule::bench {
 
 struct Axis {
   std::string label;         ///< with its unit
-  bool logarithmic = false;  ///< with a place of its own for 0, before the first decade
+  bool logarithmic = false;  ///< 0 has a position of its own, before the first decade
 };
 
 struct ChartPoint {

@@ -16,7 +16,7 @@ ChartBox box_of(const PlacedLabel& label) {
   return {left, label.y - line_height / 2, left + length, label.y + line_height / 2};
 }
 
-/// The nearest free place; rows in turn above and below the point, each side in turn.
+/// The nearest free position: rows in turn above and below the point, each side in turn.
 std::optional<PlacedLabel> place(const LabelledPoint& point, const std::vector<ChartBox>& taken,
                                  const ChartBox& plot) {
   constexpr int rows = 20;

@@ -17,7 +17,7 @@ struct ChartBox {
   }
 };
 
-/// What a label is put beside.
+/// A point that gets a label.
 struct LabelledPoint {
   double x, y;
   std::string text;
@@ -36,9 +36,9 @@ struct PlacedLabel {
 /// Height of a label's letters, and the mean width of one.
 inline constexpr double label_size = 11, letter_width = 6;
 
-/// Puts each label to the right or left of its point, as near as it can be without meeting what is
-/// `taken`, another label or the border of `plot`, first come, first served. One that finds no
-/// place is left out.
+/// Puts each label, in order, to the right or left of its point, as near as possible without
+/// overlapping a rectangle of `taken`, another label or the border of `plot`. A label for which
+/// there is no room is left out.
 std::vector<PlacedLabel> place_labels(const std::vector<LabelledPoint>& points,
                                       std::vector<ChartBox> taken, const ChartBox& plot);
 

@@ -46,7 +46,7 @@ int shape_of(const std::string& isa) {
   return static_cast<int>(found - isas.begin()) % 5;
 }
 
-/// The ISAs that rows have, in their order.
+/// The ISAs of the rows, in the order in which they first appear.
 template <class Rows>
 void add_isas(const Rows& rows, std::vector<LegendEntry>& legend) {
   for (const char* isa : isas) {
@@ -97,7 +97,7 @@ Series path_series(const char* name, Look look, const std::vector<PathError>& er
   return series;
 }
 
-/// Leaves of each label the one at its fastest point.
+/// Keeps each label at its fastest point only.
 void label_fastest(std::vector<Series>& series) {
   for (Series& one : series) {
     ChartPoint& point = one.points.front();

@@ -35,7 +35,7 @@ Chart secondary_chart(const Figures& figures);
 /// Error over time, ours beside random samples.
 Chart path_error_chart(const ScenePathErrors& scene);
 
-/// How solvers are called and drawn.
+/// The names, colours and shapes of solvers.
 std::string solver_name(const std::string& solver);
 Look solver_look(const std::string& solver, const std::string& isa);
 

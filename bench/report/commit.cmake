@@ -1,5 +1,5 @@
-# Writes commit.cpp: the commit that is built, with "+" where files were changed since. Only where
-# that is new, so that nothing is rebuilt for it.
+# Writes commit.cpp: the commit that is built, with "+" if files were changed since. The file is
+# written only if its text changes, so that nothing is rebuilt in vain.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
   OUTPUT_VARIABLE commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(NOT commit)

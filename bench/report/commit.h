@@ -4,7 +4,7 @@
 
 namespace boule::bench {
 
-/// Of what was built, abbreviated; "+" after it: with changes. "unknown" outside of git.
+/// The abbreviated commit of this build, with "+" if files were changed; "unknown" outside of git.
 std::string commit_of_build();
 
 }  // namespace boule::bench

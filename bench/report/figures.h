@@ -21,7 +21,7 @@ struct ReportSettings {
   std::uint64_t seed = 20261121;  ///< of the epsilon experiment; the others' are in their sources
 };
 
-/// What it was measured on, and with.
+/// The machine and the build that the figures were measured with.
 struct Provenance {
   std::string cpu;
   unsigned cores = 0;
@@ -42,7 +42,7 @@ struct ScenePathErrors {
   PathErrors errors;
 };
 
-/// All that the report shows.
+/// All figures and pictures that the report shows.
 struct Figures {
   ReportSettings settings;
   Provenance provenance;
@@ -57,16 +57,16 @@ struct Figures {
   std::optional<PeerRows> peers;  ///< none without Embree
 };
 
-/// Runs everything; says on standard error what is being measured.
+/// Runs all measurements; names each on standard error as it starts.
 Figures measure(const ReportSettings& settings, const std::string& command);
 
-/// All of it but the pictures' pixels, as JSON.
+/// The figures as JSON, without the pictures' pixels.
 std::string to_json(Figures& figures);
 
 /// The page, one file by itself.
 std::string to_html(Figures& figures);
 
-/// The scene that stands for all where there is room for one.
+/// The scene that is shown where there is room for one only.
 std::string main_scene(const Figures& figures);
 
 /// The text with a table of eight rows at most between its marks, "report: begin" and "report: end"

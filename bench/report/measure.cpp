@@ -59,7 +59,7 @@ std::vector<CaseErrors> measure_cases(std::size_t rays) {
   return cases;
 }
 
-/// Of scenes that shipped with this source; those that cannot be loaded are said and left out.
+/// Measures scenes of this source tree. A scene that cannot be loaded is reported and left out.
 std::vector<ScenePathErrors> measure_paths(int reference) {
   std::vector<ScenePathErrors> all;
   for (const char* name : {"soft_light", "daylight"}) {

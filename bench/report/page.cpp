@@ -1,4 +1,4 @@
-// The page: what was measured, as charts and tables, in one file without anything from elsewhere.
+// The page: all figures as charts and tables, in one file that loads nothing else.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::string ratio_cell(const SolverSpeed& ours, const SolverSpeed* other) {
   return fmt::format("{:.2f}", ours.mrays_per_s / other->mrays_per_s);
 }
 
-/// What exactness costs: robust's speed as a ratio to float's.
+/// The cost of exactness: the speed of robust as a ratio to that of float.
 std::string cost_table(const Figures& figures) {
   Table table({"scene", "by", "ISA", "bundles, Mray/s", "packets, Mray/s", "packets to fast",
                "packets to half-b", "bundles to half-b", "other hits: fast", "half-b"});
@@ -73,7 +73,7 @@ std::string cost_table(const Figures& figures) {
          table.html();
 }
 
-/// Every hard case by solver: wrong decisions; the rest where one points at it.
+/// A table of wrong decisions by hard case and solver; a cell's tip shows its other figures.
 std::string case_table(Figures& figures) {
   std::vector<std::string> names, columns = {"hard case"};
   for (const CaseErrors& row : figures.cases) {
@@ -187,8 +187,8 @@ std::string epsilon_section(const Figures& figures) {
   return html + epsilon_pictures(figures);
 }
 
-/// The error of random samples after so many seconds: between two measured points along a line of
-/// logarithms, beyond the last one as 1 / sqrt(time).
+/// The error of random samples after so many seconds: interpolated between measured points on
+/// logarithmic axes, beyond the last one extrapolated as 1 / sqrt(time).
 double error_after(double seconds, const std::vector<PathError>& errors) {
   const auto after = std::find_if(errors.begin(), errors.end(),
                                   [&](const PathError& e) { return e.seconds >= seconds; });

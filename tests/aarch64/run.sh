@@ -19,8 +19,8 @@ cross() {
     -DCMAKE_TOOLCHAIN_FILE="$source/tests/aarch64/toolchain.cmake"
 }
 
-# Debian's packages hold GoogleTest's source and xsimd's headers; /usr/include itself must not be
-# searched, it is this machine's.
+# Installs GoogleTest from the source in Debian's package, and xsimd's headers. /usr/include itself
+# must not be searched: its headers are for this machine.
 install_dependencies() {
   mkdir -p "$root/include"
   cp -r /usr/include/xsimd "$root/include/"

@@ -5,7 +5,7 @@ set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64)
 
-# Nothing of this machine is for that one: packages, headers and libraries come from here only.
+# Packages, headers and libraries of this machine are not for aarch64: they come from this root.
 set(CMAKE_FIND_ROOT_PATH "${BOULE_AARCH64_ROOT}")
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES BOULE_AARCH64_ROOT)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -23,7 +23,7 @@ std::vector<std::string> tags(const std::string& svg, const std::string& name) {
   return {std::sregex_token_iterator(svg.begin(), svg.end(), tag), std::sregex_token_iterator()};
 }
 
-/// That nothing is left black because a viewer knows no style sheets.
+/// Checks that every shape has a colour of its own: without style sheets it would be black.
 void expect_colors_without_css(const std::string& svg) {
   EXPECT_THAT(svg, Not(HasSubstr("var(")));
   ASSERT_EQ(tags(svg, "svg").size(), 1U);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# administrator.sh BOOTSTRAP: somebody without rights and packages runs bootstrap.sh. Without sudo the
-# packages are listed in a line for an administrator, and nothing else happens; with sudo it is used.
-# Exits with 77 where nobody without rights can be had.
+# administrator.sh BOOTSTRAP: runs bootstrap.sh as a user without rights, where packages are missing.
+# Without sudo it prints a line for an administrator that installs them, and does nothing else; with
+# sudo it uses that. Exit code 77: there is no way to run as such a user.
 set -euo pipefail
 
 readonly bootstrap=$1
@@ -56,7 +56,7 @@ for package in g++ ninja-build libopenimageio-dev libgtest-dev; do
   [[ " $line " == *" $package "* ]] || fail "the line lacks $package"
 done
 [[ "$line" != *clang* ]] || fail "the line has what is installed already"
-# Pasted into an administrator's shell it asks for the packages as they are.
+# Pasted into an administrator's shell the line calls apt-get with these very packages.
 PATH="$folder/tools" bash -c "$line"
 [[ "$(cat "$folder/calls/log")" == "apt-get update"$'\n'"${line#*&& }" ]] || fail "pasted, the line is another one"
 

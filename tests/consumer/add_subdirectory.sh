@@ -10,7 +10,7 @@ inherits hits.cpp "-I$boule"
 prints 'ray 0: primitive 0 at t = 5
 ray 1: primitive 1 at t = 0.5' "$work/build/hits"
 
-# What was asked for, and nothing else, is compiled: the others take most of a build's time.
+# Only the targets that were asked for are compiled: the others take most of a build's time.
 kernels="$(grep -c '"file": ".*/kernel/kernels.cpp"' "$work/build/compile_commands.json")"
 [[ "$kernels" == 1 ]] || { echo "$kernels instruction sets, expected 1"; exit 1; }
 

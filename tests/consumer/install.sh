@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install.sh CMAKE BUILD SOURCE PREFIX: what an installation holds, and that it can be moved: it is
+# install.sh CMAKE BUILD SOURCE PREFIX: an installation holds what it should and can be moved: it is
 # installed elsewhere first.
 set -euo pipefail
 cmake="$1" build="$2" source="$3" prefix="$4"

@@ -28,7 +28,7 @@ inherits() {
   [[ -z "$flags" ]] || expected="$cxx $flags -O3 -DNDEBUG -std=gnu++20 $2"
   found="$(sed -n 's/^ *"command": "\(.*\)",$/\1/p' "$work/build/compile_commands.json" |
     grep -F -e "/$1 " -e "/$1" | sed 's/ -o .*//')"
-  # The order is CMake's affair.
+  # CMake may choose the order.
   if [[ "$(tr ' ' '\n' <<<"$found" | sort)" != "$(tr ' ' '\n' <<<"$expected" | sort)" ]]; then
     printf '%s is compiled with\n  %s\nexpected\n  %s\n' "$1" "$found" "$expected"
     exit 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# all_builds.sh SOURCE BUILD: g++ and clang++, Debug and Release find the one hash of hash_test.cpp, and
-# pass all the tests of core, simd and equivalence.
+# all_builds.sh SOURCE BUILD: builds by g++ and clang++, Debug and Release, find the same hash of
+# hash_test.cpp and pass all tests of core, simd and equivalence.
 set -euo pipefail
 source="$1" build="$2"
 for compiler in g++ clang++; do

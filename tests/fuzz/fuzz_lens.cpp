@@ -1,4 +1,4 @@
-// Lens prescriptions: any bytes; one that is read, as the camera of a scene.
+// Lens prescriptions of any bytes. One that is read is checked as the camera of a scene.
 #include "render/scene_file/lens_file.h"
 #include "tests/fuzz/fuzz_scene.h"
 #include "tests/fuzz/input_budget.h"

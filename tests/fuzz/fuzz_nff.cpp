@@ -1,4 +1,4 @@
-// Scenes in NFF: any bytes, after one that says what becomes of polygons.
+// Scenes in NFF of any bytes. The first byte says whether polygons are refused or skipped.
 #include "tests/fuzz/fuzz_scene.h"
 #include "tests/fuzz/input_budget.h"
 

@@ -1,4 +1,4 @@
-// Spheres and rays in .npy files: any bytes, after one that says how they are read.
+// Spheres and rays in .npy files of any bytes. The first byte says how they are read.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-// Command lines: arguments of any bytes, one a line.
+// Command lines of any bytes: each line is an argument.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 using namespace boule::cli;
 using boule::fuzz::require;
 
-/// What has become of a command line keeps what the options promise.
+/// Checks that parsed options are within the limits that they promise.
 struct Promises {
   void operator()(const RenderCommand& command) const {
     if (command.size)

@@ -1,6 +1,6 @@
-// Pictures that scenes name: any bytes, after one that says as what they are read. OpenImageIO is
-// not ours, nor what lies below it: a finding there says so in its stack. What is looked for is
-// what we make of the sizes, windows, channels and numbers that it reports.
+// Pictures that scenes name, of any bytes. The first byte says which kind of picture is read. The
+// target is what Boule makes of the sizes, windows, channels and numbers that OpenImageIO reports;
+// a finding in OpenImageIO itself or in a library below shows in its stack.
 #include <algorithm>
 
 #include "render/image/finished_picture.h"
@@ -35,7 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string name = names[data[0] % std::size(names)];
   const std::string path = folder.write(name, data + 1, size - 1);
   load_scenes(folder, name);
-  is_finished_picture(path, {4, 3, {}, {}});  // the corpus' pictures are
+  is_finished_picture(
+      path, {4, 3, {}, {}});  // true for the corpus' pictures, so that its code is reached
   require(!is_finished_picture(path, {0, 0, {}, {}}), "no picture has no pixels");
   return 0;
 }

@@ -9,7 +9,7 @@
 
 namespace boule::fuzz {
 
-/// Loads a scene file of these bytes: it is refused with a good error, or passes validate().
+/// Loads a scene file of these bytes and checks that it is refused with a good error or is valid.
 inline void load_bytes(const InputFolder& folder, const std::string& name, const std::uint8_t* data,
                        std::size_t size, const SceneFileOptions& options) {
   const Result<LoadedScene> loaded = load_scene(folder.write(name, data, size), options);

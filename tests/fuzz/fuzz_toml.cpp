@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Two spheres that a scene may ask for: float32, 2 x 4.
+/// A .npy file that a scene may name: two spheres, float32, 2 x 4.
 void write_spheres(const boule::fuzz::InputFolder& folder) {
   const std::string bytes = boule::test::sphere_file({{{0, 0, 0}, 1}, {{3, 0, 0}, 0.5F}});
   folder.write("spheres.npy", reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -6,8 +6,8 @@
 
 namespace boule::fuzz {
 
-/// While it lives an input is tried: within five seconds of the processor, which a machine's load
-/// does not change. (The limit of libFuzzer's own is on the time that passes: it ends what hangs.)
+/// Limits an input to five seconds of processor time for as long as this lives; load does not
+/// change that. (libFuzzer's own limit is on wall-clock time: it ends inputs that hang.)
 class InputBudget {
  public:
   InputBudget() = default;

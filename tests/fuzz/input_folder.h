@@ -10,10 +10,10 @@
 
 namespace boule::fuzz {
 
-/// A folder of its own that goes with the program, for files whose bytes are the fuzzer's.
+/// A folder for files made of the fuzzer's bytes, removed when the program ends.
 class InputFolder {
  public:
-  /// Writes a file; its path.
+  /// Writes a file and returns its path.
   std::string write(const std::string& name, const std::uint8_t* data, std::size_t size) const {
     const std::string path = folder_.path() / name;
     std::ofstream file(path, std::ios::binary);

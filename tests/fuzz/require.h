@@ -15,8 +15,8 @@ inline void require(bool holds, const std::string& what) {
   std::abort();
 }
 
-/// What every error promises: a text that names its place, in three lines at most, fit to be
-/// printed.
+/// Checks what every Diagnostic promises: a printable text of at most three lines that names the
+/// file.
 inline void require_good(const Diagnostic& error) {
   const std::string text = format_diagnostic(error);
   require(!error.message.empty(), "an error says what is wrong");

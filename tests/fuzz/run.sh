@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# run.sh SOURCE BUILD SECONDS [NAME...]: builds the fuzzers with clang++ and lets each, or those
-# named, search for so long, from the inputs in corpus/ on. What it finds is left in BUILD/findings.
-# The fuzzer of pictures wants to be named: it finds what is wrong in OpenImageIO and below as well.
+# run.sh SOURCE BUILD SECONDS [NAME...]: builds the fuzzers with clang++ and runs each of them, or
+# those named, for so many seconds from the inputs in corpus/ on. Findings are left in BUILD/findings.
+# The fuzzer of pictures runs only if named: it also finds faults of OpenImageIO and the libraries below.
 set -euo pipefail
 source="$1" build="$2" seconds="$3"
 shift 3

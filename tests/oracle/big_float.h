@@ -4,8 +4,8 @@
 
 namespace boule::test {
 
-/// A number of 1400 bits: products and sums of a few floats are exact in it, whatever their size,
-/// so the signs that decide a hit are exact too. A thin face over MPFR, rounding to nearest.
+/// A number of 1400 bits, by MPFR, rounding to nearest: products and sums of a few floats of any
+/// size are exact, and so are the signs that decide a hit.
 class BigFloat {
  public:
   static constexpr mpfr_prec_t bits = 1400;

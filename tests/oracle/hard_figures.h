@@ -8,8 +8,8 @@
 
 namespace boule::test {
 
-/// What a contender did wrong on the pairs of a case, in three columns: decisions and roots, ulp of
-/// t, distance from the surface. Scale: max(F, r), F = |o - c| or |o - p0|.
+/// The errors of a contender on the pairs of a case, in three columns: decisions and roots, ulp of
+/// t, distance from the surface. The scale is max(F, r), F = |o - c| or |o - p0|.
 class HardFigures {
  public:
   /// Adds one ray against one primitive. `t` is the contender's, in double; inf is a miss.

@@ -1,5 +1,6 @@
-// The hard-case suite: every row against the oracle, three columns each. BOULE_HARD_RAYS sets the
-// rays per row and parameter (`ctest -L long`: 50,000; by default few enough for every day).
+// The hard-case suite: the errors of every row by the oracle, in three columns. BOULE_HARD_RAYS
+// sets the rays per row and parameter (`ctest -L long`: 50,000; by default few enough for every
+// day).
 #include <cmath>
 #include <cstdio>
 #include <string>

@@ -1,4 +1,4 @@
-// The oracle itself, on cases whose answers are known by heart.
+// The oracle itself, on cases whose answers are known in closed form.
 #include "tests/oracle/oracle.h"
 
 #include <gtest/gtest.h>

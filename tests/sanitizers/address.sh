@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# address.sh SOURCE BUILD: every test of every day under the address and undefined-behaviour
-# sanitizers. Left out by CMake: what preloads a library or replaces operator new, as the sanitizers
-# do (cli_faults, render_allocation, startup_bites), what limits addresses (cli_scale), and emulators,
-# into whose addresses the sanitizers' shadow does not fit (qemu_*).
+# address.sh SOURCE BUILD: all daily tests under the address and undefined-behaviour sanitizers. CMake
+# leaves out the tests that preload a library or replace operator new, as the sanitizers do
+# (cli_faults, render_allocation, startup_bites), that limit addresses (cli_scale), and emulators, into
+# whose addresses the sanitizers' shadow does not fit (qemu_*).
 set -euo pipefail
 source="$1" build="$2"
 

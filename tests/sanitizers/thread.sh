@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# thread.sh SOURCE BUILD: what is parallel under the thread sanitizer: the library's tests of it, and
-# the program, rendering with several threads. 77: the sanitizer cannot run here (GCC 12's wants the
-# addresses where they were without their randomisation). Nor are OpenImageIO's threads asked about:
-# what its own atomics order, in a library without the sanitizer, would be reported as races.
+# thread.sh SOURCE BUILD: all parallel code under the thread sanitizer: the library's tests of it, and
+# the program, rendering with several threads. 77: the sanitizer cannot run here (GCC 12's needs
+# addresses without randomisation). OpenImageIO's threads are left out: it is built without the
+# sanitizer, so what its own atomics order would be reported as races.
 set -euo pipefail
 source="$1" build="$2"
 export TSAN_OPTIONS="halt_on_error=1 exitcode=66 ignore_noninstrumented_modules=1"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# valgrind.sh PROGRAM SCENE: small pictures under valgrind's memcheck, which knows no AVX-512. What
-# OpenImageIO's libraries never free is not asked for. 77: there is no valgrind.
+# valgrind.sh PROGRAM SCENE: renders small pictures under valgrind's memcheck, without AVX-512, which
+# it does not know. Memory that OpenImageIO's libraries never free is not reported. 77: there is no
+# valgrind.
 set -euo pipefail
 program="$1" scene="$2"
 

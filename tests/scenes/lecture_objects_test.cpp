@@ -26,7 +26,7 @@ TEST(LectureObjects, AreTheShippedFilesByteForByte) {
   }
 }
 
-/// Nothing sinks into what it stands on, and nothing hovers.
+/// No object sinks into the ground or hovers above it.
 TEST(LectureObjects, StandOnTheirGround) {
   for (const char* object : {"bunny", "teapot", "table"}) {
     std::vector<Sphere> spheres;

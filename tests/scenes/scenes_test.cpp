@@ -30,7 +30,7 @@ std::filesystem::path file_of(const std::string& scene, const char* extension) {
   return scenes_folder() / (scene + extension);
 }
 
-/// 32 pixels wide, one sample per pixel, in the scene's own shape.
+/// Options for a picture 32 pixels wide with one sample per pixel, of the scene's aspect.
 RenderOptions thumbnail_options(const Scene& scene) {
   RenderOptions options = options_of(scene);
   options.height = std::max(1, 32 * options.height / options.width);

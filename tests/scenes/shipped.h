@@ -11,7 +11,7 @@ namespace boule::test {
 /// The folder of the scenes that come with Boule.
 inline std::filesystem::path scenes_folder() { return BOULE_SCENES; }
 
-/// That of the documents.
+/// The folder of the documents.
 inline std::filesystem::path documents_folder() { return scenes_folder().parent_path() / "docs"; }
 
 /// All bytes of a file; none if it cannot be read.

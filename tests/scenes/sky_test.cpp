@@ -34,8 +34,8 @@ TEST(Sky, MakesTheShippedPicture) {
   EXPECT_EQ(made.pixels, shipped.value().pixels);
 }
 
-/// As an environment is seen: the sun straight ahead, so high; blue straight up; level with the
-/// horizon pale, and the same on both sides.
+/// Looked at as an environment, the sky shows the sun straight ahead at the height asked for, is
+/// blue straight up, pale at the horizon, and the same on both sides.
 TEST(Sky, TheSunIsWhereItWasAskedFor) {
   for (const int elevation : {1, 35, 89}) {
     const Image image = sky_of(std::to_string(elevation), "64");

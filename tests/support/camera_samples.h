@@ -9,7 +9,7 @@
 
 namespace boule::test {
 
-/// So many samples of a camera, anywhere on the frame and on the lens.
+/// Random samples of a camera, over the whole frame and the whole lens.
 inline SampleBuffer random_samples(const CameraView& camera, std::size_t count, int width,
                                    int height, std::uint64_t seed) {
   CaseRandom random(seed);

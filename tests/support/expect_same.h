@@ -9,7 +9,7 @@
 
 namespace boule::test {
 
-/// Equal bits, or NaN both.
+/// Expects equal bits, or two NaNs.
 inline void expect_same(double a, double b) {
   if (a != a && b != b) return;
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;

@@ -23,7 +23,7 @@ class OnEachHardCase : public testing::TestWithParam<IsaAndCase> {
 
   const KernelTable* kernels = nullptr;
 };
-/// Its parameters, and what they are called.
+/// The parameters of such a test, and their names.
 inline auto each_hard_case() {
   std::vector<IsaAndCase> all;
   for (const std::string& isa : all_isa_names()) {

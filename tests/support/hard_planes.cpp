@@ -21,7 +21,7 @@ Vec3d unit_normal(const Plane& plane) {
   return n * (1 / length(n));
 }
 
-/// From `distance` off the plane's point, in any direction; a quarter of the rays is bounded.
+/// A ray from `distance` off the plane's point, in any direction; a quarter of the rays is bounded.
 Ray ray_from(CaseRandom& random, const Plane& plane, double distance) {
   const Vec3d away = random.direction();
   const Vec3d dir = random.direction();

@@ -20,7 +20,7 @@ inline Vec3f far_point(CaseRandom& random, double magnitude) {
   return vec_cast<float>(direction * magnitude);
 }
 
-/// Rounded to float, taken as exact.
+/// Rounds to float; the result is taken as exact.
 inline Vec3d rounded(const Vec3d& v) { return vec_cast<double>(vec_cast<float>(v)); }
 
 /// How a row draws its primitives, and the rays aimed at one of them.

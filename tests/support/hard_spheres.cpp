@@ -1,4 +1,4 @@
-// Rows S0 .. S11. No libm that may round otherwise elsewhere: the inputs are hashed.
+// Rows S0 .. S11. The inputs are hashed, so no libm is used: another may round differently.
 #include <cmath>
 
 #include "core/reference.h"
@@ -7,7 +7,7 @@
 namespace boule::test {
 namespace {
 
-/// From distance F past the centre at beta r, along a random axis, both ends rounded to float.
+/// A ray from distance F that passes the centre at beta r, both its ends rounded to float.
 Ray aim(CaseRandom& random, const Sphere& sphere, double distance, double beta, double speed = 1) {
   const Vec3d view = random.direction();
   const Vec3d across = random.perpendicular(view);
@@ -108,7 +108,7 @@ Ray scaled(CaseRandom& random, const Sphere& sphere, int k) {
   return aim(random, sphere, distance, beta);
 }
 
-/// What shading does after a hit (NUMERICS, section 4): p64 = o + t64 d, moved along n.
+/// The origin of a secondary ray, as shading makes it: p64 = o + t64 d, moved along n.
 Ray secondary(CaseRandom& random, const Sphere& ground, int k) {
   Ray in = grazing(random, ground, k);
   double t = reference::intersect(in, ground, false);

@@ -39,7 +39,7 @@ class OnEachIsa : public testing::TestWithParam<std::string> {
 
   const KernelTable* kernels = nullptr;
 };
-/// Its parameters, and what they are called.
+/// The parameters of such a test, and their names.
 inline auto each_isa() { return testing::ValuesIn(all_isa_names()); }
 inline std::string isa_name(const testing::TestParamInfo<std::string>& tested) {
   return tested.param;

@@ -82,8 +82,9 @@ inline void to_film(TwinRay& ray, const LensCamera& camera) {
   }
 }
 
-/// Where on the axis the film is for what is sharp at this distance before the first surface: where
-/// a ray from there comes back to the axis that leaves it at a millionth of the distance.
+/// The film's position on the axis for an object in focus at this distance before the first
+/// surface: the point where a ray that leaves the object's point on the axis, at a slope of a
+/// millionth, crosses the axis again.
 inline long double film_place(const LensCamera& camera, long double distance) {
   TwinRay ray{{0, 0, -distance}, {1e-6L, 0, std::sqrt(1 - 1e-12L)}};
   to_film(ray, camera);
@@ -102,10 +103,11 @@ inline bool passes(const LensCamera& camera, long double film, long double r, lo
 }
 
 /// The light of a white world on the film at (r, 0): the integral of cos over the directions that
-/// pass, which is the area they fill in the plane of direction cosines; times the squared distance
-/// of the film from the last surface it is that of cos^4 over the exit pupil. By the edges along
-/// lines from the direction of the rear vertex, which the pupil lies around, found in so many steps
-/// and to the last digit.
+/// pass. That is the area which these directions fill in the plane of direction cosines. Times the
+/// squared distance of the film from the last surface it equals the integral of cos^4 over the exit
+/// pupil. The area is found along `lines` lines from the direction of the rear vertex, around which
+/// the pupil lies: each line's edges are searched in `steps` steps and then bisected to the last
+/// digit.
 inline long double gathered_on(const LensCamera& camera, long double film, long double r, int lines,
                                int steps) {
   constexpr long double pi = 3.14159265358979323846264338L;

@@ -16,7 +16,7 @@ using Vec3l = Vec3<long double>;
 inline long double length(const Vec3l& v) { return std::sqrt(dot(v, v)); }
 inline Vec3l unit(const Vec3l& v) { return v * (1 / length(v)); }
 
-/// What a ray meets first; as it stands here: nothing.
+/// The first thing that a ray meets; by default nothing.
 struct LongHit {
   std::int32_t id = no_primitive;
   long double distance = std::numeric_limits<long double>::infinity();  ///< Euclidean
@@ -25,8 +25,8 @@ struct LongHit {
   long double cosine = 0;  ///< between the normal and the way back
 };
 
-/// Whether light arrives; unsure: an occluder's rim is nearer to the shadow ray than its direction,
-/// rounded to float, can tell.
+/// Whether light arrives. unsure: the shadow ray passes an occluder's rim more closely than its
+/// direction, rounded to float, can tell.
 enum class Lit { no, yes, unsure };
 
 /// An answer to check pictures by: every primitive against every ray in long double, distances
@@ -85,7 +85,7 @@ class LongDoubleTracer {
     long double near, far;
   };
 
-  /// A way to a light: `end` is as far as anything is in the way.
+  /// A segment towards a light; occluders beyond `end` do not count.
   struct Segment {
     Vec3l from, h;
     long double end, doubt;  ///< of its start
@@ -144,7 +144,7 @@ class LongDoubleTracer {
     return small_blocks ? Lit::no : Lit::yes;
   }
 
-  /// Past a sphere that the way does not start on: past a larger and a smaller one.
+  /// Past a sphere that the segment does not start on, by a slightly larger and a smaller one.
   static Lit passes(const Segment& way, const Sphere& sphere) {
     const Vec3l f = vec_cast<long double>(sphere.center) - way.from;
     const long double doubt = way.doubt_at(dot(f, way.h));
@@ -155,7 +155,7 @@ class LongDoubleTracer {
     return both(blocks(-doubt), blocks(doubt));
   }
 
-  /// Past the sphere it starts on: never in the way from outside, at the chord's end from inside.
+  /// Past the sphere it starts on: unoccluded from outside, from inside up to the chord's end.
   static Lit passes_own(const LongHit& hit, const Segment& way, const Sphere& sphere) {
     if (!hit.inner) return Lit::yes;
     const Vec3l f = vec_cast<long double>(sphere.center) - way.from;

@@ -21,8 +21,8 @@ inline const char* name_of(Oddity oddity) {
 }
 inline std::ostream& operator<<(std::ostream& out, Oddity oddity) { return out << name_of(oddity); }
 
-/// While it lives, this thread computes oddly. Nothing that computes with floats should happen
-/// meanwhile but what is tested: where exceptions trap it ends the program.
+/// Sets this thread's float environment so for as long as this lives. Only the tested code should
+/// compute with floats meanwhile: where exceptions trap, others would end the program.
 class OddFloatEnvironment {
  public:
   explicit OddFloatEnvironment(Oddity oddity) {
@@ -35,7 +35,7 @@ class OddFloatEnvironment {
   OddFloatEnvironment(const OddFloatEnvironment&) = delete;
   OddFloatEnvironment& operator=(const OddFloatEnvironment&) = delete;
 
-  /// Whether all is still as it was set, no exception raised.
+  /// Whether the environment is as it was set and no exception was raised.
   [[nodiscard]] bool holds() const { return now() == odd_; }
 
  private:

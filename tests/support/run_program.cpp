@@ -24,7 +24,7 @@ std::string read_all(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// In the child: streams into files, the environment, the program.
+/// In the child: redirects its streams to files, sets its environment, becomes the program.
 [[noreturn]] void become(const std::string& path, const ProgramCall& call,
                          const std::filesystem::path& folder) {
   const auto redirect = [](const std::filesystem::path& file, int descriptor) {
@@ -48,7 +48,7 @@ std::string read_all(const std::filesystem::path& path) {
   ::_exit(126);
 }
 
-/// Waits for the end of a child, but not for ever.
+/// Waits for the end of a child, up to the time limit.
 int wait_for(pid_t child) {
   constexpr int patience_ms = 15 * 60 * 1000;
   const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));

@@ -11,17 +11,16 @@ struct ProgramRun {
   std::string out, err;
 };
 
-/// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end. One
-/// that takes a quarter of an hour has come to a standstill: it is killed, with all that it
-/// started.
+/// Runs a program with arguments and "NAME=VALUE" additions to the environment, to its end. A
+/// program that takes a quarter of an hour hangs: it is killed, with all that it started.
 struct ProgramCall {
   std::vector<std::string> arguments;
   std::vector<std::string> environment;
 };
 ProgramRun run_program(const std::string& path, const ProgramCall& call);
 
-/// In a child before it becomes a program: SIGINT, SIGTERM and SIGHUP end it by default, whatever
-/// nohup or a shell has made of them that runs the tests in the background.
+/// For a child before it becomes a program: resets SIGINT, SIGTERM and SIGHUP to end it, which
+/// nohup or a shell that runs the tests in the background may have changed.
 void reset_signals();
 
 }  // namespace boule::test

@@ -42,7 +42,7 @@ class WhittedOracle {
   }
 
  private:
-  /// A hit: everything the rules speak of.
+  /// A hit, with everything that the shading rules use.
   struct Local {
     Vec3d p, n, v, r;  ///< point, normal towards the viewer, view direction, its mirror image
     std::int32_t id;
@@ -63,9 +63,9 @@ class WhittedOracle {
     return Rgb(sky.bottom) + (Rgb(sky.top) + Rgb(sky.bottom) * -1) * s;
   }
 
-  /// The picture around, bilinear between its pixels' centres, which are counted from the middle of
-  /// the picture to the right and from straight up downwards; it goes on beyond its sides, and ends
-  /// at its first and last row.
+  /// The environment's picture, bilinear between its pixels' centres. Columns are counted from the
+  /// middle to the right and wrap around, rows from straight up downwards and end at the first and
+  /// the last.
   static Rgb seen_in(const EnvironmentBackground& image, const Vec3d& view) {
     constexpr double degree = std::numbers::pi / 180;
     const double to_right =
