@@ -43,12 +43,9 @@ void probe_compressed(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.least_of_sixteen = index_of_least(in.sixteen);
 }
 
-}  // namespace
-
-void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
+void probe_arithmetic(const test::LaneInputs& in, test::LaneOutputs& out) {
   const Real a = load(in.a), b = load(in.b), c = load(in.c);
   const Wide x = load(in.x), y = load(in.y);
-  out.width = width;
   store(out.add, a + b);
   store(out.sub, a - b);
   store(out.mul, a * b);
@@ -68,6 +65,10 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_copysign, copysign(x, y));
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
+}
+
+void probe_rows(const test::LaneInputs& in, test::LaneOutputs& out) {
+  const Real a = load(in.a), b = load(in.b), c = load(in.c);
   store_rows(out.rows, {a, b, c, a + b});
   const float* rows[width];
   for (int i = 0; i < width; ++i) rows[i] = out.rows + 4 * (width - 1 - i);
@@ -76,6 +77,11 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.columns[1], columns.y);
   store(out.columns[2], columns.z);
   store(out.columns[3], columns.w);
+}
+
+void probe_masks(const test::LaneInputs& in, test::LaneOutputs& out) {
+  const Real a = load(in.a), b = load(in.b), c = load(in.c);
+  const Wide x = load(in.x), y = load(in.y);
   out.less = bits(a < b);
   out.less_equal = bits(a <= b);
   out.wide_less = bits(x < y);
@@ -95,6 +101,15 @@ void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.all_less = all(a < b);
   out.any_none = any((a < b) & ~(a < b));
   out.all_all = all((x < y) | ~(x < y));
+}
+
+}  // namespace
+
+void probe_lanes(const test::LaneInputs& in, test::LaneOutputs& out) {
+  out.width = width;
+  probe_arithmetic(in, out);
+  probe_rows(in, out);
+  probe_masks(in, out);
   probe_integers(in, out);
   probe_compressed(in, out);
 }
