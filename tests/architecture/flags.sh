@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# flags.sh COMPILE_COMMANDS ROOT COMPILER: every source of ours is compiled with -ffp-contract=off,
-# by COMPILER GNU without the vectoriser that loses roundings too, and with nothing that lets the
-# compiler change results (NUMERICS section 3).
+# flags.sh COMPILE_COMMANDS ROOT COMPILER: every source of ours is compiled with -ffp-contract=off and
+# without any option that lets the compiler change results; if COMPILER is GNU, also without the SLP
+# vectoriser.
 set -euo pipefail
 
 # One line per entry: the database writes an entry's members on lines of their own.

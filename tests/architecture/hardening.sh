@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# hardening.sh PROGRAM MODULE... -- NAME=OBJECT...: the program and what it loads can lie anywhere,
-# all that the loader fills in is read-only before they run, calls and stacks are checked
-# (_FORTIFY_SOURCE, -fstack-protector-strong); the kernels' loops pay for none of it.
+# hardening.sh PROGRAM MODULE... -- NAME=OBJECT...: the program and its modules are position
+# independent, their relocated data is read-only before they run, calls and stacks are checked
+# (_FORTIFY_SOURCE, -fstack-protector-strong). The kernels' objects have none of these checks.
 set -euo pipefail
 export LC_ALL=C
 binaries=0

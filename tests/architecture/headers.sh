@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # headers.sh ROOT CXX FLAG... [-- ISA-FLAG...]...: every header compiles alone, and twice in a row.
-# Those of the lanes do so with each group of ISA flags, those of the kernels, which see no ISA but
-# through the lanes, with the first and the last. A header that its own .cpp includes first is left
-# to the build, which compiles it alone anyway.
+# Headers of the lanes are compiled with each group of ISA flags. Headers of the kernels, which see
+# an ISA only through the lanes, are compiled with the first and the last group. A header that its own
+# .cpp includes first is left out: the build compiles it alone anyway.
 set -euo pipefail
 cd "$1"
 shift
@@ -59,6 +59,6 @@ while read -r header; do
 done < <(find core simd render tests bench -name '*.h' | LC_ALL=C sort)
 ((compilations > 0)) || { echo "no headers in $PWD"; exit 1; }
 
-# Never the machine's cores: the tests beside this one want theirs.
+# Two at a time, not as many as the machine has cores: other tests run beside this one.
 xargs -P 2 -L 1 "${base[@]}" -I. -fsyntax-only <"$work/list" || exit 1
 echo "$compilations compilations: every header stands alone"

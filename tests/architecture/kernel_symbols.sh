@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# kernel_symbols.sh ISA=OBJECT... -- OBJECT|ARCHIVE...: what kernel objects let out and ask for
-# (ARCHITECTURE rule 3). After the -- stands the rest of the program.
+# kernel_symbols.sh ISA=OBJECT... -- OBJECT|ARCHIVE...: which symbols kernel objects define and need.
+# After the -- stands the rest of the program.
 #
-# The linker keeps one copy of a weak symbol. Were it the copy that the AVX-512 object brought, an
-# inline function shared with the rest would stop the program on every other CPU.
+# The linker keeps one copy of a weak symbol. If that were the copy of the AVX-512 object, an inline
+# function shared with the rest would stop the program on every other CPU.
 set -euo pipefail
 export LC_ALL=C
 
@@ -46,7 +46,7 @@ check_imports() {
   [[ -z "$asked" ]] || complain "$isa calls out: $(c++filt <<<"$asked" | paste -sd ' ')"
 }
 
-# Global constructors run before anybody has asked the CPU; statics would be shared by threads.
+# Global constructors run before the CPU is asked for its ISAs; statics would be shared by threads.
 check_sections() {
   local isa="$1" object="$2" found
   found="$(readelf -SW "$object" | sed 's/^ *\[ *[0-9]*\] *//' |

@@ -1,11 +1,11 @@
-# Who may include what, and who owns what: ARCHITECTURE's layers and owners, from the text alone.
+# Who may include what, and who owns what: the layers and owners of docs/architecture.md.
 # Reads source files by their path from the root; prints "PATH:LINE: what is wrong".
 
 BEGIN {
   any = ""
   word = "[^_a-zA-Z0-9.>]"  # what may stand before a name
   plain_std = "^<[a-z_0-9]+>$"
-  # What holds no containers, strings, streams and makes no call into another object.
+  # The standard headers without containers, strings, streams and calls into other objects.
   kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
   kernel_core = "^core/(base/platform|math/vec|math/elementary)\\.h$"
   narrow = "^(core|simd/(abi|camera|geometry|stream|dispatch))/"
@@ -18,7 +18,7 @@ BEGIN {
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
   layer("^render/include/", "^(core|simd/(abi|camera|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
-  # Scenes name pictures: their reader hands them over as plain numbers, which core can hold.
+  # Scenes name pictures: their reader returns plain numbers, which core can hold.
   layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)
   layer("^render/threads/", "^render/threads/", plain_std "|^<pthread\\.h>$")
   layer("^render/image/", "^(core|render/(memory|threads|image))/", any)
@@ -30,7 +30,7 @@ BEGIN {
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/cli/", narrow "|^render/", any)
-  # What is tested on machines without the renderer's packages.
+  # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
   layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
   layer("^tests/simd/", narrow "|^tests/(simd|support)/", any)
@@ -92,8 +92,6 @@ function check_include(line,    name, outside) {
 }
 
 FNR == 1 {
-  finish()
-  file = FILENAME
   own = 0
   for (i = 1; i <= layers && !own; ++i) {
     if (FILENAME ~ layer_path[i]) own = i
@@ -101,7 +99,6 @@ FNR == 1 {
 }
 
 {
-  lines = FNR
   code = $0
   if (code ~ /^[ \t]*#[ \t]*include/) {
     sub(/[ \t]*\/\/.*/, "", code)
@@ -122,14 +119,6 @@ FNR == 1 {
   }
 }
 
-function finish() {
-  if (file != "" && lines > 500) {
-    print file ":" lines ": longer than 500 lines"
-    wrong = 1
-  }
-}
-
 END {
-  finish()
   exit wrong
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # library_symbols.sh ARCHIVE|OBJECT...: nothing in the library ends the process or writes to the
-# terminal, whatever macro or library it comes from: none of the objects asks for a symbol that does.
+# terminal, not even through a macro: no object needs a symbol that does.
 # (std::terminate is not among them: compilers call it where noexcept is broken.)
 set -euo pipefail
 export LC_ALL=C

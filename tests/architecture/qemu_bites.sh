@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# qemu_bites.sh QEMU CXX: proves that the emulated CPUs refuse what they lack, or qemu.sh would show
-# nothing.
+# qemu_bites.sh QEMU CXX: proves that the emulated CPUs refuse the instructions that they lack. If
+# they did not, qemu.sh would show nothing.
 set -euo pipefail
 qemu="$1" cxx="$2"
 work="$(mktemp -d)"

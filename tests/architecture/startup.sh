@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# startup.sh PROGRAM MILLISECONDS: help, isa and a refused scene are done within that time of the
-# processor, which load does not change, best of several runs, and load nothing of OpenImageIO.
+# startup.sh PROGRAM MILLISECONDS: help, isa and a refused scene take at most that much processor
+# time, which load does not change, in the best of several runs, and load nothing of OpenImageIO.
 set -euo pipefail
 program="$1" limit_us=$(($2 * 1000))
 work="$(mktemp -d)"
