@@ -59,12 +59,8 @@ Result<BenchScene> make_scene(const std::string& name) {
   if (auto scene = make_hard_scene(name, random_scene("u1000", 1000))) return *std::move(scene);
   std::string others;
   for (const std::string& hard : hard_scene_names()) others += ", " + hard;
-  return Diagnostic{"no scene " + quote(name) +
-                        ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6" + others,
-                    {},
-                    {},
-                    0,
-                    0};
+  return Diagnostic::of("no scene " + quote(name) +
+                        ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6" + others);
 }
 
 }  // namespace boule::bench

@@ -30,7 +30,8 @@ Result<PathScene> load_path_scene(const std::string& file) {
   if (!prepared) return prepared.error();
   const CameraView& camera = prepared.value().camera_view;
   if (has_lens(camera.kind) || camera.weighs) {
-    return Diagnostic{"expected a pinhole or orthographic camera", "camera.type", file, 0, 0};
+    return Diagnostic{
+        .message = "expected a pinhole or orthographic camera", .key = "camera.type", .file = file};
   }
   return PathScene{std::move(prepared).value(), max_depth};
 }

@@ -30,8 +30,8 @@ double seconds(const timeval& time) {
 }
 
 Diagnostic failure(const std::string& program, const std::string& what, const std::string& log) {
-  return {
-      quote(program, 200) + " " + what + ", it said what is in " + quote(log, 200), {}, {}, 0, 0};
+  return Diagnostic::of(quote(program, 200) + " " + what + ", it said what is in " +
+                        quote(log, 200));
 }
 
 }  // namespace

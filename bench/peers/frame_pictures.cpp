@@ -9,7 +9,7 @@ namespace boule::bench {
 namespace {
 
 Diagnostic unreadable(const std::string& path, const std::string& reason) {
-  return {"cannot read the picture " + quote(path, 200) + ": " + reason, {}, {}, 0, 0};
+  return Diagnostic::of("cannot read the picture " + quote(path, 200) + ": " + reason);
 }
 
 float linear(float code) {

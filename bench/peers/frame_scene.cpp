@@ -77,8 +77,7 @@ std::string pov_finish(const Phong& m) {
 
 Result<BenchScene> make_flake(const std::string& name) {
   if (name.starts_with("flake")) return make_scene(name);
-  return Diagnostic{
-      "no whole frames of " + quote(name) + ", expected flakeD, D from 0 to 6", {}, {}, 0, 0};
+  return Diagnostic::of("no whole frames of " + quote(name) + ", expected flakeD, D from 0 to 6");
 }
 
 std::string as_nff(const BenchScene& flake) {

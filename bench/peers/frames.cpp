@@ -119,7 +119,7 @@ Status keep_pictures(const std::vector<Run>& runs, const path& folder, const std
                                std::filesystem::copy_options::overwrite_existing, failed);
   }
   if (!failed) return std::nullopt;
-  return Diagnostic{"cannot keep pictures in " + quote(folder.string(), 200), {}, {}, 0, 0};
+  return Diagnostic::of("cannot keep pictures in " + quote(folder.string(), 200));
 }
 
 Result<FrameResults> compare_scene(const std::string& name, const FrameSettings& settings) {

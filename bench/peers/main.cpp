@@ -85,7 +85,7 @@ void add_frame_options(CLI::App& app, Arguments& arguments) {
 /// The first ISA that this machine lacks, or the first unknown name; empty if there is none.
 Status find_problem(const Arguments& arguments) {
   if (!arguments.whole_frames && !select_kernels("avx2")) {
-    return Diagnostic{"Embree's callbacks need AVX2", {}, {}, 0, 0};
+    return Diagnostic::of("Embree's callbacks need AVX2");
   }
   for (const std::string& isa : arguments.settings.isas) {
     const auto kernels = select_kernels(isa);

@@ -9,7 +9,7 @@ Status write_text(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (file) return std::nullopt;
-  return Diagnostic{"cannot write " + quote(path, 200), {}, {}, 0, 0};
+  return Diagnostic::of("cannot write " + quote(path, 200));
 }
 
 }  // namespace boule::bench

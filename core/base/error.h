@@ -15,10 +15,23 @@ namespace boule {
 /// say so: but std::bad_alloc, where there is no memory even for the Diagnostic.
 struct Diagnostic {
   std::string message;  ///< what is wrong, and what was expected; may repeat bytes of a file
-  std::string key;      ///< dotted path of the offending key ("camera.fov"), or empty
-  std::string file;     ///< file it was read from, or empty
+  std::string key{};    ///< dotted path of the offending key ("camera.fov"), or empty
+  std::string file{};   ///< file it was read from, or empty
   int line = 0;
   int column = 0;
+
+  /// About nothing that has a key or stands in a file.
+  static Diagnostic of(std::string message) { return {.message = std::move(message)}; }
+
+  /// About a key, or an option of the command line.
+  static Diagnostic about(std::string key, std::string message) {
+    return {.message = std::move(message), .key = std::move(key)};
+  }
+
+  /// About a whole file.
+  static Diagnostic in_file(std::string file, std::string message) {
+    return {.message = std::move(message), .file = std::move(file)};
+  }
 };
 
 /// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", leaving out what is not known: one line that is

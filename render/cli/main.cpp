@@ -34,6 +34,6 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     leave_without_memory();
   } catch (const std::exception& error) {
-    return report({error.what(), {}, {}, 0, 0}, failed);
+    return report(boule::Diagnostic::of(error.what()), failed);
   }
 }

@@ -29,7 +29,7 @@ constexpr std::size_t taken = 3072 * kibibyte, least_limit = 4096 * kibibyte;
 
 bool started = false;
 
-Diagnostic no_memory() { return {"out of memory", {}, {}, 0, 0}; }
+Diagnostic no_memory() { return Diagnostic::of("out of memory"); }
 
 [[noreturn]] void end_without_thread() {
   leave_at_once("boule: error: a thread cannot be had: Resource temporarily unavailable\n", failed);
@@ -75,13 +75,9 @@ Status take_stack() {
     limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, least_limit);
     setrlimit(RLIMIT_STACK, &limit);
     if (limit.rlim_cur < least_limit) {
-      return Diagnostic{"the stack is limited to " + std::to_string(limit.rlim_cur / kibibyte) +
+      return Diagnostic::of("the stack is limited to " + std::to_string(limit.rlim_cur / kibibyte) +
                             " KiB (ulimit -s), " + std::to_string(least_limit / kibibyte) +
-                            " are needed",
-                        {},
-                        {},
-                        0,
-                        0};
+                            " are needed");
     }
   }
   if (address_room() < least_limit) return no_memory();

@@ -268,7 +268,7 @@ ExitCode Rendering::explain(const Diagnostic& error) const {
   const char* const end = command_.partial
                               ? "before the first sample, nothing written"
                               : "first, nothing written; --partial writes what there is";
-  return refuse({limit + end, {}, {}, 0, 0}, command_, failed);
+  return refuse(Diagnostic::of(limit + end), command_, failed);
 }
 
 ImageFileOptions Rendering::file_options(const Renderer& renderer) const {

@@ -27,7 +27,7 @@ bool is_one_file(const std::string& a, const std::string& b) {
 }  // namespace
 
 Diagnostic wrong_option(const std::string& message, const char* option) {
-  return {message, option, {}, 0, 0};
+  return Diagnostic::about(option, message);
 }
 
 Status check_run(const RunOptions& options, const std::string& output,

@@ -20,12 +20,8 @@ Result<std::string> source_date() {
   const auto seconds = parse_number(text, std::time_t{0}, end_of_9999);
   std::tm date{};
   if (!seconds || gmtime_r(&*seconds, &date) == nullptr) {
-    return Diagnostic{"SOURCE_DATE_EPOCH: " + quote(text) +
-                          " is not understood, expected whole seconds since 1970",
-                      {},
-                      {},
-                      0,
-                      0};
+    return Diagnostic::of("SOURCE_DATE_EPOCH: " + quote(text) +
+                          " is not understood, expected whole seconds since 1970");
   }
   return fmt::format("{:04}:{:02}:{:02} {:02}:{:02}:{:02}", date.tm_year + 1900, date.tm_mon + 1,
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);

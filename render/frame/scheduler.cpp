@@ -55,11 +55,11 @@ Diagnostic describe(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    return {"out of memory", {}, {}, 0, 0};
+    return Diagnostic::of("out of memory");
   } catch (const std::exception& exception) {
-    return {exception.what(), {}, {}, 0, 0};
+    return Diagnostic::of(exception.what());
   } catch (...) {
-    return {"unknown failure", {}, {}, 0, 0};
+    return Diagnostic::of("unknown failure");
   }
 }
 

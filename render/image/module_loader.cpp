@@ -47,7 +47,7 @@ class Hold {
 };
 
 Diagnostic cannot_load(const std::string& reason) {
-  return {"cannot load the image module: " + reason, {}, {}, 0, 0};
+  return Diagnostic::of("cannot load the image module: " + reason);
 }
 
 constexpr unsigned threads_at_load = 4;  // of log4cplus

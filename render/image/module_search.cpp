@@ -36,28 +36,26 @@ bool is_within(const fs::path& folder, const fs::path& tree) {
   return std::mismatch(tree.begin(), tree.end(), folder.begin(), folder.end()).first == tree.end();
 }
 
-Diagnostic refusal(const std::string& reason) { return {reason, {}, {}, 0, 0}; }
-
 /// The bytes of a file. (A stream iterator would throw if the file cannot be read.)
 Result<std::string> bytes_of(const fs::path& file) {
   errno = 0;
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
-  if (failed) return refusal(file.string() + ": " + failed.message());
+  if (failed) return Diagnostic::of(file.string() + ": " + failed.message());
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
   if (in.read(bytes.data(), static_cast<std::streamsize>(size))) return bytes;
   const int code = errno != 0 ? errno : EIO;  // EIO: the file became shorter meanwhile
-  return refusal(file.string() + ": " + std::generic_category().message(code));
+  return Diagnostic::of(file.string() + ": " + std::generic_category().message(code));
 }
 
 Result<const Table*> open_module(const fs::path& file) {
-  const Diagnostic other = refusal(file.string() + ": made for another version of boule");
+  const Diagnostic other = Diagnostic::of(file.string() + ": made for another version of boule");
   const auto bytes = bytes_of(file);
   if (!bytes) return bytes.error();
   if (bytes.value().find(image_module::version_mark) == std::string::npos) return other;
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return refusal(dlerror());
+  if (handle == nullptr) return Diagnostic::of(dlerror());
   using EntryPoint = const Table* (*)();
   const auto entry = reinterpret_cast<EntryPoint>(dlsym(handle, image_module::entry_point));
   const Table* const table = entry != nullptr ? entry() : nullptr;
@@ -97,7 +95,7 @@ Result<const Table*> open_image_module() {
     if (!reason) reason = opened.error();
   }
   if (reason) return *reason;
-  return refusal(std::string(module_name) + " is not in " + searched);
+  return Diagnostic::of(std::string(module_name) + " is not in " + searched);
 }
 
 }  // namespace boule

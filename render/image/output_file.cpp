@@ -136,7 +136,7 @@ void sync_folder(const std::string& path) {
 }  // namespace
 
 Diagnostic cannot_write(const std::string& name, const std::string& reason) {
-  return {"cannot write " + quote(name, PATH_MAX) + ": " + reason, {}, {}, 0, 0};
+  return Diagnostic::of("cannot write " + quote(name, PATH_MAX) + ": " + reason);
 }
 
 Result<OutputFile> OutputFile::create(const std::string& target,

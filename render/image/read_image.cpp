@@ -19,7 +19,7 @@ namespace module = image_module;
 constexpr const char* too_large = "it needs more memory than there is";
 
 Diagnostic cannot_read(const std::string& path, const std::string& reason) {
-  return {"cannot read it: " + reason, "", path, 0, 0};
+  return Diagnostic::in_file(path, "cannot read it: " + reason);
 }
 
 /// What the module's reader fills, and why it was refused.

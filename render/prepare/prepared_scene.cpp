@@ -45,12 +45,9 @@ Status add_camera(Scene& scene, int width, int height, std::vector<std::string>&
   if (scene.camera) return std::nullopt;
   scene.camera = default_camera(scene, width, height);
   if (const auto problem = find_problem(*scene.camera)) {
-    return Diagnostic{"the scene has no camera, and its objects cannot be framed: camera." +
-                          problem->field + " " + problem->message,
-                      "camera",
-                      {},
-                      0,
-                      0};
+    return Diagnostic::about("camera",
+                             "the scene has no camera, and its objects cannot be framed: camera." +
+                                 problem->field + " " + problem->message);
   }
   if (!scene.spheres.empty() || !scene.planes.empty()) notes.emplace_back(camera_note);
   return std::nullopt;

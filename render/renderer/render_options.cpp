@@ -7,8 +7,6 @@
 namespace boule {
 namespace {
 
-Diagnostic wrong(const char* key, const std::string& message) { return {message, key, {}, 0, 0}; }
-
 constexpr int smallest_fit = 16, usual_fit = 128;  // pixels
 
 int least_tile(const RenderOptions& options) {
@@ -63,9 +61,9 @@ Status validate(const RenderOptions& options) {
   if (auto bad = check_range("tile", options.tile, 0, max_tile)) return bad;
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {
-    return wrong("crop", "must be at least one pixel and lie within the frame of " +
-                             std::to_string(options.width) + " x " +
-                             std::to_string(options.height));
+    return Diagnostic::about("crop", "must be at least one pixel and lie within the frame of " +
+                                         std::to_string(options.width) + " x " +
+                                         std::to_string(options.height));
   }
   return check_picture_memory(options);
 }

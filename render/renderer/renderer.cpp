@@ -17,9 +17,7 @@
 namespace boule {
 namespace {
 
-Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
-
-Diagnostic moved_away() { return failure("the renderer was moved away"); }
+Diagnostic moved_away() { return Diagnostic::of("the renderer was moved away"); }
 
 }  // namespace
 
@@ -64,7 +62,7 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
     renderer.prepare_seconds_ = watch.seconds();
     return renderer;
   } catch (const std::bad_alloc&) {
-    return failure("out of memory while preparing the scene");
+    return Diagnostic::of("out of memory while preparing the scene");
   } catch (...) {  // an exception of a callback that is copied
     return *diagnose([] { throw; });
   }
@@ -82,13 +80,13 @@ Result<Image> Renderer::render() {
     if (auto bad = run_blocks(std::cref(task), {})) return *bad;
     return image;
   } catch (const std::bad_alloc&) {
-    return failure("out of memory for the picture");
+    return Diagnostic::of("out of memory for the picture");
   }
 }
 
 Status Renderer::check_film(const Film& film) const {
   if (!scene_) return moved_away();
-  if (!(film.rect() == rect())) return failure("the film is not of the rendered pixels");
+  if (!(film.rect() == rect())) return Diagnostic::of("the film is not of the rendered pixels");
   return std::nullopt;
 }
 
@@ -96,8 +94,8 @@ Status Renderer::render_pass(Film& film, int until) {
   const FloatEnvironment environment;
   if (auto bad = check_film(film)) return bad;
   if (until < 1 || until > options_.spp) {
-    return failure("a pass ends at 1 to " + std::to_string(options_.spp) + " samples, not at " +
-                   std::to_string(until));
+    return Diagnostic::of("a pass ends at 1 to " + std::to_string(options_.spp) +
+                          " samples, not at " + std::to_string(until));
   }
   const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.render(block, until, film);
@@ -145,7 +143,7 @@ Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan&
   const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
   if (status) return status;
-  if (live.ended() != blocks_.size()) return failure("rendering was cancelled");
+  if (live.ended() != blocks_.size()) return Diagnostic::of("rendering was cancelled");
   return diagnose(std::cref(report));  // by reference: a copy of it takes memory
 }
 
@@ -160,7 +158,7 @@ Result<std::vector<ImageChannel>> Renderer::render_aovs() {
     if (status) return *status;
     return channels.release();
   } catch (const std::bad_alloc&) {
-    return failure("out of memory for the AOVs");
+    return Diagnostic::of("out of memory for the AOVs");
   }
 }
 
@@ -177,7 +175,7 @@ Status Renderer::find_aovs(AovChannels& channels) {
   for (const auto& worker : workers) {
     if (worker) aov_rays_ += worker->counts();
   }
-  if (!status && done != blocks_.size()) return failure("rendering was cancelled");
+  if (!status && done != blocks_.size()) return Diagnostic::of("rendering was cancelled");
   return status;
 }
 

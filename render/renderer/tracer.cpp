@@ -18,8 +18,6 @@ namespace {
 /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
 constexpr std::size_t block_size = 1024;
 
-Diagnostic failure(const std::string& message) { return {message, {}, {}, 0, 0}; }
-
 }  // namespace
 
 /// One thread's streams, kept from block to block.
@@ -72,7 +70,7 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
   } catch (const std::bad_alloc&) {
-    return failure("out of memory while preparing the scene");
+    return Diagnostic::of("out of memory while preparing the scene");
   } catch (...) {  // an exception of a callback that is copied
     return *diagnose([] { throw; });
   }
@@ -109,10 +107,10 @@ Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
 
 /// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& body) {
-  if (workers_.empty()) return failure("the tracer was moved away");
+  if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
   if (results != rays.size()) {
-    return failure("there are " + std::to_string(rays.size()) + " rays, but room for " +
-                   std::to_string(results) + " results");
+    return Diagnostic::of("there are " + std::to_string(rays.size()) + " rays, but room for " +
+                          std::to_string(results) + " results");
   }
   const FloatEnvironment environment;
   const Stopwatch watch;
@@ -140,7 +138,7 @@ Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
   const Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
   if (status) return status;
-  if (done != rays.size()) return failure("tracing was cancelled");
+  if (done != rays.size()) return Diagnostic::of("tracing was cancelled");
   const auto end = [&] { report(1); };
   return diagnose(std::cref(end));
 }

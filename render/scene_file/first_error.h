@@ -21,7 +21,11 @@ class FirstError {
   /// Reports an error in the file's text.
   void report(TextPlace place, std::string key, std::string message) {
     if (status_) return;
-    status_ = Diagnostic{std::move(message), std::move(key), file_, place.line, place.column};
+    status_ = Diagnostic{.message = std::move(message),
+                         .key = std::move(key),
+                         .file = file_,
+                         .line = place.line,
+                         .column = place.column};
   }
 
   /// The file the errors are about.

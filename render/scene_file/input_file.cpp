@@ -17,7 +17,7 @@ namespace boule {
 namespace {
 
 Diagnostic cannot_read(const std::string& path, const std::string& reason) {
-  return {"cannot read it: " + reason, "", path, 0, 0};
+  return Diagnostic::in_file(path, "cannot read it: " + reason);
 }
 
 std::string system_reason() { return std::generic_category().message(errno); }
@@ -39,15 +39,17 @@ Status refuse_special(const std::string& path, const struct stat& info) {
 Status refuse_binary(const std::string& path, std::string_view text, std::size_t checked) {
   const std::string_view start = text.substr(0, 2);
   if (start == "\xff\xfe" || start == "\xfe\xff") {
-    return Diagnostic{"is UTF-16 text, expected UTF-8", "", path, 1, 1};
+    return Diagnostic{
+        .message = "is UTF-16 text, expected UTF-8", .file = path, .line = 1, .column = 1};
   }
   const std::size_t nul = text.find('\0', checked);
   if (nul == std::string_view::npos) return std::nullopt;
   const std::string_view before = text.substr(0, nul);
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
-  return Diagnostic{"holds a NUL byte, expected UTF-8 text", "", path,
-                    1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-                    1 + static_cast<int>(nul - line_start)};
+  return Diagnostic{.message = "holds a NUL byte, expected UTF-8 text",
+                    .file = path,
+                    .line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+                    .column = 1 + static_cast<int>(nul - line_start)};
 }
 
 /// Appends up to `count` bytes of the file: true if it ends with them. What is no text is refused.

@@ -54,8 +54,9 @@ Result<std::vector<LensSurface>> read_lens(const std::string& path) {
     if (line.find_first_not_of(blanks) == std::string_view::npos) continue;
     const auto surface = surface_of(line);
     if (!surface) {
-      return Diagnostic{"expected four numbers: radius, thickness, index, diameter", "", path,
-                        number, 0};
+      return Diagnostic{.message = "expected four numbers: radius, thickness, index, diameter",
+                        .file = path,
+                        .line = number};
     }
     surfaces.push_back(*surface);
   }

@@ -20,12 +20,12 @@ Result<Plane> plane_through(const std::vector<Vec3f>& vertices) {
   }
   constexpr double least_area = 1e-6, most_bend = 1e-3;
   if (!(length(sum) > least_area * extent * extent)) {
-    return Diagnostic{"the polygon has no area: its vertices are on one line", "", "", 0, 0};
+    return Diagnostic::of("the polygon has no area: its vertices are on one line");
   }
   const Vec3d normal = normalize(sum);
   for (std::size_t i = 1; i < vertices.size(); ++i) {
     if (std::fabs(dot(relative(i), normal)) > most_bend * extent) {
-      return Diagnostic{"the polygon is not flat, so there is no plane for it", "", "", 0, 0};
+      return Diagnostic::of("the polygon is not flat, so there is no plane for it");
     }
   }
   return Plane{vertices[0], vec_cast<float>(normal)};

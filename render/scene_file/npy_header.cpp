@@ -13,7 +13,7 @@ constexpr std::size_t most_dimensions = 8;
 constexpr std::uint64_t largest_header = 65536;
 
 Diagnostic broken(const std::string& what) {
-  return {"not a readable .npy file: " + what, "", "", 0, 0};
+  return Diagnostic::of("not a readable .npy file: " + what);
 }
 
 /// Reads the few Python literals that a header has; `ok` stays false after the first mismatch.

@@ -23,29 +23,29 @@ struct RowLayout {
   [[nodiscard]] std::size_t bytes() const { return columns * width; }
 };
 
-Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
-
 /// The declared layout, if it is one of spheres and the file is exactly as long as it says.
 Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& request,
                                std::uint64_t file_size) {
   const bool has_radius = request.radius.has_value();
   if (header.descr != "<f4" && header.descr != "<f8") {
-    return refusal("holds " + quote(header.descr) +
-                   ", expected '<f4' or '<f8' (little-endian float32 or float64)");
+    return Diagnostic::of("holds " + quote(header.descr) +
+                          ", expected '<f4' or '<f8' (little-endian float32 or float64)");
   }
   if (auto bad = check_npy_order(header)) return *bad;
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
-    return refusal("has shape " + npy_shape_text(header) +
-                   (request.is_scene ? ", expected (N, 4): centre and radius"
-                                     : ", expected (N, 4), or (N, 3) and `radius`"));
+    return Diagnostic::of("has shape " + npy_shape_text(header) +
+                          (request.is_scene ? ", expected (N, 4): centre and radius"
+                                            : ", expected (N, 4), or (N, 3) and `radius`"));
   }
   if (shape[1] == 3 && request.is_scene) {
-    return refusal("has 3 columns, centres alone: that needs a .toml scene with a key 'radius'");
+    return Diagnostic::of(
+        "has 3 columns, centres alone: that needs a .toml scene with a key 'radius'");
   }
-  if (shape[1] == 3 && !has_radius) return refusal("has 3 columns: the key 'radius' is missing");
+  if (shape[1] == 3 && !has_radius)
+    return Diagnostic::of("has 3 columns: the key 'radius' is missing");
   if (shape[1] == 4 && has_radius) {
-    return refusal("has radii of its own in column 3: the key 'radius' contradicts them");
+    return Diagnostic::of("has radii of its own in column 3: the key 'radius' contradicts them");
   }
   const RowLayout layout{shape[0], static_cast<std::size_t>(shape[1]),
                          header.descr == "<f4" ? std::size_t{4} : std::size_t{8}};
@@ -109,7 +109,7 @@ Status RowDecoder::explain(const unsigned char* rows, std::uint64_t first,
                            std::size_t count) const {
   for (std::size_t i = 0; i < count; ++i) {
     if (const auto problem = find_problem_in(rows + i * layout_.bytes())) {
-      return refusal("row " + std::to_string(first + i) + ": " + *problem);
+      return Diagnostic::of("row " + std::to_string(first + i) + ": " + *problem);
     }
   }
   return std::nullopt;

@@ -1,12 +1,6 @@
 #include "render/scene_file/npy_rows.h"
 
 namespace boule {
-namespace {
-
-Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
-
-}  // namespace
-
 std::string npy_shape_text(const NpyHeader& header) {
   std::string text = "(";
   for (const std::uint64_t count : header.shape) {
@@ -17,20 +11,21 @@ std::string npy_shape_text(const NpyHeader& header) {
 
 Status check_npy_order(const NpyHeader& header) {
   if (!header.fortran_order) return std::nullopt;
-  return refusal("is in Fortran order, expected C order (row by row)");
+  return Diagnostic::of("is in Fortran order, expected C order (row by row)");
 }
 
 Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uint64_t file_size) {
   const std::uint64_t rows = header.shape[0], present = file_size - header.size;
   if (present % row_bytes == 0 && present / row_bytes == rows) return std::nullopt;
-  return refusal("declares " + std::to_string(rows) + " rows of " + std::to_string(row_bytes) +
-                 " bytes, but holds " + std::to_string(present) + " bytes of data");
+  return Diagnostic::of("declares " + std::to_string(rows) + " rows of " +
+                        std::to_string(row_bytes) + " bytes, but holds " + std::to_string(present) +
+                        " bytes of data");
 }
 
 Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes) {
   const auto got = file.read(rows, bytes);
   if (!got) return got.error();
-  if (got.value() < bytes) return refusal("became shorter while it was read");
+  if (got.value() < bytes) return Diagnostic::of("became shorter while it was read");
   return std::nullopt;
 }
 

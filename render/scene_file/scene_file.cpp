@@ -49,8 +49,8 @@ Result<LoadedScene> read_npy_scene(const std::string& path) {
 Result<LoadedScene> load(const std::string& path, const SceneFileOptions& options) {
   const bool is_npy = has_extension(path, ".npy");
   if (!is_npy && !has_extension(path, ".toml") && !has_extension(path, ".nff")) {
-    return Diagnostic{"not a scene file by its name, expected an extension .toml, .nff or .npy", "",
-                      path, 0, 0};
+    return Diagnostic::in_file(
+        path, "not a scene file by its name, expected an extension .toml, .nff or .npy");
   }
   auto loaded = is_npy ? read_npy_scene(path) : read_text_scene(path, options);
   if (!loaded) return loaded;
@@ -65,7 +65,7 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
 
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
   const FloatEnvironment environment;
-  const Diagnostic too_large{"needs more memory than there is", "", path, 0, 0};
+  const auto too_large = Diagnostic::in_file(path, "needs more memory than there is");
   try {
     return load(path, options);
   } catch (const std::bad_alloc&) {

@@ -54,8 +54,11 @@ Diagnostic syntax_error(std::string_view text, const std::string& file,
   const std::string_view description = error.description();
   const TextPlace reported = place_of(error.source());
   const TextPlace place = literal_place(text, reported, description);
-  return {"not valid TOML: " + without_prefix(description, "Error while parsing "),
-          key_on_line(text, place.line), file, place.line, place.column};
+  return {.message = "not valid TOML: " + without_prefix(description, "Error while parsing "),
+          .key = key_on_line(text, place.line),
+          .file = file,
+          .line = place.line,
+          .column = place.column};
 }
 
 }  // namespace

@@ -87,7 +87,11 @@ Status refuse_untrusted(std::string_view text, const std::string& file) {
   }
   if (fault == nullptr) return std::nullopt;
   const TextPlace place = place_at(text, i);
-  return Diagnostic{fault, key_on_line(text, place.line), file, place.line, place.column};
+  return Diagnostic{.message = fault,
+                    .key = key_on_line(text, place.line),
+                    .file = file,
+                    .line = place.line,
+                    .column = place.column};
 }
 
 std::string key_on_line(std::string_view text, int line) {

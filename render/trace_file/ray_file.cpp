@@ -19,8 +19,6 @@ std::size_t row_bytes(bool is_double) {
   return columns * (is_double ? sizeof(double) : sizeof(float));
 }
 
-Diagnostic refusal(const std::string& message) { return {message, "", "", 0, 0}; }
-
 Diagnostic named(Diagnostic error, const std::string& path) {
   error.file = path;
   return error;
@@ -30,13 +28,13 @@ Diagnostic named(Diagnostic error, const std::string& path) {
 Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
   const bool is_double = header.descr == "<f8";
   if (header.descr != "<f4" && !is_double) {
-    return refusal("holds " + quote(header.descr) +
-                   ", expected '<f4' or '<f8' (little-endian float32 or float64)");
+    return Diagnostic::of("holds " + quote(header.descr) +
+                          ", expected '<f4' or '<f8' (little-endian float32 or float64)");
   }
   if (auto bad = check_npy_order(header)) return bad;
   if (header.shape.size() != 2 || header.shape[1] != columns) {
-    return refusal("has shape " + npy_shape_text(header) +
-                   ", expected (N, 8): origin, tmin, direction, tmax");
+    return Diagnostic::of("has shape " + npy_shape_text(header) +
+                          ", expected (N, 8): origin, tmin, direction, tmax");
   }
   return check_npy_length(header, row_bytes(is_double), file_size);
 }

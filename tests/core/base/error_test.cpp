@@ -14,17 +14,22 @@ struct FormatCase {
 
 TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
   const FormatCase cases[] = {
-      {{"is wrong", "", "", 0, 0}, "error: is wrong"},
-      {{"is wrong", "camera.fov", "", 0, 0}, "error: is wrong (key 'camera.fov')"},
-      {{"is wrong", "", "a.toml", 0, 0}, "a.toml: error: is wrong"},
-      {{"is wrong", "", "a.toml", 3, 14}, "a.toml:3:14: error: is wrong"},
-      {{"is wrong", "camera.fov", "a.toml", 3, 14},
+      {Diagnostic::of("is wrong"), "error: is wrong"},
+      {Diagnostic::about("camera.fov", "is wrong"), "error: is wrong (key 'camera.fov')"},
+      {Diagnostic::in_file("a.toml", "is wrong"), "a.toml: error: is wrong"},
+      {{.message = "is wrong", .file = "a.toml", .line = 3, .column = 14},
+       "a.toml:3:14: error: is wrong"},
+      {{.message = "is wrong", .key = "camera.fov", .file = "a.toml", .line = 3, .column = 14},
        "a.toml:3:14: error: is wrong (key 'camera.fov')"}};
   for (const FormatCase& c : cases) EXPECT_EQ(format_diagnostic(c.diagnostic), c.text);
 }
 
 TEST(FormatDiagnostic, IsOneLineThatIsSafeToPrint) {
-  const Diagnostic hostile{"saw 'f\x03\n\x1b[31m'", "k\x7f", "a\nb.toml", 3, 9};
+  const Diagnostic hostile{.message = "saw 'f\x03\n\x1b[31m'",
+                           .key = "k\x7f",
+                           .file = "a\nb.toml",
+                           .line = 3,
+                           .column = 9};
   EXPECT_EQ(format_diagnostic(hostile),
             "a\\x0ab.toml:3:9: error: saw 'f\\x03\\x0a\\x1b[31m' (key 'k\\x7f')");
 }
@@ -64,7 +69,7 @@ TEST(Result, HoldsAValueOrADiagnostic) {
   EXPECT_TRUE(static_cast<bool>(good));
   EXPECT_EQ(good.value(), 7);
 
-  const Result<int> bad = Diagnostic{"no number", "size", "", 0, 0};
+  const Result<int> bad = Diagnostic::about("size", "no number");
   EXPECT_FALSE(bad.ok());
   EXPECT_FALSE(static_cast<bool>(bad));
   EXPECT_EQ(bad.error().message, "no number");
