@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/math/color.h"
-#include "core/scene/primitive.h"
+#include "core/math/vec.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
 
 namespace boule {
 
@@ -14,12 +16,22 @@ struct ConstantBackground {
   Color color;
 };
 
+template <>
+inline constexpr auto fields<ConstantBackground> =
+    field_list("constant", field("color", &ConstantBackground::color, rule::not_negative));
+
 /// bottom + (top - bottom) (1 + d.up) / 2 for a ray of unit direction d.
 struct GradientBackground {
   Color bottom{1, 1, 1};
   Color top{0.5f, 0.7f, 1.0f};
   Vec3f up{0, 1, 0};
 };
+
+template <>
+inline constexpr auto fields<GradientBackground> =
+    field_list("gradient", field("bottom", &GradientBackground::bottom, rule::not_negative),
+               field("top", &GradientBackground::top, rule::not_negative),
+               field("up", &GradientBackground::up, rule::direction));
 
 /// An image of everything around, latitude-longitude: its top row is up (+y), its middle is seen
 /// along -z, or `rotation` degrees to the right of that.
@@ -28,6 +40,13 @@ struct EnvironmentBackground {
   std::vector<Color> pixels;  ///< radiance, row by row, the top one first
   float rotation = 0;
 };
+
+template <>
+inline constexpr auto fields<EnvironmentBackground> = field_list(
+    "environment",
+    field("size", &EnvironmentBackground::width, &EnvironmentBackground::height, rule::from_file),
+    field("file", &EnvironmentBackground::pixels, rule::from_file),
+    field("rotation", &EnvironmentBackground::rotation, rule::finite));
 
 using Background = std::variant<ConstantBackground, GradientBackground, EnvironmentBackground>;
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/math/vec.h"
+#include "core/scene/field.h"
 
 namespace boule {
 
@@ -13,6 +14,12 @@ struct CameraPose {
   Vec3f look_at{0, 0, -1};
   Vec3f up{0, 1, 0};
 };
+
+template <>
+inline constexpr auto fields<CameraPose> =
+    field_list("pose", field("eye", &CameraPose::eye, rule::finite),
+               field("look_at", &CameraPose::look_at, rule::finite),
+               field("up", &CameraPose::up, rule::direction));
 
 /// The distance of a point from the eye along L; negative behind it, NaN where there is no L.
 double depth_of(const CameraPose& pose, const Vec3f& point);

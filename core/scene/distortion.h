@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/primitive.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
 
 namespace boule {
 
@@ -16,6 +17,11 @@ struct DistortionMap {
   /// t from 0 at the bottom to 1 at the top. Finite; may lie outside, where cameras see on.
   std::vector<float> st;
 };
+
+template <>
+inline constexpr auto fields<DistortionMap> = field_list(
+    "distortion", field("size", &DistortionMap::width, &DistortionMap::height, rule::from_file),
+    field("file", &DistortionMap::st, rule::from_file));
 
 /// The numbers of a DistortionMap that lives elsewhere; null: there is none.
 struct DistortionView {

@@ -7,6 +7,7 @@
 
 #include "core/math/similarity.h"
 #include "core/math/vec.h"
+#include "core/scene/field.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
@@ -22,6 +23,14 @@ struct Instance {
   std::optional<std::uint32_t> material;
 };
 
+template <>
+inline constexpr auto fields<Instance> =
+    field_list("instance", field("group", &Instance::group, rule::group),
+               field("translate", &Instance::translate, rule::finite),
+               field("rotate", &Instance::rotate, rule::finite),
+               field("scale", &Instance::scale, rule::positive),
+               field("material", &Instance::material, rule::material));
+
 /// Spheres, planes and other groups under a name, with a coordinate system of their own.
 struct Group {
   std::string name;
@@ -29,6 +38,12 @@ struct Group {
   std::vector<Plane> planes;
   std::vector<Instance> instances;
 };
+
+template <>
+inline constexpr auto fields<Group> = field_list("group", field("name", &Group::name),
+                                                 field("sphere", &Group::spheres),
+                                                 field("plane", &Group::planes),
+                                                 field("instance", &Group::instances));
 
 /// The first Problem of an instance by itself: anything not finite, scale <= 0.
 std::optional<Problem> find_problem(const Instance& instance);

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/scene/camera_pose.h"
-#include "core/scene/primitive.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
 
 namespace boule {
 
@@ -22,6 +23,13 @@ struct LensSurface {
 /// lies there is a number in the wrong column.
 inline constexpr float least_index = 0.25f, most_index = 8;
 
+template <>
+inline constexpr auto fields<LensSurface> = field_list(
+    "surface", field("radius", &LensSurface::radius, rule::finite),
+    field("thickness", &LensSurface::thickness, rule::not_negative),
+    field("index", &LensSurface::index, rule::from_to(double{least_index}, double{most_index})),
+    field("aperture", &LensSurface::aperture, rule::positive));
+
 /// How wide each surface is at least, beside the last one: exit pupils are measured in steps.
 inline constexpr double least_width = 1.0 / 500;
 
@@ -35,6 +43,13 @@ struct LensCamera {
   float scale = 0.001f;               ///< world units per such unit, > 0
   std::optional<float> focus{};       ///< in world units, > 0; none: the distance of look_at
 };
+
+template <>
+inline constexpr auto fields<LensCamera> = field_list(
+    "lens", field("pose", &LensCamera::pose), field("file", &LensCamera::surfaces, rule::from_file),
+    field("film_width", &LensCamera::film_width, rule::positive),
+    field("scale", &LensCamera::scale, rule::positive),
+    field("focus", &LensCamera::focus, rule::positive).with_other_forms());
 
 /// The focal length of a lens for rays close to its axis, in its own unit. As of all functions
 /// here: takes any surfaces; infinite or NaN where they are no lens, or none.

@@ -4,7 +4,8 @@
 #include <variant>
 
 #include "core/math/color.h"
-#include "core/scene/primitive.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
 
 namespace boule {
 
@@ -12,6 +13,10 @@ namespace boule {
 struct Matte {
   Color color{0.8f, 0.8f, 0.8f};
 };
+
+template <>
+inline constexpr auto fields<Matte> = field_list("matte",
+                                                 field("color", &Matte::color, rule::not_negative));
 
 /// Diffuse with a white highlight and, where `reflect` > 0, a mirror image.
 struct Plastic {
@@ -21,10 +26,21 @@ struct Plastic {
   float reflect = 0;
 };
 
+template <>
+inline constexpr auto fields<Plastic> =
+    field_list("plastic", field("color", &Plastic::color, rule::not_negative),
+               field("specular", &Plastic::specular, rule::not_negative),
+               field("shininess", &Plastic::shininess, rule::not_negative),
+               field("reflect", &Plastic::reflect, rule::not_negative));
+
 /// A coloured mirror.
 struct Metal {
   Color color{0.8f, 0.8f, 0.8f};
 };
+
+template <>
+inline constexpr auto fields<Metal> = field_list("metal",
+                                                 field("color", &Metal::color, rule::not_negative));
 
 /// Exact dielectric Fresnel; `color` tints each crossing.
 struct Glass {
@@ -32,10 +48,19 @@ struct Glass {
   float ior = 1.5f;
 };
 
+template <>
+inline constexpr auto fields<Glass> = field_list("glass",
+                                                 field("color", &Glass::color, rule::not_negative),
+                                                 field("ior", &Glass::ior, rule::positive));
+
 /// Radiates on both sides, reflects nothing.
 struct Emissive {
   Color radiance{1, 1, 1};
 };
+
+template <>
+inline constexpr auto fields<Emissive> =
+    field_list("emissive", field("radiance", &Emissive::radiance, rule::not_negative));
 
 /// Whitted's model as it stands, also NFF's `f` line (Haines 1987): ambient ka, diffuse kd,
 /// highlight and mirror ks, transmission T with index of refraction ior.
@@ -48,6 +73,15 @@ struct Phong {
   float transmission = 0;
   float ior = 1;
 };
+
+template <>
+inline constexpr auto fields<Phong> = field_list(
+    "phong", field("color", &Phong::color, rule::not_negative),
+    field("ka", &Phong::ka, rule::not_negative), field("kd", &Phong::kd, rule::not_negative),
+    field("ks", &Phong::ks, rule::not_negative),
+    field("shininess", &Phong::shininess, rule::not_negative),
+    field("transmission", &Phong::transmission, rule::not_negative),
+    field("ior", &Phong::ior, rule::positive));
 
 using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong>;
 

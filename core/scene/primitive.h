@@ -2,19 +2,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "core/math/vec.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
 
 namespace boule {
-
-/// What is wrong with one field of one thing: "radius", "must be above 0, is -1". All the
-/// find_problem() take any values, NaN and infinite ones, too few and too many; they throw
-/// std::bad_alloc, and nothing else.
-struct Problem {
-  std::string field;
-  std::string message;
-};
 
 /// A sphere of positive radius; `material` indexes Scene::materials.
 struct Sphere {
@@ -23,12 +16,26 @@ struct Sphere {
   std::uint32_t material = 0;
 };
 
+template <>
+inline constexpr auto fields<Sphere> = field_list("sphere",
+                                                  field("center", &Sphere::center, rule::finite),
+                                                  field("radius", &Sphere::radius, rule::positive),
+                                                  field("material", &Sphere::material,
+                                                        rule::material));
+
 /// An infinite plane through `point`; `normal` (any length but 0) points to its outside.
 struct Plane {
   Vec3f point;
   Vec3f normal{0, 1, 0};
   std::uint32_t material = 0;
 };
+
+template <>
+inline constexpr auto fields<Plane> = field_list("plane",
+                                                 field("point", &Plane::point, rule::finite),
+                                                 field("normal", &Plane::normal, rule::direction),
+                                                 field("material", &Plane::material,
+                                                       rule::material));
 
 /// True if a sphere by itself has no Problem. Short and inline: there may be millions.
 inline bool is_valid(const Sphere& sphere) {

@@ -10,6 +10,7 @@
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
 #include "core/scene/distortion.h"
+#include "core/scene/field.h"
 #include "core/scene/group.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
@@ -24,6 +25,8 @@ inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
 /// How a pixel is made of the samples around it: box: the mean over the pixel itself; tent: over
 /// twice its width and height, weighted less and less away from its centre, to 0.
 enum class PixelFilter { box, tent };
+template <>
+inline constexpr std::array<std::string_view, 2> names<PixelFilter>{"box", "tent"};
 
 /// The picture a scene asks for; the command line may override it.
 struct ImageSettings {
@@ -33,8 +36,18 @@ struct ImageSettings {
   PixelFilter filter = PixelFilter::box;
 };
 
+template <>
+inline constexpr auto fields<ImageSettings> =
+    field_list("image",
+               field("size", &ImageSettings::width, &ImageSettings::height,
+                     WholeRule{.low = 1, .high = max_image_side}),
+               field("spp", &ImageSettings::spp, WholeRule{.low = 1, .high = max_count}),
+               field("filter", &ImageSettings::filter));
+
 /// How light is followed: whitted: direct light, mirrors and glass; path: all of it, by chance.
 enum class Method { whitted, path };
+template <>
+inline constexpr std::array<std::string_view, 2> names<Method>{"whitted", "path"};
 
 /// How a scene asks to be rendered; the command line may override it.
 struct RenderSettings {
@@ -42,10 +55,24 @@ struct RenderSettings {
   Method method = Method::whitted;
 };
 
+/// In the order in which scene files and `boule info` name them.
+template <>
+inline constexpr auto fields<RenderSettings> = field_list(
+    "render", field("method", &RenderSettings::method),
+    field("max_depth", &RenderSettings::max_depth, WholeRule{.low = 0, .high = max_count}));
+
+/// The first Problem of the settings: anything outside of what is said above.
+std::optional<Problem> find_problem(const ImageSettings& image);
+std::optional<Problem> find_problem(const RenderSettings& render);
+
 struct NamedMaterial {
   std::string name;
   Material material;
 };
+
+template <>
+inline constexpr auto fields<NamedMaterial> = field_list(
+    "material", field("name", &NamedMaterial::name), field("material", &NamedMaterial::material));
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
 /// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
@@ -64,6 +91,16 @@ struct Scene {
   std::vector<Group> groups;  ///< what instances show; by itself a group shows nothing
   std::vector<Instance> instances;
 };
+
+template <>
+inline constexpr auto fields<Scene> =
+    field_list("scene", field("image", &Scene::image), field("render", &Scene::render),
+               field("camera", &Scene::camera), field("camera.distortion", &Scene::distortion),
+               field("background", &Scene::background),
+               field("background.ambient", &Scene::ambient, rule::not_negative),
+               field("material", &Scene::materials), field("light", &Scene::lights),
+               field("sphere", &Scene::spheres), field("plane", &Scene::planes),
+               field("group", &Scene::groups), field("instance", &Scene::instances));
 
 /// The first thing wrong with a scene, its key a dotted path as in the scene file
 /// ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"), or nothing. Whoever renders

@@ -2,54 +2,27 @@
 
 #include <algorithm>
 
-#include "render/cli/shown_values.h"
+#include "render/cli/field_info.h"
 #include "render/prepare/default_camera.h"
 
 namespace boule::cli {
 namespace {
 
 /// The first few things of a list.
-template <class Thing, class Describe>
-Json describe_first(const std::vector<Thing>& things, const Describe& describe) {
+template <class Thing>
+Json first_info(const Scene& scene, const std::vector<Thing>& things) {
   Json list = Json::array();
   for (std::size_t i = 0; i < std::min(things.size(), most_told); ++i) {
-    list.push_back(describe(things[i]));
+    list.push_back(fields_info(things[i], &scene));
   }
   return list;
 }
 
-Json describe_instances(const Scene& scene, const std::vector<Instance>& instances) {
-  return describe_first(instances, [&](const Instance& instance) {
-    Json json = {{"group", scene.groups[instance.group].name},
-                 {"translate", shown(instance.translate)},
-                 {"rotate", shown(instance.rotate)},
-                 {"scale", shown(instance.scale)}};
-    if (instance.material) json["material"] = scene.materials[*instance.material].name;
-    return json;
-  });
-}
-
-Json describe_spheres(const Scene& scene, const std::vector<Sphere>& spheres) {
-  return describe_first(spheres, [&](const Sphere& sphere) -> Json {
-    return {{"center", shown(sphere.center)},
-            {"radius", shown(sphere.radius)},
-            {"material", scene.materials[sphere.material].name}};
-  });
-}
-
-Json describe_planes(const Scene& scene, const std::vector<Plane>& planes) {
-  return describe_first(planes, [&](const Plane& plane) -> Json {
-    return {{"point", shown(plane.point)},
-            {"normal", shown(plane.normal)},
-            {"material", scene.materials[plane.material].name}};
-  });
-}
-
 }  // namespace
 
-Json spheres_info(const Scene& scene) { return describe_spheres(scene, scene.spheres); }
-Json planes_info(const Scene& scene) { return describe_planes(scene, scene.planes); }
-Json instances_info(const Scene& scene) { return describe_instances(scene, scene.instances); }
+Json spheres_info(const Scene& scene) { return first_info(scene, scene.spheres); }
+Json planes_info(const Scene& scene) { return first_info(scene, scene.planes); }
+Json instances_info(const Scene& scene) { return first_info(scene, scene.instances); }
 
 Json groups_info(const Scene& scene) {
   Json list = Json::array();
@@ -58,9 +31,9 @@ Json groups_info(const Scene& scene) {
                     {"spheres", group.spheres.size()},
                     {"planes", group.planes.size()},
                     {"instances", group.instances.size()},
-                    {"first_spheres", describe_spheres(scene, group.spheres)},
-                    {"first_planes", describe_planes(scene, group.planes)},
-                    {"first_instances", describe_instances(scene, group.instances)}});
+                    {"first_spheres", first_info(scene, group.spheres)},
+                    {"first_planes", first_info(scene, group.planes)},
+                    {"first_instances", first_info(scene, group.instances)}});
   }
   return list;
 }

@@ -48,11 +48,20 @@ void add_whole(CLI::App& app, const std::string& names, Target& target, Number l
 
 template <class T>
 struct Choice {
-  const char* name;
+  std::string_view name;
   T value;
 };
 template <class T>
 Choice(const char*, T) -> Choice<T>;
+
+/// An enumerator each, by the names that scene files have for them.
+template <class Enum>
+std::array<Choice<Enum>, names<Enum>.size()> choices() {
+  static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
+  std::array<Choice<Enum>, names<Enum>.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {names<Enum>[i], static_cast<Enum>(i)};
+  return all;
+}
 
 /// An option that takes one of a few names.
 template <class Target, class T, std::size_t n>
@@ -107,8 +116,7 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
   add_whole(app, "--spp", command.spp, 1, max_count, "Samples per pixel");
-  add_choice(app, "--filter", command.filter,
-             std::array{Choice{"box", PixelFilter::box}, Choice{"tent", PixelFilter::tent}},
+  add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
             std::numeric_limits<std::uint64_t>::max(), "Seed of the random numbers (0)");
@@ -127,9 +135,7 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
 
 void add_light_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Camera and light");
-  add_choice(app, "--method", command.method,
-             std::array{Choice{"whitted", Method::whitted}, Choice{"path", Method::path}},
-             "How light is followed");
+  add_choice(app, "--method", command.method, choices<Method>(), "How light is followed");
   add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
   const auto parse_stops = [](const std::string& text) {
     return parse_number(text, -100.0F, 100.0F);

@@ -6,102 +6,14 @@
 
 #include "core/scene/instances.h"
 #include "render/cli/camera_info.h"
+#include "render/cli/field_info.h"
 #include "render/cli/object_info.h"
-#include "render/cli/shown_values.h"
 #include "render/prepare/default_camera.h"
 #include "render/prepare/default_light.h"
 #include "render/renderer/scene_hash.h"
 
 namespace boule::cli {
 namespace {
-
-Json describe(const ConstantBackground& background) {
-  return {{"type", "constant"}, {"color", shown(background.color)}};
-}
-
-Json describe(const GradientBackground& background) {
-  return {{"type", "gradient"},
-          {"bottom", shown(background.bottom)},
-          {"top", shown(background.top)},
-          {"up", shown(background.up)}};
-}
-
-Json describe(const EnvironmentBackground& background) {
-  return {{"type", "environment"},
-          {"size", {background.width, background.height}},
-          {"rotation", shown(background.rotation)}};
-}
-
-Json describe(const PointLight& light) {
-  return {{"type", "point"},
-          {"position", shown(light.position)},
-          {"intensity", shown(light.intensity)},
-          {"falloff", light.falloff == Falloff::none ? "none" : "inverse_square"}};
-}
-
-Json describe(const DirectionalLight& light) {
-  return {{"type", "directional"},
-          {"direction", shown(light.direction)},
-          {"intensity", shown(light.intensity)}};
-}
-
-Json describe(const SphereLight& light) {
-  return {{"type", "sphere"},
-          {"center", shown(light.center)},
-          {"radius", shown(light.radius)},
-          {"radiance", shown(light.radiance)}};
-}
-
-/// A material under its name.
-struct DescribeMaterial {
-  std::string name;
-
-  [[nodiscard]] Json start(const char* type) const { return {{"name", name}, {"type", type}}; }
-  Json operator()(const Matte& m) const {
-    Json json = start("matte");
-    json["color"] = shown(m.color);
-    return json;
-  }
-  Json operator()(const Plastic& m) const {
-    Json json = start("plastic");
-    json.update({{"color", shown(m.color)},
-                 {"specular", shown(m.specular)},
-                 {"shininess", shown(m.shininess)},
-                 {"reflect", shown(m.reflect)}});
-    return json;
-  }
-  Json operator()(const Metal& m) const {
-    Json json = start("metal");
-    json["color"] = shown(m.color);
-    return json;
-  }
-  Json operator()(const Glass& m) const {
-    Json json = start("glass");
-    json.update({{"color", shown(m.color)}, {"ior", shown(m.ior)}});
-    return json;
-  }
-  Json operator()(const Emissive& m) const {
-    Json json = start("emissive");
-    json["radiance"] = shown(m.radiance);
-    return json;
-  }
-  Json operator()(const Phong& m) const {
-    Json json = start("phong");
-    json.update({{"color", shown(m.color)},
-                 {"ka", shown(m.ka)},
-                 {"kd", shown(m.kd)},
-                 {"ks", shown(m.ks)},
-                 {"shininess", shown(m.shininess)},
-                 {"transmission", shown(m.transmission)},
-                 {"ior", shown(m.ior)}});
-    return json;
-  }
-};
-
-template <class Variant>
-Json describe_any(const Variant& one_of) {
-  return std::visit([](const auto& any) { return describe(any); }, one_of);
-}
 
 /// Each with the number of spheres and planes that are made of it.
 Json materials_info(const Scene& scene) {
@@ -111,8 +23,10 @@ Json materials_info(const Scene& scene) {
   Json list = Json::array();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const NamedMaterial& named = scene.materials[i];
-    list.push_back(std::visit(DescribeMaterial{named.name}, named.material));
-    list.back()["objects"] = objects[i];
+    Json json = {{"name", named.name}};
+    json.update(kind_info(named.material));
+    json["objects"] = objects[i];
+    list.push_back(std::move(json));
   }
   return list;
 }
@@ -173,16 +87,14 @@ void add_view(Json& json, const Scene& scene) {
   } else if (!scene.camera) {
     notes.push_back(camera_note);
   }
-  for (const Light& light : scene.lights) lights.push_back(describe_any(light));
+  for (const Light& light : scene.lights) lights.push_back(kind_info(light));
   if (lacks_light(scene, scene.render.method)) {
-    lights.push_back(describe(light_at_eye(camera)));
+    lights.push_back(kind_info(light_at_eye(camera)));
     notes.push_back(light_note(scene, scene.render.method));
   }
   json["camera"] = camera_info(camera);
-  if (scene.distortion) {
-    json["camera"]["distortion"] = {{"size", {scene.distortion->width, scene.distortion->height}}};
-  }
-  json["background"] = describe_any(scene.background);
+  if (scene.distortion) json["camera"]["distortion"] = fields_info(*scene.distortion);
+  json["background"] = kind_info(scene.background);
   json["ambient"] = shown(scene.ambient);
   json["lights"] = std::move(lights);
   json["notes"] = std::move(notes);
@@ -198,17 +110,14 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
   Json json = {{"schema", 1},
                {"file", path},
                {"data_files", loaded.data_files},
-               {"hash", fmt::format("{:016x}", scene_hash(scene))},
-               {"size", {scene.image.width, scene.image.height}},
-               {"spp", scene.image.spp},
-               {"filter", filter_name(scene.image.filter)},
-               {"method", method_name(scene.render.method)},
-               {"max_depth", scene.render.max_depth},
-               {"spheres", scene.spheres.size()},
+               {"hash", fmt::format("{:016x}", scene_hash(scene))}};
+  FieldInfo(json).add(scene.image);
+  FieldInfo(json).add(scene.render);
+  json.update({{"spheres", scene.spheres.size()},
                {"planes", scene.planes.size()},
                {"groups", group_count},
                {"instances", instance_count},
-               {"bounds", bounds_info(scene.spheres)}};
+               {"bounds", bounds_info(scene.spheres)}});
   add_view(json, scene);
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene);

@@ -17,20 +17,4 @@ double shown(float x) {
 Json shown(const Vec3f& v) { return {shown(v.x), shown(v.y), shown(v.z)}; }
 Json shown(const Color& c) { return {shown(c.r), shown(c.g), shown(c.b)}; }
 
-const char* method_name(Method method) { return method == Method::path ? "path" : "whitted"; }
-
-const char* filter_name(PixelFilter filter) { return filter == PixelFilter::tent ? "tent" : "box"; }
-
-const char* fov_axis_name(FovAxis axis) {
-  switch (axis) {
-    case FovAxis::y:
-      return "y";
-    case FovAxis::max:
-      return "max";
-    case FovAxis::x:
-      break;
-  }
-  return "x";
-}
-
 }  // namespace boule::cli

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <type_traits>
 
 #include "core/math/color.h"
 #include "core/math/vec.h"
@@ -16,10 +18,11 @@ using Json = nlohmann::ordered_json;
 double shown(float x);
 Json shown(const Vec3f& v);
 Json shown(const Color& c);
-
-/// Enumerators by their names in scene files.
-const char* method_name(Method method);
-const char* filter_name(PixelFilter filter);
-const char* fov_axis_name(FovAxis axis);
+inline Json shown(int number) { return number; }
+inline Json shown(const Both<const int>& both) { return {both.first, both.second}; }
+inline Json shown(const std::string& name) { return name; }
+/// An enumerator by its name.
+template <class Enum>
+requires std::is_enum_v<Enum> Json shown(Enum value) { return name_of(value); }
 
 }  // namespace boule::cli

@@ -5,39 +5,19 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/problem_finder.h"
 #include "render/scene_file/lens_file.h"
 #include "render/scene_file/picture_file.h"
+#include "render/scene_file/toml_fields.h"
 
 namespace boule {
 namespace {
 
-void read_pose(TomlTable& table, CameraPose& pose) {
-  table.read("eye", pose.eye);
-  table.read("look_at", pose.look_at);
-  table.read("up", pose.up);
-}
-
-template <class Kind>
-void read_fov(TomlTable& table, Kind& camera) {
-  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::max};
-  table.read("fov", camera.fov);
-  camera.fov_axis = axes[table.choose("fov_axis", {"x", "y", "max"})];
-}
-
 void finish(TomlTable& table) { table.finish({"eye", "look_at"}); }
 
-void read_keys(TomlTable& table, PinholeCamera& camera) {
-  read_fov(table, camera);
-  finish(table);
-}
-
-void read_keys(TomlTable& table, OrthographicCamera& camera) {
-  table.read("height", camera.height);
-  finish(table);
-}
-
-void read_keys(TomlTable& table, FisheyeCamera& camera) {
-  read_fov(table, camera);
+template <class Kind>
+void read_keys(TomlTable& table, Kind& camera) {
+  read_fields(table, camera);
   finish(table);
 }
 
@@ -80,21 +60,21 @@ void read_focus(TomlTable& table, Kind& camera) {
   Vec3f point;
   table.read("focus", point);
   if (!table.has("eye") || !table.has("look_at")) return;  // finish() reports it
-  table.check(find_problem(PinholeCamera{camera.pose}));   // without a view there is no depth
+  table.check(first_problem(camera.pose));                 // without a view there is no depth
   const double depth = depth_of(camera.pose, point);
   if (!(depth > 0)) table.report("focus", "must lie in front of the camera");
   camera.focus = static_cast<float>(depth);
 }
 
 void read_keys(TomlTable& table, ThinLensCamera& camera) {
-  read_fov(table, camera);
+  read_fields(table, camera);
   read_focus(table, camera);
   read_aperture(table, camera.aperture);
 }
 
 /// Narrows the stop, where there is a key for it.
 void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
-  if (!table.has("f_number") || find_problem(Camera{camera})) return;
+  if (!table.has("f_number") || first_problem(camera)) return;
   const auto stop = find_stop(camera.surfaces);
   if (!stop) return table.report("f_number", "the lens must have one stop, flat and in one medium");
   LensSurface& surface = camera.surfaces[*stop];
@@ -111,10 +91,10 @@ void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
 void read_keys(TomlTable& table, LensCamera& camera) {
   std::string name;
   float f_number = 1;
+  read_fields(table, camera.pose);  // errors list the keys in this order
   table.read_file_name("file", name);
   table.read("f_number", f_number);
-  table.read("film_width", camera.film_width);
-  table.read("scale", camera.scale);
+  read_fields(table, camera);
   read_focus(table, camera);
   table.finish({"eye", "look_at", "file"});
   require_positive(table, "f_number", f_number);
@@ -157,18 +137,9 @@ DistortionMap read_distortion(TomlTable table) {
 }  // namespace
 
 Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion) {
-  Camera kinds[] = {PinholeCamera{}, OrthographicCamera{}, FisheyeCamera{}, ThinLensCamera{},
-                    LensCamera{}};
   std::optional<TomlTable> distorted = table.table("distortion");
   table.has("key");  // known: keys have become what they say (apply_camera_keys())
-  Camera& camera =
-      kinds[table.choose("type", {"pinhole", "orthographic", "fisheye", "thin_lens", "lens"})];
-  std::visit(
-      [&](auto& kind) {
-        read_pose(table, kind.pose);
-        read_keys(table, kind);
-      },
-      camera);
+  Camera camera = read_kind<Camera>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
   table.check(find_problem(camera));
   if (distorted) distortion = read_distortion(std::move(*distorted));
   return camera;

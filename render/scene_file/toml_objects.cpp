@@ -51,6 +51,15 @@ void TomlObjects::read_materials(std::vector<TomlTable> tables) {
   }
 }
 
+template <class T>
+T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_view> required) {
+  T value;
+  TomlFields(table, this).read(value);
+  table.finish(required);
+  table.check(find_problem(value));
+  return value;
+}
+
 void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
                                std::vector<Sphere>& spheres) {
   for (auto& [table, is_bulk] : tables) {
@@ -59,13 +68,7 @@ void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
 }
 
 void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
-  Sphere sphere;
-  table.read("center", sphere.center);
-  table.read("radius", sphere.radius);
-  sphere.material = material_of(table);
-  table.finish();
-  table.check(find_problem(sphere));
-  spheres.push_back(sphere);
+  spheres.push_back(read_checked<Sphere>(table));
 }
 
 void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
@@ -84,28 +87,14 @@ void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
 }
 
 void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {
-  Plane plane;
-  table.read("point", plane.point);
-  table.read("normal", plane.normal);
-  plane.material = material_of(table);
-  table.finish();
-  table.check(find_problem(plane));
-  planes.push_back(plane);
+  planes.push_back(read_checked<Plane>(table));
 }
 
 void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
                                  std::vector<Instance>& instances) {
   for (TomlTable& table : tables) {
-    Instance instance;
-    instance.group = group_of(table);
-    table.read("translate", instance.translate);
-    table.read("rotate", instance.rotate);
-    table.read("scale", instance.scale);
-    if (table.has("material")) instance.material = material_of(table);
-    table.finish({"group"});
-    table.check(find_problem(instance));
-    instance_tables_.push_back({group, instances.size(), table});
-    instances.push_back(instance);
+    instances.push_back(read_checked<Instance>(table, {"group"}));
+    instance_tables_.push_back({.group = group, .instance = instances.size() - 1, .table = table});
   }
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "render/scene_file/toml_fields.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
@@ -28,7 +31,7 @@ ObjectTables object_tables(TomlTable& table);
 
 /// Reads materials, and the objects of a scene and its groups: first read_materials(), then
 /// start_groups(), then the others.
-class TomlObjects {
+class TomlObjects final : private TomlNames {
  public:
   /// Scene and error must outlive it.
   TomlObjects(Scene& scene, FirstError& error) : scene_(scene), error_(error) {}
@@ -58,8 +61,11 @@ class TomlObjects {
   void read_plane(TomlTable& table, std::vector<Plane>& planes);
   void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
                       std::vector<Instance>& instances);
-  std::uint32_t group_of(TomlTable& table);
-  std::uint32_t material_of(TomlTable& table);
+  /// Reads a struct that may refer to materials and groups, with these keys required.
+  template <class T>
+  T read_checked(TomlTable& table, std::initializer_list<std::string_view> required = {});
+  std::uint32_t group_of(TomlTable& table) override;
+  std::uint32_t material_of(TomlTable& table) override;
   std::uint32_t default_material();
 
   Scene& scene_;

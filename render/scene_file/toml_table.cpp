@@ -169,17 +169,14 @@ void TomlTable::read(std::string_view key, std::string& out) {
   out = *text;
 }
 
-std::size_t TomlTable::choose(std::string_view key, const std::vector<std::string_view>& names,
-                              const std::vector<std::string_view>& later) {
+std::size_t TomlTable::choose(std::string_view key, std::span<const std::string_view> names) {
   std::string name{names[0]};
   read(key, name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  const bool is_later = std::find(later.begin(), later.end(), name) != later.end();
-  const std::string what =
-      is_later ? quote(name) + " is not supported yet" : "unknown " + quote(name);
+  const std::vector<std::string_view> known(names.begin(), names.end());
   report(key,
-         what + ", expected " + list_names(names) + (is_later ? "" : did_you_mean(name, names)));
+         "unknown " + quote(name) + ", expected " + list_names(known) + did_you_mean(name, known));
   return 0;
 }
 

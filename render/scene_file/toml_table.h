@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,10 +45,8 @@ class TomlTable {
   /// A file's name: that of the frame that is read, if any (frame_name()).
   void read_file_name(std::string_view key, std::string& name);
 
-  /// The index in `names` of the name under `key`; 0 if it is absent. Names in `later` are
-  /// refused as not supported yet.
-  std::size_t choose(std::string_view key, const std::vector<std::string_view>& names,
-                     const std::vector<std::string_view>& later = {});
+  /// The index in `names` of the name under `key`; 0 if it is absent.
+  std::size_t choose(std::string_view key, std::span<const std::string_view> names);
 
   /// The table under `key`, or nothing.
   std::optional<TomlTable> table(std::string_view key);

@@ -55,12 +55,8 @@ std::string supported_names() {
 }
 
 Diagnostic refusal(std::string_view name, std::string_view origin, const std::string& reason) {
-  return {std::string(origin) + " " + quote(name) + " " + reason + ", expected one of " +
-              supported_names(),
-          {},
-          {},
-          0,
-          0};
+  return Diagnostic::of(std::string(origin) + " " + quote(name) + " " + reason +
+                        ", expected one of " + supported_names());
 }
 
 Result<const KernelTable*> select_named(std::string_view name, std::string_view origin) {

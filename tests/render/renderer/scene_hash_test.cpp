@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 #include "tests/support/test_scenes.h"
 
@@ -99,6 +104,59 @@ TEST(SceneHash, ChangesWithEveryValueThatShows) {
     change(scene);
     EXPECT_TRUE(seen.insert(scene_hash(scene)).second) << "change " << seen.size();
   }
+}
+
+/// Makes a member another one.
+void change(float& x) { x += 1; }
+void change(std::uint32_t& number) { number += 1; }
+void change(Vec3f& v) { v.y += 1; }
+void change(Color& c) { c.b += 1; }
+void change(std::optional<float>& x) { x = x.value_or(0) + 1; }
+void change(std::vector<LensSurface>& surfaces) { surfaces.emplace_back(); }
+void change(std::vector<Color>& pixels) { pixels.emplace_back(); }
+void change(Both<int>& both) { both.second += 1; }
+template <class Enum>
+requires std::is_enum_v<Enum>
+void change(Enum& value) { value = static_cast<Enum>(static_cast<int>(value) + 1); }
+void change(CameraPose& pose) { pose.up.x += 1; }
+
+/// Changes each field of a struct in turn, and counts the hashes that come of that: `put` puts the
+/// struct into a scene.
+template <class Struct, class Put>
+std::size_t count_hashes(const Put& put) {
+  std::size_t count = 0;
+  each_field<Struct>([&](const auto&) { ++count; });
+  std::set<std::uint64_t> seen;
+  for (std::size_t i = 0; i <= count; ++i) {
+    Struct value;
+    std::size_t at = 0;
+    each_field(value, [&](const auto&, auto&& member) {
+      if (at++ == i) change(member);
+    });
+    Scene scene;
+    put(scene, value);
+    seen.insert(scene_hash(scene));
+  }
+  return seen.size() - 1;
+}
+
+template <class... Kinds, class Put>
+std::size_t count_hashes(const std::variant<Kinds...>&, const Put& put) {
+  return (std::size_t{0} + ... + count_hashes<Kinds>(put));
+}
+
+/// Whatever field is added to a struct, the hash has it.
+TEST(SceneHash, ChangesWithEveryListedField) {
+  EXPECT_EQ(count_hashes(Camera{}, [](Scene& s, const auto& camera) { s.camera = camera; }), 18U);
+  EXPECT_EQ(count_hashes(Light{}, [](Scene& s, const auto& light) { s.lights = {light}; }), 8U);
+  EXPECT_EQ(count_hashes(Material{},
+                         [](Scene& s, const auto& material) {
+                           s.materials = {{"m", material}};
+                         }),
+            16U);
+  EXPECT_EQ(count_hashes(Background{}, [](Scene& s, const auto& b) { s.background = b; }), 7U);
+  EXPECT_EQ(count_hashes<Sphere>([](Scene& s, const Sphere& sphere) { s.spheres = {sphere}; }), 3U);
+  EXPECT_EQ(count_hashes<Plane>([](Scene& s, const Plane& plane) { s.planes = {plane}; }), 3U);
 }
 
 TEST(SceneHash, LeavesOutNamesAndSettings) {
