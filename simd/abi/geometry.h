@@ -7,10 +7,10 @@
 
 namespace boule {
 
-/// Spheres in slots, in the order that suits the kernels, all of them in blocks of sixteen. The
-/// first ones are tested against every ray and come as a structure of arrays as well, padded to
-/// max_width; leaf k is block scanned / 16 + k. Slots that hold no sphere are hit by nothing and
-/// have a negative id.
+/// Spheres in slots, in blocks of sixteen, in an order that suits the kernels. The first `scanned`
+/// slots are tested against every ray and are also there as a structure of arrays, padded to
+/// max_width. The leaves of the tree follow: leaf k is block scanned / 16 + k. No ray hits a slot
+/// that holds no sphere; such slots have a negative id.
 struct SphereView {
   const float* center_x;
   const float* center_y;
@@ -20,10 +20,10 @@ struct SphereView {
   const float* reject_squared;
   /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
   const float* reject_radius;
-  std::size_t scanned;        ///< slots in front that are in no leaf; with a tree whole blocks
+  std::size_t scanned;        ///< slots that are in no leaf; with a tree whole blocks
   const SphereBlock* blocks;  ///< block k: the slots from 16 k on
   std::size_t block_count;
-  const std::int32_t* id;  ///< what hits are called by, for every slot
+  const std::int32_t* id;  ///< of the sphere in each slot
 };
 
 /// Infinite planes as a structure of arrays, padded likewise; plane k has the id first_id + k.

@@ -11,7 +11,7 @@
 
 namespace boule {
 
-/// What one ISA's kernel object exports, and all of it: nothing else crosses the border.
+/// All that the kernel object of one instruction set exports.
 /// Every function is thread-safe, allocates nothing and cannot fail; any_hit needs 1.5 MiB of the
 /// caller's stack.
 ///
@@ -35,7 +35,7 @@ struct KernelTable {
                        const RayStream& rays);
 
   /// hits[k] = the nearest hit of rays[k] with tmin < t <= tmax; equal t: the lower id. hits.size
-  /// is not asked.
+  /// is not read.
   void (*closest_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
                       const HitStream& hits);
 

@@ -7,7 +7,7 @@
 
 namespace boule {
 
-// What the kernel objects export, one each.
+// The tables that the kernel objects export.
 namespace scalar {
 extern const KernelTable kernel_table;
 }
@@ -97,7 +97,7 @@ std::vector<IsaInfo> list_isas() {
 Result<const KernelTable*> select_kernels(std::string_view name) {
   if (name != "auto") return select_named(name, "isa");
   const char* forced = std::getenv("BOULE_ISA");
-  // Set to nothing is what scripts make of a variable that they have no value for.
+  // Scripts set a variable to nothing where they have no value for it.
   if (forced != nullptr && *forced != '\0' && std::string_view(forced) != "auto") {
     return select_named(forced, "environment variable BOULE_ISA:");
   }

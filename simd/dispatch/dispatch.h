@@ -19,17 +19,17 @@ struct IsaInfo {
 /// The instruction sets of this build, narrowest first. Throws std::bad_alloc.
 std::vector<IsaInfo> list_isas();
 
-/// Name of an ISA, as in IsaInfo; empty for what is none.
+/// The name of an ISA, as in IsaInfo; empty where the value is no ISA.
 std::string_view isa_name(Isa isa);
 
-/// The kernels of one ISA by name, or for "auto" those that the environment variable BOULE_ISA
-/// names, or the widest supported ones, where it is not set, empty or "auto" itself; never null.
-/// Any text will do: an unknown name, one this build lacks or one the CPU cannot run is an error
-/// that says which names would do. Throws std::bad_alloc.
+/// The kernels of the ISA `name`; never null. "auto" stands for the ISA that the environment
+/// variable BOULE_ISA names or, where that is not set, empty or "auto" itself, for the widest one
+/// that is supported. A name that is unknown, that this build lacks or that the CPU cannot run is
+/// an error, which lists the names that would do. Throws std::bad_alloc.
 Result<const KernelTable*> select_kernels(std::string_view name);
 
-/// The scalar reference path behind the same door: every query is answered by core/reference. Each
-/// call copies the geometry: its primary_rays, closest_hit and any_hit throw std::bad_alloc.
+/// The scalar reference path as a table: core/reference answers every query. Its primary_rays,
+/// closest_hit and any_hit copy the geometry and throw std::bad_alloc.
 const KernelTable& reference_kernels();
 
 }  // namespace boule

@@ -25,13 +25,4 @@ BOULE_INLINE bool all(Mask m) {
   return bits(m) == all_lanes;
 }
 
-/// values[indices], lane by lane: one load each, which was faster than gather instructions.
-BOULE_INLINE Bits gather(const std::int32_t* values, Bits indices) {
-  alignas(64) std::uint32_t index[width];
-  alignas(64) std::int32_t value[width];
-  store(index, indices);
-  for (int lane = 0; lane < width; ++lane) value[lane] = values[index[lane]];
-  return load_integers(value);
-}
-
 }  // namespace boule::BOULE_KERNEL_ISA

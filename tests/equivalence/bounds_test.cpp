@@ -1,5 +1,5 @@
-// Where the bounds of packets and single rays are needed: scenes in which the answers would be
-// wrong without them (mutations.sh takes them away one by one). The others bite in the hard cases.
+// Scenes in which packets or single rays would lose hits without a certain bound of filter_bounds.h
+// (mutations.sh takes them away one by one). For bounds that are not here hard cases show it.
 #include <array>
 #include <cmath>
 

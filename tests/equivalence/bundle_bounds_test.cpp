@@ -1,5 +1,5 @@
-// Where a bundle's bounds are needed: for each of them scenes in which the answers would be wrong
-// without it (mutations.sh takes them away one by one).
+// For each bound of bundles in filter_bounds.h scenes in which hits would be wrong without it
+// (mutations.sh takes them away one by one).
 #include <array>
 #include <cmath>
 
@@ -36,7 +36,7 @@ class BundleBounds : public OnEachIsa {
   std::size_t all = 0, met = 0;
 };
 
-/// Near 1, on either side: how far from its centre a sphere is met.
+/// How far from its centre a sphere is met, in radii: near 1, on either side.
 double near_rim(CaseRandom& random, double least, double most) {
   const double sign = random.sign();
   return 1 + sign * random.decade(least, most);
@@ -91,8 +91,8 @@ TEST_P(BundleBounds, TheRimOfALargeSphere) {
   EXPECT_LT(met, all * 3 / 4);
 }
 
-/// bundle_shift_slope: close to a light, what its rays miss it by is a good part of a small sphere.
-/// Where many are around them the rays are sorted first.
+/// bundle_shift_slope: the distance by which rays miss their light is a good part of the radius of
+/// a small sphere close to the light. Among many spheres the rays are sorted first.
 TEST_P(BundleBounds, SpecksAroundALight) {
   CaseRandom random(73);
   for (int trial = 0; trial < 300; ++trial) {
@@ -122,8 +122,8 @@ TEST_P(BundleBounds, SpecksAroundALight) {
 }
 
 /// bundle_end: rays that end behind a speck, a million units from the world's origin, where a
-/// double step is 1e-10. They are all the same: their ends, rounded, do not tell how far off they
-/// are.
+/// double step is 1e-10. All rays are the same, so that their rounded ends do not show how far off
+/// they are.
 TEST_P(BundleBounds, EndsFarFromTheWorldsOrigin) {
   CaseRandom random(77);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -143,8 +143,8 @@ TEST_P(BundleBounds, EndsFarFromTheWorldsOrigin) {
   EXPECT_LT(met, all * 3 / 4);
 }
 
-/// bundle_end: rays from far away, and no farther from their end than a sphere next to it: the
-/// double solver, which decides, does not know better where they pass it.
+/// bundle_end: rays from far away, which pass a sphere next to their end by no more than the error
+/// of the double solver, which decides.
 TEST_P(BundleBounds, EndsFarFromTheRaysOrigins) {
   CaseRandom random(79);
   for (int trial = 0; trial < 300; ++trial) {
@@ -293,9 +293,9 @@ TEST_P(BundleBounds, WideTilesOfSpecks) {
   EXPECT_GT(met, all / 8);
 }
 
-/// Columns of specks along z from 1 to 1.1, as seen from the origin across its rays: from 1.1 (a,
-/// b) to (a, b), or back. Only one end of a column is in a ray's way: another ray would hide that
-/// one is lost.
+/// Columns of specks along z from 1 to 1.1. Seen from the origin they run across its rays, from 1.1
+/// (a, b) to (a, b), or back. Only one end of a column is in the way of a ray; were both, the hit
+/// of one ray would hide that the other's is lost.
 void add_columns(CaseRandom& random, std::vector<Sphere>& spheres, std::vector<Ray>& rays) {
   const double apart = random.uniform(0.03, 0.045);
   for (int column = 0; column < 100; ++column) {
@@ -316,8 +316,8 @@ void add_columns(CaseRandom& random, std::vector<Sphere>& spheres, std::vector<R
   }
 }
 
-/// Leaves that are deep and lie across the rays of a light: what their boxes are to the grid of its
-/// rays is not where they begin or end.
+/// Deep leaves across the rays of a light: the extent of such a box, for the grid of rays, does not
+/// follow from its near or its far side alone.
 TEST_P(BundleBounds, SpecksOfDeepLeaves) {
   CaseRandom random(68);
   for (int trial = 0; trial < 40; ++trial) {

@@ -67,7 +67,7 @@ TEST_P(Bundle, FindsShadows) {
   }
 }
 
-/// Rays from all over the place and from spheres, towards one point or in one direction.
+/// Rays from anywhere and from spheres, towards one point or in one direction.
 std::vector<Ray> scattered(CaseRandom& random, const std::vector<Sphere>& spheres,
                            std::size_t count, const Vec3d& light, bool is_point) {
   std::vector<Ray> rays;
@@ -91,8 +91,8 @@ std::vector<Ray> scattered(CaseRandom& random, const std::vector<Sphere>& sphere
   return rays;
 }
 
-/// Rays that have little in common with their neighbours in the stream are sorted, a pool at a
-/// time; among many spheres they are few for each.
+/// Rays that have little in common with their neighbours in the stream: they are sorted, a pool at
+/// a time. Among many spheres there are few rays for each sphere.
 TEST_P(Bundle, SortsShadowRays) {
   for (const auto& [spheres, count] : {std::pair{300, 66000}, std::pair{4000, 5000}}) {
     CaseRandom random(67);

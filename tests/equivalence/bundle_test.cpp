@@ -75,7 +75,7 @@ TEST_P(Bundle, TakesAnyStream) {
   }
 }
 
-/// Rays without an end, NaN, do not hide what the others meet: any ray of a group may be one.
+/// Rays whose tmax is NaN hide nothing from the others, whichever ray of a group they are.
 TEST_P(Bundle, LeavesOutRaysOfNaN) {
   for (const BundleScene& scene : {cloud("outside", {0, 0, 0}, 1, 0.1, 5), on_the_ground()}) {
     const Geometry geometry(scene.spheres, {});
@@ -128,8 +128,8 @@ TEST_P(Bundle, MeetsSpheresAtTheEye) {
   }
 }
 
-/// The whole sphere around the eye, a hemisphere, backwards: no ray of a bundle may be lost at
-/// where its bundle is split.
+/// Rays all around the eye, over a hemisphere, and backwards: none may be lost where their bundle
+/// is split.
 TEST_P(Bundle, LooksEverywhere) {
   const BundleScene scene = cloud("all around", {0, 0, 0}, 3, 0.3, 0);
   const Geometry geometry(scene.spheres, {});

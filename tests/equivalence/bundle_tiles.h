@@ -40,7 +40,7 @@ inline BundleScene cloud(const std::string& name, const Vec3d& center, double sp
   return scene;
 }
 
-/// Every sphere three times in the same place, and two more next to it.
+/// Every sphere three times, and two more next to it.
 inline BundleScene copies() {
   BundleScene scene = cloud("copies and near copies", {0, 0, 0}, 1, 0.2, 4);
   for (std::size_t i = 60; i < 300; ++i) scene.spheres[i] = scene.spheres[i % 60];

@@ -8,8 +8,8 @@
 namespace boule::test {
 namespace {
 
-/// How far the decision is from changing, in units of u max(F, r): the distance of the line to the
-/// rim, of the origin to the surface. Double is exact enough to judge float by.
+/// How far hit or miss is from changing, in units of u max(F, r): the distance of the line from the
+/// rim, or of the origin from the surface. Double is exact enough to judge float.
 double rim_distance(const Ray& ray, const Sphere& sphere) {
   const Vec3d d = vec_cast<double>(ray.dir);
   const Vec3d f = vec_cast<double>(sphere.center) - ray.org;

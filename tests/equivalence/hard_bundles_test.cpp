@@ -279,7 +279,7 @@ TEST_P(HardBundles, GiveTheScalarPathsAnswers) {
                                                           : in_its_direction(random, hard_case, i);
         bound(random, hard_case, rays);
         check_any(rays, coherence, rays.size());
-        // To seek the nearest hit a bundle leaves nothing.
+        // Rays of a bundle whose nearest hit is sought leave nothing.
         for (Ray& ray : rays) ray.source = no_primitive;
         check_closest(rays, coherence);
         if (HasFatalFailure()) return;

@@ -1,6 +1,6 @@
-// What kernel_table.h says of bad input, for every kernel: no rays, numbers that are none,
-// enumerators without a name, promises that are broken, a caller's float environment. Single rays
-// and primitives: contract_test.cpp.
+// What kernel_table.h says about bad input, for every kernel: no rays, NaN and infinity,
+// enumerators without a name, broken promises, a caller's float environment. contract_test.cpp has
+// single rays and primitives.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -88,7 +88,7 @@ TEST_P(KernelBadInput, EnumeratorsWithoutANameAreRobustAndAutomatic) {
             run_any(*kernels, geometry.view(), rays, {}));
 }
 
-/// Hits may be missed, then, but those that there are, are: each is an intersection with the
+/// A broken promise may lose hits, but every hit that is found is an intersection with the
 /// primitive it names.
 TEST_P(KernelBadInput, ABrokenPromiseMakesNoHitsUp) {
   const std::vector<Sphere> spheres = cloud(2000);
@@ -176,7 +176,7 @@ TEST_P(KernelBadInput, LightsAndSpheresThatAreNoneGiveNothing) {
   for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(seek.density(i), 0) << i;
 }
 
-/// Whatever the caller has set, traps among it: a FloatEnvironment is enough.
+/// A FloatEnvironment is enough, whatever the caller has set, traps included.
 TEST_P(KernelBadInput, AFloatEnvironmentAroundItIsEnough) {
   const Geometry geometry(cloud(2000), floors);
   std::vector<Ray> rays = rays_from({0, 0.1, 5}, 2000);

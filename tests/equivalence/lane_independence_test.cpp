@@ -1,4 +1,5 @@
-// Neighbours in a packet, the order of rays and of spheres, dead lanes: none changes an answer.
+// A ray's hit does not depend on its neighbours in a packet, on dead lanes, or on the order of rays
+// and spheres.
 #include <algorithm>
 #include <limits>
 #include <numeric>

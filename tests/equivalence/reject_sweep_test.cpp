@@ -1,6 +1,6 @@
-// The conservative reject of the kernels themselves, with less slack than is shipped: none may be
-// lost with 24 (and 17, the proof's), some must be with 2, or the test could not see a mistake.
-// The slack is taken away through the data, r2p and the reject radius.
+// The conservative reject of the kernels, with less slack than is shipped. With 24, and with the 17
+// that the proof needs, no hit may be lost; with 2 some must be, or the test could not see a
+// mistake. The slack is taken away through the data, r2p and the reject radius.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -62,7 +62,7 @@ class OneSphere {
   AlignedArray<float> squared_, radius_;
 };
 
-/// r2p that makes of the shipped slack, which is in h as well, one of `slack`.
+/// The r2p with which the reject has `slack` in all. (A part of the shipped slack is in h.)
 float weakened(const Pair& pair, double slack) {
   const Vec3d f = vec_cast<double>(pair.sphere.center) - pair.ray.org;
   const double b = dot(f, normalize(vec_cast<double>(pair.ray.dir)));

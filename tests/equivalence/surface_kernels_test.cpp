@@ -133,7 +133,8 @@ TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
 
 class SurfacesOfSpecks : public OnEachIsa {};
 
-/// A sphere too small for its place: the point is its centre, and the normal faces the viewer.
+/// A sphere so small, for its coordinates, that the hit point is its centre: the normal then faces
+/// the viewer.
 TEST_P(SurfacesOfSpecks, FaceTheViewer) {
   const std::vector<Sphere> specks{{{1, 2, 3}, 1e-30F, 0}};
   const std::vector<Ray> all(ray_count, Ray{{1, 2, -1}, {0, 0, 2}});

@@ -25,7 +25,7 @@ Vec3f float_point(CaseRandom& random, const Vec3d& center, double spread) {
   return vec_cast<float>(center + Vec3d{x, y, z});
 }
 
-/// Towards a sphere's rim, mostly: where a box that is too small would show.
+/// Mostly towards the rim of a sphere, where a box that is too small would show.
 Ray at_rim(CaseRandom& random, const Sphere& sphere, const Vec3d& org) {
   const Vec3d center = vec_cast<double>(sphere.center);
   const Vec3d view = normalize(center - org);
@@ -47,7 +47,7 @@ TreeScene cloud(const std::string& name, const Vec3d& center, double spread, dou
     const auto k = static_cast<std::size_t>(random.below(700));
     Ray ray = at_rim(random, scene.spheres[k], eye);
     if (i % 5 == 0) ray.dir = vec_cast<float>(random.direction());
-    if (i % 7 == 0) ray.org = ray.org + random.direction() * (0.3 * radius);  // no float any more
+    if (i % 7 == 0) ray.org = ray.org + random.direction() * (0.3 * radius);  // no float
     if (i % 11 == 0) ray.tmin = -1;
     if (i % 13 == 0) ray.tmax = static_cast<float>(random.uniform(0, 2));
     scene.rays.push_back(ray);
@@ -79,8 +79,8 @@ TreeScene lattice() {
   return scene;
 }
 
-/// Rays that begin just within a sphere and leave it at right angles to the way from its centre:
-/// f.d is next to nothing, and whether f.f is more than r^2 is all that the reject goes by.
+/// Rays that begin just within a sphere, at right angles to the direction from its centre: f.d is
+/// next to 0, so that the reject depends on whether f.f is greater than r^2.
 TreeScene skimming() {
   TreeScene scene{"skimming", {}, {}};
   CaseRandom random(56);
@@ -111,8 +111,8 @@ TreeScene copies() {
   return scene;
 }
 
-/// Twenty places with 35 copies each: a leaf's box is that of one sphere, and what touches the
-/// sphere where it touches its box shows every mistake of a box test.
+/// Twenty spheres with 35 copies each. A leaf's box is then the box of one sphere, and a ray that
+/// touches the sphere where that touches its box shows every mistake of a box test.
 TreeScene tight_boxes(const std::string& name, const Vec3d& center, double spread, double radius) {
   TreeScene scene{name, {}, {}};
   CaseRandom random(53);
@@ -141,8 +141,8 @@ TreeScene between_floats() {
   return scene;
 }
 
-/// A row of specks, F / r = 1e8, and rays nearly along it: the first speck a ray meets it enters
-/// through the side of the box, just before it leaves by the far end. Only rounding decides there.
+/// A row of specks, F / r = 1e8, and rays nearly along it. A ray enters the box of the first speck
+/// it meets through a side, just before it leaves by the far end, so that only rounding decides.
 TreeScene row_of_specks() {
   constexpr double r = 4e-8;
   TreeScene scene{"a row of specks, F / r = 1e8", {}, {}};
@@ -185,8 +185,8 @@ TreeScene sources_ahead() {
   return scene;
 }
 
-/// Of as many copies as no leaf holds most are left out: rays that leave any of them, and pass
-/// through it all the same, do not see that.
+/// Where more copies lie together than a leaf holds, most are left out of the tree. Rays that leave
+/// any of them, and pass through it all the same, have the hits that they have with all.
 TreeScene sources_among_copies() {
   TreeScene scene = cloud("sources among copies", {0, 0, 0}, 1, 0.3, 3);
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) scene.spheres[i] = scene.spheres[i % 20];
@@ -267,7 +267,8 @@ void expect_hits_in_all_forms(const KernelTable& kernels, const Geometry& geomet
   }
 }
 
-/// Rays enter nearly every box of a deep tree: more is waiting than a ray in flight keeps in order.
+/// Rays enter nearly every box of a deep tree: more children wait than a ray in flight keeps in
+/// order.
 TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
   CaseRandom random(59);
   std::vector<Sphere> spheres;
@@ -285,7 +286,8 @@ TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
   expect_hits_in_all_forms(*kernels, geometry, rays, spheres);
 }
 
-/// From 2^100 away: what components too small for floats lead to is far beside the axis.
+/// Rays from 2^100 away: components of their directions that are too small for floats take them far
+/// away from the axis.
 TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
   std::vector<Sphere> spheres;
   std::vector<Ray> rays;
@@ -317,8 +319,8 @@ std::clock_t time_of(const KernelTable& kernels, const Geometry& geometry, Form 
   return least;
 }
 
-/// Boxes beside a ray that runs along an axis are infinitely far to it: they must not all be
-/// visited, which would take hundreds of times as long.
+/// A ray that runs along an axis meets the planes of boxes beside it at infinite t. Not all of
+/// these boxes may be visited, which would take hundreds of times as long.
 TEST_P(Tree, RaysAlongAnAxisAreNoSlower) {
   CaseRandom random(57);
   std::vector<Sphere> spheres;

@@ -7,8 +7,8 @@
 
 /// Spheres as discs in a bundle's frame, a block of sixteen at a time: each around (X, Y) at the
 /// depth Z. Where a sphere is simple for the bundle, its disc and the bounds kept with it decide
-/// nearly everything in float; simd/abi/filter_bounds.h derives them (bundle_axis and after) under
-/// the names used here.
+/// nearly everything in float. The names used here are those of simd/abi/filter_bounds.h;
+/// docs/numerics.md derives the bounds.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The first spheres of a block, up to sixteen.
@@ -100,9 +100,9 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
 
 /// Finds where the spheres of a part lie and whether the bundle may hit them before `limit`.
 template <Common common, Sought sought>
-BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
-                             const BlockSpheres& spheres, std::size_t part, const Real& limit,
-                             Discs& discs) {
+BOULE_INLINE void locate_part(const BundleRays& rays, const DiscFactors& factors,
+                              const BlockSpheres& spheres, std::size_t part, const Real& limit,
+                              Discs& discs) {
   const BundleFrame& frame = rays.frame;
   const Vec3<Wide> f = widen(spheres.centers(part)) - wide_all(frame.org);
   const Vec3<Real> center{narrow(dot(f, wide_all(frame.u))), narrow(dot(f, wide_all(frame.v))),
@@ -138,11 +138,11 @@ BOULE_INLINE void place_part(const BundleRays& rays, const DiscFactors& factors,
 
 /// Finds which spheres of a block may be hit, and where they lie.
 template <Common common, Sought sought>
-BOULE_INLINE void place_discs(const BundleRays& rays, const DiscFactors& factors,
-                              const BlockSpheres& spheres, float limit, Discs& discs) {
+BOULE_INLINE void locate_discs(const BundleRays& rays, const DiscFactors& factors,
+                               const BlockSpheres& spheres, float limit, Discs& discs) {
   discs.simple = discs.awkward = 0;
   for (std::size_t part = 0; part < spheres.parts(); ++part)
-    place_part<common, sought>(rays, factors, spheres, part, limit, discs);
+    locate_part<common, sought>(rays, factors, spheres, part, limit, discs);
   const unsigned there = spheres.there();
   discs.simple &= there;
   discs.awkward &= there;

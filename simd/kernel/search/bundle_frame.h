@@ -5,7 +5,7 @@
 /// The frame of a bundle, O and the axes U, V and W, and how its rays are brought into it. A ray is
 /// the line through O along (a, b, 1); with a common direction it is the line along W through (a,
 /// b). Lengths along rays are measured by v = t |d|^2 / d.W (with a common direction, v = t |d|).
-/// simd/abi/filter_bounds.h says what rounding does to these numbers.
+/// docs/numerics.md says what rounding does to these numbers.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// In world coordinates, the axes of unit length.

@@ -26,7 +26,7 @@ template <Common common, class Hits>
 BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
                                const BlockSpheres& spheres, Hits& hits) {
   Discs discs;
-  place_discs<common, Hits::sought>(rays, factors, spheres, hits.limit(), discs);
+  locate_discs<common, Hits::sought>(rays, factors, spheres, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1)
     hits.meet_awkward(spheres.slot(std::countr_zero(left)));
   if (discs.simple == 0) return;

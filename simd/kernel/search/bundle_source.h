@@ -12,9 +12,8 @@
 /// neighbours in a stream (RaysInOrder), in ray_pool.h neighbours in a sorted pool (RaysOfPool).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle's rays have in common: their origin, their direction, or their end, the point at t
-/// =
-/// 1. Rays with a common end are looked at from there, backwards.
+/// What a bundle's rays have in common: their origin, their direction, or their end, which is the
+/// point at t = 1. Rays with a common end are looked at from there, backwards.
 enum class Common { origin, direction, end };
 
 /// What is asked: the nearest hit, or whether there is any.
@@ -103,8 +102,8 @@ class SharedByRays {
     if constexpr (sought == Sought::nearest)
       fresh = fresh & uniform(none_leaves(rays.source + first));
     if constexpr (common == Common::end) {
-      // That they share their end is judged by Sight::shift. From the end nothing beyond it is
-      // seen.
+      // Whether they share their end is judged later, by Sight::shift. Nothing beyond the end is
+      // seen from there: rays must not go on behind it.
       return fresh & (load(rays.tmax + first) <= Real(1.0F));
     } else if constexpr (common == Common::origin) {
       const Vec3<Wide> org = load_origin(rays, first), same_org = wide_all(org_);

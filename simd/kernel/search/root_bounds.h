@@ -6,7 +6,7 @@
 
 /// What float knows for certain about a sphere that the reject let through: bounds of its two
 /// roots. With them most spheres need no double solve, because another one is certainly nearer. The
-/// bounds are derived in simd/abi/filter_bounds.h (spread).
+/// bounds (filter::spread) are derived in docs/numerics.md.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Bounds of both roots, as distances t |dir|. Where float cannot tell they are NaN: comparisons

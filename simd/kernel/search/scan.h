@@ -11,8 +11,8 @@
 /// Scans: rays against one primitive after the other. Chosen for the spheres of every leaf, for
 /// those that are in no leaf (all of them in small scenes), and for planes. A hot loop in float
 /// lists the steps that the reject lets through in some lane. What float cannot decide about those
-/// is solved in double, outside that loop: inside, the double code would take its registers and 15
-/// % of the speed. The hits are exact, whatever the order of the steps.
+/// is solved in double, outside that loop: inside, the double code would take its registers, which
+/// cost 15 % of the speed. The hits are exact, whatever the order of the steps.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Steps that the reject lets through.

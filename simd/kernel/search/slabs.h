@@ -5,7 +5,7 @@
 
 /// Rays against boxes, W rays against one or one ray against W. A box is what three slabs have in
 /// common, a slab being the space between two parallel planes. The test only turns away boxes that
-/// are certainly missed; its slack is derived in simd/abi/filter_bounds.h (box, slab_least).
+/// are certainly missed; its slack (filter::box, slab_least) is derived in docs/numerics.md.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Where rays meet the planes of an axis. A plane at x is met at t = x inverse + near if it is the

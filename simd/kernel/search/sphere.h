@@ -4,7 +4,7 @@
 
 /// Ray against sphere, lane by lane: a conservative reject in float, and the two solvers for what
 /// it lets through. The robust solver decides in double, exactly as core/reference.cpp does, bit
-/// for bit; the fast one answers in float. How good the reject's bound is: filter_bounds.h.
+/// for bit; the fast one answers in float. docs/numerics.md derives the bound of the reject.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Spheres in lanes: the same one in all, for a packet, or W, for a single ray.

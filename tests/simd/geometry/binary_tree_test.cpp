@@ -110,17 +110,17 @@ struct EverySet {
     try_all({node + 1, right(node)}, 0, best);
     return best + tree.nodes[node].box.area();
   }
-  /// Divides any of `places` from number `first` on.
-  void try_all(const std::vector<std::uint32_t>& places, std::size_t first, double& best) const {
+  /// Divides any of `children` from index `first` on.
+  void try_all(const std::vector<std::uint32_t>& children, std::size_t first, double& best) const {
     double cost = 0;
-    for (const std::uint32_t node : places) cost += least(node);
+    for (const std::uint32_t node : children) cost += least(node);
     best = std::min(best, cost);
-    if (places.size() == static_cast<std::size_t>(bvh_width)) return;
-    for (std::size_t k = first; k < places.size(); ++k) {
-      if (is_leaf(places[k])) continue;
-      auto more = places;
-      more[k] = places[k] + 1;
-      more.insert(more.begin() + static_cast<std::ptrdiff_t>(k) + 1, right(places[k]));
+    if (children.size() == static_cast<std::size_t>(bvh_width)) return;
+    for (std::size_t k = first; k < children.size(); ++k) {
+      if (is_leaf(children[k])) continue;
+      auto more = children;
+      more[k] = children[k] + 1;
+      more.insert(more.begin() + static_cast<std::ptrdiff_t>(k) + 1, right(children[k]));
       try_all(more, k, best);
     }
   }

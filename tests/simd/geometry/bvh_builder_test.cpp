@@ -100,7 +100,7 @@ std::vector<Hostile> hostile_sets() {
                     s.radius = 1e15F;
                   }),
           changed("points", [&](Sphere& s, std::size_t) { s.radius = 0; }),
-          changed("a few places", [&](Sphere& s, std::size_t i) {
+          changed("a few points", [&](Sphere& s, std::size_t i) {
             const double radius = 0.1 + static_cast<double>(i) * 1e-7;  // copies would be left out
             s = {at(static_cast<double>(i % 5), 0, 0), static_cast<float>(radius), 0};
           })};

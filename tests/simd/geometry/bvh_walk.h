@@ -61,7 +61,7 @@ struct Walk {
   }
 };
 
-/// Whether two spheres are in one place and of one size, or are NaN in the same way.
+/// Whether two spheres have the same centre and the same radius, or are NaN in the same way.
 inline bool are_copies(const Sphere& a, const Sphere& b) {
   const auto same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   return same(a.center.x, b.center.x) && same(a.center.y, b.center.y) &&

@@ -23,9 +23,6 @@ void probe_integers(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.signed_integers, i);
   out.integer_equal = bits(load_integers(out.signed_integers) == j);
   out.integer_less_equal = bits(i <= j);
-  constexpr std::int32_t squares[16] = {0,   -1,  -4,   -9,   -16,  -25,  -36,  -49,
-                                        -64, -81, -100, -121, -144, -169, -196, -225};
-  store(out.gathered, gather(squares, i & Bits(15)));
   store(out.integer_as_wide, to_wide(i));
   store(out.signed_as_wide, load_as_wide(out.signed_integers));
   out.set_bytes = bits(load_set(in.bytes));
