@@ -5,8 +5,6 @@
 #include "core/math/geometry.h"
 #include "core/math/random.h"
 #include "core/surface.h"
-#include "render/shading/bsdf.h"
-#include "render/shading/lights.h"
 
 namespace boule::bench {
 namespace {
@@ -28,16 +26,23 @@ Vec3d random_direction(std::uint32_t ray) {
   }
 }
 
+/// Whether light from that direction falls on the viewer's side.
+bool faces(const Surface& surface, const Vec3d& to_light) {
+  return dot(surface.normal, to_light) > 0;
+}
+
 /// Adds the ray of this kind from a surface, if there is one; `number` makes it random.
 void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std::uint32_t number,
              std::vector<Ray>& rays) {
   switch (kind) {
     case RayKind::primary:
       break;
-    case RayKind::shadow:
-      if (faces(surface, sample_light(scene.light, surface.point).to_light))
-        rays.push_back(shadow_ray(scene.light, surface));
+    case RayKind::shadow: {
+      const Vec3d light = vec_cast<double>(scene.light.position);
+      if (faces(surface, normalize(light - surface.point)))
+        rays.push_back(shadow_ray_to(surface, light));
       break;
+    }
     case RayKind::mirror:
       rays.push_back(leave(surface, Side::viewer, surface.mirrored));
       break;

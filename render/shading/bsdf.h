@@ -15,12 +15,6 @@ struct Scatter {
   Vec3d refracted;   ///< unit length; not set if `refraction` is black
 };
 
-/// True if light from `to_light` falls on the viewer's side: n.l > 0. False for NaN, where the
-/// light is in the very point.
-inline bool faces(const Surface& surface, const Vec3d& to_light) {
-  return dot(surface.normal, to_light) > 0;
-}
-
 /// (r.l)^shininess, the shape of the highlight. Precondition: r.l > 0.
 double highlight_power(const FlatMaterial& material, double r_dot_l);
 
@@ -41,11 +35,6 @@ inline Color direct_light(const FlatMaterial& material, double n_dot_l, const Ve
   if (!(r_dot_l > 0)) return sum;
   const float share = material.cosine_highlight ? static_cast<float>(n_dot_l) : 1.0f;
   return sum + intensity * (highlight(material, r_dot_l) * share);
-}
-inline Color direct_light(const FlatMaterial& material, const Surface& surface,
-                          const Vec3d& to_light, const Color& intensity) {
-  return direct_light(material, dot(surface.normal, to_light), to_light, surface.mirrored,
-                      intensity);
 }
 
 /// The weights of the reflected and the refracted ray (Whitted 1980). For a dielectric, Fresnel's

@@ -21,20 +21,6 @@ LightPlace place_of(const Light& light) {
   return std::visit([](const auto& any) { return place_of_any(any); }, light);
 }
 
-LightSample sample_light(const Light& light, const Vec3d& point) {
-  const LightPlace at = place_of(light);
-  const Vec3d place{at.place[0], at.place[1], at.place[2]};
-  return {at.directional ? place : normalize(place - point),
-          std::visit([&](const auto& any) { return intensity_at(any, point); }, light)};
-}
-
-Ray shadow_ray(const Light& light, const Surface& surface) {
-  const LightPlace at = place_of(light);
-  if (!at.directional) return shadow_ray_to(surface, {at.place[0], at.place[1], at.place[2]});
-  const Departure departure = depart(surface, Side::viewer);
-  return from_surface({departure.org, {at.way[0], at.way[1], at.way[2]}}, departure);
-}
-
 Coherence shadow_coherence(const Light& light) {
   return std::holds_alternative<DirectionalLight>(light) ? Coherence::common_direction
                                                          : Coherence::common_end;

@@ -1,22 +1,11 @@
 #pragma once
 
 #include "core/math/geometry.h"
-#include "core/math/ray.h"
 #include "core/scene/light.h"
-#include "core/surface.h"
 #include "simd/abi/isa.h"
 #include "simd/abi/shading.h"
 
 namespace boule {
-
-/// A light as one point sees it: a sphere light as a point at its centre.
-struct LightSample {
-  Vec3d to_light;   ///< unit length; NaN if the point is the light's own
-  Color intensity;  ///< with its falloff over the distance
-};
-
-/// The light as `point` sees it, if nothing is in between.
-LightSample sample_light(const Light& light, const Vec3d& point);
 
 /// The intensity with its falloff over the distance.
 inline Color intensity_at(const PointLight& light, const Vec3d& point) {
@@ -32,9 +21,6 @@ inline Color intensity_at(const SphereLight& light, const Vec3d& point) {
   return light.radiance * static_cast<float>(radius * radius / dot(way, way));
 }
 inline Color intensity_at(const DirectionalLight& light, const Vec3d&) { return light.intensity; }
-
-/// The ray that decides whether anything is: from the surface to the light.
-Ray shadow_ray(const Light& light, const Surface& surface);
 
 /// Where a light is, for shadow rays of many points at once.
 LightPlace place_of(const Light& light);

@@ -85,9 +85,6 @@ TEST(Surface, ShadowRaysEndBeforeTheLight) {
   EXPECT_EQ(ray.tmax, 1 - 0x1p-22f);
   EXPECT_EQ(ray.source, 0);
   EXPECT_FALSE(ray.inside);
-  const Ray sun = shadow_ray(DirectionalLight{{-1, -2, -3}, {1, 1, 1}}, surface);
-  EXPECT_EQ(sun.dir, (Vec3f{1, 2, 3}));
-  EXPECT_EQ(sun.tmax, std::numeric_limits<float>::infinity());
 }
 
 TEST(Surface, ASphereTooSmallForItsPlaceHasANormal) {
