@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "core/math/random.h"
+#include "bench/random4.h"
 #include "core/scene/camera.h"
 #include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
@@ -20,7 +20,7 @@ std::vector<Sphere> random_spheres(const std::string& kind, std::size_t n) {
       kind == "every" ? 5.0 : std::sqrt(cover / (3.141592653589793 * static_cast<double>(n)));
   std::vector<Sphere> spheres;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto at = random4(static_cast<std::uint32_t>(i), 0, 0, 0, 7);
+    const auto at = random4(static_cast<std::uint32_t>(i), 0, 7);
     spheres.push_back(
         {{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
          static_cast<float>(radius),
@@ -32,8 +32,8 @@ std::vector<Sphere> random_spheres(const std::string& kind, std::size_t n) {
 std::vector<Plane> random_planes(std::size_t n) {
   std::vector<Plane> planes;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto at = random4(static_cast<std::uint32_t>(i), 0, 0, 0, 8);
-    const auto normal = random4(static_cast<std::uint32_t>(i), 1, 0, 0, 8);
+    const auto at = random4(static_cast<std::uint32_t>(i), 0, 8);
+    const auto normal = random4(static_cast<std::uint32_t>(i), 1, 8);
     planes.push_back(
         {{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
          {static_cast<float>(normal[0] - 0.5), static_cast<float>(normal[1] - 0.5),

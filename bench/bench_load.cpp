@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/random4.h"
 #include "bench/uniform_spheres.h"
-#include "core/math/random.h"
 #include "render/scene_file/input_file.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
@@ -35,7 +35,7 @@ constexpr std::size_t spheres_per_fill = 1000;
 std::vector<Sphere> cloud(std::size_t n) {
   std::vector<Sphere> spheres = uniform_spheres(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto at = random4(static_cast<std::uint32_t>(i), 1, 0, 0, 7);
+    const auto at = random4(static_cast<std::uint32_t>(i), 1, 7);
     Sphere& s = spheres[i];
     s.center = {(s.center.x - 0.5F) * 20, (s.center.y - 0.5F) * 20, (s.center.z - 0.5F) * 20};
     s.radius *= static_cast<float>(1 + 9 * at[0]);

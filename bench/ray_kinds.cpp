@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "bench/random4.h"
 #include "core/math/geometry.h"
-#include "core/math/random.h"
 #include "core/surface.h"
 
 namespace boule::bench {
@@ -18,7 +18,7 @@ RayBuffer to_buffer(const std::vector<Ray>& rays) {
 /// A random point of the unit sphere (Marsaglia 1972): only + - * and roots.
 Vec3d random_direction(std::uint32_t ray) {
   for (std::uint32_t attempt = 0;; ++attempt) {
-    const auto numbers = random4(ray, attempt, 0, 0, 11);
+    const auto numbers = random4(ray, attempt, 11);
     const double a = 2 * numbers[0] - 1, b = 2 * numbers[1] - 1, s = a * a + b * b;
     if (s >= 1) continue;
     const double root = 2 * std::sqrt(1 - s);

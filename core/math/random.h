@@ -35,15 +35,4 @@ inline constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15u;
 /// 32 random bits as a double in [0, 1).
 inline double unit_interval(std::uint32_t bits) { return bits * 0x1p-32; }
 
-/// The four random numbers in [0, 1) of (pixel, sample, dimension block) under a seed.
-inline std::array<double, 4> random4(std::uint32_t pixel_x, std::uint32_t pixel_y,
-                                     std::uint32_t sample, std::uint32_t dimension,
-                                     std::uint64_t seed) {
-  const auto words =
-      philox({pixel_x, pixel_y, sample, dimension},
-             {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
-  return {unit_interval(words[0]), unit_interval(words[1]), unit_interval(words[2]),
-          unit_interval(words[3])};
-}
-
 }  // namespace boule
