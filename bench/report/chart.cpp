@@ -231,8 +231,9 @@ std::string legend_lines(const std::vector<LegendEntry>& entries) {
   const std::size_t columns = legend_columns(entries);
   const double column = (width - left) / static_cast<double>(columns);
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t row = i / columns;
     const double x = left + column * static_cast<double>(i % columns);
-    const double y = height + 8 + legend_line * static_cast<double>(i / columns);
+    const double y = height + 8 + legend_line * static_cast<double>(row);
     svg +=
         marker(x, y, entries[i].look, "") + text(x + 12, y + 4, "start", escaped(entries[i].name));
   }

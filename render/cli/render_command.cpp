@@ -314,7 +314,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
 /// After the picture: the line that says so, and the statistics.
 ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   const RenderStatistics rendering = renderer.statistics();
-  static_cast<RunStatistics&>(stats_) = rendering;
+  static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(rendering);
   stats_.work_seconds = rendering.render_seconds;
   stats_.rays = rendering.rays.total();
   const int spp = renderer.options().spp;

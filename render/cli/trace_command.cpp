@@ -198,7 +198,7 @@ void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
 /// After the hits: the line that says so, and the statistics.
 ExitCode Tracing::finish(const Tracer& tracer) {
   const TraceStatistics tracing = tracer.statistics();
-  static_cast<RunStatistics&>(stats_) = tracing;
+  static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(tracing);
   stats_.work_seconds = tracing.trace_seconds;
   stats_.rays = tracing.rays;
   stats_.total_seconds = watch_.seconds();

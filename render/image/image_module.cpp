@@ -274,8 +274,8 @@ float number_of(unsigned short code) { return static_cast<float>(code) / 65535.0
 float number_of(float number) { return number; }
 
 /// The first channels of rows [begin, end), counted from the top, as `type`.
-bool read_band(OIIO::ImageInput& input, int begin, int end, int channels, OIIO::TypeDesc type,
-               void* to) {
+bool read_band(OIIO::ImageInput& input, int begin, int end, int channels,
+               const OIIO::TypeDesc& type, void* to) {
   const OIIO::ImageSpec& spec = input.spec();
   const int y = spec.y + begin, y_end = spec.y + end;
   if (spec.tile_width == 0) {

@@ -140,7 +140,7 @@ Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan&
     live.end_block(mine.counts().total() - before);
     if (worker == 0) report();
   };
-  const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
+  Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
   if (status) return status;
   if (live.ended() != blocks_.size()) return Diagnostic::of("rendering was cancelled");
@@ -171,7 +171,7 @@ Status Renderer::find_aovs(AovChannels& channels) {
     mine->render(blocks_[block], channels);
     ++done;
   };
-  const Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
+  Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
   for (const auto& worker : workers) {
     if (worker) aov_rays_ += worker->counts();
   }

@@ -114,7 +114,7 @@ Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& b
   }
   const FloatEnvironment environment;
   const Stopwatch watch;
-  const Status status = run_blocks(rays, body);
+  Status status = run_blocks(rays, body);
   trace_seconds_ += watch.seconds();
   return status;
 }
@@ -135,7 +135,7 @@ Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
     if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays.size()));
   };
   const std::size_t blocks = rays.size() / block_size + (rays.size() % block_size != 0 ? 1 : 0);
-  const Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
+  Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
   if (status) return status;
   if (done != rays.size()) return Diagnostic::of("tracing was cancelled");

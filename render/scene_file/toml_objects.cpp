@@ -22,6 +22,7 @@ std::uint32_t find_id(TomlTable& table, const char* key,
   const auto found = ids.find(name);
   if (found != ids.end()) return found->second;
   std::vector<std::string_view> names;
+  names.reserve(ids.size());
   for (const auto& [known, id] : ids) names.push_back(known);
   table.report(key, std::string("unknown ") + key + " " + quote(name) + did_you_mean(name, names));
   return 0;

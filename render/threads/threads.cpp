@@ -62,7 +62,7 @@ Threads::Threads(std::size_t count, std::function<void(std::size_t)> run) : run_
       auto start = std::make_unique<Start>(Start{run_, threads_.size()});
       pthread_t thread{};
       if (pthread_create(&thread, attributes.get(), enter, start.get()) != 0) return;
-      start.release();
+      static_cast<void>(start.release());  // the thread deletes it
       threads_.push_back(thread);
     }
   } catch (const std::bad_alloc&) {  // those that started do the work

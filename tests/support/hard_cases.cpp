@@ -73,7 +73,7 @@ constexpr HardCaseSpec specs[] = {{"S0", 0, 0x594444b0b63b4a4f},   {"S1", 0, 0x9
 enum class Draw : std::uint64_t { primitive, ray, spoil_primitive, spoil_ray, plane };
 
 CaseRandom random_for(const HardCaseSpec& spec, Draw draw, std::size_t index) {
-  std::uint64_t seed = static_cast<std::uint64_t>(spec.k + 1000);
+  std::uint64_t seed = static_cast<std::uint64_t>(std::int64_t{spec.k} + 1000);
   for (const char* c = spec.row; *c != 0; ++c) seed = seed * 257 + static_cast<std::uint64_t>(*c);
   return CaseRandom(seed, static_cast<std::uint64_t>(draw) << 56U | index);
 }
