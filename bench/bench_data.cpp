@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "bench/random4.h"
+#include "core/optics/camera_builder.h"
 #include "core/scene/camera.h"
-#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

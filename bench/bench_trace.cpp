@@ -16,7 +16,7 @@
 
 #include "bench/bench_scenes.h"
 #include "bench/camera_rays.h"
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"
 

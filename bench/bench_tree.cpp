@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bench/uniform_spheres.h"
+#include "core/optics/camera_builder.h"
 #include "core/scene/camera.h"
 #include "simd/abi/isa.h"
-#include "simd/camera/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"

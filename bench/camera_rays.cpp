@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

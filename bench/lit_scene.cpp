@@ -3,6 +3,8 @@
 #include <variant>
 
 #include "core/math/geometry.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "core/reference.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/stream/aligned_array.h"
@@ -30,11 +32,11 @@ LitScene::LitScene(const Scene& scene)
 
 std::vector<SeenPoint> LitScene::see(const std::vector<std::pair<double, double>>& raster,
                                      int width, int height) const {
-  const CameraBasis camera = camera_basis(*scene_.camera, width, height);
+  const CameraView camera = build_camera(*scene_.camera, width, height);
   RayBuffer rays(raster.size());
   HitBuffer hits(raster.size());
   for (std::size_t i = 0; i < raster.size(); ++i)
-    rays.set(i, reference::primary_ray(camera, raster[i].first, raster[i].second));
+    rays.set(i, primary_ray(camera, raster[i].first, raster[i].second));
   kernels().closest_hit(geometry_.view(), rays.view(), {}, hits.view());
   std::vector<SeenPoint> points;
   for (std::size_t i = 0; i < raster.size(); ++i)

@@ -8,8 +8,8 @@
 
 namespace boule {
 
-/// Where a ray met a primitive, all in double. This file says how a ray's origin is moved off a
-/// surface, and simd/kernel/shading/surfaces.h does the same W at a time; there is no epsilon
+/// Where a ray met a primitive, all in double; core/optics/incidence.h has the formulas. A ray that
+/// leaves it starts at the point moved off the surface by a bound of its error: there is no epsilon
 /// anywhere (lecture "Shadow acne"). Nothing here throws; numbers that are not finite make such
 /// numbers.
 struct Surface {

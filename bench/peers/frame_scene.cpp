@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/geometry.h"
+#include "core/optics/camera_builder.h"
 #include "core/scene/material.h"
 
 namespace boule::bench {
@@ -41,8 +42,8 @@ Vec mirrored(const Vec& v) {
 
 /// The point that Tachyon looks at so that its samples, half a pixel off, are ours.
 Vec3d tachyon_view(const PinholeCamera& camera, int side) {
-  const CameraBasis basis = camera_basis(camera, side, side);
-  return basis.forward - (basis.right + basis.up) * (1.0 / side);
+  const CameraView view = build_camera(camera, side, side);
+  return view.forward - (view.right + view.up) * (1.0 / side);
 }
 
 std::string tachyon_texture(const char* name, const Phong& m) {

@@ -2,15 +2,22 @@
 
 #include <cmath>
 
+#include "core/math/number.h"
 #include "core/math/vec.h"
 
 namespace boule {
 
-/// Euclidean length, in double.
-inline double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+/// Euclidean length, in double; of one vector, or of W at a time.
+template <class T = double>
+BOULE_INLINE T length(const Vec3<T>& v) {
+  return sqrt(dot(v, v));
+}
 
 /// v / |v|; NaN or 0 in some component where |v|^2 is 0, NaN or infinite.
-inline Vec3d normalize(const Vec3d& v) { return v * (1.0 / length(v)); }
+template <class T = double>
+BOULE_INLINE Vec3<T> normalize(const Vec3<T>& v) {
+  return v * (T(1.0) / length(v));
+}
 
 /// True if no component is NaN or infinite.
 template <class T>

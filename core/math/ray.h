@@ -10,6 +10,10 @@ namespace boule {
 /// The unit roundoff of float: every bound in the project is counted in it.
 inline constexpr double unit_roundoff = 0x1p-24;
 
+/// A ray to a point ends at this share of the way: its direction is rounded to float, so the point
+/// itself is only known to that.
+inline constexpr double short_of_the_end = 1 - 4 * unit_roundoff;
+
 /// No source primitive, or no hit.
 inline constexpr std::int32_t no_primitive = -1;
 
@@ -28,12 +32,12 @@ struct Ray {
 };
 
 /// The open segment from `from` to `to` as a ray: dir = to - from, 0 < t < 1.
-/// tmax is 1 - 4u: dir is rounded to float, so the far end itself is only known to that. A surface
-/// that the far end lies on, if it is tilted against the axes, may still be met by segments that
-/// graze it at sines below 1/4: rounding dir moves the end by up to u |dir|.
+/// tmax is short_of_the_end. A surface that the far end lies on, if it is tilted against the axes,
+/// may still be met by segments that graze it at sines below 1/4: rounding dir moves the end by up
+/// to u |dir|.
 inline Ray segment(const Vec3d& from, const Vec3d& to) {
   Ray ray{from, vec_cast<float>(to - from)};
-  ray.tmax = static_cast<float>(1 - 4 * unit_roundoff);
+  ray.tmax = static_cast<float>(short_of_the_end);
   return ray;
 }
 

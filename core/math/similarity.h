@@ -4,6 +4,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/vec.h"
+#include "core/math/warp.h"
 
 namespace boule {
 
@@ -13,7 +14,7 @@ struct Similarity {
   double scale = 1;
   Vec3d shift;
 
-  /// R v: how a direction turns.
+  /// R v: a direction, turned.
   [[nodiscard]] Vec3d rotate(const Vec3d& v) const {
     return {dot(row_x, v), dot(row_y, v), dot(row_z, v)};
   }
@@ -30,14 +31,10 @@ inline Similarity compose(const Similarity& outer, const Similarity& inner) {
           outer.scale * inner.scale, outer.apply(inner.shift)};
 }
 
-/// Cosine and sine of an angle.
-struct Turn {
-  double cosine, sine;
-};
-
-/// Of an angle in degrees, the same bits on every machine; exact at multiples of 90. NaN where it
-/// is not finite.
-inline Turn turn_of(double degrees) {
+/// The cosine and sine of an angle in degrees, the same bits on every machine; exact at multiples
+/// of
+/// 90. NaN where it is not finite.
+inline Angle turn_of(double degrees) {
   double rest = std::fmod(degrees, 360.0);  // exact, as IEEE 754 wants it
   int quarters = 0;
   for (; rest > 45; rest -= 90) ++quarters;
@@ -58,8 +55,8 @@ inline Turn turn_of(double degrees) {
   }
 }
 
-/// Turns about x, then about y, then about z, the axes standing still; degrees, counter-clockwise
-/// seen from the axis' tip. R = Rz Ry Rx.
+/// The rotation about the x axis, then about y, then about z, axes that stay where they are. In
+/// degrees, counter-clockwise as seen from the axis' tip. R = Rz Ry Rx.
 inline Similarity rotation(const Vec3d& degrees) {
   const auto [cx, sx] = turn_of(degrees.x);
   const auto [cy, sy] = turn_of(degrees.y);

@@ -2,55 +2,62 @@
 
 #include <cstdint>
 
+#include "core/base/platform.h"
 #include "core/math/random.h"
 
 namespace boule {
 
-/// Two numbers in [0, 1).
-struct UnitPair {
-  double u, v;
+/// Two numbers in [0, 1), or two times W of them.
+template <class T>
+struct UnitPairOf {
+  T u, v;
 };
+using UnitPair = UnitPairOf<double>;
 
+/// Steps of sobol_point(), on digits of binary fractions: 32 of them in an integer, or in each of W
+/// integers.
 namespace detail {
 
-inline std::uint32_t reverse_bits(std::uint32_t x) {
-  x = (x << 24) | ((x & 0xff00U) << 8) | ((x >> 8) & 0xff00U) | (x >> 24);  // one instruction
-  x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
-  x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
-  return ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
+template <class T>
+BOULE_INLINE T reverse_bits(T x) {
+  x = (x << 16) | (x >> 16);
+  x = ((x & T(0x00ff00ffU)) << 8) | ((x >> 8) & T(0x00ff00ffU));
+  x = ((x & T(0x0f0f0f0fU)) << 4) | ((x >> 4) & T(0x0f0f0f0fU));
+  x = ((x & T(0x33333333U)) << 2) | ((x >> 2) & T(0x33333333U));
+  return ((x & T(0x55555555U)) << 1) | ((x >> 1) & T(0x55555555U));
 }
 
 /// Each bit flipped by a hash of the bits below it: Owen's scrambling of a fraction whose digits
 /// run from bit 0 on (Laine and Karras 2011; the constants are Vegdahl's, "Building a better LK
 /// hash", 2021, which leave less structure).
-inline std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
-  x ^= x * 0x3d20adeaU;
-  x += seed;
-  x *= (seed >> 16) | 1;
-  x ^= x * 0x05526c56U;
-  x ^= x * 0x53a22864U;
-  return x;
+template <class T>
+BOULE_INLINE T scramble(T x, T seed) {
+  x = x ^ x * T(0x3d20adeaU);
+  x = x + seed;
+  x = x * ((seed >> 16) | T(1U));
+  x = x ^ x * T(0x05526c56U);
+  return x ^ x * T(0x53a22864U);
 }
 
 /// Pascal's triangle modulo 2 times the bits of x: digits of the second Sobol dimension, the first
 /// in bit 0. A digit is the sum of the bits whose number contains its own (Lucas).
-inline std::uint32_t pascal(std::uint32_t x) {
-  x ^= (x >> 1) & 0x55555555U;
-  x ^= (x >> 2) & 0x33333333U;
-  x ^= (x >> 4) & 0x0f0f0f0fU;
-  x ^= (x >> 8) & 0x00ff00ffU;
+template <class T>
+BOULE_INLINE T pascal(T x) {
+  x = x ^ ((x >> 1) & T(0x55555555U));
+  x = x ^ ((x >> 2) & T(0x33333333U));
+  x = x ^ ((x >> 4) & T(0x0f0f0f0fU));
+  x = x ^ ((x >> 8) & T(0x00ff00ffU));
   return x ^ (x >> 16);
 }
 
 }  // namespace detail
 
-/// What the numbers of a sample are for: each has a set of its own; every bounce
-/// has some, from first_bounce on.
+/// What the numbers of a sample are for. Each use has a set of its own; those of the bounces are
+/// counted from first_bounce on.
 enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
 /// The seed of all random numbers of one pixel: different pixels, 0 <= x, y, and different seeds of
-/// pictures have different ones. Any key is as good as any other: 0 too, that of pixel (0, 0) under
-/// seed 0, whose first point lies at u = 0 as that of any other key lies somewhere.
+/// pictures have different ones. Any key is as good as any other, 0 too.
 class PixelKeys {
  public:
   explicit PixelKeys(std::uint64_t seed) : seed_(mix64(seed)) {}
@@ -64,9 +71,11 @@ class PixelKeys {
 };
 
 /// What a pixel's and a set's points are scrambled by.
-struct SobolSeeds {
-  std::uint32_t shuffle, u, v;
+template <class Integer>
+struct SobolSeedsOf {
+  Integer shuffle, u, v;
 };
+using SobolSeeds = SobolSeedsOf<std::uint32_t>;
 
 inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
   const std::uint64_t seeds = mix64(key + static_cast<std::uint64_t>(set) * golden_step);
@@ -75,13 +84,17 @@ inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
           static_cast<std::uint32_t>(more)};
 }
 
-/// simd/kernel/shading/sobol.h does the same W at a time.
-inline UnitPair sobol_point(const SobolSeeds& seeds, std::uint32_t sample) {
-  const std::uint32_t index =
+/// Point `sample` of the sequence that these seeds make: see sobol_pair(). The integers are
+/// std::uint32_t, or W of them at a time.
+template <class Integer>
+BOULE_INLINE auto sobol_point(const SobolSeedsOf<Integer>& seeds, Integer sample) {
+  const Integer index =
       detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), seeds.shuffle));
-  const auto u = detail::scramble(index, seeds.u);
-  const auto v = detail::scramble(detail::pascal(index), seeds.v);
-  return {unit_interval(detail::reverse_bits(u)), unit_interval(detail::reverse_bits(v))};
+  const Integer u = detail::scramble(index, seeds.u);
+  const Integer v = detail::scramble(detail::pascal(index), seeds.v);
+  using Number = decltype(unit_interval(u));
+  return UnitPairOf<Number>{unit_interval(detail::reverse_bits(u)),
+                            unit_interval(detail::reverse_bits(v))};
 }
 
 /// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel

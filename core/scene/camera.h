@@ -3,10 +3,7 @@
 #include <optional>
 #include <variant>
 
-#include "core/math/vec.h"
-#include "core/scene/camera_kind.h"
 #include "core/scene/camera_pose.h"
-#include "core/scene/distortion.h"
 #include "core/scene/lens.h"
 #include "core/scene/problem.h"
 
@@ -75,37 +72,6 @@ inline constexpr auto fields<ThinLensCamera> =
 
 using Camera =
     std::variant<PinholeCamera, OrthographicCamera, FisheyeCamera, ThinLensCamera, LensCamera>;
-
-/// From raster to film coordinates, one axis: film = (raster * scale + offset) / extent.
-struct RasterToFilm {
-  double scale, offset, extent;
-};
-
-struct LensOptics;
-
-/// A camera ready for an image of W x H square pixels.
-struct CameraBasis {
-  Vec3d eye;
-  Vec3d forward;  ///< L, unit length
-  Vec3d right;    ///< u times half the film's width
-  Vec3d up;       ///< v times half the film's height
-  CameraKind kind;
-  RasterToFilm film_x, film_y;
-  Vec3d lens_right, lens_up;  ///< thin lens: u and v times its radius
-  double inverse_focus;       ///< thin lens: 1 / distance of what is sharp
-  DistortionView distortion;
-  const LensOptics* optics;  ///< lens: who traces it lends it
-};
-
-/// The basis of a valid camera (find_problem()) for an image of `width` x `height` pixels, 1 or
-/// more, without distortion. Of others it may hold NaN: what comes of that are rays that miss.
-CameraBasis camera_basis(const Camera& camera, int width, int height);
-
-/// Raster (0, 0) is the top left corner of the picture, pixel (i, j) has its centre at
-/// (i + 0.5, j + 0.5); the film runs from -1 to 1 and its y grows upward. This is the one place
-/// where the picture is turned upside down (lecture "The image is upside down").
-inline RasterToFilm raster_to_film_x(int width) { return {2.0, -1.0 * width, 1.0 * width}; }
-inline RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1.0 * height}; }
 
 /// The first Problem of a camera: anything not finite, eye = look_at, up within 1e-6 rad of the
 /// view or zero, fov, height, film_width, scale, aperture or focus outside of what is said above, a

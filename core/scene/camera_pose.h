@@ -21,6 +21,9 @@ inline constexpr auto fields<CameraPose> =
                field("look_at", &CameraPose::look_at, rule::finite),
                field("up", &CameraPose::up, rule::direction));
 
+/// L; NaN where there is none.
+Vec3d view_direction(const CameraPose& pose);
+
 /// The distance of a point from the eye along L; negative behind it, NaN where there is no L.
 double depth_of(const CameraPose& pose, const Vec3f& point);
 

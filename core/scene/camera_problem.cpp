@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/scene/lens_optics.h"
+#include "core/optics/lens_optics.h"
 #include "core/scene/problem_finder.h"
 
 namespace boule {

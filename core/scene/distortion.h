@@ -23,12 +23,6 @@ inline constexpr auto fields<DistortionMap> = field_list(
     "distortion", field("size", &DistortionMap::width, &DistortionMap::height, rule::from_file),
     field("file", &DistortionMap::st, rule::from_file));
 
-/// The numbers of a DistortionMap that lives elsewhere; null: there is none.
-struct DistortionView {
-  const float* st = nullptr;
-  int width = 0, height = 0;
-};
-
 /// The first Problem of a map: fewer than 2 x 2 pixels, not two numbers for each, any not finite.
 std::optional<Problem> find_problem(const DistortionMap& map);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/math/geometry.h"
+#include "core/optics/camera_builder.h"
 
 namespace boule::cli {
 namespace {
@@ -15,9 +16,9 @@ struct Column {
 };
 
 /// The distance of a point from the eye along `axis`, times `scale`.
-Column along(const CameraBasis& basis, const Vec3d& axis, double scale) {
+Column along(const CameraView& view, const Vec3d& axis, double scale) {
   const Vec3d scaled = axis * scale;
-  return {scaled, -dot(basis.eye, scaled)};
+  return {scaled, -dot(view.eye, scaled)};
 }
 
 float finite_float(double x) {
@@ -39,15 +40,15 @@ MetadataMatrix matrix_of(const Column (&columns)[4]) {
 }  // namespace
 
 CameraMatrices camera_matrices(const Camera& camera, int width, int height) {
-  const CameraBasis basis = camera_basis(camera, width, height);
-  const double half_width = length(basis.right), half_height = length(basis.up);
-  const Vec3d u = basis.right * (1 / half_width), v = basis.up * (1 / half_height);
-  const Column z = along(basis, basis.forward, 1), one = {{}, 1};
-  const Column film_x = along(basis, u, 1 / half_width), film_y = along(basis, v, 1 / half_height);
-  CameraMatrices matrices{matrix_of({along(basis, u, 1), along(basis, v, 1), z, one}), {}};
-  if (basis.kind == CameraKind::parallel) {
+  const CameraView view = build_camera(camera, width, height);
+  const double half_width = length(view.right), half_height = length(view.up);
+  const Vec3d u = view.right * (1 / half_width), v = view.up * (1 / half_height);
+  const Column z = along(view, view.forward, 1), one = {{}, 1};
+  const Column film_x = along(view, u, 1 / half_width), film_y = along(view, v, 1 / half_height);
+  CameraMatrices matrices{matrix_of({along(view, u, 1), along(view, v, 1), z, one}), {}};
+  if (view.kind == CameraKind::orthographic) {
     matrices.world_to_screen = matrix_of({film_x, film_y, z, one});
-  } else if (basis.kind == CameraKind::perspective || basis.kind == CameraKind::thin_lens) {
+  } else if (view.kind == CameraKind::pinhole || view.kind == CameraKind::thin_lens) {
     matrices.world_to_screen = matrix_of({film_x, film_y, one, z});
   }
   return matrices;

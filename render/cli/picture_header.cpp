@@ -28,7 +28,7 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
                      {"boule:max_depth", std::to_string(options.max_depth)},
                      {"boule:seed", std::to_string(options.seed)},
                      {"boule:scene_hash", fmt::format("{:016x}", scene_hash)}};
-  const bool distorted = renderer.scene().camera_view.map != nullptr;
+  const bool distorted = renderer.scene().camera_view.distortion.st != nullptr;
   if (matrices.world_to_screen && !distorted)
     header.emplace_back("worldtoscreen", *matrices.world_to_screen);
   if (partial) {

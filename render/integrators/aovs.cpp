@@ -25,10 +25,7 @@ Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   const FlatMaterial& material = scene.material_of(hit.id);
   const Scatter weights = scatter(material, surface);
   const Vec3d& p = surface.point;
-  const auto& eye = scene.camera_view.eye;
-  const auto& forward = scene.camera_view.forward;
-  const double along =
-      dot(p - Vec3d{eye[0], eye[1], eye[2]}, Vec3d{forward[0], forward[1], forward[2]});
+  const double along = dot(p - scene.camera_view.eye, scene.camera_view.forward);
   return {.depth = finite_float(hit.t * length(vec_cast<double>(ray.dir))),
           .normal = vec_cast<float>(surface.normal),
           .position = {finite_float(p.x), finite_float(p.y), finite_float(p.z)},

@@ -172,7 +172,7 @@ bool Path::seek_environment(const PathStream& stream, const Point& point, UnitPa
 }
 
 void Path::seek_spheres(const PathStream& stream) {
-  kernels_.seek(seek_.view(seekers_.size()));
+  kernels_.sample_cones(seek_.view(seekers_.size()));
   const double sphere_share = 1 - environment_share_;
   for (std::size_t i = 0; i < seekers_.size(); ++i) {
     const auto& [point, light] = seekers_[i];
@@ -220,7 +220,7 @@ void Path::choose_ways(const PathStream& stream) {
     const LobeSampler::Choice& choice = choices_[i] = lobes.choose(numbers_.get(i));
     turns_.set(i, lobes.axis(choice), choice.from.cosine, choice.from.sine, choice.turns);
   }
-  kernels_.turn(turns_.view(points_.size()));
+  kernels_.to_world(turns_.view(points_.size()));
 }
 
 /// Roulette: what survives counts more by as much as others are lost.

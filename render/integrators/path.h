@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/light_cone.h"
+#include "core/math/light_cone.h"
 #include "core/math/sobol.h"
 #include "render/integrators/random_numbers.h"
 #include "render/integrators/stream_integrator.h"
@@ -91,9 +91,9 @@ class Path final : public StreamIntegrator {
   std::vector<Point> points_;
   RandomNumbers numbers_;  ///< by point
   std::vector<Seeker> seekers_;
-  SeekBuffer seek_;                           ///< by seeker
+  LightConeBuffer seek_;                      ///< by seeker
   std::vector<LobeSampler::Choice> choices_;  ///< by point
-  TurnBuffer turns_;                          ///< by point
+  LocalDirectionBuffer turns_;                ///< by point
 };
 
 }  // namespace boule

@@ -19,7 +19,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
 }
 
 void StreamIntegrator::use_light(const Light& light) {
-  lights_.push_back({&light, place_of(light)});
+  lights_.push_back({&light, shadow_target(light)});
 }
 
 bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {

@@ -77,7 +77,7 @@ class StreamIntegrator : public Integrator {
  private:
   struct PlacedLight {
     const Light* light;
-    LightPlace place;
+    ShadowTarget place;
   };
 
   void trace_stream(const PathStream& stream, Coherence coherence);

@@ -22,13 +22,13 @@ std::vector<FlatMaterial> flatten_all(const Scene& scene, Method method) {
 
 Coherence primary_coherence(CameraKind kind) {
   switch (kind) {
-    case CameraKind::parallel:
+    case CameraKind::orthographic:
       return Coherence::common_direction;
     case CameraKind::thin_lens:
     case CameraKind::lens:
       return Coherence::none;
-    case CameraKind::perspective:
-    case CameraKind::equidistant:
+    case CameraKind::pinhole:
+    case CameraKind::fisheye:
       break;
   }
   return Coherence::common_origin;
@@ -79,7 +79,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   EnvironmentLight environment = environment_light(scene, method);
   AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
   DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
-  LensStack lens = build_lens(*scene.camera, width, height);
+  LensOptics lens = build_lens(*scene.camera, width, height);
   // The view points to numbers in `distortion` and `lens`, which stay where they are when these
   // move.
   const CameraView view = build_camera(*scene.camera, width, height,

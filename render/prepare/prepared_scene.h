@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_view.h"
 #include "core/scene/scene.h"
 #include "core/surface.h"
 #include "render/prepare/area_lights.h"
 #include "render/prepare/environment_light.h"
 #include "render/prepare/flat_material.h"
-#include "simd/abi/camera.h"
 #include "simd/abi/isa.h"
-#include "simd/camera/camera_builder.h"
 #include "simd/geometry/geometry.h"
 
 namespace boule {
@@ -29,8 +29,8 @@ struct PreparedScene {
   Background background;
   EnvironmentLight environment;    ///< the background's image as a light, for path tracing
   Camera camera;                   ///< the scene's, or the default one
-  DistortionMap distortion;        ///< owns what camera_view.map points to
-  LensStack lens;                  ///< owns what camera_view.lens points to
+  DistortionMap distortion;        ///< owns what camera_view.distortion points to
+  LensOptics lens;                 ///< owns what camera_view.lens points to
   CameraView camera_view;          ///< the camera as the kernels read it
   Coherence coherence;             ///< what primary rays have in common
   Coherence central_coherence;     ///< what those through the centre of the lens have in common

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/scene/camera.h"
+#include "core/scene/distortion.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {

@@ -21,11 +21,11 @@ void Illumination::start(std::size_t rays) {
   if (materials_.size() < room) materials_.resize(room);
 }
 
-RayStream Illumination::aim(const KernelTable& kernels, const LightPlace& light,
+RayStream Illumination::aim(const KernelTable& kernels, const ShadowTarget& light,
                             StreamSurfaces& surfaces) {
   RayStream rays = shadow_rays_.view();
-  aimed_ = any_ ? kernels.aim(light, surfaces.lit(lit_.data(), size_),
-                              {rays, to_light_.view(), cosines_.data(), rays_.data()})
+  aimed_ = any_ ? kernels.make_shadow_rays(light, surfaces.lit(lit_.data(), size_),
+                                           {rays, to_light_.view(), cosines_.data(), rays_.data()})
                 : 0;
   rays.size = aimed_;
   return rays;

@@ -30,7 +30,7 @@ class Illumination {
 
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
   /// call. All points are found in `surfaces`.
-  RayStream aim(const KernelTable& kernels, const LightPlace& light, StreamSurfaces& surfaces);
+  RayStream aim(const KernelTable& kernels, const ShadowTarget& light, StreamSurfaces& surfaces);
 
   /// Adds what arrives of the light that was aimed at last to radiance[ray], for every shadow ray k
   /// whose blocked[k] is 0.

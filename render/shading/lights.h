@@ -22,8 +22,8 @@ inline Color intensity_at(const SphereLight& light, const Vec3d& point) {
 }
 inline Color intensity_at(const DirectionalLight& light, const Vec3d&) { return light.intensity; }
 
-/// Where a light is, for shadow rays of many points at once.
-LightPlace place_of(const Light& light);
+/// What shadow rays of many points to a light go to.
+ShadowTarget shadow_target(const Light& light);
 
 /// What a light's shadow rays have in common.
 Coherence shadow_coherence(const Light& light);

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/abi/camera.h"
+#include "core/optics/camera_view.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/isa.h"
 #include "simd/abi/shading.h"
@@ -49,12 +49,13 @@ struct KernelTable {
                         const SurfaceStream& surfaces);
 
   /// Makes the shadow rays of all lit points that face the light, in their order. How many.
-  std::size_t (*aim)(const LightPlace& light, const LitStream& points, const AimedStream& aimed);
+  std::size_t (*make_shadow_rays)(const ShadowTarget& light, const LitStream& points,
+                                  const ShadowRayStream& shadows);
 
-  /// Random numbers, directions by them, and spheres sought by them: see the streams.
+  /// Random numbers, and directions by them: see the streams.
   void (*sobol_points)(const SobolStream& points);
-  void (*turn)(const TurnStream& turns);
-  void (*seek)(const SeekStream& seekers);
+  void (*to_world)(const LocalDirectionStream& directions);
+  void (*sample_cones)(const LightConeStream& cones);
 };
 
 }  // namespace boule

@@ -39,11 +39,11 @@ struct SurfaceStream {
   std::uint8_t* inside;  ///< 1: rays leave on the inside of a sphere
 };
 
-/// A light that shines from one point, or from one direction.
-struct LightPlace {
+/// What shadow rays go to: one point, or one direction.
+struct ShadowTarget {
   bool directional;
-  double place[3];  ///< its point; the unit direction to it, where it is directional
-  float way[3];     ///< the direction of shadow rays, where it is directional
+  double target[3];  ///< the point; where it is directional, the unit direction to the light
+  float dir[3];      ///< of the shadow rays, where it is directional
 };
 
 /// Points on which light may fall: of a SurfaceStream. Arrays are padded with points that are not
@@ -58,16 +58,17 @@ struct LitStream {
   std::size_t size;
 };
 
-/// Shadow rays to a light, one after the other, each with its point's number, the unit direction to
-/// the light and n.l. Arrays have room for all points, padded; rays.size does not count.
-struct AimedStream {
+/// Shadow rays to a light, one after the other, each with the index of its point, the unit
+/// direction to the light and n.l. Arrays have room for all points, padded; rays.size does not
+/// count.
+struct ShadowRayStream {
   RayStream rays;
   VectorStream to_light;
   double* cosine;
   std::uint32_t* point;
 };
 
-/// Places in Sobol's sequence by sample and seeds, as core/math/sobol.h has them. Arrays as in
+/// Points of Sobol's sequence by sample and seeds: sobol_point() of core/math/sobol.h. Arrays as in
 /// RayStream.
 struct SobolStream {
   const std::uint32_t* sample;
@@ -79,9 +80,10 @@ struct SobolStream {
   std::size_t size;
 };
 
-/// Directions at an angle from an axis, given by its cosine and sine, and so many turns around it,
-/// 0 <= turns <= 1: direction_about() of core/math/warp.h. Arrays as in RayStream.
-struct TurnStream {
+/// Directions in a local frame, to be turned into the world's: at an angle from the frame's axis,
+/// given by its cosine and sine, and so many turns around it, 0 <= turns <= 1. direction_about() of
+/// core/math/warp.h. Arrays as in RayStream.
+struct LocalDirectionStream {
   VectorStream axis;
   const double* cosine;
   const double* sine;
@@ -90,9 +92,9 @@ struct TurnStream {
   std::size_t size;
 };
 
-/// Spheres that are sought from points, each in a direction by two numbers: a LightCone
-/// (core/light_cone.h). Arrays as in RayStream.
-struct SeekStream {
+/// Spheres whose light is sampled from points, each in a direction by two numbers: LightCone of
+/// core/math/light_cone.h. Arrays as in RayStream.
+struct LightConeStream {
   VectorStream org;
   VectorStream center;
   const double* radius;
@@ -100,7 +102,7 @@ struct SeekStream {
   const double* v;
   VectorStream direction;  ///< written: unit length; anything where the density is 0
   double* density;         ///< written
-  float* tmax;             ///< written: of the shadow ray that way
+  float* tmax;             ///< written: of the shadow ray in that direction
   std::size_t size;
 };
 

@@ -28,8 +28,8 @@ std::string_view isa_name(Isa isa);
 /// an error, which lists the names that would do. Throws std::bad_alloc.
 Result<const KernelTable*> select_kernels(std::string_view name);
 
-/// The scalar reference path as a table: core/reference answers every query. Its primary_rays,
-/// closest_hit and any_hit copy the geometry and throw std::bad_alloc.
+/// The reference path as a table: core/reference answers closest_hit and any_hit, which copy the
+/// geometry and throw std::bad_alloc. The rest are the kernels of ISA scalar.
 const KernelTable& reference_kernels();
 
 }  // namespace boule

@@ -10,10 +10,9 @@
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/scattered_stream.h"
-#include "simd/kernel/shading/aim.h"
-#include "simd/kernel/shading/sobol.h"
+#include "simd/kernel/shading/directions.h"
+#include "simd/kernel/shading/shadow_rays.h"
 #include "simd/kernel/shading/surfaces.h"
-#include "simd/kernel/shading/warp.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -72,14 +71,14 @@ void surfaces_of_hits(const GeometryView& geometry, const SphereRows& spheres,
   find_surfaces(geometry, spheres, rays, hits, surfaces);
 }
 
-std::size_t shadow_rays(const LightPlace& light, const LitStream& points,
-                        const AimedStream& aimed) {
-  return aim(light, points, aimed);
+std::size_t shadow_rays(const ShadowTarget& light, const LitStream& points,
+                        const ShadowRayStream& shadows) {
+  return make_shadow_rays(light, points, shadows);
 }
 
 void numbers(const SobolStream& points) { sobol_points(points); }
-void directions(const TurnStream& turns) { turn(turns); }
-void light_cones(const SeekStream& seekers) { seek(seekers); }
+void directions(const LocalDirectionStream& local) { to_world(local); }
+void light_cones(const LightConeStream& cones) { sample_cones(cones); }
 
 }  // namespace
 

@@ -9,8 +9,6 @@
 /// Vectors of doubles in lanes.
 namespace boule::BOULE_KERNEL_ISA {
 
-BOULE_INLINE Vec3<Wide> unit(const Vec3<Wide>& v) { return v * (Wide(1.0) / sqrt(dot(v, v))); }
-
 BOULE_INLINE void store(const VectorStream& vectors, std::size_t first, const Vec3<Wide>& v) {
   store(vectors.x + first, v.x);
   store(vectors.y + first, v.y);
@@ -26,7 +24,4 @@ BOULE_INLINE void store_chosen(const VectorStream& vectors, std::size_t first, c
   store_chosen(vectors.z + first, v.z, chosen);
 }
 
-BOULE_INLINE Vec3<Wide> select(const WideMask& m, const Vec3<Wide>& a, const Vec3<Wide>& b) {
-  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
-}
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/math/ray.h"
-#include "simd/abi/camera.h"
+#include "core/optics/camera_view.h"
 #include "simd/abi/shading.h"
 #include "simd/abi/stream.h"
 #include "simd/stream/aligned_array.h"
@@ -106,8 +106,8 @@ class VectorBuffer {
   AlignedArray<double> x_, y_, z_;
 };
 
-/// Memory for a TurnStream, likewise.
-class TurnBuffer {
+/// Memory for a LocalDirectionStream, likewise.
+class LocalDirectionBuffer {
  public:
   void resize(std::size_t size) {
     vectors_.resize(size);
@@ -122,7 +122,7 @@ class TurnBuffer {
   /// What the kernels made of axis i.
   [[nodiscard]] Vec3d direction(std::size_t i) const { return vectors_.get(i); }
   /// The first `size`; directions take their axes' places.
-  TurnStream view(std::size_t size) {
+  LocalDirectionStream view(std::size_t size) {
     return {vectors_.view(), cosine_.data(), sine_.data(), turns_.data(), vectors_.view(), size};
   }
 
@@ -131,8 +131,8 @@ class TurnBuffer {
   AlignedArray<double> cosine_, sine_, turns_;
 };
 
-/// Memory for a SeekStream, likewise.
-class SeekBuffer {
+/// Memory for a LightConeStream, likewise.
+class LightConeBuffer {
  public:
   void resize(std::size_t size) {
     org_.resize(size);
@@ -152,7 +152,7 @@ class SeekBuffer {
   [[nodiscard]] double density(std::size_t i) const { return density_[i]; }
   [[nodiscard]] float tmax(std::size_t i) const { return tmax_[i]; }
   /// The first `size`; directions take the centres' places.
-  SeekStream view(std::size_t size) {
+  LightConeStream view(std::size_t size) {
     return {org_.view(),    center_.view(),  radius_.data(), u_.data(), v_.data(),
             center_.view(), density_.data(), tmax_.data(),   size};
   }

@@ -7,16 +7,19 @@ BEGIN {
   plain_std = "^<[a-z_0-9]+>$"
   # The standard headers without containers, strings, streams and calls into other objects.
   kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
-  kernel_core = "^core/(base/platform|math/vec|math/elementary)\\.h$"
-  narrow = "^(core|simd/(abi|camera|geometry|stream|dispatch))/"
+  # Formulas, each a template that scalar code and kernels share: always inlined, and headers only,
+  # or a kernel would call code that was compiled for another instruction set.
+  formulas = "^core/(base/platform|math/(elementary|geometry|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|film_point|incidence|lens_disc|lens_rays|lens_view))\\.h$"
+  narrow = "^(core|simd/(abi|geometry|stream|dispatch))/"
 
+  layer(formulas, formulas, kernel_std)
   layer("^core/", "^core/", plain_std)
-  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|scene/camera_kind)\\.h$)", kernel_std)
-  layer("^simd/(camera|geometry|stream)/", "^(core|simd/(abi|camera|geometry|stream))/", plain_std)
-  layer("^simd/lanes/", kernel_core "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
-  layer("^simd/kernel/", kernel_core "|^simd/(abi|lanes|kernel)/", kernel_std)
+  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/vec|optics/(camera|lens)_view)\\.h$)", kernel_std)
+  layer("^simd/(geometry|stream)/", "^(core|simd/(abi|geometry|stream))/", plain_std)
+  layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
+  layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/include/", "^(core|simd/(abi|camera|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
+  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
   # Scenes name pictures: their reader returns plain numbers, which core can hold.
   layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)

@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/light_cone.h"
 #include "core/math/geometry.h"
+#include "core/math/light_cone.h"
 #include "core/math/monotone_cubic.h"
 #include "core/math/similarity.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
+#include "core/optics/lens_optics.h"
 #include "core/reference.h"
 #include "core/scene/group.h"
-#include "core/scene/lens_optics.h"
 #include "core/scene/scene.h"
 #include "core/surface.h"
 
@@ -87,11 +89,20 @@ TEST(BadInput, ALensThatIsNoneEndsAllRays) {
     EXPECT_TRUE(find_problem(Camera{camera})) << fault.name;
     const LensOptics optics = make_optics(camera, 64, 48);
     ASSERT_FALSE(optics.pupil.empty()) << fault.name;
-    CameraBasis basis = camera_basis(camera, 64, 48);
-    basis.optics = &optics;
-    const auto made = reference::camera_ray(basis, {32.5, 24.5});
+    const CameraView view = build_camera(camera, 64, 48, nullptr, &optics);
+    const CameraRay made = camera_ray(view, {{32.5, 24.5}});
     EXPECT_EQ(made.weight, 0) << fault.name;
   }
+}
+
+TEST(BadInput, ALensThatWasMovedAwayHasNoView) {
+  LensOptics first = make_optics(lens(), 64, 48, 2);
+  const LensElement* const elements = first.view().elements;
+  const LensOptics second = std::move(first);
+  EXPECT_EQ(second.view().elements, elements);  // the numbers stay where they are
+  EXPECT_EQ(second.view().element_count, 2);
+  EXPECT_EQ(first.view().element_count, 0);  // NOLINT: that is the test
+  EXPECT_EQ(first.view().ring_count, 0);     // NOLINT
 }
 
 /// Every camera with each of its numbers spoilt in turn.
@@ -119,9 +130,9 @@ TEST(BadInput, RaysOfSpoiltCamerasMissOrAreRays) {
   int spoilt = 0;
   for (const Camera& camera : spoilt_cameras()) {
     for (const auto& [width, height] : {std::pair{64, 48}, {0, 48}, {64, -1}}) {
-      const CameraBasis basis = camera_basis(camera, width, height);
+      const CameraView view = build_camera(camera, width, height);
       for (const double x : {32.5, nan, inf, -1e300}) {
-        const Ray ray = reference::camera_ray(basis, {x, 24.5}).ray;
+        const Ray ray = primary_ray(view, x, 24.5);
         if (is_finite(ray.org) && is_finite(ray.dir)) continue;
         ++spoilt;
         EXPECT_EQ(reference::closest_hit(ray, spheres, {}).id, no_primitive);
@@ -140,7 +151,7 @@ TEST(BadInput, EnumeratorsWithoutANameCountAsOthers) {
   scene.camera = camera;
   scene.lights = {PointLight{{}, {1, 1, 1}, static_cast<Falloff>(9)}};
   EXPECT_FALSE(validate(scene));
-  EXPECT_TRUE(is_finite(camera_basis(camera, 4, 3).right));
+  EXPECT_TRUE(is_finite(build_camera(camera, 4, 3).right));
 }
 
 TEST(BadInput, NothingIsSeenOfASphereThatIsNone) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/geometry.h"
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
 

@@ -2,7 +2,7 @@
 // bit.
 #include <cmath>
 
-#include "core/light_cone.h"
+#include "core/math/light_cone.h"
 #include "core/math/sobol.h"
 #include "core/math/warp.h"
 #include "tests/support/case_random.h"
@@ -48,7 +48,7 @@ TEST_P(Directions, SobolPointsEqualTheScalarPath) {
 
 TEST_P(Directions, TurnsEqualTheScalarPath) {
   CaseRandom random(5);
-  TurnBuffer turns;
+  LocalDirectionBuffer turns;
   turns.resize(count);
   std::vector<Vec3d> expected;
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ TEST_P(Directions, TurnsEqualTheScalarPath) {
     turns.set(i, axis, from.cosine, from.sine, around);
     expected.push_back(direction_about(axis, from, around));
   }
-  kernels->turn(turns.view(count));
+  kernels->to_world(turns.view(count));
   for (std::size_t i = 0; i < count && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     expect_same(turns.direction(i), expected[i]);
@@ -68,7 +68,7 @@ TEST_P(Directions, TurnsEqualTheScalarPath) {
 
 TEST_P(Directions, SoughtSpheresEqualTheScalarPath) {
   CaseRandom random(7);
-  SeekBuffer seek;
+  LightConeBuffer seek;
   seek.resize(count);
   struct Expected {
     Vec3d direction;
@@ -89,9 +89,10 @@ TEST_P(Directions, SoughtSpheresEqualTheScalarPath) {
     seek.set(i, org, center, radius, numbers.u, numbers.v);
     const LightCone cone(org, center, radius);
     const Vec3d direction = cone.direction(numbers);
-    expected.push_back({direction, cone.density(), cone.way(direction).tmax});
+    expected.push_back(
+        {direction, cone.density(), static_cast<float>(cone.free_distance(direction))});
   }
-  kernels->seek(seek.view(count));
+  kernels->sample_cones(seek.view(count));
   std::size_t seen = 0;
   for (std::size_t i = 0; i < count && !HasFailure(); ++i) {
     SCOPED_TRACE(i);

@@ -1,7 +1,7 @@
 // The same bits on every machine: one number over all inputs and one over all answers, held against
 // constants that were measured once. Every kernel table, compiler and processor must find them.
 #include "core/math/elementary.h"
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "tests/support/bit_hash.h"
 #include "tests/support/camera_samples.h"
 #include "tests/support/case_random.h"

@@ -9,7 +9,7 @@
 
 #include "core/base/float_environment.h"
 #include "core/math/geometry.h"
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/odd_float_environment.h"
@@ -71,10 +71,10 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
     kernels->find_surfaces(view, {}, rays, {}, {});
   }
   kernels->primary_rays(build_camera(PinholeCamera{}, 4, 3), {}, rays);
-  EXPECT_EQ(kernels->aim({}, {}, {}), 0U);
+  EXPECT_EQ(kernels->make_shadow_rays({}, {}, {}), 0U);
   kernels->sobol_points({});
-  kernels->turn({});
-  kernels->seek({});
+  kernels->to_world({});
+  kernels->sample_cones({});
 }
 
 TEST_P(KernelBadInput, EnumeratorsWithoutANameAreRobustAndAutomatic) {
@@ -164,7 +164,7 @@ TEST_P(KernelBadInput, RaysOfOddCamerasMissOrAreRays) {
 
 TEST_P(KernelBadInput, LightsAndSpheresThatAreNoneGiveNothing) {
   constexpr std::size_t count = 20;
-  SeekBuffer seek;
+  LightConeBuffer seek;
   seek.resize(count);
   const double odd[] = {double{nan}, double{inf}, 0};
   for (std::size_t i = 0; i < count; ++i) {
@@ -172,7 +172,7 @@ TEST_P(KernelBadInput, LightsAndSpheresThatAreNoneGiveNothing) {
     if (i % 2 == 0) seek.set(i, {0, 0, 5}, {0, 0, 0}, bad, 0.5, 0.5);
     if (i % 2 == 1) seek.set(i, {0, 0, i % 3 == 2 ? 0 : bad}, {0, 0, 0}, 1, 0.5, 0.5);
   }
-  kernels->seek(seek.view(count));
+  kernels->sample_cones(seek.view(count));
   for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(seek.density(i), 0) << i;
 }
 

@@ -1,6 +1,7 @@
 // Hit points, normals and shadow rays of every kernel table against the scalar path, bit for bit.
 #include <optional>
 
+#include "core/math/geometry.h"
 #include "core/surface.h"
 #include "tests/support/expect_same.h"
 #include "tests/support/hard_case_runs.h"
@@ -27,15 +28,15 @@ struct SurfaceArrays {
   }
 };
 
-/// Memory for an AimedStream.
-struct AimedArrays {
+/// Memory for a ShadowRayStream.
+struct ShadowRayArrays {
   RayBuffer rays{ray_count};
   VectorBuffer to_light;
   AlignedArray<double> cosine{ray_count};
   AlignedArray<std::uint32_t> point{ray_count};
 
-  AimedArrays() { to_light.resize(ray_count); }
-  AimedStream stream() { return {rays.view(), to_light.view(), cosine.data(), point.data()}; }
+  ShadowRayArrays() { to_light.resize(ray_count); }
+  ShadowRayStream stream() { return {rays.view(), to_light.view(), cosine.data(), point.data()}; }
 };
 
 void expect_same_ray(const Ray& a, const Ray& b) {
@@ -45,6 +46,18 @@ void expect_same_ray(const Ray& a, const Ray& b) {
   EXPECT_EQ(a.tmax, b.tmax);
   EXPECT_EQ(a.source, b.source);
   EXPECT_EQ(a.inside, b.inside);
+}
+
+Vec3d point_of(const ShadowTarget& light) {
+  return {light.target[0], light.target[1], light.target[2]};
+}
+Vec3d direction_to(const ShadowTarget& light, const Vec3d& point) {
+  return light.directional ? point_of(light) : normalize(point_of(light) - point);
+}
+Ray shadow_ray(const ShadowTarget& light, const Surface& surface) {
+  if (!light.directional) return shadow_ray_to(surface, point_of(light));
+  const Departure departure = depart(surface, Side::viewer);
+  return from_surface({departure.org, {light.dir[0], light.dir[1], light.dir[2]}}, departure);
 }
 
 /// A hard case's surfaces, and what any table needs to find them.
@@ -114,20 +127,28 @@ TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
                          lit.data(),
                          ray_count};
   const Vec3d eye = hard_case.rays[0].org;
-  for (const LightPlace& light :
-       {LightPlace{false, {eye.x, eye.y, eye.z}, {}}, LightPlace{false, {3, 70, -20}, {}},
-        LightPlace{true, {0.6, 0, -0.8}, {6, 0, -8}}}) {
-    AimedArrays wide, scalar;
-    const std::size_t count = kernels->aim(light, points, wide.stream());
-    ASSERT_EQ(reference_kernels().aim(light, points, scalar.stream()), count);
-    for (std::size_t k = 0; k < count && !HasFailure(); ++k) {
-      SCOPED_TRACE(k);
-      expect_same_ray(wide.rays.get(k), scalar.rays.get(k));
-      expect_same(wide.to_light.get(k), scalar.to_light.get(k));
-      expect_same(wide.cosine[k], scalar.cosine[k]);
-      EXPECT_EQ(wide.point[k], scalar.point[k]);
-      EXPECT_EQ(lit[wide.point[k]], 1);
+  for (const ShadowTarget& light :
+       {ShadowTarget{false, {eye.x, eye.y, eye.z}, {}}, ShadowTarget{false, {3, 70, -20}, {}},
+        ShadowTarget{true, {0.6, 0, -0.8}, {6, 0, -8}}}) {
+    ShadowRayArrays wide;
+    const std::size_t count = kernels->make_shadow_rays(light, points, wide.stream());
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < ray_count && !HasFailure(); ++i) {
+      if (lit[i] == 0) continue;
+      const Surface surface =
+          find_surface(hard_case.spheres, hard_case.planes, rays.get(i), hits.get(i));
+      const Vec3d to_light = direction_to(light, surface.point);
+      const double cosine = dot(surface.normal, to_light);
+      if (!(cosine > 0)) continue;
+      SCOPED_TRACE(i);
+      ASSERT_LT(k, count);
+      expect_same_ray(wide.rays.get(k), shadow_ray(light, surface));
+      expect_same(wide.to_light.get(k), to_light);
+      expect_same(wide.cosine[k], cosine);
+      EXPECT_EQ(wide.point[k], i);
+      ++k;
     }
+    EXPECT_EQ(k, count);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "core/reference.h"
 #include "render/renderer/renderer.h"
 #include "tests/support/whitted_oracle.h"
@@ -45,8 +47,8 @@ inline int differing_pixels(const Image& a, const Image& b) {
 
 /// The oracle's colour of the centre of pixel (x, y).
 inline Rgb oracle_pixel(const Scene& scene, int x, int y) {
-  const CameraBasis basis = camera_basis(*scene.camera, scene.image.width, scene.image.height);
-  const Ray ray = reference::primary_ray(basis, x + 0.5, y + 0.5);
+  const CameraView view = build_camera(*scene.camera, scene.image.width, scene.image.height);
+  const Ray ray = primary_ray(view, x + 0.5, y + 0.5);
   return WhittedOracle(scene).trace(ray, scene.render.max_depth);
 }
 

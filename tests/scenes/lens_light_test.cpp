@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/math/sobol.h"
-#include "core/scene/lens_optics.h"
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/lens_optics.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/scenes/shipped_lens.h"
 #include "tests/support/kernel_runs.h"
@@ -43,8 +43,7 @@ constexpr int apertures = 100, width = 301, height = 225;
 
 /// What a picture shows of a white world in its middle: the mean of so many samples.
 double picture_of(const LensCamera& camera, const LensOptics& optics, std::size_t many) {
-  const LensStack lens(optics);
-  const CameraView view = build_camera(camera, width, height, nullptr, &lens);
+  const CameraView view = build_camera(camera, width, height, nullptr, &optics);
   SampleBuffer samples;
   samples.resize(many, view);
   for (std::size_t i = 0; i < many; ++i) {
@@ -111,8 +110,7 @@ TEST_P(LensLight, ItsMiddleIsOnTheAxisAndMovesWithoutSteps) {
     for (std::size_t i = 1; i < optics.pupil.size(); ++i) {
       EXPECT_NEAR(middle_of(optics.pupil[i - 1].outer), middle_of(optics.pupil[i].inner), 1e-12);
     }
-    const LensStack lens(optics);
-    const CameraView view = build_camera(camera, width, height, nullptr, &lens);
+    const CameraView view = build_camera(camera, width, height, nullptr, &optics);
     SampleBuffer samples;
     samples.resize(1, view);  // in the lens' centre
     samples.set(0, width / 2.0, height / 2.0);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "simd/camera/camera_builder.h"
+#include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/bvh_builder.h"
 #include "simd/geometry/geometry.h"
@@ -104,34 +104,6 @@ TEST(BadInput, NamesThatNoIsaHasAreRefused) {
     EXPECT_LT(kernels.error().message.size(), 200U);
   }
   EXPECT_EQ(isa_name(static_cast<Isa>(99)), "");
-}
-
-/// Its copies would point into the original; that is no way to be copied.
-static_assert(!std::is_copy_constructible_v<LensStack> && !std::is_copy_assignable_v<LensStack>);
-static_assert(std::is_nothrow_move_constructible_v<LensStack>);
-
-TEST(BadInput, ALensMovesWithItsNumbers) {
-  const LensCamera camera{
-      {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}}, {{50, 5, 1.5f, 20}, {-50, 0, 1, 20}}, 36, 0.01f, {}};
-  LensStack first = build_lens(camera, 64, 48);
-  const double radius = first.view.elements[0].radius;
-  const LensStack second = std::move(first);
-  first = LensStack();
-  EXPECT_EQ(second.view.elements, second.elements.data());
-  EXPECT_EQ(second.view.elements[0].radius, radius);
-}
-
-/// A view that stayed behind would be of memory that another owns, and gives back.
-TEST(BadInput, ALensThatWasMovedAwayIsEmpty) {
-  const LensCamera camera{
-      {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}}, {{50, 5, 1.5f, 20}, {-50, 0, 1, 20}}, 36, 0.01f, {}};
-  LensStack first = build_lens(camera, 64, 48), third = build_lens(camera, 32, 24);
-  LensStack second = std::move(first);
-  EXPECT_EQ(first.view.elements, nullptr);  // NOLINT: that is the test, here and below
-  third = std::move(second);
-  EXPECT_EQ(second.view.elements, nullptr);
-  EXPECT_TRUE(second.elements.empty() && second.pupil.empty());
-  EXPECT_EQ(third.view.elements, third.elements.data());
 }
 
 }  // namespace

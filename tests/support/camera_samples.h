@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/optics/camera_ray.h"
 #include "core/scene/distortion.h"
 #include "simd/stream/stream_buffer.h"
 #include "tests/support/case_random.h"
@@ -25,6 +26,14 @@ inline SampleBuffer random_samples(const CameraView& camera, std::size_t count, 
     samples.set_lens(i, lens_x, lens_y);
   }
   return samples;
+}
+
+/// Sample i as the scalar path takes it.
+inline CameraSample sample_of(SampleBuffer& samples, const CameraView& camera, std::size_t i) {
+  const SampleStream at = samples.view();
+  CameraSample sample{{at.raster_x[i], at.raster_y[i]}};
+  if (has_lens(camera.kind)) sample.lens_x = at.lens_x[i], sample.lens_y = at.lens_y[i];
+  return sample;
 }
 
 /// An ST map that moves points by up to `most` of the frame, its own rim included.

@@ -4,6 +4,8 @@
 
 #include "core/math/geometry.h"
 #include "core/math/sobol.h"
+#include "tests/support/case_random.h"
+#include "tests/support/long_double_formulas.h"
 
 namespace boule {
 namespace {
@@ -14,6 +16,21 @@ TEST(Warp, TurnsAreAnglesToFullPrecision) {
     const Angle angle = full_turns(turns);
     EXPECT_NEAR(angle.cosine, std::cos(2 * elementary::pi * turns), 1e-15) << turns;
     EXPECT_NEAR(angle.sine, std::sin(2 * elementary::pi * turns), 1e-15) << turns;
+  }
+}
+
+TEST(Warp, DirectionsEqualLongDouble) {
+  test::CaseRandom random(44);
+  for (int i = 0; i < 200000; ++i) {
+    const Vec3d poles[] = {{0, 0, 1}, {0, 0, -1}, {1, 0, -0.0}, {0, 1, 0}};
+    const Vec3d axis = i % 7 == 0 ? poles[i % 4] : random.direction();
+    const double u = i % 5 == 0 ? 0 : random.uniform();
+    const double turns = random.uniform();
+    const Angle from = warp_to_cosine(u);
+    const Vec3d direction = direction_about(axis, from, turns);
+    const test::Vec3l wanted = test::direction_about_l(
+        axis, std::asin(std::sqrt(static_cast<long double>(u))), 2 * test::pi_l * turns);
+    ASSERT_LE(test::length(vec_cast<long double>(direction) - wanted), 1e-15L) << i;
   }
 }
 
@@ -34,7 +51,7 @@ TEST(Warp, DirectionsLieAsFarFromTheAxisAsAsked) {
     const auto [a, b] = sobol_pair(1, RandomSet::film, i);
     const Vec3d axis = direction_about({0, 0, i % 2 == 0 ? 1.0 : -1.0}, warp_to_cone(a, 1.5), b);
     EXPECT_NEAR(length(axis), 1, 1e-14);
-    const Angle from = warp_to_cone(b, 2);
+    const Angle from = warp_to_cone(b, 2.0);
     const Vec3d direction = direction_about(axis, from, a);
     EXPECT_NEAR(dot(axis, direction), from.cosine, 1e-14);
     EXPECT_NEAR(length(direction), 1, 1e-14);
@@ -70,7 +87,7 @@ TEST(Warp, SamplesFollowTheirDensities) {
 
 TEST(Warp, NarrowConesKeepTheirShape) {
   for (const double height : {1e-10, 1e-16, 1e-30}) {
-    const Angle edge = warp_to_cone(1, height);
+    const Angle edge = warp_to_cone(1.0, height);
     EXPECT_NEAR(edge.sine / std::sqrt(2 * height), 1, 1e-9);
   }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "render/integrators/path.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
@@ -24,7 +26,7 @@ std::vector<Color> path_means(const Scene& scene, LightSampling search, std::uin
   settings.light_sampling = search;
   settings.seed = seed;
   Path path(prepared, *select_kernels("auto").value(), settings);
-  const CameraBasis basis = camera_basis(*scene.camera, width, height);
+  const CameraView view = build_camera(*scene.camera, width, height);
   const auto pixels = static_cast<std::size_t>(width * height);
   RayBuffer rays(pixels);
   std::vector<SampleId> ids(pixels);
@@ -34,7 +36,7 @@ std::vector<Color> path_means(const Scene& scene, LightSampling search, std::uin
     for (std::size_t k = 0; k < pixels; ++k) {
       const int x = static_cast<int>(k) % width, y = static_cast<int>(k) / width;
       ids[k] = {x, y, sample};
-      rays.set(k, reference::primary_ray(basis, x + 0.5, y + 0.5));
+      rays.set(k, primary_ray(view, x + 0.5, y + 0.5));
     }
     EXPECT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
     for (std::size_t k = 0; k < pixels; ++k) {

@@ -6,6 +6,8 @@
 
 #include "core/math/geometry.h"
 #include "core/math/warp.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
@@ -316,13 +318,12 @@ TEST(Path, NorDoTheyInAnEnvironment) {
 TEST(Path, StreamSizeNeverShows) {
   const Scene scene = path_scene(24, 18);
   const PreparedScene prepared = prepare(scene, 24, 18, serial_for, Method::path).value();
-  const CameraBasis basis = camera_basis(*scene.camera, 24, 18);
+  const CameraView view = build_camera(*scene.camera, 24, 18);
   RayBuffer rays(24 * 18);
   std::vector<SampleId> ids;
   for (int i = 0; i < 24 * 18; ++i) {
     ids.push_back({i % 24, i / 24, 3});
-    rays.set(static_cast<std::size_t>(i),
-             reference::primary_ray(basis, i % 24 + 0.5, i / 24 + 0.5));
+    rays.set(static_cast<std::size_t>(i), primary_ray(view, i % 24 + 0.5, i / 24 + 0.5));
   }
   const auto traced = [&](std::size_t stream_size) {
     IntegratorSettings settings;

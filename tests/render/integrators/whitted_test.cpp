@@ -1,4 +1,6 @@
 #include "render/integrators/whitted.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -200,11 +202,11 @@ TEST(Whitted, WhatOverflowsIsTheLargestFloatAndNeverNan) {
 
 /// Camera rays of every pixel of a scene, in rows.
 std::vector<Ray> camera_rays(const Scene& scene) {
-  const CameraBasis basis = camera_basis(*scene.camera, scene.image.width, scene.image.height);
+  const CameraView view = build_camera(*scene.camera, scene.image.width, scene.image.height);
   std::vector<Ray> rays;
   for (int y = 0; y < scene.image.height; ++y) {
     for (int x = 0; x < scene.image.width; ++x) {
-      rays.push_back(reference::primary_ray(basis, x + 0.5, y + 0.5));
+      rays.push_back(primary_ray(view, x + 0.5, y + 0.5));
     }
   }
   return rays;

@@ -1,4 +1,6 @@
 #include "render/prepare/prepared_scene.h"
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -21,11 +23,11 @@ constexpr Size sizes[] = {{64, 64}, {96, 32}, {20, 90}};
 void expect_framed(const Scene& scene, Size size) {
   const Camera camera = default_camera(scene, size.width, size.height);
   ASSERT_FALSE(find_problem(camera));
-  const CameraBasis basis = camera_basis(camera, size.width, size.height);
+  const CameraView view = build_camera(camera, size.width, size.height);
   for (const Sphere& s : scene.spheres) {
-    const Vec3d way = vec_cast<double>(s.center) - basis.eye;
-    const double depth = dot(way, basis.forward);
-    for (const Vec3d& axis : {basis.right, basis.up}) {
+    const Vec3d way = vec_cast<double>(s.center) - view.eye;
+    const double depth = dot(way, view.forward);
+    for (const Vec3d& axis : {view.right, view.up}) {
       const double off = std::atan2(std::fabs(dot(way, normalize(axis))), depth);
       const double angular_radius =
           std::asin(static_cast<double>(s.radius) / std::hypot(dot(way, normalize(axis)), depth));
@@ -59,8 +61,7 @@ TEST(DefaultView, IsValidWithoutSpheresAndWithTinyOnesFarOff) {
   }
   for (const Vec3f& normal : {Vec3f{0, 1, 0}, Vec3f{0, 0, 3}, Vec3f{-1, 2, 5}}) {
     plane.planes = {{{2, 3, 4}, normal, 0}};
-    const Ray ray =
-        reference::primary_ray(camera_basis(default_camera(plane, 40, 30), 40, 30), 20, 15);
+    const Ray ray = primary_ray(build_camera(default_camera(plane, 40, 30), 40, 30), 20, 15);
     EXPECT_EQ(reference::closest_hit(ray, {}, plane.planes).id, 0);
     EXPECT_LT(dot(vec_cast<double>(ray.dir), vec_cast<double>(normal)), 0);  // from its outside
   }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "core/reference.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
@@ -53,11 +55,10 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyState) {
     IntegratorSettings settings;
     settings.stream_size = 256;
     Whitted whitted(prepared, *select_kernels("auto").value(), settings);
-    const CameraBasis basis = camera_basis(*scene.camera, 32, 32);
+    const CameraView view = build_camera(*scene.camera, 32, 32);
     RayBuffer rays(1024);
     for (int i = 0; i < 1024; ++i) {
-      rays.set(static_cast<std::size_t>(i),
-               reference::primary_ray(basis, i % 32 + 0.5, i / 32 + 0.5));
+      rays.set(static_cast<std::size_t>(i), primary_ray(view, i % 32 + 0.5, i / 32 + 0.5));
     }
     std::vector<Color> radiance(1024);
     const long start = allocations;
@@ -75,13 +76,12 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyStateOfPathTracing) {
   IntegratorSettings settings;
   settings.stream_size = 256;
   Path path(prepared, *select_kernels("auto").value(), settings);
-  const CameraBasis basis = camera_basis(*scene.camera, 32, 32);
+  const CameraView view = build_camera(*scene.camera, 32, 32);
   RayBuffer rays(1024);
   std::vector<SampleId> ids;
   for (int i = 0; i < 1024; ++i) {
     ids.push_back({i % 32, i / 32, 0});
-    rays.set(static_cast<std::size_t>(i),
-             reference::primary_ray(basis, i % 32 + 0.5, i / 32 + 0.5));
+    rays.set(static_cast<std::size_t>(i), primary_ray(view, i % 32 + 0.5, i / 32 + 0.5));
   }
   std::vector<Color> radiance(1024);
   ASSERT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));

@@ -1,5 +1,7 @@
 // A glass sphere against closed forms: the path by Snell's law, the light by Fresnel's equations,
 // both worked out in double from the impact parameter alone.
+#include "core/optics/camera_builder.h"
+#include "core/optics/camera_ray.h"
 #include "render/shading/bsdf.h"
 #include "render/shading/dielectric.h"
 #include "tests/render/picture_comparison.h"
@@ -158,14 +160,14 @@ TEST(Glass, IsInvisibleUnderAWhiteSkyButForTheLastBounce) {
   scene.background = ConstantBackground{{1, 1, 1}};
   scene.camera = pinhole({0, 0, 5}, {0, 0, 0}, 25);
   scene.spheres = {{{0, 0, 0}, 1, add_material(scene, Glass{{1, 1, 1}, 1.5f})}};
-  const CameraBasis basis = camera_basis(*scene.camera, 48, 48);
+  const CameraView view = build_camera(*scene.camera, 48, 48);
   for (const int depth : {0, 1, 2, 3, 5, 8}) {
     scene.render.max_depth = depth;
     const Image image = render(scene);
     int seen = 0;
     for (int y = 0; y < 48; ++y) {
       for (int x = 0; x < 48; ++x) {
-        const Ray ray = reference::primary_ray(basis, x + 0.5, y + 0.5);
+        const Ray ray = primary_ray(view, x + 0.5, y + 0.5);
         const ClosedForm path(ray, scene.spheres[0], 1.5);
         double expected = 1;
         if (std::isfinite(path.outside)) {

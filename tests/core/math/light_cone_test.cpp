@@ -1,4 +1,4 @@
-#include "core/light_cone.h"
+#include "core/math/light_cone.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include "core/math/geometry.h"
 #include "core/reference.h"
 #include "tests/support/case_random.h"
+#include "tests/support/long_double_formulas.h"
 
 namespace boule::test {
 namespace {
@@ -29,6 +30,27 @@ TEST(LightCone, IsNoneFromWithinOrOnTheSphere) {
   EXPECT_FALSE(LightCone({0, 0, 1}, {0, 0, 0}, 2).meets({0, 0, 1}, inf));
 }
 
+TEST(LightCone, EqualsLongDouble) {
+  CaseRandom random(45);
+  for (int i = 0; i < 200000; ++i) {
+    const double radius = random.decade(-3, 3);
+    const double distance = radius * (1 + random.decade(-3, 4));
+    const Vec3d point = random.direction() * (distance * random.uniform());
+    const Vec3d center = point + random.direction() * distance;
+    const UnitPair numbers{random.uniform(0, 0.99), i % 9 / 9.0};
+    const LightCone cone(point, center, radius);
+    const LightConeL wanted(point, center, radius);
+    ASSERT_NEAR(static_cast<double>(cone.density() * wanted.solid_angle()), 1, 5e-14) << i;
+    const Vec3d direction = cone.direction(numbers);
+    const Vec3l about = direction_about_l(normalize(center - point), wanted.angle_of(numbers.u),
+                                          2 * pi_l * numbers.v);
+    ASSERT_LE(length(vec_cast<long double>(direction) - about), 1e-14L) << i;
+    ASSERT_NEAR(cone.free_distance(direction) / static_cast<double>(wanted.distance),
+                static_cast<double>(wanted.free_distance(direction) / wanted.distance), 1e-13)
+        << i;
+  }
+}
+
 /// Rays to a sphere must not be blocked by the sphere, as near its edge as they may pass, but by
 /// anything a little nearer.
 TEST(LightCone, WaysEndJustBeforeTheSphere) {
@@ -43,7 +65,8 @@ TEST(LightCone, WaysEndJustBeforeTheSphere) {
     const double u = i % 4 == 0 ? 1 - std::pow(2, random.uniform(-53, -1)) : random.uniform(0, 1);
     const Vec3d direction = cone.direction({u, random.uniform(0, 1)});
     EXPECT_NEAR(length(direction), 1, 1e-14);
-    const Ray ray = cone.way(direction);
+    Ray ray{point, vec_cast<float>(direction)};
+    ray.tmax = static_cast<float>(cone.free_distance(direction));
     const std::vector<Sphere> spheres = {{center, radius, 0}};
     EXPECT_FALSE(reference::any_hit(ray, spheres, {})) << i;
     if (u > 0.99) continue;  // there distances change quickly

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/lens_optics.h"
+#include "core/optics/lens_optics.h"
 
 namespace boule {
 

@@ -1,4 +1,4 @@
-#include "core/scene/exit_pupil.h"
+#include "core/optics/exit_pupil.h"
 
 #include <algorithm>
 #include <cmath>

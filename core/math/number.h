@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/base/platform.h"
+#include "core/math/vec.h"
+
+namespace boule {
+
+/// A formula that a double and W doubles at a time (Wide, in simd/lanes) have in common is written
+/// once, as a template over the number type. It may ask of its type + - * /, the ordered
+/// comparisons < <= ==, and what follows, here for double; simd/lanes has the same for Wide. A
+/// formula has no branches that depend on numbers: it calculates both sides and selects.
+
+/// What a comparison of numbers gives: bool, or one truth value for each lane.
+template <class T>
+using Mask = decltype(std::declval<T>() < std::declval<T>());
+
+BOULE_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
+BOULE_INLINE bool select(bool mask, bool a, bool b) { return mask ? a : b; }
+BOULE_INLINE double sqrt(double a) { return std::sqrt(a); }
+BOULE_INLINE double abs(double a) { return std::fabs(a); }
+BOULE_INLINE double copysign(double magnitude, double sign) {
+  return std::copysign(magnitude, sign);
+}
+
+/// n numbers of one type.
+template <class T, std::size_t n>
+struct Numbers {
+  T at[n];
+};
+
+/// Where one lane of Numbers lies in memory: number k at first[k step].
+struct NumberColumn {
+  double* first;
+  std::size_t step;
+  BOULE_INLINE double& operator[](std::size_t k) const { return first[k * step]; }
+};
+
+/// What a table in memory says of some numbers: find(given, found), of two NumberColumns, reads the
+/// given ones and sets the `count` found ones of one lane.
+template <std::size_t count, std::size_t n, class Find>
+BOULE_INLINE Numbers<double, count> look_up(Numbers<double, n> given, const Find& find) {
+  Numbers<double, count> found;
+  find(NumberColumn{given.at, 1}, NumberColumn{found.at, 1});
+  return found;
+}
+
+// What follows from these, for any number type.
+
+template <class M, class T>
+BOULE_INLINE Vec3<T> select(const M& mask, const Vec3<T>& a, const Vec3<T>& b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// The larger of a number and 0; 0 for NaN.
+template <class T>
+BOULE_INLINE T positive(const T& a) {
+  return select(T(0.0) < a, a, T(0.0));
+}
+
+}  // namespace boule

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <limits>
+
+#include "core/math/geometry.h"
+#include "core/math/number.h"
+
+namespace boule {
+
+/// What follows from where a ray met a sphere or a plane, as formulas for doubles and for lanes of
+/// them: see Surface. They take any numbers; those that are not finite make such numbers.
+
+/// A ray that met something.
+template <class T>
+struct ArrivalOf {
+  Vec3<T> org, dir;
+  Vec3<T> point;           ///< org + t dir
+  Mask<T> leaves_it;       ///< the ray starts on the primitive that it meets
+  Mask<T> is_from_origin;  ///< its tmin is 0
+};
+
+/// How it met that.
+template <class T>
+struct ContactOf {
+  Vec3<T> outward;  ///< geometric normal, of unit length, or not finite
+  T reach;          ///< what the error of the point is relative to
+  Mask<T> inner;    ///< on the sphere's inside, or on the plane's back
+};
+
+template <class T>
+BOULE_INLINE ContactOf<T> meet_sphere(const ArrivalOf<T>& ray, const Vec3<T>& center,
+                                      const T& radius) {
+  const Vec3<T> f = center - ray.org, outward = ray.point - center;
+  const T ff = dot(f, f);
+  // From where the ray started, not from the angle: the solver took the second root for the same
+  // sign of the same expression, so a grazing ray cannot change sides. A ray that begins elsewhere
+  // than at its origin may meet the other root: there the angle tells.
+  const Mask<T> starts_inside = ray.leaves_it | (ff - radius * radius <= T(0.0));
+  const Mask<T> goes_out = T(0.0) < dot(outward, ray.dir);
+  return {normalize(outward), sqrt(ff) + radius,
+          select(ray.is_from_origin, starts_inside, goes_out)};
+}
+
+template <class T>
+BOULE_INLINE ContactOf<T> meet_plane(const ArrivalOf<T>& ray, const Vec3<T>& point,
+                                     const Vec3<T>& normal) {
+  // The plane's own point may lie near the eye while the hit is far away: both count.
+  return {normalize(normal), length(point - ray.org) + length(ray.point - ray.org),
+          T(0.0) < dot(ray.dir, normal)};
+}
+
+/// The unit normal on the side of a ray that met it so, of the unit direction `view`.
+template <class T>
+BOULE_INLINE Vec3<T> facing_normal(const ContactOf<T>& contact, const Vec3<T>& view) {
+  const Vec3<T> turned = contact.outward * select(contact.inner, T(-1.0), T(1.0));
+  const T largest(std::numeric_limits<double>::max());
+  const Mask<T> finite =
+      (abs(turned.x) <= largest) & (abs(turned.y) <= largest) & (abs(turned.z) <= largest);
+  // A sphere too small for where it is: the point is its centre, and any normal is right. It faces
+  // the ray.
+  return select(finite, turned, view * T(-1.0));
+}
+
+/// -N.V, in [0, 1].
+template <class T>
+BOULE_INLINE T facing_cosine(const Vec3<T>& normal, const Vec3<T>& view) {
+  const T cosine = dot(normal, view) * T(-1.0);
+  return select(cosine < T(0.0), T(0.0), select(T(1.0) < cosine, T(1.0), cosine));
+}
+
+/// V - 2 (N.V) N (lecture "Reflection"), with the cosine -N.V.
+template <class T>
+BOULE_INLINE Vec3<T> mirror(const Vec3<T>& view, const Vec3<T>& normal, const T& cosine) {
+  return view + normal * (T(2.0) * cosine);
+}
+
+/// A hit's point is known to this share of the distances that made it (ContactOf::reach), axis by
+/// axis.
+inline constexpr double point_error = 0x1p-49;
+
+/// The point, moved along a unit normal until it is certainly on that side of the surface.
+template <class T>
+BOULE_INLINE Vec3<T> move_off(const Vec3<T>& point, const Vec3<T>& normal, const T& reach) {
+  return point +
+         normal * ((abs(normal.x) + abs(normal.y) + abs(normal.z)) * T(point_error) * reach);
+}
+
+}  // namespace boule
