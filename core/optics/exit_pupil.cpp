@@ -21,14 +21,16 @@ double last_radius(const LensOptics& optics) {
   return std::sqrt(optics.elements.front().aperture2);
 }
 
-/// A curved rear surface is met beyond its vertex' plane: the pupil may be wider there than it.
+/// How far from the axis a pupil may be. A curved rear surface is met beyond its vertex' plane, so
+/// that in this plane the pupil may be wider than the surface.
 double reach(const LensOptics& optics) { return 1.5 * last_radius(optics); }
 
 // ---- In the middle of the film.
 
 constexpr double narrowest = 1e-9;  // of the last surface
 
-/// The radius, between two of which one passes and the other does not, where that changes.
+/// The radius at which rays begin or cease to pass, between two radii of which one passes and the
+/// other does not. By halving, to the last bit.
 double edge_between(const LensOptics& optics, double inner, double outer) {
   const bool within = passes(optics, 0, inner, 0);
   for (double middle = (inner + outer) / 2; inner < middle && middle < outer;
@@ -38,8 +40,8 @@ double edge_between(const LensOptics& optics, double inner, double outer) {
   return outer;
 }
 
-/// The edges of the pupil from within: `found(inner, outer)` for its disc and for each ring around
-/// it, which rays bent too strongly may make.
+/// Calls found(inner, outer) with the radii of the pupil's disc, and of each ring around it: where
+/// outer rays are bent too strongly, a pupil may have rings. From the axis outwards.
 template <class Found>
 void visit_zones(const LensOptics& optics, Found found) {
   constexpr double step = 1.006;
@@ -62,7 +64,7 @@ double light_of_disc(double radius2, double distance2) {
   return elementary::pi * distance2 * radius2 / (distance2 + radius2);
 }
 
-// ---- Elsewhere: boxes.
+// ---- Elsewhere on the film: boxes.
 
 constexpr PupilBox nowhere{0, 0, 0};
 
@@ -84,8 +86,8 @@ Stretch join(const Stretch& a, const Stretch& b) {
   return {std::min(a.x0, b.x0), std::max(a.x1, b.x1)};
 }
 
-/// What of a stretch a film point sees through, a step longer. The pupil is the same above the axis
-/// and below: what hangs together meets the axis.
+/// The part of a stretch that a film point sees through, a step longer at both ends. The axis is
+/// enough: the pupil is alike on both sides of it, so a pupil of one piece meets it.
 Stretch seen_through(const LensOptics& optics, const Stretch& stretch, double r, int steps) {
   const double step = (stretch.x1 - stretch.x0) / steps;
   Stretch seen{stretch.x1, stretch.x0};
@@ -97,9 +99,10 @@ Stretch seen_through(const LensOptics& optics, const Stretch& stretch, double r,
   return seen;
 }
 
-/// Where on the x axis the pupil is. A narrow stop would fall between the steps: it is approached
-/// by wider ones, each an eighth of the one before, through which all is seen that is seen through
-/// it.
+/// Where on the x axis the pupil is. A narrow stop's pupil would fall between two steps. So the
+/// search begins with all apertures at least so wide, and goes on with a least width of an eighth
+/// each time, within what was seen before: a wider stop lets everything through that a narrower one
+/// does.
 Stretch stretch_of(const LensOptics& optics, double r) {
   constexpr int steps = 256;
   LensOptics wider = optics;
@@ -124,8 +127,8 @@ int first_seen(const LensOptics& optics, double r, double from, double step, dou
   return i;
 }
 
-/// What of a box a film point sees through, a cell wider. Only y > 0, the rest mirrors it; of a row
-/// only what lies beside the pupil is tried.
+/// The part of a box that a film point sees through, a cell wider on all sides. It is found in the
+/// half with y > 0, for the other one mirrors it; in each row from both ends up to the pupil.
 PupilBox seen_through(const LensOptics& optics, const PupilBox& box, double r) {
   constexpr int cells = 64;
   const double step_x = (box.x1 - box.x0) / cells, step_y = 2 * box.y / cells;
@@ -142,7 +145,7 @@ PupilBox seen_through(const LensOptics& optics, const PupilBox& box, double r) {
   return {box.x0 + (left - 0.5) * step_x, box.x1 - (right - 0.5) * step_x, (top + 0.5) * step_y};
 }
 
-/// Whether anything passes on a box' outline: then the pupil goes on outside.
+/// Whether anything passes on the outline of a box. If so, the pupil goes on outside of it.
 bool is_crossed(const LensOptics& optics, const PupilBox& box, double r) {
   constexpr int points = 64;
   for (int i = 0; i <= points; ++i) {
@@ -155,8 +158,8 @@ bool is_crossed(const LensOptics& optics, const PupilBox& box, double r) {
   return false;
 }
 
-/// The pupil's box from one that it meets: grown until nothing passes on its outline, and shrunk
-/// until what is seen fills it, so that cells are small beside it.
+/// The pupil's box, made from one that the pupil meets. The box grows until nothing passes on its
+/// outline, and shrinks until the pupil fills it: then the cells are small beside the pupil.
 PupilBox fitted(const LensOptics& optics, PupilBox box, double r) {
   constexpr int most_rounds = 16;
   constexpr double growth = 0.25, filled = 0.75;
@@ -171,8 +174,8 @@ PupilBox fitted(const LensOptics& optics, PupilBox box, double r) {
   return box;
 }
 
-/// The exit pupil of a film point. `near` is that of one nearby: so a pupil is found that is
-/// narrower than the steps.
+/// The exit pupil of a film point. `near` is that of a point nearby. Around it the steps are finer,
+/// and find a pupil that is narrower than those over the whole width.
 PupilBox pupil_of(const LensOptics& optics, const PupilBox& near, double r) {
   const double width = near.x1 - near.x0;
   const Stretch close = seen_through(optics, {near.x0 - width, near.x1 + width}, r, 128);
@@ -181,14 +184,15 @@ PupilBox pupil_of(const LensOptics& optics, const PupilBox& near, double r) {
   return fitted(optics, {all.x0, all.x1, std::max((all.x1 - all.x0) / 2, near.y)}, r);
 }
 
-/// As round as the pupil is in the middle of the film, and as much wider as boxes elsewhere.
+/// The box of the film's middle, where the pupil is a disc; wider than it, as boxes elsewhere are.
 PupilBox middle_box(double radius) {
   const double edge = radius * (1 + 1.0 / 64);
   return {-edge, edge, edge};
 }
 
-/// A ring between two film points: wide enough for the one half way between them, alike on all
-/// sides, so that from ring to ring the boxes' middles go on without a step.
+/// The ring between two film points. Both boxes are widened until the one half way between them
+/// holds its own pupil; by the same on both sides, so that the boxes' middles go on without a step
+/// from ring to ring.
 PupilRing ring_of(PupilBox inner, const PupilBox& middle, PupilBox outer) {
   if (is_empty(inner)) inner = is_empty(outer) ? middle : outer;
   if (is_empty(outer)) outer = inner;
