@@ -187,7 +187,7 @@ TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
     ASSERT_GT(density, 0);
     const double red = static_cast<double>(environment_radiance(image, direction).r);
     by_chance = by_chance + direction * (red / density / n);
-    const Vec3d even = direction_about({0, 0, 1}, warp_to_cone(numbers.u, 2), numbers.v);
+    const Vec3d even = direction_about({0, 0, 1}, warp_to_cone(numbers.u, 2.0), numbers.v);
     const double red_there = static_cast<double>(environment_radiance(image, even).r);
     integral = integral + even * (red_there * 4 * elementary::pi / n);
     whole += light.density(even) * 4 * elementary::pi / n;

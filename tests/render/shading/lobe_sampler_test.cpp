@@ -47,7 +47,7 @@ TEST(LobeSampler, BouncesAreWorthWhatTheLobesSendOn) {
       for (std::uint32_t i = 0; i < samples; ++i) {
         by_chance = by_chance + bounce_by_chance(lobes, i).weight * (1.0f / samples);
         const auto [u, v] = sobol_pair(2, RandomSet::film, i);
-        const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
+        const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1.0), v);
         expected = expected + lobes.reflected(w.z, w) * (2.0f / samples);
       }
       const Scatter weights = scatter(flat, surface);
@@ -73,7 +73,7 @@ TEST(LobeSampler, BouncesFollowTheirDensity) {
     for (std::uint32_t i = 0; i < samples; ++i) {
       const Bounce bounce = bounce_by_chance(lobes, i);
       const auto [u, v] = sobol_pair(2, RandomSet::film, i);
-      const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1), v);
+      const Vec3d w = direction_about({0, 0, 1}, warp_to_cone(u, 1.0), v);
       const auto [row, column] = cell(w);
       expected[row][column] += lobes.density(w.z, w) * 2 * elementary::pi / samples;
       if (!(bounce.density > 0)) continue;
