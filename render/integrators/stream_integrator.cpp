@@ -64,7 +64,7 @@ void StreamIntegrator::find_surfaces(const Block& block) {
 
 /// Adds one light to the radiance of the points it reaches: one stream of shadow rays.
 void StreamIntegrator::add_light(const PlacedLight& light) {
-  const RayStream rays = illumination_.aim(kernels_, light.place, surfaces_);
+  const RayStream rays = illumination_.aim(kernels_, light.target, surfaces_);
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
   illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());

@@ -77,7 +77,7 @@ class StreamIntegrator : public Integrator {
  private:
   struct PlacedLight {
     const Light* light;
-    ShadowTarget place;
+    ShadowTarget target;
   };
 
   void trace_stream(const PathStream& stream, Coherence coherence);

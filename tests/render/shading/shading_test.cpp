@@ -141,28 +141,28 @@ TEST(DirectLight, AGreatExponentDoesNotOverflow) {
   EXPECT_EQ(direct_light_on(surface, m, up, gray(1)), gray(1));
 }
 
-TEST(Lights, HaveTheirPlaceAndFalloff) {
+TEST(Lights, HaveTheirTargetAndFalloff) {
   const Vec3d point{0, 2, 0};
   const PointLight plain{{0, 4, 0}, {1, 2, 3}, Falloff::none};
-  const LightPlace near = place_of(plain);
+  const ShadowTarget near = shadow_target(plain);
   EXPECT_FALSE(near.directional);
-  EXPECT_EQ((Vec3d{near.place[0], near.place[1], near.place[2]}), (Vec3d{0, 4, 0}));
+  EXPECT_EQ((Vec3d{near.target[0], near.target[1], near.target[2]}), (Vec3d{0, 4, 0}));
   EXPECT_EQ(intensity_at(plain, point), (Color{1, 2, 3}));
   const PointLight weak{{0, 4, 0}, {1, 2, 3}, Falloff::inverse_square};
   EXPECT_EQ(intensity_at(weak, point), (Color{0.25f, 0.5f, 0.75f}));
   const DirectionalLight sun{{0, -7, 0}, {1, 2, 3}};
-  const LightPlace far = place_of(sun);
+  const ShadowTarget far = shadow_target(sun);
   EXPECT_TRUE(far.directional);
-  EXPECT_EQ((Vec3d{far.place[0], far.place[1], far.place[2]}), up);
-  EXPECT_EQ((Vec3f{far.way[0], far.way[1], far.way[2]}), (Vec3f{0, 7, 0}));
+  EXPECT_EQ((Vec3d{far.target[0], far.target[1], far.target[2]}), up);
+  EXPECT_EQ((Vec3f{far.dir[0], far.dir[1], far.dir[2]}), (Vec3f{0, 7, 0}));
   EXPECT_EQ(intensity_at(sun, point), (Color{1, 2, 3}));
   EXPECT_EQ(shadow_coherence(sun), Coherence::common_direction);
 }
 
 TEST(Lights, ASphereIsAPointAtItsCentreAsBrightAsTheWhole) {
   const SphereLight light{{0, 4, 0}, 0.5f, {8, 16, 24}};
-  const LightPlace at = place_of(light);
-  EXPECT_EQ((Vec3d{at.place[0], at.place[1], at.place[2]}), (Vec3d{0, 4, 0}));
+  const ShadowTarget at = shadow_target(light);
+  EXPECT_EQ((Vec3d{at.target[0], at.target[1], at.target[2]}), (Vec3d{0, 4, 0}));
   // radiance (radius / distance)^2
   EXPECT_EQ(intensity_at(light, {0, 2, 0}), (Color{0.5f, 1, 1.5f}));
   EXPECT_EQ(shadow_coherence(light), Coherence::common_end);
