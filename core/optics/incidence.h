@@ -54,11 +54,11 @@ template <class T>
 BOULE_INLINE Vec3<T> facing_normal(const ContactOf<T>& contact, const Vec3<T>& view) {
   const Vec3<T> turned = contact.outward * select(contact.inner, T(-1.0), T(1.0));
   const T largest(std::numeric_limits<double>::max());
-  const Mask<T> finite =
-      (abs(turned.x) <= largest) & (abs(turned.y) <= largest) & (abs(turned.z) <= largest);
+  const Mask<T> x = abs(turned.x) <= largest, y = abs(turned.y) <= largest,
+                z = abs(turned.z) <= largest;
   // A sphere too small for where it is: the point is its centre, and any normal is right. It faces
   // the ray.
-  return select(finite, turned, view * T(-1.0));
+  return select(x & y & z, turned, view * T(-1.0));
 }
 
 /// -N.V, in [0, 1].
