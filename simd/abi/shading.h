@@ -7,9 +7,8 @@
 
 namespace boule {
 
-/// Spheres by id, wherever they are: the centre's coordinates and the radius are the four floats
-/// from first + id stride on. A view, as all here: it owns nothing and checks nothing, what it
-/// points to is as long as it says (kernel_table.h).
+/// Spheres by id: the centre's coordinates and the radius of sphere `id` are the four floats from
+/// first + id stride on. This and the streams below are views: they own nothing and check nothing.
 struct SphereRows {
   const float* first;
   std::size_t stride;
@@ -46,8 +45,8 @@ struct ShadowTarget {
   float dir[3];      ///< of the shadow rays, where it is directional
 };
 
-/// Points on which light may fall: of a SurfaceStream. Arrays are padded with points that are not
-/// lit.
+/// Points of a SurfaceStream on which light may fall. The arrays are padded with points that are
+/// not lit.
 struct LitStream {
   VectorStream point;
   VectorStream normal;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/abi/isa.h"
 #include "simd/abi/stream.h"
 #include "simd/lanes/lanes.h"
 

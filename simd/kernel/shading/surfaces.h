@@ -37,7 +37,8 @@ BOULE_INLINE Contacts meet_plane(const Arrivals& rays, const PlaneView& planes, 
                            broadcast(planes.normal_x, planes.normal_y, planes.normal_z));
 }
 
-/// The lanes of a packet that met anything, and what: spheres at once, planes one by one.
+/// What each lane of a packet met. The spheres are met in all lanes at once, then one plane after
+/// the other.
 class MetPrimitives {
  public:
   MetPrimitives(const GeometryView& geometry, const SphereRows& spheres, const std::int32_t* id,
