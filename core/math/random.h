@@ -32,6 +32,9 @@ inline std::uint64_t mix64(std::uint64_t z) {
 /// 2^64 over the golden ratio: counters that go through mix64() go in steps of it.
 inline constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15u;
 
+/// The largest double below 1.
+inline constexpr double below_one = 1 - 0x1p-53;
+
 /// 32 random bits as a double in [0, 1).
 inline double unit_interval(std::uint32_t bits) { return bits * 0x1p-32; }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/math/random.h"
+
 namespace boule {
 namespace {
 
@@ -47,7 +49,6 @@ const AreaLight& AreaLights::pick(double& u) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u);
   const auto index = static_cast<std::size_t>(found - cumulative_.begin());
   const double before = index == 0 ? 0 : cumulative_[index - 1];
-  constexpr double below_one = 1 - 0x1p-53;
   u = std::clamp((u - before) / lights_[index].share, 0.0, below_one);
   return lights_[index];
 }

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/math/random.h"
 #include "core/math/warp.h"
 
 namespace boule {
 namespace {
-
-constexpr double below_one = 1 - 0x1p-53;
 
 /// The point of an image that shows a direction: u is 0 at the left edge, v is 0 at the top.
 UnitPair image_point(const Vec3d& d, float rotation) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/elementary.h"
+#include "core/math/random.h"
 #include "core/math/warp.h"
 
 namespace boule {
@@ -12,7 +13,6 @@ double mean(const Color& c) { return (double{c.r} + double{c.g} + double{c.b}) /
 
 /// A number u of the interval of length `share` from `first` on, spread over [0, 1) again.
 double spread(double u, double first, double share) {
-  constexpr double below_one = 1 - 0x1p-53;
   return std::clamp((u - first) / share, 0.0, below_one);
 }
 
