@@ -75,8 +75,9 @@ BOULE_INLINE void store_chosen(T* p, const Lanes& a, unsigned chosen) {
 // mantissa, in the order of the numbers. Those of `chosen` one after the other, behind them 0xffff.
 #if defined(__AVX512F__)
 BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen) {
-  const __m512i whole =
-      _mm512_mask_compress_epi32(_mm512_set1_epi32(-1), chosen, _mm512_castps_si512(a));
+  // As floats: GCC 12 would take them to integers by way of memory.
+  const __m512 rest = _mm512_castsi512_ps(_mm512_set1_epi32(-1));
+  const __m512i whole = _mm512_castps_si512(_mm512_mask_compress_ps(rest, chosen, a));
   const __m512i half = _mm512_srli_epi32(whole, 15);
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtusepi32_epi16(half));
 }

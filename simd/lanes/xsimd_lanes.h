@@ -44,11 +44,11 @@ struct Bits {
 };
 BOULE_INLINE Bits load_integers(const std::uint32_t* p) { return Integers::load_aligned(p); }
 BOULE_INLINE Bits load_integers(const std::int32_t* p) {
-  return xsimd::bitwise_cast<Integers>(xsimd::batch<std::int32_t, Arch>::load_aligned(p));
+  return Integers::load_aligned(reinterpret_cast<const std::uint32_t*>(p));
 }
 BOULE_INLINE void store(std::uint32_t* p, Bits a) { a.v.store_aligned(p); }
 BOULE_INLINE void store(std::int32_t* p, Bits a) {
-  xsimd::bitwise_cast<xsimd::batch<std::int32_t, Arch>>(a.v).store_aligned(p);
+  a.v.store_aligned(reinterpret_cast<std::uint32_t*>(p));
 }
 BOULE_INLINE Bits operator+(Bits a, Bits b) { return a.v + b.v; }
 BOULE_INLINE Bits operator*(Bits a, Bits b) { return a.v * b.v; }
