@@ -11,8 +11,8 @@ namespace boule {
 
 /// What went wrong, and where. Lines and columns count from 1; 0 means "not in a file's text".
 ///
-/// Functions that can fail return one, in a Result or a Status, and throw nothing else unless they
-/// say so: but std::bad_alloc, where there is no memory even for the Diagnostic.
+/// Functions that can fail return a Diagnostic in a Result or a Status. Unless they say so, the
+/// only exception they throw is std::bad_alloc, where there is no memory even for the Diagnostic.
 struct Diagnostic {
   std::string message;  ///< what is wrong, and what was expected; may repeat bytes of a file
   std::string key{};    ///< dotted path of the offending key ("camera.fov"), or empty
@@ -34,15 +34,15 @@ struct Diagnostic {
   }
 };
 
-/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", leaving out what is not known: one line that is
-/// safe to print, control bytes escaped. Throws std::bad_alloc.
+/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", without the parts that are not known. The text
+/// is one line and safe to print: control bytes are escaped. Throws std::bad_alloc.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-/// Text from outside made safe to print: control bytes, which could end a line or steer a terminal,
-/// as \xNN; cut to `longest` characters. Throws std::bad_alloc.
+/// Text from outside made safe to print. Control bytes, which could end a line or steer a terminal,
+/// become \xNN; the text is cut to `longest` characters. Throws std::bad_alloc.
 std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
 
-/// The same in quotation marks. Throws std::bad_alloc.
+/// printable() in quotation marks. Throws std::bad_alloc.
 std::string quote(std::string_view text, std::size_t longest = 40);
 
 /// A value, or the Diagnostic that explains why there is none.
@@ -56,12 +56,12 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value; only where ok(), else it throws std::bad_variant_access.
+  /// The value. Throws std::bad_variant_access where not ok().
   T& value() & { return std::get<0>(state_); }
   const T& value() const& { return std::get<0>(state_); }
   T&& value() && { return std::get<0>(std::move(state_)); }
 
-  /// The Diagnostic; only where not ok(), else likewise.
+  /// The Diagnostic. Throws std::bad_variant_access where ok().
   [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
 
  private:

@@ -4,13 +4,13 @@
 
 namespace boule {
 
-/// While it lives, the thread computes as IEEE 754 says by default: to nearest, denormals kept, no
-/// traps. Afterwards everything is as the caller had it, raised exceptions too. Same bits whatever
-/// the host application has set.
+/// While it lives, the thread computes as IEEE 754 says by default: it rounds to nearest, keeps
+/// denormals and traps nothing. Afterwards everything is as the caller had it, the raised
+/// exceptions too. So the bits are the same whatever the host application has set.
 ///
-/// What reads, prepares, renders, traces or writes (render) makes one of its own, callbacks are
-/// called in it. The plain values, builders and kernels below (core, simd) compute as their caller
-/// does: who uses them and has changed anything makes one around them.
+/// Functions of render that read, prepare, render, trace or write make one of their own and call
+/// callbacks in it. Core and simd compute as their caller does: a caller who has changed the
+/// environment makes one around them.
 class FloatEnvironment {
  public:
   FloatEnvironment() {

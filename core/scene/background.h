@@ -33,8 +33,8 @@ inline constexpr auto fields<GradientBackground> =
                field("top", &GradientBackground::top, rule::not_negative),
                field("up", &GradientBackground::up, rule::direction));
 
-/// An image of everything around, latitude-longitude: its top row is up (+y), its middle is seen
-/// along -z, or `rotation` degrees to the right of that.
+/// A latitude-longitude image of everything around the scene. Its top row is up (+y); its middle is
+/// seen along -z, or `rotation` degrees to the right of that.
 struct EnvironmentBackground {
   int width = 0, height = 0;  ///< >= 1
   std::vector<Color> pixels;  ///< radiance, row by row, the top one first
@@ -50,8 +50,8 @@ inline constexpr auto fields<EnvironmentBackground> = field_list(
 
 using Background = std::variant<ConstantBackground, GradientBackground, EnvironmentBackground>;
 
-/// The first Problem of a background: anything not finite or negative, a zero up, an image without
-/// width x height pixels.
+/// The first Problem of a background: a field against its rule, or an image without width x height
+/// pixels of finite numbers of 0 or above.
 std::optional<Problem> find_problem(const Background& background);
 
 }  // namespace boule

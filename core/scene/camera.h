@@ -73,9 +73,9 @@ inline constexpr auto fields<ThinLensCamera> =
 using Camera =
     std::variant<PinholeCamera, OrthographicCamera, FisheyeCamera, ThinLensCamera, LensCamera>;
 
-/// The first Problem of a camera: anything not finite, eye = look_at, up within 1e-6 rad of the
-/// view or zero, fov, height, film_width, scale, aperture or focus outside of what is said above, a
-/// lens that does not gather light, or not to the film at this focus, or not to its middle.
+/// The first Problem of a camera: a field against its rule, eye = look_at, up within 1e-6 rad of
+/// the direction of view; or a lens that does not gather light, whose film cannot be focused, or
+/// that lets no light to the middle of the film.
 std::optional<Problem> find_problem(const Camera& camera);
 
 }  // namespace boule

@@ -27,7 +27,7 @@ Vec3d view_direction(const CameraPose& pose);
 /// The distance of a point from the eye along L; negative behind it, NaN where there is no L.
 double depth_of(const CameraPose& pose, const Vec3f& point);
 
-/// How far along L a lens is sharp: at `focus`; none: where look_at is.
+/// The distance along L at which a lens is sharp: `focus`, or where there is none that of look_at.
 double focus_of(const CameraPose& pose, const std::optional<float>& focus);
 
 }  // namespace boule

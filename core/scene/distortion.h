@@ -8,13 +8,15 @@
 
 namespace boule {
 
-/// An ST map: says for the points of a picture where on the film they are seen, so that any camera
-/// gets the distortions of a lens. Its pixels span the whole frame whatever the size of either;
-/// between their centres the numbers are bilinear, and so they go on at the rim.
+/// An ST map says for each point of a picture which point of the film is seen there: it gives any
+/// camera the distortions of a lens. Its pixels span the whole frame, whatever the size of either.
+/// Between the pixels' centres the numbers are bilinear; beyond the outermost centres the same
+/// bilinear functions go on.
 struct DistortionMap {
   int width = 0, height = 0;  ///< >= 2
-  /// s and t of each pixel, row 0 on top: s from 0 on the left to 1 on the right edge of the film,
-  /// t from 0 at the bottom to 1 at the top. Finite; may lie outside, where cameras see on.
+  /// s and t of each pixel, row 0 on top: s runs from 0 at the left edge of the film to 1 at the
+  /// right, t from 0 at the bottom to 1 at the top. Finite; numbers outside of 0..1 are points
+  /// beyond the film's edges, which cameras see as well.
   std::vector<float> st;
 };
 

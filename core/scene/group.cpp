@@ -9,15 +9,15 @@ Similarity transform_of(const Instance& instance) {
   return transform;
 }
 
-Sphere place(const Sphere& sphere, const Similarity& transform,
-             std::optional<std::uint32_t> material) {
+Sphere transformed(const Sphere& sphere, const Similarity& transform,
+                   std::optional<std::uint32_t> material) {
   return {vec_cast<float>(transform.apply(vec_cast<double>(sphere.center))),
           static_cast<float>(transform.scale * static_cast<double>(sphere.radius)),
           material.value_or(sphere.material)};
 }
 
-Plane place(const Plane& plane, const Similarity& transform,
-            std::optional<std::uint32_t> material) {
+Plane transformed(const Plane& plane, const Similarity& transform,
+                  std::optional<std::uint32_t> material) {
   return {vec_cast<float>(transform.apply(vec_cast<double>(plane.point))),
           vec_cast<float>(transform.rotate(vec_cast<double>(plane.normal))),
           material.value_or(plane.material)};

@@ -12,14 +12,14 @@
 
 namespace boule {
 
-/// One showing of a group (lecture "Scene graph"): all that is in it, scaled, then turned, then
-/// moved.
+/// A copy of a group in the scene (lecture "Scene graph"): all that is in the group is scaled, then
+/// rotated, then moved.
 struct Instance {
   std::uint32_t group = 0;  ///< index in Scene::groups
   Vec3f translate;
   Vec3f rotate;     ///< degrees about x, then y, then z (rotation())
   float scale = 1;  ///< above 0
-  /// In place of every material in the group and in the groups inside it.
+  /// Replaces every material in the group and in the groups inside it.
   std::optional<std::uint32_t> material;
 };
 
@@ -45,17 +45,18 @@ inline constexpr auto fields<Group> = field_list("group", field("name", &Group::
                                                  field("plane", &Group::planes),
                                                  field("instance", &Group::instances));
 
-/// The first Problem of an instance by itself: anything not finite, scale <= 0.
+/// The first Problem of an instance by itself: a field against its rule.
 std::optional<Problem> find_problem(const Instance& instance);
 
-/// Where a valid instance puts what is in its group; NaN or infinite where it is not.
+/// The transformation of a valid instance. That of others may hold NaN and infinities.
 Similarity transform_of(const Instance& instance);
 
-/// A sphere or plane under a transformation, every number computed in double and rounded to float
-/// once; with another material where one is given. What leaves float's range is infinite:
-/// find_problem() of what comes out tells.
-Sphere place(const Sphere& sphere, const Similarity& transform,
-             std::optional<std::uint32_t> material);
-Plane place(const Plane& plane, const Similarity& transform, std::optional<std::uint32_t> material);
+/// A sphere or plane under a transformation, with another material where one is given. Every number
+/// is computed in double and rounded to float once. Numbers beyond float's range become infinite:
+/// find_problem() of the result finds them.
+Sphere transformed(const Sphere& sphere, const Similarity& transform,
+                   std::optional<std::uint32_t> material);
+Plane transformed(const Plane& plane, const Similarity& transform,
+                  std::optional<std::uint32_t> material);
 
 }  // namespace boule

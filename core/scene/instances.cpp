@@ -120,7 +120,7 @@ class Walk {
       const Similarity transform = compose(outer, transform_of(instance));
       const Material inside = material ? material : instance.material;
       for (const Primitive& one : Kind<Primitive>::of(group)) {
-        function_(place(one, transform, inside));
+        function_(transformed(one, transform, inside));
       }
       visit(group.instances, transform, inside);
     }

@@ -11,7 +11,7 @@
 
 namespace boule {
 
-/// Groups inside groups, at most so deep.
+/// Groups may be nested so deep.
 inline constexpr std::size_t max_nesting = 256;
 
 /// What is wrong with one instance of a scene.
@@ -27,8 +27,8 @@ struct InstanceProblem {
 /// float. Groups and materials are valid by themselves. Throws std::bad_alloc, as all these do.
 std::optional<InstanceProblem> find_instance_problem(const Scene& scene);
 
-/// Those of them, all but the last, that are known in no time, before anything that the instances
-/// show is looked at.
+/// As find_instance_problem(), but for spheres and planes that leave the range of float: fast,
+/// since it does not go through the spheres and planes that the instances show.
 std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 
 /// How many spheres and planes a scene has, those of its instances among them.
@@ -37,17 +37,20 @@ struct PrimitiveCount {
 
   [[nodiscard]] std::uint64_t total() const { return spheres + planes; }
 };
-/// Precondition, as of all below: find_reference_problem() finds nothing, which they do not check.
+/// Precondition of this and of all functions below, not checked: find_reference_problem() finds
+/// nothing.
 PrimitiveCount count_primitives(const Scene& scene);
 
 /// Calls the function with every sphere or plane that the instances of a valid scene show, in the
-/// order of their ids, which follow those of the scene's own: instance by instance, in each the
-/// group's own before its instances (depth first). What the function throws reaches the caller.
+/// order of their ids, which follow those of the scene's own. The order is depth first: instance by
+/// instance, and in each one the group's own spheres or planes before its instances. What the
+/// function throws reaches the caller.
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
 void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
 
-/// Puts in place of a valid scene's instances the spheres and planes that they show; groups and
-/// instances are gone then. A scene without instances keeps its memory. Throws std::bad_alloc.
+/// Replaces a valid scene's instances by the spheres and planes that they show, and removes its
+/// groups. The spheres and planes of a scene without instances stay where they are. Throws
+/// std::bad_alloc.
 void expand_instances(Scene& scene);
 
 }  // namespace boule

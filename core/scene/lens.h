@@ -12,15 +12,14 @@ namespace boule {
 
 /// One surface of a lens, or a stop, as prescriptions list them, from the scene to the film.
 struct LensSurface {
-  float radius = 0;  ///< of curvature, > 0 if the centre is on the film's side; 0: flat, a stop
-  float thickness =
-      0;               ///< along the axis to the next surface, >= 0; of the last one: of no meaning
-  float index = 1;     ///< of refraction up to the next surface, least_index to most_index
-  float aperture = 0;  ///< diameter, > 0
+  float radius = 0;     ///< of curvature, > 0 if the centre is on the film's side; 0: flat, a stop
+  float thickness = 0;  ///< along the axis to the next surface, >= 0; unused in the last one
+  float index = 1;      ///< of refraction up to the next surface, least_index to most_index
+  float aperture = 0;   ///< diameter, > 0
 };
 
-/// Indices of refraction beyond which there is no medium, whatever the world is filled with: what
-/// lies there is a number in the wrong column.
+/// The indices of refraction that are accepted. No medium has one outside of them, relative to
+/// whatever fills the world: such a number stands in the wrong column of its file.
 inline constexpr float least_index = 0.25f, most_index = 8;
 
 template <>
@@ -30,7 +29,8 @@ inline constexpr auto fields<LensSurface> = field_list(
     field("index", &LensSurface::index, rule::from_to(double{least_index}, double{most_index})),
     field("aperture", &LensSurface::aperture, rule::positive));
 
-/// How wide each surface is at least, beside the last one: exit pupils are measured in steps.
+/// The least width of a surface as a share of the last one's. The search for the exit pupil goes in
+/// steps and would miss narrower ones.
 inline constexpr double least_width = 1.0 / 500;
 
 /// A lens of real elements before a film (Kolb, Mitchell, Hanrahan, "A realistic camera model for
@@ -51,22 +51,23 @@ inline constexpr auto fields<LensCamera> = field_list(
     field("scale", &LensCamera::scale, rule::positive),
     field("focus", &LensCamera::focus, rule::positive).with_other_forms());
 
-/// The focal length of a lens for rays close to its axis, in its own unit. As of all functions
-/// here: takes any surfaces; infinite or NaN where they are no lens, or none.
+/// The focal length of a lens for rays close to its axis, in its own unit. This and all functions
+/// here take any surfaces; the result is infinite or NaN where they are no lens, or none.
 double focal_length(const std::vector<LensSurface>& surfaces);
 
-/// How far behind the last surface the rays close to the axis meet again that come from a point at
-/// `distance` before the first one; inf: at infinity. Not above 0: nowhere behind it.
+/// The image distance: rays close to the axis that come from a point at `distance` before the first
+/// surface meet again so far behind the last one. `distance` may be infinite. A result of 0 or
+/// below means that they meet nowhere behind the lens.
 double image_distance(const std::vector<LensSurface>& surfaces, double distance);
 
-/// The number of a lens' stop: its only flat surface between equal media. None where there is none,
-/// or more than one.
+/// The index of a lens' stop: its only flat surface between equal media. None where there is no
+/// such surface, or more than one.
 std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces);
 
-/// How wide a stop is at an f-number: N = f / D, D the diameter of the beam along the axis that
-/// passes it. A ray close to the axis that comes in parallel at the height 1 passes the stop at y,
-/// so its diameter is |y| f / N. It goes the other way as well: from a diameter to N. NaN for a
-/// number that no surface has.
+/// The diameter of a stop at the f-number N = f / D, where D is the diameter of the beam along the
+/// axis that passes the stop. A ray that comes in parallel to the axis at the height 1 passes the
+/// stop at some y, so the stop's diameter is |y| f / N. The same formula makes an f-number of a
+/// diameter. NaN where `stop` is no index of a surface.
 double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number);
 
 }  // namespace boule

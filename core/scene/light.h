@@ -39,7 +39,7 @@ inline constexpr auto fields<DirectionalLight> =
     field_list("directional", field("direction", &DirectionalLight::direction, rule::direction),
                field("intensity", &DirectionalLight::intensity, rule::not_negative));
 
-/// Light from a sphere, the same in all directions. It is no object: rays pass through it.
+/// A sphere that radiates alike in all directions. It is not an object: rays pass through it.
 struct SphereLight {
   Vec3f center;
   float radius = 1;
@@ -54,8 +54,7 @@ inline constexpr auto fields<SphereLight> =
 
 using Light = std::variant<PointLight, DirectionalLight, SphereLight>;
 
-/// The first Problem of a light: anything not finite, negative intensity or
-/// radiance, a zero direction, radius <= 0.
+/// The first Problem of a light: a field against its rule.
 std::optional<Problem> find_problem(const Light& light);
 
 }  // namespace boule

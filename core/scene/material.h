@@ -85,7 +85,7 @@ inline constexpr auto fields<Phong> = field_list(
 
 using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong>;
 
-/// The first Problem of a material: ior <= 0, a negative coefficient, anything not finite.
+/// The first Problem of a material: a field against its rule.
 std::optional<Problem> find_problem(const Material& material);
 
 }  // namespace boule

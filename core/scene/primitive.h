@@ -46,7 +46,8 @@ inline bool is_valid(const Sphere& sphere) {
   return zero == 0 && radius > 0;
 }
 
-/// The first Problem of a sphere or plane by itself (finite numbers, radius > 0, normal != 0).
+/// The first Problem of a sphere or plane by itself: a field against its rule. Whether the scene
+/// has the material is checked by validate().
 std::optional<Problem> find_problem(const Sphere& sphere);
 std::optional<Problem> find_problem(const Plane& plane);
 

@@ -4,9 +4,9 @@
 
 namespace boule {
 
-/// What is wrong with one field of one thing: "radius", "must be above 0, is -1". All the
-/// find_problem() take any values, NaN and infinite ones, too few and too many; they throw
-/// std::bad_alloc, and nothing else.
+/// What is wrong with one field of a struct: "radius", "must be above 0, is -1". Every
+/// find_problem() takes any values, NaN and infinities among them, and lists of any length. The
+/// only exception it throws is std::bad_alloc.
 struct Problem {
   std::string field;
   std::string message;

@@ -19,7 +19,7 @@ struct NumberRule {
   [[nodiscard]] bool allows(double x) const;
 };
 
-/// Whole numbers from low to high; no upper bound is meant where `high` is the largest int.
+/// Whole numbers from low to high. Where `high` is the largest int, messages name no upper bound.
 struct WholeRule {
   int low, high;
 

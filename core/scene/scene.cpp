@@ -101,8 +101,7 @@ Status check_objects(const Scene& scene) {
 
 }  // namespace
 
-Status check_range(const char* key, int value, int low, int high) {
-  const WholeRule rule{.low = low, .high = high};
+Status check_range(const char* key, int value, const WholeRule& rule) {
   if (rule.allows(value)) return std::nullopt;
   return Diagnostic::about(key, "must be " + describe(rule) + ", is " + std::to_string(value));
 }

@@ -22,8 +22,14 @@ inline constexpr int max_image_side = 65535;               ///< pixels
 inline constexpr int max_count = 2147483647;               ///< of samples, of bounces
 inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
 
-/// How a pixel is made of the samples around it: box: the mean over the pixel itself; tent: over
-/// twice its width and height, weighted less and less away from its centre, to 0.
+namespace rule {
+inline constexpr WholeRule image_side{.low = 1, .high = max_image_side};
+inline constexpr WholeRule samples{.low = 1, .high = max_count};
+inline constexpr WholeRule bounces{.low = 0, .high = max_count};
+}  // namespace rule
+
+/// How a pixel is made of the samples around it. box: the mean over the pixel itself. tent: a mean
+/// over twice its width and height, whose weights fall from the pixel's centre to 0 at the rim.
 enum class PixelFilter { box, tent };
 template <>
 inline constexpr std::array<std::string_view, 2> names<PixelFilter>{"box", "tent"};
@@ -37,14 +43,12 @@ struct ImageSettings {
 };
 
 template <>
-inline constexpr auto fields<ImageSettings> =
-    field_list("image",
-               field("size", &ImageSettings::width, &ImageSettings::height,
-                     WholeRule{.low = 1, .high = max_image_side}),
-               field("spp", &ImageSettings::spp, WholeRule{.low = 1, .high = max_count}),
-               field("filter", &ImageSettings::filter));
+inline constexpr auto fields<ImageSettings> = field_list(
+    "image", field("size", &ImageSettings::width, &ImageSettings::height, rule::image_side),
+    field("spp", &ImageSettings::spp, rule::samples), field("filter", &ImageSettings::filter));
 
-/// How light is followed: whitted: direct light, mirrors and glass; path: all of it, by chance.
+/// How light is followed. whitted: direct light, mirrors and glass. path: all light, by path
+/// tracing.
 enum class Method { whitted, path };
 template <>
 inline constexpr std::array<std::string_view, 2> names<Method>{"whitted", "path"};
@@ -57,11 +61,11 @@ struct RenderSettings {
 
 /// In the order in which scene files and `boule info` name them.
 template <>
-inline constexpr auto fields<RenderSettings> = field_list(
-    "render", field("method", &RenderSettings::method),
-    field("max_depth", &RenderSettings::max_depth, WholeRule{.low = 0, .high = max_count}));
+inline constexpr auto fields<RenderSettings> =
+    field_list("render", field("method", &RenderSettings::method),
+               field("max_depth", &RenderSettings::max_depth, rule::bounces));
 
-/// The first Problem of the settings: anything outside of what is said above.
+/// The first Problem of the settings: a field against its rule.
 std::optional<Problem> find_problem(const ImageSettings& image);
 std::optional<Problem> find_problem(const RenderSettings& render);
 
@@ -88,7 +92,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
-  std::vector<Group> groups;  ///< what instances show; by itself a group shows nothing
+  std::vector<Group> groups;  ///< shown by instances only
   std::vector<Instance> instances;
 };
 
@@ -102,20 +106,19 @@ inline constexpr auto fields<Scene> =
                field("sphere", &Scene::spheres), field("plane", &Scene::planes),
                field("group", &Scene::groups), field("instance", &Scene::instances));
 
-/// The first thing wrong with a scene, its key a dotted path as in the scene file
-/// ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"), or nothing. Whoever renders
-/// a scene made in memory need not call it, Renderer, Tracer and prepare() do; the readers return
-/// only scenes that pass. Takes any values; an enumerator that has no name counts as one that has.
-/// Throws std::bad_alloc.
+/// The first thing wrong with a scene, or nothing. The Diagnostic's key is a dotted path as in
+/// scene files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer,
+/// Tracer and prepare() call it, and the readers return only scenes that pass. Takes any values; a
+/// number that is no enumerator is accepted and means one of those that are. Throws std::bad_alloc.
 Status validate(const Scene& scene);
 
-/// As validate(), for readers that have checked each sphere and plane when they read it, and given
-/// it a material that there is: not once more, there may be millions. Their number is checked.
-/// Instances they check by find_instance_problem().
+/// As validate(), but without the spheres, planes and instances: only the number of spheres and
+/// planes is checked. For readers, which check each sphere and plane as they read it (there may be
+/// millions) and call find_instance_problem() for the instances.
 Status validate_all_but_primitives(const Scene& scene);
 
-/// Nothing, or a Diagnostic with this key that says which whole numbers would do: low to high, or
-/// low and above where `high` is max_count. Throws std::bad_alloc.
-Status check_range(const char* key, int value, int low, int high);
+/// Nothing, or a Diagnostic with this key that says which whole numbers are allowed (WholeRule).
+/// Throws std::bad_alloc.
+Status check_range(const char* key, int value, const WholeRule& rule);
 
 }  // namespace boule

@@ -9,13 +9,13 @@
 namespace boule::cli {
 namespace {
 
-/// What is sharp, whether the camera says so or its look_at does.
+/// The distance that is sharp: the camera's focus, or that of its look_at.
 template <class Kind>
 double shown_focus(const Kind& camera) {
   return shown(static_cast<float>(focus_of(camera.pose, camera.focus)));
 }
 
-/// That of the stop as wide as it is.
+/// The f-number that the stop has as wide as it is.
 std::optional<double> f_number_of(const std::vector<LensSurface>& surfaces) {
   const auto stop = find_stop(surfaces);
   if (!stop) return std::nullopt;

@@ -6,7 +6,7 @@
 
 namespace boule::cli {
 
-/// Every field of a camera; of a lens its focal length and f-number too.
+/// Every field of a camera. A lens has its focal length and f-number as well.
 nlohmann::ordered_json camera_info(const Camera& camera);
 
 }  // namespace boule::cli

@@ -9,7 +9,7 @@
 namespace boule::cli {
 namespace {
 
-/// One column of a matrix for row vectors: what makes one coordinate of the product.
+/// One column of a matrix for row vectors. It gives one coordinate of the product.
 struct Column {
   Vec3d linear;
   double constant;

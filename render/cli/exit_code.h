@@ -2,7 +2,7 @@
 
 namespace boule::cli {
 
-/// What the program's exit status says; 128 + n means ended by signal n.
+/// The program's exit status; 128 + n means that signal n ended it.
 enum ExitCode : int {
   done = 0,
   failed = 1,         ///< rendering or output failed
@@ -10,7 +10,7 @@ enum ExitCode : int {
   invalid_input = 3,  ///< the scene or a data file
 };
 
-/// The exit status of what signal n ended.
+/// The exit status of a program that signal n ended.
 constexpr ExitCode interrupted_by(int signal) { return static_cast<ExitCode>(128 + signal); }
 
 }  // namespace boule::cli

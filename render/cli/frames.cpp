@@ -12,14 +12,14 @@
 namespace boule::cli {
 
 Status check_frames(const RenderCommand& command) {
-  if (!has_frame_place(command.output)) {
+  if (!has_frame_slot(command.output)) {
     return wrong_option(
         "with --frames the picture's name needs a place for the number, such as "
         "out.####.png",
         "--output");
   }
   const bool to_file = !command.stats.file.empty() && command.stats.file != "-";
-  if (to_file && !has_frame_place(command.stats.file)) {
+  if (to_file && !has_frame_slot(command.stats.file)) {
     return wrong_option(
         "with --frames the file's name needs a place for the number, such as "
         "json:stats.####.json",
@@ -33,14 +33,14 @@ Status check_single(const RenderCommand& command) {
     return wrong_option(quote(name) + " has a place for a frame's number: --frames is missing",
                         option);
   };
-  if (has_wide_frame_place(command.output)) return refuse(command.output, "--output");
-  if (has_wide_frame_place(command.stats.file)) return refuse(command.stats.file, "--stats");
+  if (has_wide_frame_slot(command.output)) return refuse(command.output, "--output");
+  if (has_wide_frame_slot(command.stats.file)) return refuse(command.stats.file, "--stats");
   return check_single_scene(command.scene);
 }
 
 Status check_single_scene(const std::string& scene) {
   std::error_code ignored;
-  if (!has_wide_frame_place(scene) || std::filesystem::exists(scene, ignored)) return std::nullopt;
+  if (!has_wide_frame_slot(scene) || std::filesystem::exists(scene, ignored)) return std::nullopt;
   return wrong_option(quote(scene) +
                           " is not there, but has a place for a frame's number: "
                           "--frames is missing",

@@ -5,21 +5,21 @@
 
 namespace boule::cli {
 
-/// What is wrong with the names of a series: each frame needs files of its own.
+/// An error in the names of a series: each frame needs files of its own.
 Status check_frames(const RenderCommand& command);
 
-/// What is wrong with the names of a single picture: a place for a frame's number in that of the
-/// picture or its statistics, or in that of a scene that is not there.
+/// An error in the names of a single picture: the name of the picture, of its statistics, or of a
+/// scene that is not there has a slot for a frame's number.
 Status check_single(const RenderCommand& command);
 
-/// The latter.
+/// check_single() for the name of the scene alone.
 Status check_single_scene(const std::string& scene);
 
-/// The command that renders one frame of a series: the number stands in all names.
+/// The command that renders one frame of a series, with the frame's number in all names.
 RenderCommand command_of_frame(const RenderCommand& command, int frame);
 
-/// What is known to be wrong with the folders of a series' pictures, where their names hold the
-/// number: each frame has one of its own then. In others the first frame tells.
+/// Checks, before the first frame, the folders of a series whose folder names hold the frame's
+/// number: each frame has one of its own. Other folders are checked with the first frame.
 Status check_folders(const RenderCommand& command, const FrameRange& frames);
 
 }  // namespace boule::cli

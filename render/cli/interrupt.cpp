@@ -22,7 +22,7 @@ std::atomic<bool> leaving{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
               std::atomic<const char*>::is_always_lock_free);
 
-/// What to remove while `removing`. No file can be made whose name is longer.
+/// The file to remove while `removing`. No file's name can be longer.
 char temporary[PATH_MAX] = "";
 
 const char* name_of(int signal) {
@@ -60,7 +60,7 @@ void handle(int signal) {
 }  // namespace
 
 void install_interrupt_handlers() {
-  // A closed pipe or a size limit is an error to report, not a reason to die in silence.
+  // A closed pipe or a size limit is reported as an error instead of ending the program silently.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = handle;
@@ -68,7 +68,7 @@ void install_interrupt_handlers() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old {};
     sigaction(signal, nullptr, &old);
-    // nohup and background shells ignore a signal on purpose: so do we.
+    // A signal that nohup or a background shell ignores stays ignored.
     if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
 }

@@ -6,11 +6,11 @@
 namespace boule::cli {
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the program at once with "boule: interrupted (SIGTERM),
-/// nothing written" and exit status 128 + n: right from the signal's handler, except while a
-/// WriteGuard lives. Where the output had been written already the line says that instead.
+/// nothing written" and exit status 128 + n. The signal's handler does so itself, except while a
+/// WriteGuard lives. If the output has been written already, the line says that instead.
 void install_interrupt_handlers();
 
-/// While a temporary file may exist a signal only raises a flag, so that the file is removed.
+/// While it lives, a signal only raises a flag, so that a temporary file can be removed.
 class WriteGuard {
  public:
   WriteGuard();
@@ -22,8 +22,8 @@ class WriteGuard {
   static bool interrupted();
 };
 
-/// Within a WriteGuard: while it lives, a signal ends the program at once all the same, after
-/// removing this temporary file. For work that takes longer than a signal may wait.
+/// For work within a WriteGuard that takes longer than a signal may wait: while it lives, a signal
+/// removes this temporary file and then ends the program at once all the same.
 class RemovalGuard {
  public:
   /// Ends the program if a signal has come already.
@@ -33,12 +33,12 @@ class RemovalGuard {
   RemovalGuard& operator=(const RemovalGuard&) = delete;
 };
 
-/// Whether a signal ends the program, or only what it does.
+/// Whether a signal ends the program, or only the rendering.
 enum class OnSignal { leave, stop };
 
-/// While it lives there is a flag that rendering watches. With OnSignal::stop the first signal
-/// raises it, so that what there is can still be written: the next one is treated as if there were
-/// no StopGuard. One at a time.
+/// Owns the flag that rendering watches. With OnSignal::stop the first signal raises it, so that
+/// the unfinished picture can still be written; the next signal is treated as if there were no
+/// StopGuard. One at a time.
 class StopGuard {
  public:
   /// Lowers the flag.
@@ -60,13 +60,13 @@ class StopGuard {
 /// Ends the program as the handler would have at the signal that a StopGuard caught.
 [[noreturn]] void leave_as_caught();
 
-/// Says that the output is in place: from now on "nothing written" would be wrong. `end` is what
-/// the line says instead, a literal such as "the picture had been written".
+/// To be called when the output is in place: from then on "nothing written" would be wrong. `end`,
+/// a literal such as "the picture had been written", takes its place in the line.
 void set_written(const char* end);
 
 /// Ends the program at once, on any thread: removes the temporary file of a RemovalGuard, writes
-/// the line to standard error, and leaves with that code. The first of those who call it wins. What
-/// a signal's handler may do; needs no memory.
+/// the line to standard error, and leaves with that code. If several threads call it, the first one
+/// wins. It is async-signal-safe and needs no memory.
 [[noreturn]] void leave_at_once(const char* line, int code);
 
 /// Ends the program as the handler would have, if a signal came while a WriteGuard lived.

@@ -60,7 +60,8 @@ void LiveReport::start_pass(const char* of_what) {
   tell_in_time(now);
 }
 
-/// Where another tells at the moment, on a terminal that is stopped perhaps, the work goes on.
+/// If another thread is writing at the moment, perhaps to a stopped terminal, the work does not
+/// wait.
 void LiveReport::update(const Progress& progress) {
   const auto now = Clock::now();
   stop_if_over(now);
@@ -98,16 +99,17 @@ void LiveReport::end_time_limit() {
   limit_ = Clock::time_point::max();
 }
 
-void LiveReport::tell_once(const std::string& line, const std::string& place) {
+void LiveReport::tell_once(const std::string& line, const std::string& varying) {
   std::string key = line;
-  for (auto at = key.find(place); !place.empty() && at != std::string::npos; at = key.find(place))
-    key.erase(at, place.size());
+  for (auto at = key.find(varying); !varying.empty() && at != std::string::npos;
+       at = key.find(varying))
+    key.erase(at, varying.size());
   if (told_.insert(key).second) write_lines(line + "\n");
 }
 
 double LiveReport::seconds() const { return since_start(Clock::now()); }
 
-/// Without memory nothing is told this time.
+/// Writes nothing this time if there is no memory.
 LiveReport::Clock::time_point LiveReport::beat(Clock::time_point now) noexcept {
   constexpr std::chrono::milliseconds shortest{50}, longest{1000};
   const std::lock_guard lock(mutex_);
@@ -120,7 +122,7 @@ LiveReport::Clock::time_point LiveReport::beat(Clock::time_point now) noexcept {
   return std::max(std::min(next(), look), now + shortest);
 }
 
-/// Under the mutex, as all below.
+/// To be called under the mutex, as all functions below.
 void LiveReport::tell(Clock::time_point now) {
   const double since = since_start(now);
   if (bar_.style() != ProgressStyle::json) bar_.update(progress_.read(), since);
@@ -129,13 +131,13 @@ void LiveReport::tell(Clock::time_point now) {
   bar_.style() == ProgressStyle::bar ? draw_line(*line) : write_lines(*line + "\n");
 }
 
-/// Whether a pass goes on that is told of: it may move on without a report.
+/// Whether a pass goes on whose progress may change without a report.
 bool LiveReport::is_looked_at() const {
   const bool told = bar_.style() == ProgressStyle::bar || bar_.style() == ProgressStyle::plain;
   return told && bar_.is_passing();
 }
 
-/// What is due, and sees to it that it goes on.
+/// Writes what is due, and sets the time of the next beat.
 void LiveReport::tell_in_time(Clock::time_point now) {
   tell(now);
   const auto when = next();

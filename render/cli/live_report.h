@@ -13,12 +13,12 @@
 
 namespace boule::cli {
 
-/// What is told on standard error while a run goes on, of however many frames, and the end of its
-/// time limit: by one pulse and by what the run itself reports, whoever comes first. Without the
-/// pulse's thread there is only the latter.
+/// Tells on standard error how a run of one frame or more goes on, and ends it at its time limit.
+/// It acts at each beat of a pulse and at each report of the run itself; without the pulse's thread
+/// only at the latter.
 class LiveReport {
  public:
-  /// As loud as the options say; a series of so many frames, 1: none.
+  /// `frames` is the number of frames of a series; 1: no series.
   explicit LiveReport(const RunOptions& options, int frames = 1);
   LiveReport(const LiveReport&) = delete;
   LiveReport& operator=(const LiveReport&) = delete;
@@ -32,19 +32,19 @@ class LiveReport {
   void start_pass(const char* of_what);
   void update(const Progress& progress);
   void end_pass();
-  /// Leaves the bar's line of a series as it is: other text starts on one of its own.
+  /// Leaves the series' bar where it is: other text starts on a line of its own.
   void end_series();
 
-  /// What passes keep up to date, if they can: then it is looked at too.
+  /// The progress that passes keep up to date, where they can; beats look at it.
   LiveProgress& progress() { return progress_; }
 
   /// StopGuard::stop() so many seconds from now, unless end_time_limit() comes first; none: never.
   void start_time_limit(std::optional<double> seconds);
   void end_time_limit();
 
-  /// A line; one that was told before is left out. `place` is what differs from frame to frame in
-  /// it, without telling anything new: the scene's name.
-  void tell_once(const std::string& line, const std::string& place);
+  /// Writes a line unless the same was written before. `varying` is the part that differs from
+  /// frame to frame without saying anything new: the scene's name.
+  void tell_once(const std::string& line, const std::string& varying);
 
   [[nodiscard]] bool is_series() const { return frames_ > 1; }
   /// Seconds since the run's start.

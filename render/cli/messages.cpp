@@ -10,7 +10,7 @@
 namespace boule::cli {
 
 Status print_data(const std::string& text) {
-  write_lines("");  // both may be one terminal
+  write_lines("");  // ends an open line: both streams may be the same terminal
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return std::nullopt;
   return cannot_write("standard output", std::generic_category().message(errno));

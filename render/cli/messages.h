@@ -11,7 +11,8 @@ namespace boule::cli {
 /// Writes to standard output: data only.
 Status print_data(const std::string& text);
 
-/// The same for a command that does nothing else: done, or failed after the error's line.
+/// print_data() for a command that does nothing else. Returns done, or reports the error and
+/// returns failed.
 ExitCode print_as_result(const std::string& text);
 
 /// A line for people, on standard error.

@@ -24,7 +24,7 @@ CLI::ValidationError refuse(const std::string& names, const std::string& text,
                               quote(text) + " is not understood, expected " + expected);
 }
 
-/// An option whose value `parse` makes a std::optional of; none is refused.
+/// An option whose value is parsed by `parse`, which returns a std::optional: none is an error.
 template <class Target, class Parse>
 void add_parsed(CLI::App& app, const std::string& names, Target& target, const Parse& parse,
                 const std::string& expected, const std::string& type, const std::string& help) {
@@ -54,7 +54,7 @@ struct Choice {
 template <class T>
 Choice(const char*, T) -> Choice<T>;
 
-/// An enumerator each, by the names that scene files have for them.
+/// All enumerators, by their names in scene files.
 template <class Enum>
 std::array<Choice<Enum>, names<Enum>.size()> choices() {
   static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
@@ -106,16 +106,16 @@ void add_load_limit(CLI::App& app, std::optional<double>& seconds) {
                "Give up when reading the scene and data files takes longer (no limit)");
 }
 
-/// The options that are added from now on stand under this heading in the help.
+/// Puts the options that are added from now on under this heading of the help.
 void start_group(CLI::App& app, const char* heading) { app.option_defaults()->group(heading); }
 
-/// What shows in the picture.
+/// Options that change the picture.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Picture");
   add_parsed(app, "--size", command.size, parse_size,
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
-  add_whole(app, "--spp", command.spp, 1, max_count, "Samples per pixel");
+  add_whole(app, "--spp", command.spp, rule::samples.low, rule::samples.high, "Samples per pixel");
   add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
@@ -136,7 +136,8 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
 void add_light_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Camera and light");
   add_choice(app, "--method", command.method, choices<Method>(), "How light is followed");
-  add_whole(app, "--max-depth", command.max_depth, 0, max_count, "Bounces after the first hit");
+  add_whole(app, "--max-depth", command.max_depth, rule::bounces.low, rule::bounces.high,
+            "Bounces after the first hit");
   const auto parse_stops = [](const std::string& text) {
     return parse_number(text, -100.0F, 100.0F);
   };
@@ -144,7 +145,7 @@ void add_light_options(CLI::App& app, RenderCommand& command) {
              "STOPS", "Brighten 8-bit pictures by 2^STOPS (0)");
 }
 
-/// In which pieces the work is done, and how much of it.
+/// Options that say in which pieces the work is done, and how much of it.
 void add_work_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Work");
   add_frames(app, command.frames,
@@ -174,7 +175,7 @@ void add_compression(CLI::App& app, Compression& compression) {
              "Packing of EXR pictures (zip)");
 }
 
-/// What is told while and after the work.
+/// Options for what is reported during the work and after it.
 void add_report_options(CLI::App& app, RunOptions& command) {
   add_choice(app, "--progress", command.progress,
              std::array{Choice{"auto", ProgressStyle::automatic}, Choice{"bar", ProgressStyle::bar},
@@ -250,7 +251,7 @@ TextCommand help_text(std::string text) {
 
 /// The help of the whole program, or of one command.
 Command help_on(const CLI::App& app, const std::string& name) {
-  // Not app.help(), which tells of the command that was chosen: help itself.
+  // Not app.help(): it would print the help of the chosen command, which is help itself.
   const auto all = [&] {
     return app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
   };

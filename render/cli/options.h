@@ -42,7 +42,7 @@ struct StatsTarget {
 /// How much is said on standard error besides errors.
 enum class Verbosity { quiet, normal, verbose };
 
-/// What render and trace have in common.
+/// The options that render and trace share.
 struct RunOptions {
   std::string scene;
   std::string output;
@@ -58,7 +58,7 @@ struct RunOptions {
 /// `boule render`: what is not given comes from the scene.
 struct RenderCommand : RunOptions {
   std::optional<FrameRange> frames;
-  std::optional<int> frame;  ///< the one of them that is rendered: names have its number
+  std::optional<int> frame;  ///< the frame that is rendered; the names have its number
   std::optional<Size> size;
   std::optional<int> spp;
   std::optional<PixelFilter> filter;
@@ -67,11 +67,11 @@ struct RenderCommand : RunOptions {
   std::optional<PixelRect> crop;
   AovSelection aovs;
   std::uint64_t seed = 0;
-  int tile = 0;                      ///< what fits
+  int tile = 0;                      ///< 0: chosen to fit
   std::optional<PixelOrder> order;   ///< tiles, or progressive for a partial picture
   std::optional<double> time_limit;  ///< seconds of rendering
   bool skip_existing = false;
-  bool partial = false;  ///< ended early: write what there is
+  bool partial = false;  ///< if ended early, write the unfinished picture
   Compression compression = Compression::zip;
   float exposure_stops = 0;
   PolygonPolicy polygons = PolygonPolicy::plane;
@@ -101,7 +101,7 @@ struct TextCommand {
   std::string text;
 };
 
-/// A command line that is none, why, and the command that helps.
+/// A wrong command line: the reason, and the command that helps.
 struct UsageError {
   std::string text;
   std::string help = "boule --help";
@@ -110,7 +110,7 @@ struct UsageError {
 using Command =
     std::variant<RenderCommand, TraceCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
 
-/// What the command line asks for.
+/// Parses the command line.
 Command parse_command_line(int argc, const char* const* argv);
 
 }  // namespace boule::cli

@@ -17,14 +17,14 @@ Diagnostic refusal(const std::string& name, int code) {
   return cannot_write(name, std::generic_category().message(code));
 }
 
-/// A pipe or device is written to as it is; a socket has no name that could be opened.
+/// A pipe or device is written to directly; a socket cannot be opened by its name.
 Status check_stream(const std::string& name, mode_t mode) {
   if (S_ISSOCK(mode)) return refusal(name, ENXIO);
   if (faccessat(AT_FDCWD, name.c_str(), W_OK, AT_EACCESS) != 0) return refusal(name, errno);
   return std::nullopt;
 }
 
-/// What decides is what will write it: a temporary is begun and removed again.
+/// Tries it out: creates the temporary file that writing would create, and removes it again.
 Status check_file(const std::string& name) {
   Status status;
   {

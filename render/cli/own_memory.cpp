@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kibibyte = 1024;
 constexpr std::size_t taken = 3072 * kibibyte, least_limit = 4096 * kibibyte;
 
-/// From the top: the stack grows down.
+/// Touches it from the top, since the stack grows down.
 [[gnu::noinline]] void touch_stack() {
   constexpr std::size_t page = 4 * kibibyte;
   [[maybe_unused]] volatile char stack[taken];
@@ -35,14 +35,14 @@ Diagnostic no_memory() { return Diagnostic::of("out of memory"); }
   leave_at_once("boule: error: a thread cannot be had: Resource temporarily unavailable\n", failed);
 }
 
-/// What else code of others may say of itself.
+/// Ends the program with an exception of a library.
 [[noreturn]] void end_by(const std::exception& error) {
   leave_at_once(("boule: error: " + std::string(error.what()) + "\n").c_str(), failed);
 }
 
 [[noreturn]] void end_without_memory() {
-  // Nothing was thrown: before main() begins there is not even the memory for that; later a thread
-  // was not joined, for the next one could not be had.
+  // No exception: before main() begins there was no memory to throw one; later a thread was not
+  // joined because the next one could not be created.
   if (!std::current_exception()) started ? end_without_thread() : leave_without_memory();
   try {
     throw;
@@ -58,13 +58,13 @@ Diagnostic no_memory() { return Diagnostic::of("out of memory"); }
   }
 }
 
-/// (Before sanitizers have begun.)
+/// Runs before sanitizers have begun.
 __attribute__((no_sanitize("thread"))) void install_handler() {
   std::set_terminate(end_without_memory);
 }
 
-/// Static objects of libraries want memory too, before anything of ours begins: what stands in this
-/// section is called before them.
+/// Static objects of libraries allocate memory before our first code runs. Functions in this
+/// section are called before their constructors.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = install_handler;
 
 }  // namespace

@@ -4,18 +4,18 @@
 
 namespace boule::cli {
 
-/// Takes the stack that this program needs, all at once: an error where a limit (ulimit -s, -v) is
-/// in its way. Later it could only be found out by a crash.
+/// Takes all the stack that this program needs at its start. An error where a limit (ulimit -s, -v)
+/// does not allow it; later the program would crash instead.
 Status take_stack();
 
-/// Ends the program at once with the line that there is no memory for anything else to say, its
-/// temporary file removed.
+/// Ends the program at once with a line that it is out of memory, after removing its temporary
+/// file.
 [[noreturn]] void leave_without_memory();
 
-/// The program ends like that, too, where an allocation fails in a place that exceptions cannot
-/// leave: code of others while it is loaded, and before main() begins. This says that it has: from
-/// then on it takes a std::bad_alloc to end so; and likewise, with a line of its own, where a
-/// thread cannot be had there.
+/// To be called first in main(). The program ends with the line of leave_without_memory() also
+/// where an allocation fails in code that exceptions cannot leave: while libraries are loaded, and
+/// before main() begins. After this call only a std::bad_alloc counts as such a failure. Where a
+/// thread cannot be created in such code, the program ends with a line of its own.
 void begin_main();
 
 }  // namespace boule::cli

@@ -26,14 +26,14 @@ std::string duration(double seconds) {
   return h > 0 ? fmt::format("{}:{:02}:{:02}", h, m, s) : fmt::format("{}:{:02}", m, s);
 }
 
-/// Rounded down: 100 % is said when all is done.
+/// Rounded down: 100 % means that all is done.
 int percent(double share) { return static_cast<int>(share * 100); }
 
 std::string json_number(double seconds) {
   return seconds < 0 ? "null" : fmt::format("{:.3f}", seconds);
 }
 
-/// What is left after a share of `all` has taken so long, negative where that is not known.
+/// The time left after a share of `all` has taken `elapsed`; negative where it is not known.
 double extrapolate(double elapsed, double done, double all) {
   return done > 0 ? elapsed * (all - done) / done : -1;
 }
@@ -65,7 +65,7 @@ void ProgressBar::start_pass(const char* of_what, double now) {
   if (style_ == ProgressStyle::json) told_at_ = told_share_ = -never;
 }
 
-/// The line of a single pass ends here: the next one starts anew.
+/// Ends the line of a single pass: the next pass begins another.
 void ProgressBar::end_pass() {
   passing_ = false;
   if (style_ == ProgressStyle::bar && !is_series()) told_at_ = -never;
@@ -107,7 +107,8 @@ double ProgressBar::next() const {
   }
 }
 
-/// A line that stands there goes on with whatever comes; the first waits for something to tell.
+/// A line that has been drawn is redrawn whatever happens; the first one waits for something to
+/// tell.
 double ProgressBar::next_drawing() const {
   const bool finished = share() >= 1, drawn = told_at_ > -never;
   if (finished && told_share_ < 1) return -never;
@@ -127,13 +128,13 @@ double ProgressBar::next_plain_line() const {
   return moved ? told_at_ + interval : never;
 }
 
-/// Of the series, of a frame to programs.
+/// The share of the series that is done; for programs (json) that of the frame.
 double ProgressBar::share() const {
   if (!is_series() || style_ == ProgressStyle::json) return progress_.share;
   return (std::max(frame_ - 1, 0) + progress_.share) / frames_;
 }
 
-/// Of the series, from the frames that took their time so far.
+/// The time left of the series, from the time of the frames that were rendered so far.
 double ProgressBar::series_remaining(double now) const {
   const double worked = rendered_ + (skipped_ ? 0 : progress_.share);
   const double left = frames_ - frame_ + 1 - progress_.share;
@@ -178,7 +179,7 @@ std::string ProgressBar::plain_line(double now) const {
   return fmt::format("boule: {:3} %, {}", percent(share()), state(now));
 }
 
-/// Made for 80 columns: what is said goes before the cells.
+/// Made for 80 columns. Where there is little room the text stays and the bar gets shorter.
 std::string ProgressBar::bar_line(double now) const {
   constexpr std::size_t columns = 79, others = 16;  // "boule: 100 % [] "
   const std::string text = state(now);

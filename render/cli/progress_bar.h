@@ -18,18 +18,18 @@ namespace boule::cli {
 /// automatic: bar on a terminal, else plain.
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
-/// Decides what is told of a run while it goes on, and when: the share of it that is done, time
-/// elapsed, time remaining, rays per second; what it waits for when nothing moves. Stages, which
-/// cannot tell how far they have come, are told of when they take two seconds; on a pipe every ten
-/// seconds from then on. Nothing here looks at a clock or writes: `now` is in seconds from the
-/// run's start and never decreases.
+/// Decides what is told of a run while it goes on, and when: the share that is done, the time
+/// elapsed and remaining, rays per second, and, when nothing moves, what the run waits for. Stages,
+/// whose share is not known, are told of when they have taken two seconds, and on a pipe every ten
+/// seconds from then on. The class neither looks at a clock nor writes: `now` is in seconds from
+/// the run's start and never decreases.
 class ProgressBar {
  public:
-  /// Any style but automatic; a series of so many frames, 1: none.
+  /// Any style but automatic. `frames` is the number of frames of a series; 1: no series.
   explicit ProgressBar(ProgressStyle style, int frames = 1) : style_(style), frames_(frames) {}
 
-  /// The next frame of the series begins. One that is skipped does not count for the time that a
-  /// frame takes.
+  /// Begins the next frame of the series. A frame that is skipped does not count in the estimate of
+  /// the time that a frame takes.
   void start_frame();
   void skip_frame();
 
@@ -44,11 +44,11 @@ class ProgressBar {
   /// Whether a pass has begun and not ended.
   [[nodiscard]] bool is_passing() const { return passing_; }
 
-  /// What is to be told now, if anything: a line without its end; with style bar the line that
-  /// rewrites the one before.
+  /// The line to be written now, if any, without its end; with style bar it rewrites the one
+  /// before.
   std::optional<std::string> tell(double now);
 
-  /// When there will be something if nothing moves until then; infinity: never.
+  /// When tell() will have a line if nothing moves until then; infinity: never.
   [[nodiscard]] double next() const;
 
   [[nodiscard]] ProgressStyle style() const { return style_; }

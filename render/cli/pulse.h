@@ -10,15 +10,16 @@
 
 namespace boule::cli {
 
-/// Tells what time it is to what waits for it, on a thread of its own that no signal reaches. No
-/// signal is used either: what the parent process has blocked does not matter. Where the thread
-/// cannot be had nobody is told: what has to happen in time needs another who looks at the clock.
+/// Calls a function at set times, on a thread of its own. The thread takes no signals, and the
+/// pulse uses none: it works whatever signals the parent process has blocked. Where the thread
+/// cannot be created the function is never called: its owner must look at the clock elsewhere as
+/// well.
 class Pulse {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Told the time; returns when it wants to be told again, never: Clock::time_point::max(). Must
-  /// not throw.
+  /// The function: gets the time, and returns when it is to be called again; never is
+  /// Clock::time_point::max(). Must not throw.
   using Beat = std::function<Clock::time_point(Clock::time_point now)>;
 
   /// The first beat comes when at() asks for it.
@@ -28,7 +29,7 @@ class Pulse {
   Pulse(const Pulse&) = delete;
   Pulse& operator=(const Pulse&) = delete;
 
-  /// Sees to it that the beat comes then at the latest. Not to be called by the beat itself.
+  /// Makes the next beat come at `when` at the latest. Not to be called by the beat itself.
   void at(Clock::time_point when);
 
  private:

@@ -8,12 +8,12 @@
 
 namespace boule::cli {
 
-/// What --load-limit asks for: reading may take so long in all, then the program ends at once with
-/// an error, also where it is stuck in a call of the system. Where the thread that sees to this
-/// cannot be had, it ends when that call has.
+/// The limit that --load-limit sets on the time of reading. When the time is over the program ends
+/// at once with an error, even if it is stuck in a system call. Where the thread for this cannot be
+/// created, the program ends as soon as the call returns.
 class ReadingLimit {
  public:
-  /// In seconds; none: nothing here does anything.
+  /// In seconds; none: no limit.
   explicit ReadingLimit(std::optional<double> limit);
 
   /// While it lives, a file is being read. One at a time.
@@ -39,7 +39,7 @@ class ReadingLimit {
   std::mutex mutex_;  ///< of all below
   Clock::duration left_;
   std::optional<Clock::time_point> end_;  ///< of the time, while something is read
-  std::string error_;           ///< the line then, ready: it may have to do without memory
+  std::string error_;           ///< the error's line, made beforehand: it must need no memory
   std::optional<Pulse> pulse_;  ///< last: it uses the others
 };
 

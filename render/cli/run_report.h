@@ -15,35 +15,37 @@ namespace boule::cli {
 /// An error about the command line itself, with the option as its key.
 Diagnostic wrong_option(const std::string& message, const char* option);
 
-/// What is wrong with the options that render and trace share, without reading the scene: above
-/// all, that the `output` ("picture") or the statistics would replace one of `inputs`, or each
-/// other.
+/// Checks the options that render and trace share, without reading the scene: above all, the
+/// `output`
+/// ("picture") and the statistics must not replace one of `inputs`, or each other.
 Status check_run(const RunOptions& options, const std::string& output,
                  const std::vector<std::string>& inputs = {});
 
 /// Whether the output is a pipe or device, which is written to instead of being replaced.
 bool is_stream(const std::string& output);
 
-/// What would be lost: the output, or the statistics, would replace one of the scene's data files.
+/// An error if the output or the statistics would replace one of the scene's data files.
 Status check_data_files(const RunOptions& options, const std::string& output,
                         const std::vector<std::string>& files);
 
-/// A pipe or device gets the data now: a signal's message says that the output is incomplete.
+/// To be called when data begin to go to a pipe or device: from then on a signal's message says
+/// that the output is incomplete.
 void tell_sending(const std::string& output);
 
-/// What one run of render or trace, or one frame of a series, tells on standard error, as loud as
-/// its options say, and its statistics.
+/// Writes the messages of one run of render or trace, or of one frame of a series, to standard
+/// error as the options for verbosity say, and its statistics.
 class RunReport {
  public:
   /// Both must outlive it; a series has one LiveReport for all its frames.
   RunReport(const RunOptions& options, LiveReport& live) : options_(options), live_(live) {}
 
-  /// A line unless quiet; the same once in a series; a "boule: note: " if verbose.
+  /// note(): a line, unless quiet. note_once(): the same, once in a series. detail(): a line that
+  /// begins with "boule: note: ", if verbose.
   void note(const std::string& text) const;
   void note_once(const std::string& text) const;
   void detail(const std::string& text) const;
 
-  /// The scene's warnings, that there is nothing in it, and its figures.
+  /// Writes the scene's warnings, a note if it is empty, and its figures.
   void loaded(const LoadedScene& loaded, double seconds) const;
   void prepared(const RunStatistics& run) const;
 

@@ -56,8 +56,7 @@ bool is_list(const std::string& key) {
   return false;
 }
 
-/// A line, or a list with its name above; what lists hold that are lists again stands below,
-/// further to the right.
+/// A line; or for a list its name and a line for each element, with lists inside it indented below.
 void append_text(std::string& text, const std::string& indent, const std::string& key,
                  const Json& value) {
   const auto append = [&](const std::string& end) { text += indent + key + ": " + end + "\n"; };
@@ -77,8 +76,8 @@ void append_text(std::string& text, const std::string& indent, const std::string
   }
 }
 
-/// The camera and the lights as they will be rendered, with a note where the scene has none.
-void add_view(Json& json, const Scene& scene) {
+/// Camera, background and lights as they will be rendered, with a note on what the scene lacks.
+void add_surroundings(Json& json, const Scene& scene) {
   Json notes = Json::array(), lights = Json::array();
   const Camera camera =
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
@@ -118,7 +117,7 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
                {"groups", group_count},
                {"instances", instance_count},
                {"bounds", bounds_info(scene.spheres)}});
-  add_view(json, scene);
+  add_surroundings(json, scene);
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene);
   json["first_planes"] = planes_info(scene);

@@ -7,11 +7,11 @@
 
 namespace boule::cli {
 
-/// What a scene holds, every field that a scene file can set: settings, counts, those of instances
-/// expanded, bounds of the spheres, camera, background, lights, materials, warnings; of spheres,
-/// planes and instances the first few; data files by their names. Numbers are written as short as
-/// they can be and still be the float that is meant. What the scene leaves out is there as it will
-/// be rendered, and "notes" say so.
+/// Describes a scene with every field that a scene file can set: settings, counts (those of
+/// instances expanded), bounds of the spheres, camera, background, lights, materials, the first few
+/// spheres, planes and instances, the names of data files, and warnings. Each number is the
+/// shortest that reads back as the same float. A camera or lights that the scene leaves out are
+/// given as they will be rendered, and "notes" say so.
 nlohmann::ordered_json scene_info(LoadedScene loaded, const std::string& path);
 
 /// The same for people: a line for each, lists below their names.

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 /// Values as `boule info` and pictures' headers show them.
 
-/// The double that prints as short as the float does: 0.1, not 0.10000000149011612.
+/// The double that is printed as short as the float: 0.1, not 0.10000000149011612.
 double shown(float x);
 Json shown(const Vec3f& v);
 Json shown(const Color& c);

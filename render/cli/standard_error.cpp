@@ -22,14 +22,14 @@ std::atomic<bool> writing{false};
 std::atomic<bool> closed{false};  // the last line has been written, or will be at once
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// On the thread that is writing: a signal's handler there cannot wait for it.
+/// Set on the thread that is writing: a signal's handler on that thread must not wait for it.
 thread_local volatile std::sig_atomic_t writing_here = 0;
 
 /// Under the mutex.
 void put(const std::string& text) {
   writing_here = 1;
   writing = true;
-  // Nobody could be told that standard error is gone; a signal that is caught cuts nothing off.
+  // An error is not reported, since standard error itself fails; after EINTR it goes on.
   for (std::size_t at = 0; at < text.size() && !closed;) {
     const ssize_t written = ::write(STDERR_FILENO, text.data() + at, text.size() - at);
     if (written < 0 && errno == EINTR) continue;
@@ -40,7 +40,7 @@ void put(const std::string& text) {
   writing_here = 0;
 }
 
-/// Waits for another thread's line, but not for ever: the terminal may be stopped.
+/// Waits for another thread's line, but only for a while: the terminal may be stopped.
 void wait_for_others() {
   constexpr timespec millisecond{0, 1'000'000};
   for (int i = 0; i < 200 && writing; ++i) nanosleep(&millisecond, nullptr);
@@ -68,7 +68,7 @@ void draw_line(std::string line) {
   line.resize(std::min(line.size(), terminal_columns() - 1));
   const std::size_t length = line.size();
   if (length < drawn) line.append(drawn - length, ' ');
-  // First: a signal in between then ends an empty line, not none.
+  // Set first: a signal in between then ends a line that is still empty, which does no harm.
   line_open = true;
   put("\r" + line);
   drawn = length;
@@ -88,7 +88,7 @@ void write_last_line(const char* line) {
   char text[402] = "";
   if (line_open) std::strcat(text, "\n");
   std::strncat(text, line, 400);
-  // A pipe that is full and a terminal that is stopped would keep it for ever.
+  // A full pipe or a stopped terminal would block it for ever.
   constexpr int patience_ms = 200;
   pollfd ready{STDERR_FILENO, POLLOUT, 0};
   if (::poll(&ready, 1, patience_ms) == 0) return;

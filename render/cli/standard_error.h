@@ -4,8 +4,8 @@
 
 namespace boule::cli {
 
-/// Writes whole lines to standard error, on any thread. What draw_line() left open is wiped away
-/// first.
+/// Writes whole lines to standard error, on any thread. It first wipes away a line that draw_line()
+/// left open.
 void write_lines(const std::string& lines);
 
 /// Rewrites the last line of the terminal on standard error, which stays open: no end of line
@@ -18,9 +18,8 @@ void end_drawn_line();
 /// Columns of the terminal on standard error, 80 if it does not tell.
 std::size_t terminal_columns();
 
-/// Writes the process's last line to standard error, after ending one that is open: nobody writes
-/// anything after it. What a signal's handler may do; needs no memory. What is beyond 400 bytes is
-/// cut.
+/// Writes the process's last line to standard error, after ending one that is open: no other line
+/// can follow it. It is cut to 400 bytes. The function is async-signal-safe and needs no memory.
 void write_last_line(const char* line);
 
 }  // namespace boule::cli

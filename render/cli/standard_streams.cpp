@@ -10,8 +10,9 @@ namespace boule::cli {
 void open_closed_streams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
-    // For reading: what is written to it fails as it would without it, data are not lost in
-    // silence. The lowest free descriptor is the one that is looked for. Without a /dev, a folder.
+    // Opened for reading, so that writing to it fails as it would to a closed descriptor: no data
+    // are lost silently. open() returns the lowest free descriptor, which is this one. The folder
+    // serves where there is no /dev.
     if (open("/dev/null", O_RDONLY) < 0) open("/", O_RDONLY);
   }
 }

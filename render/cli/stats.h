@@ -12,7 +12,7 @@
 
 namespace boule::cli {
 
-/// What only a picture has.
+/// The statistics that only a picture has.
 struct PictureStats {
   Size size{};  ///< pixels: of the crop where there is one
   int spp = 1;
@@ -20,7 +20,7 @@ struct PictureStats {
   SampleFaults faults;
 };
 
-/// What a render or a trace took. Times are wall-clock seconds.
+/// The statistics of a render or a trace. Times are wall-clock seconds.
 struct Stats : RunStatistics {
   double load_seconds = 0;
   double work_seconds = 0;  ///< of rendering or tracing
@@ -33,13 +33,14 @@ struct Stats : RunStatistics {
 /// Millions of rays per second of work, 0 where it took no time.
 double mrays_per_s(const Stats& stats);
 
-/// Of samples that the picture does not show as they were: a note each.
+/// A note for each kind of sample that the picture does not show as it was.
 std::vector<std::string> fault_notes(const SampleFaults& faults);
 
 /// "fast", "robust", "reference".
 const char* solver_name(Solver solver);
 
-/// Text on standard error, or JSON (schema 1) on standard output or in a file that appears whole.
+/// Writes text to standard error, or JSON (schema 1) to standard output or to a file, which appears
+/// only when it is complete.
 Status write_stats(const Stats& stats, const StatsTarget& target);
 
 }  // namespace boule::cli

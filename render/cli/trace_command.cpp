@@ -23,7 +23,7 @@ namespace {
 /// Rays in memory at a time, so that a file of any length will do.
 constexpr std::uint64_t chunk_size = std::uint64_t{1} << 18;
 
-/// What can be told wrong without reading anything.
+/// Errors in the command that show without reading any file.
 Status check(const TraceCommand& command) {
   if (!is_npy_name(command.output)) {
     return wrong_option(
@@ -153,7 +153,7 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
   return std::nullopt;
 }
 
-/// At least one chunk: no rays are traced like any others.
+/// Traces at least one chunk: a file without rays is no special case.
 std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file) {
   do {
     const std::uint64_t left = rays.size() - traced_;
@@ -188,14 +188,14 @@ Status Tracing::append_chunk(HitFile& file) {
   return command_.any_hit ? file.append(met_) : file.append(hits_);
 }
 
-/// The progress of one chunk as that of `all` rays.
+/// Shows the progress of one chunk as part of `all` rays.
 void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
   const std::uint64_t done = traced_ + progress.rays;
   const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
   live_.update({share, done});
 }
 
-/// After the hits: the line that says so, and the statistics.
+/// Writes the final line and the statistics.
 ExitCode Tracing::finish(const Tracer& tracer) {
   const TraceStatistics tracing = tracer.statistics();
   static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(tracing);
@@ -205,7 +205,7 @@ ExitCode Tracing::finish(const Tracer& tracer) {
   live_.end_stage();
   try {
     tell_end();
-  } catch (const std::bad_alloc&) {  // the hits are there: a line less is no failure
+  } catch (const std::bad_alloc&) {  // the hits are written: a missing line is no failure
   }
   return report_.finish(stats_);
 }

@@ -43,7 +43,7 @@ std::string unknown_option(const CLI::App& command, const std::string& word) {
   Names known;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& one : option->get_lnames()) {
-      // The beginning of a name is no slip of the keyboard, but many programs take it for the name.
+      // Many programs accept the beginning of an option's name: it is not a misspelling of another.
       const bool is_start = name.size() > 3 && ("--" + one).starts_with(name);
       if (is_start)
         return text + "; did you mean " + quote(short_name(*option)) + " (--" + one + ")?";
@@ -66,7 +66,7 @@ UsageError explain_early(const CLI::App& app, const std::string& word) {
   return {unknown_option(app, word)};
 }
 
-/// What to do about a word that no option wants: one that is missing may have been meant.
+/// The error for a word that no option takes; it names the missing options, which may be meant.
 std::string unexpected(const CLI::App& command, const std::string& word) {
   std::string text = "argument not expected: " + quote(word), names;
   for (const CLI::Option* option : missing_options(command)) {
@@ -106,7 +106,7 @@ UsageError explain_usage(const CLI::App& app, const CLI::ParseError& error) {
       chosen.empty() ? "boule --help" : "boule " + command.get_name() + " --help";
   const Names words = command.remaining();
   if (words.empty() || (!is_missing && !is_extra)) {
-    // CLI11 repeats what was typed.
+    // CLI11's message repeats what was typed, so it is made printable.
     return {is_missing ? missing(app, command) : printable(error.what(), 400), help};
   }
   const auto option = std::find_if(words.begin(), words.end(), is_option_word);

@@ -7,11 +7,11 @@
 
 namespace boule::cli {
 
-/// What is wrong with a command line that CLI11 refused, in words that say what to type instead.
-/// Words that nobody knows come first: what CLI11 finds missing is often what they were meant for.
+/// Explains why CLI11 refused a command line, in words that say what to type instead. Unknown words
+/// are explained before missing options: often an unknown word was meant for the missing option.
 UsageError explain_usage(const CLI::App& app, const CLI::ParseError& error);
 
-/// There is no such command; the nearest one is named.
+/// The error for a command that there is not; it names the nearest one.
 UsageError unknown_command(const CLI::App& app, const std::string& name);
 
 }  // namespace boule::cli

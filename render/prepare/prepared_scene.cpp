@@ -69,8 +69,8 @@ EnvironmentLight environment_light(const Scene& scene, Method method) {
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
   const FloatEnvironment floats;
-  if (auto bad = check_range("image.size", width, 1, max_image_side)) return *bad;
-  if (auto bad = check_range("image.size", height, 1, max_image_side)) return *bad;
+  if (auto bad = check_range("image.size", width, rule::image_side)) return *bad;
+  if (auto bad = check_range("image.size", height, rule::image_side)) return *bad;
   if (auto bad = validate(scene)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;

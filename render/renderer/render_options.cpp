@@ -54,11 +54,11 @@ int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t sph
 }
 
 Status validate(const RenderOptions& options) {
-  if (auto bad = check_range("image.size", options.width, 1, max_image_side)) return bad;
-  if (auto bad = check_range("image.size", options.height, 1, max_image_side)) return bad;
-  if (auto bad = check_range("image.spp", options.spp, 1, max_count)) return bad;
-  if (auto bad = check_range("render.max_depth", options.max_depth, 0, max_count)) return bad;
-  if (auto bad = check_range("tile", options.tile, 0, max_tile)) return bad;
+  if (auto bad = check_range("image.size", options.width, rule::image_side)) return bad;
+  if (auto bad = check_range("image.size", options.height, rule::image_side)) return bad;
+  if (auto bad = check_range("image.spp", options.spp, rule::samples)) return bad;
+  if (auto bad = check_range("render.max_depth", options.max_depth, rule::bounces)) return bad;
+  if (auto bad = check_range("tile", options.tile, {.low = 0, .high = max_tile})) return bad;
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {
     return Diagnostic::about("crop", "must be at least one pixel and lie within the frame of " +

@@ -10,11 +10,11 @@
 
 namespace boule {
 
-/// Keeps the first error reported about one file; what is reported after it are consequences.
-/// A reader reports and goes on, so that its code reads as the list of what it reads.
+/// Keeps the first error reported about one file; later ones are its consequences and dropped. A
+/// reader reports an error and goes on, so that its code reads as the list of what it reads.
 class FirstError {
  public:
-  /// `frame`: of a series, which the file is read for.
+  /// `frame` is the frame of a series that the file is read for.
   explicit FirstError(std::string file, std::optional<int> frame = {})
       : file_(std::move(file)), frame_(frame) {}
 

@@ -4,12 +4,12 @@
 
 namespace boule {
 
-/// True if the name has a place for the frame number: a '#'.
-inline bool has_frame_place(const std::string& name) { return name.find('#') != std::string::npos; }
+/// True if the name has a slot for the frame number: a '#'.
+inline bool has_frame_slot(const std::string& name) { return name.find('#') != std::string::npos; }
 
-/// True if that place is for more than one digit: two '#' in a row are hardly part of a name that
-/// is meant as it stands.
-inline bool has_wide_frame_place(const std::string& name) {
+/// True if the slot has two '#' or more. Such a name is hardly meant as it stands, while one '#'
+/// may be an ordinary part of a name.
+inline bool has_wide_frame_slot(const std::string& name) {
   return name.find("##") != std::string::npos;
 }
 

@@ -35,7 +35,8 @@ Status refuse_special(const std::string& path, const struct stat& info) {
                      std::string("it is ") + kind_of(info.st_mode) + ", expected a regular file");
 }
 
-/// Refuses what is no text, with the place of the first NUL byte; none is before `checked`.
+/// Refuses bytes that are not text, with the place of the first NUL byte; there is none before
+/// `checked`.
 Status refuse_binary(const std::string& path, std::string_view text, std::size_t checked) {
   const std::string_view start = text.substr(0, 2);
   if (start == "\xff\xfe" || start == "\xfe\xff") {
@@ -52,7 +53,8 @@ Status refuse_binary(const std::string& path, std::string_view text, std::size_t
                     .column = 1 + static_cast<int>(nul - line_start)};
 }
 
-/// Appends up to `count` bytes of the file: true if it ends with them. What is no text is refused.
+/// Appends up to `count` bytes of the file and returns true if the file ends with them. Bytes that
+/// are not text are refused.
 Result<bool> append_text(InputFile& file, const std::string& path, std::size_t count,
                          std::string& text) {
   const std::size_t begin = text.size();
@@ -91,7 +93,7 @@ Result<InputFile> InputFile::open(const std::string& path) {
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0) return cannot_read(path, system_reason());
   if (auto special = refuse_special(path, info)) return *special;
-  // O_NONBLOCK: should the name mean a FIFO by now, opening it must not wait for a writer.
+  // O_NONBLOCK: if the file has become a FIFO meanwhile, opening it must not wait for a writer.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return cannot_read(path, system_reason());
   InputFile file(path, descriptor, 0);
@@ -115,13 +117,13 @@ Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
 }
 
 Result<std::string> read_text(const std::string& path) {
-  // A block is cleared and then read: both in the cache, where the whole text would not fit.
+  // Each block is cleared and then read while it is in the cache, which cannot hold the whole text.
   constexpr std::size_t block_size = std::size_t{1} << 18;
   auto file = InputFile::open(path);
   if (!file) return file.error();
   const std::uint64_t size = file.value().size();
   std::string text;
-  // The first block before memory is asked for the rest: what is no text needs none.
+  // The first block is read before memory is allocated for the rest: a binary file needs none.
   auto at_end = append_text(file.value(), path, block_size, text);
   if (!at_end) return at_end.error();
   if (!at_end.value() && size > text.size()) {

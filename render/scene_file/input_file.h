@@ -8,8 +8,8 @@
 
 namespace boule {
 
-/// A regular file open for reading; closes itself. Anything else (directory, FIFO, device, socket)
-/// is refused before it is opened, so that opening neither blocks nor acts.
+/// A regular file open for reading; the destructor closes it. Directories, FIFOs, devices and
+/// sockets are refused before they are opened: opening one could block, or set off an action.
 class InputFile {
  public:
   /// Opens `path`, any name; the error carries the system's reason.
@@ -22,8 +22,8 @@ class InputFile {
   /// Its size in bytes when it was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Reads up to `count` bytes into `buffer`, which has room for them: how many, less than `count`
-  /// only at the end. An error of a file that was moved away.
+  /// Reads up to `count` bytes into `buffer`, which has room for them. Returns how many it read:
+  /// less than `count` at the end of the file only. An error for a file that was moved away.
   Result<std::size_t> read(void* buffer, std::size_t count);
 
  private:
@@ -34,9 +34,9 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// The whole text of a regular file, without a UTF-8 byte order mark. UTF-16 text and NUL bytes
-/// are refused, the latter with their place, as soon as they are read: of a file that is all zeros
-/// its first block. So is what does not fit into memory.
+/// The whole text of a regular file, without a UTF-8 byte order mark. UTF-16 text, NUL bytes and
+/// text that does not fit into memory are refused. A NUL byte is refused as soon as it is read,
+/// with its line and column: of a file of zeros only the first block is read.
 Result<std::string> read_text(const std::string& path);
 
 }  // namespace boule

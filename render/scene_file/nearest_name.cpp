@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-/// Longer names than this are nobody's slip of the keyboard, and cost quadratic time.
+/// Longer names are not compared: they are no slips of the keyboard, and the time is quadratic.
 constexpr std::size_t longest_name = 64;
 
 /// Restricted Damerau-Levenshtein distance: insert, delete, replace, swap of neighbours.

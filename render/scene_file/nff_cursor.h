@@ -12,9 +12,9 @@
 
 namespace boule {
 
-/// Walks through NFF text line by line, word by word, without allocating. Words are separated by
-/// blanks; a word that begins with '#' ends its line. The take functions report what is wrong
-/// under `key` and then return false.
+/// Goes through NFF text line by line and word by word, without allocating. Words are separated by
+/// blanks; a word that begins with '#' ends its line. The functions that take a word report an
+/// error under `key` and return false where it is not what they expect.
 class NffCursor {
  public:
   /// `text` and `error` must outlive it.
@@ -36,13 +36,13 @@ class NffCursor {
   /// The end of the line, or an error about the word that is there instead.
   bool take_line_end(const char* key);
 
-  /// Where the word `index` of this line begins (0: the first), or the line's end.
+  /// Where a word of this line begins, the first is number 0, or where the line ends.
   [[nodiscard]] TextPlace place(std::size_t index = 0) const;
-  /// Where the text ends so far: behind the last word taken.
+  /// Behind the last word taken.
   [[nodiscard]] TextPlace end_place() const { return place_of(at_); }
 
  private:
-  /// take() of what is not simply a number between blanks: a '+', an underflow, or an error.
+  /// take() for words that are not simply a number: one with a '+', an underflow, an error.
   bool take_unusual(const char* key, float& out);
   bool take_number_word(const char* key, const char* expected, std::string_view& word);
   bool report(std::string_view word, const char* key, std::string message);

@@ -9,7 +9,7 @@
 namespace boule {
 
 Result<Plane> plane_through(const std::vector<Vec3f>& vertices) {
-  // Relative to the first vertex, so that the place in the world costs no digits.
+  // Relative to the first vertex: far from the origin no digits are lost.
   const Vec3d origin = vec_cast<double>(vertices[0]);
   const auto relative = [&](std::size_t i) { return vec_cast<double>(vertices[i]) - origin; };
   Vec3d sum;  // twice the area vector

@@ -9,9 +9,9 @@
 namespace boule {
 
 /// The plane through a polygon: its first vertex and its unit normal, which points to where the
-/// vertices run counterclockwise (Newell's method, Graphics Gems III). Refused, with a message
-/// only: no area to speak of (below 1e-6 of its extent squared), or not flat (a vertex off the
-/// plane by more than 1e-3 of its extent).
+/// vertices run counterclockwise (Newell's method, Graphics Gems III). A polygon is refused, with a
+/// Diagnostic that has a message only, if its area is below 1e-6 of its extent squared, or if a
+/// vertex is off the plane by more than 1e-3 of its extent.
 Result<Plane> plane_through(const std::vector<Vec3f>& vertices);
 
 }  // namespace boule

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "render/scene_file/nearest_name.h"
+#include "render/scene_file/nff_camera.h"
 #include "render/scene_file/nff_cursor.h"
 #include "render/scene_file/nff_polygon.h"
-#include "render/scene_file/nff_view.h"
 #include "render/scene_file/sphere_room.h"
 
 namespace boule {
@@ -57,7 +57,7 @@ class NffReader {
   NffCursor line_;
   PolygonPolicy policy_;
   Scene scene_;
-  NffView view_;
+  NffCamera view_;
   bool is_empty_ = true;
   bool has_background_ = false;
   std::vector<std::size_t> uncolored_lights_;
@@ -144,7 +144,7 @@ void NffReader::read_fill() {
                            line_.take("f.T", fill.transmission) && line_.take("f.ior", fill.ior) &&
                            line_.take_line_end("f");
   if (!is_complete) return;
-  // Some of the SPD programs (teapot) write 0 for what opaque surfaces have no use for.
+  // Some SPD programs (teapot) write 0 for opaque surfaces, which have no use for the index.
   if (fill.ior == 0 && fill.transmission == 0) fill.ior = 1;
   check(find_problem(Material{fill}), fill_words);
   scene_.materials.push_back({"f@" + std::to_string(line_.place().line), fill});
@@ -174,7 +174,8 @@ void NffReader::read_polygon(const char* key, bool has_normals) {
   if (policy_ == PolygonPolicy::plane) add_plane(place, key);
 }
 
-/// Reads `count` lines of a vertex each, in `pp` with its shading normal, which planes ignore.
+/// Reads `count` lines with a vertex each. Those of `pp` have a shading normal as well, which
+/// planes ignore.
 bool NffReader::read_vertices(const char* key, bool has_normals, int count) {
   vertices_.clear();  // not reserved: `count` may be anything
   for (int i = 0; i < count; ++i) {
@@ -201,7 +202,7 @@ void NffReader::add_plane(TextPlace place, const char* key) {
   scene_.planes.push_back(plane.value());
 }
 
-/// The latest `f`; before the first, NFF's white.
+/// The material of the latest `f`; before the first one, NFF's white.
 std::uint32_t NffReader::material() {
   if (scene_.materials.empty()) scene_.materials.push_back({"default", Phong{{1, 1, 1}}});
   return static_cast<std::uint32_t>(scene_.materials.size() - 1);
@@ -212,7 +213,7 @@ void NffReader::finish() {
   if (is_empty_)
     error_.report(line_.end_place(), "v", "the scene is empty: the file has no v block");
   if (!view_.is_there()) error_.report(line_.end_place(), "v", "the file has no v block");
-  // Haines: lights without a colour share what one would give.
+  // Haines: n lights without a colour have an intensity of 1 / sqrt(n) each.
   const double share = 1 / std::sqrt(static_cast<double>(scene_.lights.size()));
   for (const std::size_t i : uncolored_lights_) {
     std::get<PointLight>(scene_.lights[i]).intensity = gray(static_cast<float>(share));

@@ -7,9 +7,9 @@
 
 namespace boule {
 
-/// Reads Haines' Neutral File Format as the Standard Procedural Databases write it: v b l f s p pp
-/// and comments; lines are the unit. `path` names the text in errors. The scene has passed
-/// validate().
+/// Reads Haines' Neutral File Format as the Standard Procedural Databases write it: comments and
+/// the entities v, b, l, f, s, p and pp, each of whole lines. `path` names the text in errors. The
+/// scene has passed validate().
 Result<LoadedScene> read_nff(std::string_view text, const std::string& path,
                              PolygonPolicy polygons);
 

@@ -85,7 +85,7 @@ class RowDecoder {
   const NpySpheres& request_;
 };
 
-/// Appends rows of one kind; true if all are valid. What is wrong is found out when something is.
+/// Appends rows of one kind; true if all are valid. If not, RowDecoder::explain() finds out why.
 template <class Number, std::size_t columns>
 bool RowDecoder::append_all(const unsigned char* rows, std::size_t count,
                             std::vector<Sphere>& spheres) const {

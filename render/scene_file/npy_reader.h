@@ -15,7 +15,7 @@ struct NpySpheres {
   std::string path;
   std::optional<float> radius;  ///< above 0; required for N x 3, refused for N x 4
   std::uint32_t material = 0;   ///< of all of them
-  bool is_scene = false;        ///< the file is all there is: nothing else can give a radius
+  bool is_scene = false;        ///< the file is the whole scene: no key can give a radius
 };
 
 /// Appends the file's spheres: little-endian float32 or float64, C order, each number rounded to

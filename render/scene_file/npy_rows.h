@@ -25,11 +25,11 @@ Status check_npy_order(const NpyHeader& header);
 /// of `row_bytes` bytes each.
 Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uint64_t file_size);
 
-/// Reads the next `bytes` bytes of rows; that there are less now is an error.
+/// Reads the next `bytes` bytes of rows. It is an error if the file has become shorter.
 Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes);
 
-/// One little-endian float or double, whatever the machine's own order. Compilers make one load of
-/// it where that order is the same.
+/// One little-endian float or double, whatever the machine's byte order. On little-endian machines
+/// compilers make it a single load.
 template <class Number>
 inline Number npy_number(const unsigned char* bytes) {
   using Bits = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;

@@ -6,8 +6,8 @@
 
 namespace boule {
 
-/// Reads a picture that a scene names. Only regular files are read, as for scenes: what is not
-/// there, or no file, is refused before the image module is loaded.
+/// Reads a picture that a scene names. Only regular files are read, as for scenes: other names are
+/// refused before the image module is loaded.
 Result<Image> read_picture(const std::string& path, PictureContent content);
 
 }  // namespace boule

@@ -31,7 +31,7 @@ Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOpti
                                       : read_nff(text.value(), path, options.polygons);
 }
 
-/// Spheres by themselves, of the material that objects without one have.
+/// Spheres alone, of the default material.
 Result<LoadedScene> read_npy_scene(const std::string& path) {
   LoadedScene loaded;
   loaded.scene.materials.push_back({"default", Matte{}});

@@ -15,11 +15,11 @@ enum class PolygonPolicy { plane, skip, error };
 /// How a scene file is read.
 struct SceneFileOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
-  std::optional<int> frame{};  ///< of a series: where the camera is, and which data files are meant
+  std::optional<int> frame{};  ///< of a series: selects the camera's position and the data files
 };
 
-/// A scene that passed validate(), remarks for the user that are not errors, and the data files
-/// that it was read from beside its own.
+/// A scene that has passed validate(), warnings for the user, and the paths of the data files that
+/// were read besides the scene file.
 struct LoadedScene {
   Scene scene;
   std::vector<std::string> warnings;  ///< each "FILE:LINE: warning: TEXT"
@@ -27,9 +27,9 @@ struct LoadedScene {
 };
 
 /// Reads a scene by its extension: .toml, .nff (Haines' SPD), or .npy: spheres alone, N x 4.
-/// Anything wrong is a Diagnostic with file, line, column and key, and so is a scene that could not
-/// be prepared in the memory there is. Any name will do, any text and any frame; only regular files
-/// are read.
+/// An error is a Diagnostic with file, line, column and key; it is an error, too, if the scene is
+/// too large to be prepared in the memory there is. Takes any name, text and frame; only regular
+/// files are read.
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options = {});
 
 }  // namespace boule

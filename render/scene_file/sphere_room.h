@@ -7,8 +7,8 @@
 
 namespace boule {
 
-/// Makes room for `more` spheres behind those that are there, by half again at least: many small
-/// files in a row must not copy all spheres for each of them.
+/// Makes room for `more` spheres behind those that are there, and at least for half as many again:
+/// otherwise each of many small files would copy all spheres.
 void make_room(std::vector<Sphere>& spheres, std::size_t more);
 
 }  // namespace boule

@@ -50,7 +50,7 @@ void read_aperture(TomlTable& table, float& aperture) {
   if (!std::isfinite(aperture)) table.report("f_number", "makes the lens too large for a number");
 }
 
-/// What is sharp: a distance, or a point that lies there.
+/// The distance that is sharp, given as a number or by a point that lies there.
 template <class Kind>
 void read_focus(TomlTable& table, Kind& camera) {
   if (!table.has_array("focus")) {
@@ -72,7 +72,7 @@ void read_keys(TomlTable& table, ThinLensCamera& camera) {
   read_aperture(table, camera.aperture);
 }
 
-/// Narrows the stop, where there is a key for it.
+/// Narrows the stop as the key `f_number` says, if it is there.
 void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
   if (!table.has("f_number") || first_problem(camera)) return;
   const auto stop = find_stop(camera.surfaces);
@@ -91,7 +91,7 @@ void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
 void read_keys(TomlTable& table, LensCamera& camera) {
   std::string name;
   float f_number = 1;
-  read_fields(table, camera.pose);  // errors list the keys in this order
+  read_fields(table, camera.pose);  // first: errors list the keys in the order of reading
   table.read_file_name("file", name);
   table.read("f_number", f_number);
   read_fields(table, camera);
@@ -109,7 +109,7 @@ void read_keys(TomlTable& table, LensCamera& camera) {
   stop_down(table, f_number, camera);
 }
 
-/// The picture's red and green.
+/// The map in a picture's red and green.
 DistortionMap map_of(const Image& image) {
   DistortionMap map{image.width, image.height, {}};
   map.st.reserve(2 * image.pixels.size());
@@ -138,7 +138,7 @@ DistortionMap read_distortion(TomlTable table) {
 
 Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion) {
   std::optional<TomlTable> distorted = table.table("distortion");
-  table.has("key");  // known: keys have become what they say (apply_camera_keys())
+  table.has("key");  // makes it known: apply_camera_keys() has read these tables
   Camera camera = read_kind<Camera>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
   table.check(find_problem(camera));
   if (distorted) distortion = read_distortion(std::move(*distorted));

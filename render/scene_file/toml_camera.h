@@ -8,8 +8,8 @@
 
 namespace boule {
 
-/// What the table [camera] says, and [camera.distortion], whose picture is read. Keys that are
-/// absent have the defaults of core/scene/camera.h; anything wrong is reported through the table.
+/// Reads the tables [camera] and [camera.distortion], with the picture that the latter names. Keys
+/// that are absent have the defaults of core/scene/camera.h; errors are reported through the table.
 Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion);
 
 }  // namespace boule

@@ -71,7 +71,7 @@ class CameraKeys {
   CameraMotion motion_;
 };
 
-/// What a track has at a frame, as if it stood in [camera]; its place is that of the key before.
+/// The value of a track at a frame, as a member of [camera]; its place is that of the key before.
 TomlMember member_of(const CameraTrack& track, double frame) {
   const TextPlace place = place_at(track, frame);
   TomlArray numbers;
@@ -96,7 +96,7 @@ void move(float& number, const CameraTrack& track, double frame) {
   if (!track.places.empty()) number = number_at(track, 0, frame);
 }
 
-/// What is wrong with a camera at a frame; `sharp` is the point that it keeps in focus.
+/// The first Problem of a camera at a frame; `sharp` is the point that it keeps in focus.
 std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame, Camera camera,
                                        const std::optional<Vec3f>& sharp) {
   const auto move_it = [&](auto& kind) {
@@ -117,8 +117,8 @@ std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame,
   return Problem{"focus", "must lie in front of the camera"};
 }
 
-/// A camera that is wrong where this one is: while its focus stands, its elements need not be
-/// looked at again, nor copied.
+/// A camera with the same Problems at every frame, but cheap to copy and check: while the focus of
+/// a lens stands still, its elements have been checked once and are left out.
 Camera without_elements(const Camera& camera, const CameraMotion& motion) {
   const auto* lens = std::get_if<LensCamera>(&camera);
   const bool stands = motion.tracks.back().places.empty();

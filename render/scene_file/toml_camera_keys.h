@@ -22,7 +22,7 @@ struct CameraTrack {
   std::vector<TextPlace> places{};  ///< of each key that names it
 };
 
-/// What the tables [[camera.key]] of a scene file say.
+/// The contents of the tables [[camera.key]] of a scene file.
 struct CameraMotion {
   std::vector<int> frames{};  ///< of the keys
   std::array<CameraTrack, 5> tracks{CameraTrack{"eye", 3}, CameraTrack{"look_at", 3},
@@ -30,10 +30,11 @@ struct CameraMotion {
                                     CameraTrack{"focus", 1}};
 };
 
-/// Puts what moves, as it is in one frame, in place of the tables [[camera.key]] of a scene file:
-/// what reads [camera] afterwards sees a camera that stands still. Each quantity follows the
-/// keys that name it, component by component (monotone_cubic()), in double. No frame: that of the
-/// first key. `root` holds the members of the whole file. Nothing if it has no such tables.
+/// Replaces the tables [[camera.key]] of a scene file by what they say for one frame: the reader of
+/// [camera] then sees a camera that stands still. Each quantity is interpolated between the keys
+/// that name it, component by component, by monotone_cubic() in double. Without a frame, that of
+/// the first key is taken. `root` holds the members of the whole file. Returns nothing if there are
+/// no such tables.
 std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
                                               FirstError& error);
 

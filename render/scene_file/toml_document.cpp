@@ -37,7 +37,7 @@ TomlArray copy_elements(const toml::array& array) {
   return elements;
 }
 
-/// toml++'s tree as plain values: what reads it needs no toml++ and sees the file's order.
+/// toml++'s tree as plain values in the order of the file; its readers need no toml++.
 TomlValue copy(const toml::node& node) {
   TomlValue value{place_of(node.source()), TomlDate{}};
   if (const auto* table = node.as_table()) value.data = copy_members(*table);

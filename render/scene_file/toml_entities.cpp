@@ -17,7 +17,7 @@ void read_keys(TomlTable& table, Kind& kind) {
   table.check(first_problem(kind));
 }
 
-/// The file is read where all else is right.
+/// Reads the file only if all keys are right.
 void read_keys(TomlTable& table, EnvironmentBackground& background) {
   std::string name;
   table.read_file_name("file", name);

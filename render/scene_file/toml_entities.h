@@ -5,8 +5,8 @@
 
 namespace boule {
 
-/// What a table of the scene file says, one function per noun. Keys that are absent have the
-/// defaults of the structs in core/scene; anything wrong is reported through the table.
+/// One function for each kind of table of the scene file. Keys that are absent have the defaults of
+/// the structs in core/scene; errors are reported through the table.
 
 ImageSettings read_image(TomlTable& table);
 RenderSettings read_render(TomlTable& table);

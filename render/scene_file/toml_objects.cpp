@@ -37,7 +37,7 @@ ObjectTables object_tables(TomlTable& table) {
   auto& all = tables.spheres;
   for (TomlTable& one : table.tables("sphere")) all.push_back({std::move(one), false});
   for (TomlTable& one : table.tables("spheres")) all.push_back({std::move(one), true});
-  // Ids go by the order in the file, whichever of the two a table is.
+  // Ids follow the order in the file, of [[sphere]] and [[spheres]] together.
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     const TextPlace p = a.table.place(), q = b.table.place();
     return std::tie(p.line, p.column) < std::tie(q.line, q.column);
@@ -142,7 +142,7 @@ std::uint32_t TomlObjects::material_of(TomlTable& table) {
   return table.has("material") ? find_id(table, "material", material_ids_) : default_material();
 }
 
-/// The material of objects that name none: a matte, added when the first of them comes.
+/// The material of objects that name none: a matte, added for the first of them.
 std::uint32_t TomlObjects::default_material() {
   if (!default_id_) {
     default_id_ = static_cast<std::uint32_t>(scene_.materials.size());

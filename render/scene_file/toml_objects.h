@@ -14,9 +14,9 @@
 
 namespace boule {
 
-/// The tables of a scene or a group that say what is in it, in the order of the file.
+/// The tables of the objects of a scene or a group, in the order of the file.
 struct ObjectTables {
-  /// A [[sphere]], or a [[spheres]] for a file of them.
+  /// A [[sphere]], or a [[spheres]], which names a file of them.
   struct Spheres {
     TomlTable table;
     bool is_bulk;
@@ -43,8 +43,8 @@ class TomlObjects final : private TomlNames {
   void read_group(std::size_t group, TomlTable& table);
   void read_scene(ObjectTables& tables);
 
-  /// Reports, at its place, what find_instance_problem() finds; and if there is no memory for what
-  /// the instances show.
+  /// Reports what find_instance_problem() finds at the instance's table, and an error if there is
+  /// no memory for the spheres and planes that the instances show.
   void check_instances();
 
  private:

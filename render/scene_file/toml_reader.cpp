@@ -13,10 +13,11 @@
 namespace boule {
 namespace {
 
-/// Turns the root table into a Scene: settings first, then materials, then what refers to them.
+/// Turns the root table into a Scene: settings first, then materials, then the objects, which refer
+/// to them.
 class TomlReader {
  public:
-  /// `motion`, or null, is what moves the camera from frame to frame.
+  /// `motion` moves the camera from frame to frame; null: it stands still.
   TomlReader(const TomlValue& root, const std::string& path, std::optional<int> frame,
              const CameraMotion* motion)
       : motion_(motion),
@@ -27,7 +28,7 @@ class TomlReader {
 
  private:
   void check_schema();
-  void read_view(TomlTable& table);
+  void read_camera_table(TomlTable& table);
   void validate_whole();
 
   const CameraMotion* motion_;
@@ -49,7 +50,7 @@ Result<LoadedScene> TomlReader::read() {
 
   if (image) scene_.image = read_image(*image);
   if (render) scene_.render = read_render(*render);
-  if (camera) read_view(*camera);
+  if (camera) read_camera_table(*camera);
   if (background) scene_.background = read_background(*background, scene_.ambient);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
   TomlObjects reader(scene_, error_);
@@ -70,12 +71,12 @@ void TomlReader::check_schema() {
   if (schema != 1) root_.report("schema", "must be 1, is " + std::to_string(schema));
 }
 
-void TomlReader::read_view(TomlTable& table) {
+void TomlReader::read_camera_table(TomlTable& table) {
   scene_.camera = read_camera(table, scene_.distortion);
   if (motion_ != nullptr && table.ok()) check_camera_keys(*motion_, *scene_.camera, table);
 }
 
-/// What no single table shows: the settings, `ambient` and the sum of all.
+/// Checks what the readers of single tables do not: settings, `ambient`, the number of objects.
 void TomlReader::validate_whole() {
   if (error_.status()) return;
   const auto bad = validate_all_but_primitives(scene_);

@@ -8,8 +8,8 @@
 
 namespace boule {
 
-/// Reads the TOML scene in `text`; `path` names it in errors, and what the scene refers to is
-/// relative to it. The scene has passed validate().
+/// Reads the TOML scene in `text`. `path` names it in errors; names of data files are relative to
+/// its folder. The scene has passed validate().
 Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
                               std::optional<int> frame = {});
 

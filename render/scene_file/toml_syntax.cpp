@@ -43,8 +43,8 @@ std::size_t skip_string(std::string_view text, std::size_t from) {
   return std::min(text.find('\n', from), text.size());
 }
 
-/// What is wrong with a string that begins at `from`, or nullptr. toml++ reads a string that
-/// follows a bare value without a blank as part of it.
+/// The fault of a string that begins at `from`, or nullptr. toml++ reads a string that follows a
+/// bare value without a blank as part of the value.
 const char* string_fault(std::string_view text, std::size_t from) {
   constexpr std::string_view before = " \t\r\n=[{,.";
   if (from > 0 && before.find(text[from - 1]) == std::string_view::npos) {
@@ -73,9 +73,9 @@ Status refuse_untrusted(std::string_view text, const std::string& file) {
     if (is_string) fault = string_fault(text, i);
     if (static_cast<unsigned char>(c) >= 0x7f)
       fault = "only strings and comments may hold such a character";
-    // A number has one dot and any of these before the next: only a key collects more.
+    // A number has at most one dot before the next of these characters: only keys have more.
     if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
-    if (c == '=' || c == '{' || c == '}') values = 1;  // of tables there may be any number
+    if (c == '=' || c == '{' || c == '}') values = 1;  // the number of tables is not limited
     if (c == ',' && ++values > most_values) fault = "an array has at most 1024 values";
     if (c == '.' && ++parts > most_key_parts) fault = "a key has at most 32 dotted parts";
     if (fault != nullptr) break;

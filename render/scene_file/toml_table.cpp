@@ -50,7 +50,7 @@ void TomlTable::read_file_name(std::string_view key, std::string& name) {
     return;
   }
   std::error_code ignored;
-  if (!has_wide_frame_place(name) || std::filesystem::exists(beside_scene(name), ignored)) return;
+  if (!has_wide_frame_slot(name) || std::filesystem::exists(beside_scene(name), ignored)) return;
   report(key,
          quote(name) + " is not there, but has a place for a frame's number: --frames is missing");
 }

@@ -15,9 +15,9 @@
 
 namespace boule {
 
-/// Reads one table key by key. A key that is absent leaves its variable as it is; a wrong one is
-/// reported with its place and dotted path. Every key asked for counts as known: finish() refuses
-/// the others, so the known keys are those the code reads, whatever the table's `type`.
+/// Reads one table key by key. A key that is absent leaves its variable as it is; a wrong value is
+/// reported with its place and dotted path. Every key that is asked for becomes known, and finish()
+/// refuses all others: the known keys are those that the code reads for the table's `type`.
 class TomlTable {
  public:
   /// `members` and `error` must outlive it; `path` is the table's own ("camera", "sphere[3]").
@@ -42,7 +42,7 @@ class TomlTable {
   void read(std::string_view key, Vec3f& out);
   void read(std::string_view key, Color& out);
   void read(std::string_view key, std::string& out);
-  /// A file's name: that of the frame that is read, if any (frame_name()).
+  /// A file's name, with the number of the frame that is read put in, if any (frame_name()).
   void read_file_name(std::string_view key, std::string& name);
 
   /// The index in `names` of the name under `key`; 0 if it is absent.
@@ -55,7 +55,7 @@ class TomlTable {
   /// The tables inside the table under `key` ([key.NAME]), in the order of the file.
   std::vector<TomlTable> named_tables(std::string_view key);
 
-  /// Refuses the keys that nobody asked for, then the absence of a required one.
+  /// Refuses the keys that were not asked for, then the absence of a required one.
   void finish(std::initializer_list<std::string_view> required = {});
 
   /// Reports a Problem of what was read from this table, at its field.
@@ -68,8 +68,8 @@ class TomlTable {
 
   /// True if nothing was reported about the file so far.
   [[nodiscard]] bool ok() const { return !error_->status(); }
-  /// A file name in this table as a path: it is relative to the scene file. It counts as one of the
-  /// scene's data files.
+  /// The path of a file name in this table, which is relative to the scene file. It becomes one of
+  /// the scene's data files.
   [[nodiscard]] std::string file_path(const std::string& name);
 
   /// Where the table begins, and where the value under `key` does (the table, if it is absent).

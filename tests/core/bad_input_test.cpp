@@ -181,8 +181,8 @@ TEST(BadInput, WhatIsPlacedBeyondFloatsRangeIsAProblem) {
   const Instance huge{0, {}, {}, 3e38f, {}}, nowhere{0, {nan_f, 0, 0}, {}, 1, {}};
   for (const Instance& instance : {huge, nowhere}) {
     const Similarity transform = transform_of(instance);
-    EXPECT_TRUE(find_problem(place(Sphere{{1, 2, 3}, 4, 0}, transform, {})));
-    EXPECT_TRUE(find_problem(place(Plane{{9, 2, 3}, {0, 1, 0}, 0}, transform, {})));
+    EXPECT_TRUE(find_problem(transformed(Sphere{{1, 2, 3}, 4, 0}, transform, {})));
+    EXPECT_TRUE(find_problem(transformed(Plane{{9, 2, 3}, {0, 1, 0}, 0}, transform, {})));
   }
   EXPECT_TRUE(find_problem(nowhere));
 }
@@ -223,9 +223,9 @@ TEST(BadInput, SerialForPassesOnWhatIsThrownAndStops) {
 }
 
 TEST(BadInput, RangesSayWhatWouldDo) {
-  EXPECT_FALSE(check_range("tile", 3, 1, 3));
-  EXPECT_EQ(check_range("tile", 4, 1, 3)->message, "must be 1 to 3, is 4");
-  EXPECT_EQ(check_range("spp", -2147483647 - 1, 1, max_count)->message,
+  EXPECT_FALSE(check_range("tile", 3, {.low = 1, .high = 3}));
+  EXPECT_EQ(check_range("tile", 4, {.low = 1, .high = 3})->message, "must be 1 to 3, is 4");
+  EXPECT_EQ(check_range("spp", -2147483647 - 1, {.low = 1, .high = max_count})->message,
             "must be 1 or above, is -2147483648");
 }
 

@@ -7,9 +7,9 @@
 
 namespace boule {
 
-/// NFF's `v` block: the camera and the size of the picture, one member per line, in any order;
+/// NFF's `v` block: the camera and the size of the picture, one member a line, in any order.
 /// `hither` is read and ignored.
-class NffView {
+class NffCamera {
  public:
   /// Begins the block at `place`; false if there was one before.
   bool begin(TextPlace place);
@@ -19,7 +19,8 @@ class NffView {
   /// True once there was a block.
   [[nodiscard]] bool is_there() const { return state_ != State::absent; }
 
-  /// Reads the rest of the member line that begins with `name`; false if it is none of ours.
+  /// Reads the rest of the member line that begins with `name`; false if there is no such
+  /// member.
   bool read_member(std::string_view name, NffCursor& line, FirstError& error);
 
   /// Ends the block: reports what is missing or wrong, else sets scene.camera and scene.image.

@@ -1,4 +1,4 @@
-#include "render/scene_file/nff_view.h"
+#include "render/scene_file/nff_camera.h"
 
 #include <algorithm>
 #include <string>
@@ -24,14 +24,14 @@ constexpr Member members[] = {
 
 }  // namespace
 
-bool NffView::begin(TextPlace place) {
+bool NffCamera::begin(TextPlace place) {
   if (state_ != State::absent) return false;
   state_ = State::open;
   start_ = place;
   return true;
 }
 
-bool NffView::read_member(std::string_view name, NffCursor& line, FirstError& error) {
+bool NffCamera::read_member(std::string_view name, NffCursor& line, FirstError& error) {
   static_assert(std::size(members) == member_count);
   const Member* member = std::find_if(std::begin(members), std::end(members),
                                       [&](const Member& one) { return one.name == name; });
@@ -52,7 +52,7 @@ bool NffView::read_member(std::string_view name, NffCursor& line, FirstError& er
   return true;
 }
 
-void NffView::end(Scene& scene, FirstError& error) {
+void NffCamera::end(Scene& scene, FirstError& error) {
   state_ = State::closed;
   for (int i = 0; i < member_count; ++i) {
     if (!members[i].is_required || places_[i].line > 0) continue;

@@ -1,0 +1,306 @@
+#include "render/cli/rendering.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <system_error>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
+#include "render/cli/output_check.h"
+#include "render/cli/source_date.h"
+#include "render/frame/partial_picture.h"
+#include "render/frame/scheduler.h"
+#include "render/image/finished_picture.h"
+#include "render/image/image_format.h"
+#include "render/image/output_file.h"
+#include "render/memory/available_memory.h"
+#include "render/renderer/scene_hash.h"
+
+namespace boule::cli {
+namespace {
+
+/// Errors in the command that show without reading the scene.
+Status check(const RenderCommand& command) {
+  const ImageFormat* const format = find_image_format(command.output);
+  if (format == nullptr) {
+    return wrong_option("no picture format has the extension of " + quote(command.output) +
+                            ", expected one of " + known_image_extensions(),
+                        "--output");
+  }
+  if (command.aovs.any() && !format->channels) {
+    return wrong_option(
+        std::string("a .") + format->extension +
+            " file has no room for extra channels, expected --output to be an .exr file",
+        "--aov");
+  }
+  if (command.skip_existing && command.partial && !format->remarks) {
+    return wrong_option(std::string("a .") + format->extension +
+                            " file cannot say that it is partial: it would be skipped",
+                        "--skip-existing");
+  }
+  if (command.skip_existing && command.crop && !format->channels) {
+    return wrong_option(std::string("a .") + format->extension +
+                            " file cannot say which crop it is: another one would be skipped",
+                        "--skip-existing");
+  }
+  return check_run(command, "picture", {command.scene});
+}
+
+/// Errors with the files to be written. A picture that is there already and may be skipped need not
+/// be writable.
+Status check_outputs(const RenderCommand& command) {
+  if (auto bad = check_stats_target(command.stats)) return bad;
+  std::error_code ignored;
+  const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
+  return may_stay ? std::nullopt : check_output(command.output);
+}
+
+RenderOptions combine(const Scene& scene, const RenderCommand& command) {
+  RenderOptions options = options_of(scene);
+  if (command.size) {
+    options.width = command.size->width;
+    options.height = command.size->height;
+  }
+  options.spp = command.spp.value_or(options.spp);
+  options.filter = command.filter.value_or(options.filter);
+  options.method = command.method.value_or(options.method);
+  options.max_depth = command.max_depth.value_or(options.max_depth);
+  options.crop = command.crop;
+  options.aovs = command.aovs;
+  options.seed = command.seed;
+  options.tile = command.tile;
+  options.order =
+      command.order.value_or(command.partial ? PixelOrder::progressive : PixelOrder::tiles);
+  if (command.partial || command.time_limit) options.cancel = &StopGuard::flag();
+  options.threads = command.threads;
+  options.isa = command.isa;
+  options.solver = command.solver;
+  return options;
+}
+
+CropWindow crop_window(const RenderOptions& options) {
+  if (!options.crop) return {};
+  return {options.width, options.height, options.crop->x0, options.crop->y0};
+}
+
+/// report() with the number of the frame, if any.
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
+  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
+  return report(error, code);
+}
+
+/// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
+/// scene; a size from the command line is wrong usage.
+ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
+  const bool of_scene = error.key == "instance" || (error.key == "image.size" && !command.size);
+  if (of_scene) error.file = command.scene;
+  const bool of_usage = !of_scene && !error.key.empty();
+  return refuse(std::move(error), command,
+                of_scene   ? invalid_input
+                : of_usage ? wrong_usage
+                           : failed);
+}
+
+}  // namespace
+
+ExitCode Rendering::run() {
+  if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
+  auto date = source_date();
+  if (!date) return refuse(date.error(), command_, wrong_usage);
+  date_ = std::move(date).value();
+  if (auto bad = check_outputs(command_)) return refuse(*bad, command_, failed);
+  std::optional<Renderer> renderer;
+  const ExitCode prepared = prepare(renderer);
+  // The error is reported. The image module may still be loading: to wait for it would take time,
+  // and to end the program normally meanwhile could crash.
+  if (prepared != done && image_start_ && !image_start_->done()) std::_Exit(prepared);
+  if (prepared != done || !renderer) return prepared;
+  for (const std::string& text : renderer->notes()) report_.note_once("boule: note: " + text);
+  return render(*renderer);
+}
+
+Result<LoadedScene> Rendering::load() {
+  live_.start_stage("reading " + printable(command_.scene));
+  const ReadingLimit::Reading reading(reading_limit_, command_.scene);
+  return load_scene(command_.scene, {command_.polygons, command_.frame});
+}
+
+ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
+  auto loaded = load();
+  if (!loaded) return refuse(loaded.error(), command_, invalid_input);
+  if (auto bad = check_data_files(command_, "picture", loaded.value().data_files))
+    return refuse(*bad, command_, wrong_usage);
+  Scene& scene = loaded.value().scene;
+  stats_.load_seconds = watch_.seconds();
+  report_.loaded(loaded.value(), stats_.load_seconds);
+  live_.start_stage("preparing " + printable(command_.scene));
+  scene_hash_ = scene_hash(scene);
+
+  RenderOptions options = combine(scene, command_);
+  const PixelRect rect = rendered_rect(options);
+  const PictureShape shape{rect.width(), rect.height(), crop_window(options),
+                           AovChannels::names(options.aovs)};
+  if (command_.skip_existing && is_finished_picture(command_.output, shape)) {
+    skipped_ = true;
+    if (tells_of_itself())
+      report_.note("boule: " + command_.output + ": is there already, skipped");
+    return done;
+  }
+  if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
+    return refuse(*bad, command_, failed);
+  options.progress = [this](const Progress& progress) { live_.update(progress); };
+  options.live = &live_.progress();
+  // Begun only here, so that a command that is refused above loads no module.
+  image_start_.emplace(command_.output, static_cast<int>(Scheduler(options.threads).workers()));
+  // Under a limit on addresses the module is loaded first: libraries that find no memory while they
+  // are loaded end the process without a message.
+  if (address_room() != std::numeric_limits<std::uint64_t>::max()) {
+    if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
+  }
+  auto created = Renderer::create(std::move(scene), options);
+  if (!created) return refuse_scene(created.error(), command_);
+  if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
+  renderer = std::move(created).value();
+  return done;
+}
+
+ExitCode Rendering::render(Renderer& renderer) {
+  live_.end_stage();
+  report_.prepared(renderer.statistics());
+  const StopGuard guard(command_.partial ? OnSignal::stop : OnSignal::leave);
+  live_.start_time_limit(command_.time_limit);
+  std::vector<ImageChannel> channels;
+  if (command_.aovs.any()) {  // first: a picture that is stopped has them too
+    live_.start_stage("finding the extra channels of " + printable(command_.output));
+    auto aovs = renderer.render_aovs();
+    if (!aovs) return explain(aovs.error());
+    channels = std::move(aovs).value();
+  }
+  live_.start_pass("pixels");
+  const auto image = make_image(renderer);
+  live_.end_pass();
+  live_.end_time_limit();
+  if (!image) return explain(image.error());
+  ImageFileOptions options = file_options(renderer);
+  options.channels = std::move(channels);
+  live_.start_stage("writing " + printable(command_.output));
+  const ExitCode written = write(image.value(), options);
+  const ExitCode end = written == done ? finish(renderer, image.value()) : written;
+  return end == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : end;
+}
+
+/// The finished picture; or, with --partial, the unfinished one where it was stopped.
+Result<Image> Rendering::make_image(Renderer& renderer) {
+  if (!command_.partial) return renderer.render();
+  Film film(renderer.rect());
+  const Status status = renderer.render_live(film);
+  if (!status) return film.to_image();
+  const PartialSamples samples{
+      film.total_samples(),
+      renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
+  if (!StopGuard::flag() || samples.done == 0) return *status;
+  partial_ = samples;
+  return partial_picture(film, renderer.options().order);
+}
+
+/// Reports why a picture could not be made. The library knows that it was stopped, but not whether
+/// by a signal or by the time limit.
+ExitCode Rendering::explain(const Diagnostic& error) const {
+  if (StopGuard::caught() != 0) leave_as_caught();
+  if (!StopGuard::flag()) return refuse(error, command_, failed);
+  const std::string limit = fmt::format("the time limit of {} s came ", *command_.time_limit);
+  const char* const end = command_.partial
+                              ? "before the first sample, nothing written"
+                              : "first, nothing written; --partial writes what there is";
+  return refuse(Diagnostic::of(limit + end), command_, failed);
+}
+
+ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
+  const RenderOptions& options = renderer.options();
+  ImageFileOptions file;
+  file.compression = command_.compression;
+  file.exposure_stops = command_.exposure_stops;
+  file.crop = crop_window(options);
+  file.date_time = date_;
+  file.metadata = picture_header(renderer, scene_hash_, partial_);
+  file.threads = static_cast<int>(renderer.statistics().threads);
+  return file;
+}
+
+ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
+  const Stopwatch watch;
+  Status status;
+  // After rendering, a signal that StopGuard catches ends the waiting for a pipe's reader.
+  const auto caught = [before = StopGuard::caught()] { return StopGuard::caught() != before; };
+  {
+    const WriteGuard guard;
+    std::optional<RemovalGuard> removal;
+    options.stop = [&caught, stream = is_stream(command_.output)] {
+      return WriteGuard::interrupted() || (stream && caught());
+    };
+    options.temporary = [&](const std::string& path) {
+      removal.reset();
+      path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
+    };
+    status = write_image(image, command_.output, options);
+    removal.reset();
+    if (!status) {
+      set_written(live_.is_series() ? "the frames up to this one had been written"
+                                    : "the picture had been written");
+    }
+  }
+  exit_if_interrupted();
+  if (status && caught()) leave_as_caught();
+  stats_.write_seconds = watch.seconds();
+  return status ? refuse(*status, command_, failed) : done;
+}
+
+/// Writes the final line and the statistics.
+ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
+  const RenderStatistics rendering = renderer.statistics();
+  static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(rendering);
+  stats_.work_seconds = rendering.render_seconds;
+  stats_.rays = rendering.rays.total();
+  const int spp = renderer.options().spp;
+  stats_.picture = {{image.width, image.height}, spp, rendering.rays, rendering.faults};
+  stats_.total_seconds = watch_.seconds();
+  live_.end_stage();
+  try {
+    report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
+    tell_end(renderer, image);
+    for (const std::string& text : fault_notes(rendering.faults)) report_.note(text);
+  } catch (const std::bad_alloc&) {  // the picture is written: a missing line is no failure
+  }
+  return report_.finish(stats_);
+}
+
+void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
+  const std::string cause = StopGuard::caught() != 0
+                                ? fmt::format("interrupted ({})", StopGuard::caught_name())
+                                : std::string("stopped by the time limit");
+  if (partial_) {  // even if quiet: the exit code does not tell that the picture is partial
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its samples, {}", command_.output,
+                           partial_->percent(), cause));
+    return;
+  }
+  if (!tells_of_itself()) return;
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
+                           command_.output, image.width, image.height, renderer.options().spp,
+                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
+                           counted(stats_.threads, "thread")));
+  if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
+}
+
+/// Whether the picture gets a line. In a series only slow frames do: a line for each frame would
+/// hide the others.
+bool Rendering::tells_of_itself() const {
+  constexpr double long_time = 10;  // seconds
+  return !live_.is_series() || command_.verbosity == Verbosity::verbose ||
+         watch_.seconds() >= long_time;
+}
+
+}  // namespace boule::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "render/cli/exit_code.h"
+#include "render/cli/live_report.h"
+#include "render/cli/options.h"
+#include "render/cli/picture_header.h"
+#include "render/cli/reading_limit.h"
+#include "render/cli/run_report.h"
+#include "render/cli/stats.h"
+#include "render/frame/stopwatch.h"
+#include "render/image/image_start.h"
+#include "render/renderer/renderer.h"
+#include "render/scene_file/scene_file.h"
+
+namespace boule::cli {
+
+/// One run of `boule render` for one picture. It goes step by step; a step that fails returns its
+/// exit code.
+class Rendering {
+ public:
+  /// `live` must outlive it.
+  Rendering(RenderCommand command, LiveReport& live)
+      : command_(std::move(command)),
+        live_(live),
+        report_(command_, live),
+        reading_limit_(command_.load_limit) {}
+
+  ExitCode run();
+
+  /// After run(): whether the picture was there already, and else its statistics.
+  [[nodiscard]] bool skipped() const { return skipped_; }
+  [[nodiscard]] const Stats& stats() const { return stats_; }
+
+ private:
+  /// Loads the scene and moves it into the renderer: it may take half the memory, so no copy stays.
+  /// Returns done without a renderer if the picture is there already.
+  ExitCode prepare(std::optional<Renderer>& renderer);
+  Result<LoadedScene> load();
+  ExitCode render(Renderer& renderer);
+  Result<Image> make_image(Renderer& renderer);
+  ExitCode explain(const Diagnostic& error) const;
+  ExitCode write(const Image& image, ImageFileOptions options);
+  ExitCode finish(const Renderer& renderer, const Image& image);
+  void tell_end(const Renderer& renderer, const Image& image) const;
+  [[nodiscard]] bool tells_of_itself() const;
+  [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
+
+  const RenderCommand command_;  ///< before what refers to it
+  LiveReport& live_;
+  RunReport report_;
+  ReadingLimit reading_limit_;
+  bool skipped_ = false;
+  Stopwatch watch_;
+  Stats stats_;
+  std::string date_;  ///< the file's time stamp
+  std::uint64_t scene_hash_ = 0;
+  std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  std::optional<ImageStart> image_start_;  ///< loads the image module while the scene is prepared
+};
+
+}  // namespace boule::cli
