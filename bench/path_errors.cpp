@@ -51,7 +51,7 @@ void PathPicture::add(int sample, Samples samples) {
   ids_.clear();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const RasterPoint place = sampler_.position(x + away, y, index);
+      const RasterPoint place = sampler_.position({x + away, y, index});
       places_.set(ids_.size(), place.x - away, place.y);
       ids_.push_back({x + away, y, index});
     }

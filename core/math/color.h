@@ -17,6 +17,9 @@ inline bool operator==(const Color& a, const Color& b) {
   return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
+/// The sum of the components.
+inline double component_sum(const Color& c) { return double{c.r} + double{c.g} + double{c.b}; }
+
 inline Color gray(float value) { return {value, value, value}; }
 inline bool is_black(const Color& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <system_error>
 
 #include "render/cli/standard_error.h"
 #include "render/image/output_file.h"
@@ -13,7 +12,7 @@ Status print_data(const std::string& text) {
   write_lines("");  // ends an open line: both streams may be the same terminal
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return std::nullopt;
-  return cannot_write("standard output", std::generic_category().message(errno));
+  return cannot_write("standard output", errno);
 }
 
 ExitCode print_as_result(const std::string& text) {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 
 #include "render/cli/interrupt.h"
 #include "render/image/output_file.h"
@@ -13,9 +12,7 @@
 namespace boule::cli {
 namespace {
 
-Diagnostic refusal(const std::string& name, int code) {
-  return cannot_write(name, std::generic_category().message(code));
-}
+Diagnostic refusal(const std::string& name, int code) { return cannot_write(name, code); }
 
 /// A pipe or device is written to directly; a socket cannot be opened by its name.
 Status check_stream(const std::string& name, mode_t mode) {

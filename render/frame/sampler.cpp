@@ -16,7 +16,8 @@ RasterPoint Sampler::position(int x, int y, const UnitPair& numbers) const {
   return {x + 0.5 + tent(u), y + 0.5 + tent(v)};
 }
 
-RasterPoint Sampler::position(int x, int y, int sample) const {
+RasterPoint Sampler::position(const SampleId& id) const {
+  const auto& [x, y, sample] = id;
   if (single_) return {x + 0.5, y + 0.5};
   return position(x, y,
                   sobol_pair(keys_.of(x, y), RandomSet::film, static_cast<std::uint32_t>(sample)));

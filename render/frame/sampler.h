@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/math/sample_id.h"
 #include "core/math/sobol.h"
 #include "core/scene/scene.h"
 
@@ -35,8 +36,8 @@ class Sampler {
   /// Where one of several samples of pixel (x, y) lies, from its numbers of RandomSet::film.
   [[nodiscard]] RasterPoint position(int x, int y, const UnitPair& numbers) const;
 
-  /// Where sample 0 <= sample < spp of pixel (x, y) lies.
-  [[nodiscard]] RasterPoint position(int x, int y, int sample) const;
+  /// Where a sample lies.
+  [[nodiscard]] RasterPoint position(const SampleId& id) const;
 
  private:
   bool single_;

@@ -24,7 +24,8 @@ bool has_shape(const void* context, const image_module::FoundPicture& found) {
   constexpr int most_without_names = 4;  // R, G, B and alpha
   if (!format.channels) return found.channel_count <= most_without_names;
   const bool cropped = shape.crop.frame_width != 0;
-  const CropWindow window = cropped ? shape.crop : CropWindow{shape.width, shape.height, 0, 0};
+  const CropWindow window =
+      cropped ? shape.crop : CropWindow{.frame_width = shape.width, .frame_height = shape.height};
   return found.has_channels && found.x == window.x && found.y == window.y &&
          found.frame_width == window.frame_width && found.frame_height == window.frame_height;
 }
@@ -45,8 +46,12 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   std::vector<const char*> names = {"R", "G", "B"};
   for (const std::string& name : shape.channels) names.push_back(name.c_str());
   const Wanted shape_and_format{shape, *format};
-  const image_module::WantedPicture wanted{path.c_str(), format->writer, names.data(),
-                                           names.size(), has_shape,      &shape_and_format};
+  const image_module::WantedPicture wanted{.path = path.c_str(),
+                                           .format = format->writer,
+                                           .channels = names.data(),
+                                           .channel_count = names.size(),
+                                           .accepts = has_shape,
+                                           .context = &shape_and_format};
   image_module::Report report{};
   loaded.value().table->inspect(&wanted, &report);
   return report.outcome == image_module::Outcome::done;

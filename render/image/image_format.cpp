@@ -1,38 +1,45 @@
 #include "render/image/image_format.h"
 
 #include <filesystem>
-#include <limits>
+
+#include "core/base/ascii.h"
 
 namespace boule {
 namespace {
 
-constexpr int any = std::numeric_limits<int>::max();
-
-/// Room for all texts of a file, in bytes. JPEG keeps them in one segment of less than 64 KiB.
-/// Other formats have no limit; this one is far above any remark.
-constexpr int segment = 60'000, ample = 1 << 24;
+/// JPEG keeps all texts in one segment of less than 64 KiB; libjpeg ends the process beyond that.
+constexpr int jpeg_segment = 60'000;
 
 // hdr stores colours with a shared exponent (RGBE). TIFF has 8 bits, as viewers and office programs
 // expect; for floats there is EXR.
-
 constexpr ImageFormat formats[] = {
-    {"exr", "openexr", any, ample, true, true, true},
-    {"hdr", "hdr", any, ample, true, false, false},
-    {"rgbe", "hdr", any, ample, true, false, false},
-    {"png", "png", any, ample, false, false, true},
-    {"jpg", "jpeg", 65500, segment, false, false, true},
-    {"jpeg", "jpeg", 65500, segment, false, false, true},
-    {"jpe", "jpeg", 65500, segment, false, false, true},
-    {"tif", "tiff", any, ample, false, false, true},
-    {"tiff", "tiff", any, ample, false, false, true},
-    {"webp", "webp", 16383, ample, false, false, false},
-    {"ppm", "pnm", any, ample, false, false, false},
-    {"pnm", "pnm", any, ample, false, false, false},
-    {"bmp", "bmp", any, ample, false, false, false},
-    {"tga", "targa", 65535, ample, false, false, true},
+    {.extension = "exr", .writer = "openexr", .hdr = true, .channels = true, .remarks = true},
+    {.extension = "hdr", .writer = "hdr", .hdr = true},
+    {.extension = "rgbe", .writer = "hdr", .hdr = true},
+    {.extension = "png", .writer = "png", .remarks = true},
+    {.extension = "jpg",
+     .writer = "jpeg",
+     .longest_side = 65500,
+     .text_room = jpeg_segment,
+     .remarks = true},
+    {.extension = "jpeg",
+     .writer = "jpeg",
+     .longest_side = 65500,
+     .text_room = jpeg_segment,
+     .remarks = true},
+    {.extension = "jpe",
+     .writer = "jpeg",
+     .longest_side = 65500,
+     .text_room = jpeg_segment,
+     .remarks = true},
+    {.extension = "tif", .writer = "tiff", .remarks = true},
+    {.extension = "tiff", .writer = "tiff", .remarks = true},
+    {.extension = "webp", .writer = "webp", .longest_side = 16383},
+    {.extension = "ppm", .writer = "pnm"},
+    {.extension = "pnm", .writer = "pnm"},
+    {.extension = "bmp", .writer = "bmp"},
+    {.extension = "tga", .writer = "targa", .longest_side = 65535, .remarks = true},
 };
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 }  // namespace
 
@@ -40,7 +47,7 @@ const ImageFormat* find_image_format(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   if (extension.size() < 2) return nullptr;
   extension.erase(0, 1);
-  for (char& c : extension) c = lower(c);
+  for (char& c : extension) c = ascii_lower(c);
   for (const ImageFormat& format : formats) {
     if (extension == format.extension) return &format;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 namespace boule {
@@ -8,11 +9,13 @@ namespace boule {
 struct ImageFormat {
   const char* extension;  ///< lower case, without the dot
   const char* writer;     ///< OpenImageIO's name of the format
-  int longest_side;       ///< most pixels on a side (libjpeg ends the process beyond its limit)
-  int text_room;          ///< most bytes of all texts in the header (for libjpeg's sake, too)
-  bool hdr;               ///< stores linear floats; else 8 bits with the sRGB curve
-  bool channels;          ///< stores extra named channels, and the crop window
-  bool remarks;           ///< its header holds text, such as the remark that a picture is partial
+  /// Most pixels on a side; libjpeg ends the process beyond its limit.
+  int longest_side = std::numeric_limits<int>::max();
+  /// Most bytes of all texts in the header; far above any remark where the format has no limit.
+  int text_room = 1 << 24;
+  bool hdr = false;       ///< stores linear floats; else 8 bits with the sRGB curve
+  bool channels = false;  ///< stores extra named channels, and the crop window
+  bool remarks = false;   ///< its header holds text, such as the remark that a picture is partial
 };
 
 /// The format that the extension of a file name stands for, in upper or lower case; null if there

@@ -248,15 +248,15 @@ void inspect_picture(const WantedPicture& wanted, Report* report) {
     return fail(report, "unreadable: " + reason_of(input ? input->geterror() : OIIO::geterror()));
   }
   const std::string description = found.get_string_attribute("ImageDescription");
-  const FoundPicture picture{found.width,
-                             found.height,
-                             found.x,
-                             found.y,
-                             found.full_width,
-                             found.full_height,
-                             found.nchannels,
-                             has_channels(found, wanted),
-                             description.rfind("partial: ", 0) == 0};
+  const FoundPicture picture{.width = found.width,
+                             .height = found.height,
+                             .x = found.x,
+                             .y = found.y,
+                             .frame_width = found.full_width,
+                             .frame_height = found.full_height,
+                             .channel_count = found.nchannels,
+                             .has_channels = has_channels(found, wanted),
+                             .partial = description.rfind("partial: ", 0) == 0};
   if (!wanted.accepts(wanted.context, picture)) {
     report->outcome = Outcome::stopped;
     return;

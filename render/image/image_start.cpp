@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <new>
-#include <system_error>
 #include <utility>
 
 #include "render/image/image_format.h"
@@ -21,7 +20,7 @@ ImageStart::~ImageStart() = default;
 
 Status ImageStart::wait() {
   thread_.reset();  // joins it
-  if (out_of_memory_) return cannot_write(path_, std::generic_category().message(ENOMEM));
+  if (out_of_memory_) return cannot_write(path_, ENOMEM);
   return status_;
 }
 

@@ -18,8 +18,6 @@
 namespace boule {
 namespace {
 
-std::string system_reason(int code) { return std::generic_category().message(code); }
-
 /// "dir/" of "dir/name", or empty.
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 
@@ -139,6 +137,10 @@ Diagnostic cannot_write(const std::string& name, const std::string& reason) {
   return Diagnostic::of("cannot write " + quote(name, PATH_MAX) + ": " + reason);
 }
 
+Diagnostic cannot_write(const std::string& name, int code) {
+  return cannot_write(name, std::generic_category().message(code));
+}
+
 Result<OutputFile> OutputFile::create(const std::string& target,
                                       const std::function<bool()>& stop) {
   if (target.find('\0') != std::string::npos) {
@@ -148,24 +150,24 @@ Result<OutputFile> OutputFile::create(const std::string& target,
   file.name_ = target;
   std::string real = target;
   const int link_problem = follow_links(real);
-  if (link_problem == EACCES) return cannot_write(target, system_reason(EACCES));
+  if (link_problem == EACCES) return cannot_write(target, EACCES);
   struct stat stream {};
   // By the target's own name: what /dev/stdout leads to may have no name.
   if (stat(target.c_str(), &stream) == 0 && !S_ISREG(stream.st_mode) && !S_ISDIR(stream.st_mode)) {
     return create_stream(std::move(file), S_ISFIFO(stream.st_mode), stop);
   }
-  if (link_problem != 0) return cannot_write(target, system_reason(link_problem));
+  if (link_problem != 0) return cannot_write(target, link_problem);
   struct stat old {};
   const bool exists = stat(real.c_str(), &old) == 0;
   if (!exists && (errno != ENOENT || real.empty())) {
-    return cannot_write(target, system_reason(errno));
+    return cannot_write(target, errno);
   }
   if (exists ? S_ISDIR(old.st_mode) : real.ends_with('/')) {
-    return cannot_write(target, system_reason(EISDIR));
+    return cannot_write(target, EISDIR);
   }
   // rename() would replace a write-protected file as well.
   if (exists && faccessat(AT_FDCWD, real.c_str(), W_OK, AT_EACCESS) != 0) {
-    return cannot_write(target, system_reason(errno));
+    return cannot_write(target, errno);
   }
   Result<OutputFile> made = create_beside(std::move(file), real);
   if (made.ok() && exists) fchmod(made.value().descriptor_, old.st_mode & 0777);
@@ -184,7 +186,7 @@ Result<OutputFile> OutputFile::create_beside(OutputFile file, const std::string&
     }
     if (errno != EEXIST) break;
   }
-  return cannot_write(file.name_, system_reason(errno));
+  return cannot_write(file.name_, errno);
 }
 
 /// Opens a file without a name. False if the file system has no such files, or if there is no
@@ -221,7 +223,7 @@ Result<OutputFile> OutputFile::create_stream(OutputFile file, bool is_fifo,
   file.stream_ = open_stream(file.name_, is_fifo, stop);
   if (file.stream_ < 0 && errno == ECANCELED) return cannot_write(file.name_, "interrupted");
   if (file.stream_ >= 0) file.descriptor_ = memfd_create("boule", MFD_CLOEXEC);
-  if (file.descriptor_ < 0) return cannot_write(file.name_, system_reason(errno));
+  if (file.descriptor_ < 0) return cannot_write(file.name_, errno);
   file.path_ = "/proc/self/fd/" + std::to_string(file.descriptor_);
   return Result<OutputFile>(std::move(file));
 }
@@ -262,13 +264,13 @@ Status OutputFile::write(const void* bytes, std::size_t count) {
   synced_ = false;
   const int code =
       descriptor_ < 0 ? EBADF : write_all(descriptor_, static_cast<const char*>(bytes), count);
-  if (code != 0) return cannot_write(name_, system_reason(code));
+  if (code != 0) return cannot_write(name_, code);
   return {};
 }
 
 Status OutputFile::sync() {
   if (stream_ >= 0 || (synced_ && descriptor_ >= 0)) return {};
-  if (fsync(descriptor_) != 0) return cannot_write(name_, system_reason(errno));
+  if (fsync(descriptor_) != 0) return cannot_write(name_, errno);
   synced_ = true;
   return {};
 }
@@ -278,13 +280,13 @@ Status OutputFile::commit(const std::function<bool()>& stop) {
   if (auto bad = sync()) return bad;
   if (stop && stop()) return cannot_write(name_, "interrupted");
   if (temporary_.empty()) {
-    if (const int code = give_name()) return cannot_write(name_, system_reason(code));
+    if (const int code = give_name()) return cannot_write(name_, code);
   }
   if (close(std::exchange(descriptor_, -1)) != 0) {
-    return cannot_write(name_, system_reason(errno));
+    return cannot_write(name_, errno);
   }
   if (rename(temporary_.c_str(), real_target_.c_str()) != 0) {
-    return cannot_write(name_, system_reason(errno));
+    return cannot_write(name_, errno);
   }
   path_.clear();
   temporary_.clear();
@@ -298,16 +300,16 @@ Status OutputFile::commit_stream(const std::function<bool()>& stop) {
   for (;;) {
     const ssize_t count = pread(descriptor_, buffer.data(), buffer.size(), position);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return cannot_write(name_, system_reason(errno));
+    if (count < 0) return cannot_write(name_, errno);
     if (count == 0) break;
     const int code = stream_all(stream_, buffer.data(), static_cast<std::size_t>(count), stop);
     if (code == ECANCELED) return cannot_write(name_, "interrupted");
-    if (code != 0) return cannot_write(name_, system_reason(code));
+    if (code != 0) return cannot_write(name_, code);
     position += count;
   }
   close(std::exchange(descriptor_, -1));  // frees the memory in which the data were gathered
   path_.clear();
-  if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, system_reason(errno));
+  if (close(std::exchange(stream_, -1)) != 0) return cannot_write(name_, errno);
   return {};
 }
 

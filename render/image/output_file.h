@@ -10,6 +10,8 @@ namespace boule {
 
 /// "cannot write 'NAME': REASON", the form of every failure of an output.
 Diagnostic cannot_write(const std::string& name, const std::string& reason);
+/// The same with the system's text for an errno code as the reason.
+Diagnostic cannot_write(const std::string& name, int code);
 
 /// A file that appears under its name only when it is complete. Until then it is a temporary file
 /// in the target's folder, which commit() renames and the destructor removes. Where the file system

@@ -82,7 +82,12 @@ Result<Image> read(const std::string& path, PictureContent content) {
   const auto loaded = load_image_module(*format);
   if (!loaded) return cannot_read(path, loaded.error().message);
   Room room;
-  module::PictureFile file{path.c_str(), format->writer, begin, next_rows, &room, false};
+  module::PictureFile file{.path = path.c_str(),
+                           .format = format->writer,
+                           .begin = begin,
+                           .next = next_rows,
+                           .context = &room,
+                           .is_integer = false};
   module::Report report{};
   loaded.value().table->read(&file, &report);
   if (report.outcome == module::Outcome::stopped) return cannot_read(path, room.refusal);

@@ -8,7 +8,6 @@
 #include <memory>
 #include <new>
 #include <set>
-#include <system_error>
 
 #include "core/base/float_environment.h"
 #include "render/image/header_texts.h"
@@ -167,7 +166,8 @@ std::unique_ptr<Plan> make_plan(const Image& image, const ImageFileOptions& opti
     plan->attributes.push_back(attribute_of(name, value));
   }
   const bool cropped = options.crop.frame_width != 0 && format.channels;
-  const CropWindow window = cropped ? options.crop : CropWindow{image.width, image.height, 0, 0};
+  const CropWindow window =
+      cropped ? options.crop : CropWindow{.frame_width = image.width, .frame_height = image.height};
   module::Picture& picture = plan->picture;
   picture.format = format.writer;
   picture.width = image.width;
@@ -194,7 +194,7 @@ Status status_of(const module::Report& report, const std::string& path) {
     case module::Outcome::stopped:
       return cannot_write(path, "interrupted");
     case module::Outcome::system_error:
-      return cannot_write(path, std::generic_category().message(report.code));
+      return cannot_write(path, report.code);
     case module::Outcome::failed:
       break;
   }
@@ -204,7 +204,7 @@ Status status_of(const module::Report& report, const std::string& path) {
 /// Checks that the file can be opened: OpenImageIO opens it next and would not say why it fails.
 Status check_openable(const OutputFile& file, const std::string& path) {
   const int descriptor = open(file.path().c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return cannot_write(path, std::generic_category().message(errno));
+  if (descriptor < 0) return cannot_write(path, errno);
   close(descriptor);
   return {};
 }
@@ -248,7 +248,7 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   try {
     return write(image, path, options);
   } catch (const std::bad_alloc&) {
-    return cannot_write(path, std::generic_category().message(ENOMEM));
+    return cannot_write(path, ENOMEM);
   } catch (const std::exception& other) {  // of a callback
     return cannot_write(path, other.what());
   } catch (...) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/math/color.h"
+#include "core/math/sample_id.h"
 #include "render/integrators/sample_faults.h"
 #include "simd/abi/isa.h"
 #include "simd/stream/stream_buffer.h"
@@ -44,17 +45,11 @@ struct IntegratorSettings {
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
 };
 
-/// The sample to which a camera ray belongs. Its random numbers depend on this.
-struct SampleId {
-  int x, y;  ///< the pixel of the frame
-  int sample;
-};
-
 /// Camera rays, and what is known of them.
 struct CameraRays {
   RayBuffer& rays;
   Coherence coherence;      ///< what they have in common
-  const SampleId* samples;  ///< one per ray; null will do except for path tracing
+  const SampleId* samples;  ///< of each ray; null will do except for path tracing
 };
 
 /// Turns camera rays into radiance. One integrator serves one thread. It keeps its working memory

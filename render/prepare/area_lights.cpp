@@ -9,8 +9,7 @@ namespace {
 
 /// The power of a light, but for a factor that is the same for all.
 double power_of(const AreaLight& light) {
-  const Color& c = light.radiance;
-  return (double{c.r} + double{c.g} + double{c.b}) * light.radius * light.radius;
+  return component_sum(light.radiance) * light.radius * light.radius;
 }
 
 AreaLight area_light(const Vec3f& center, float radius, const Color& radiance) {
@@ -49,7 +48,7 @@ const AreaLight& AreaLights::pick(double& u) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u);
   const auto index = static_cast<std::size_t>(found - cumulative_.begin());
   const double before = index == 0 ? 0 : cumulative_[index - 1];
-  u = std::clamp((u - before) / lights_[index].share, 0.0, below_one);
+  u = rescale(u, {.first = before, .size = lights_[index].share});
   return lights_[index];
 }
 

@@ -26,7 +26,7 @@ UnitPair image_point(const Vec3d& d, float rotation) {
 std::size_t find_interval(const double* sums, std::size_t count, double& at) {
   const auto index = static_cast<std::size_t>(std::upper_bound(sums, sums + count - 1, at) - sums);
   const double first = index == 0 ? 0 : sums[index - 1];
-  at = std::clamp((at - first) / (sums[index] - first), 0.0, below_one);
+  at = rescale(at, {.first = first, .size = sums[index] - first});
   return index;
 }
 
@@ -48,10 +48,9 @@ class PixelLight {
     return 0.75 * at(x, y) + 0.125 * (at((x + width - 1) % width, y) + at((x + 1) % width, y));
   }
   double at(int x, int y) const {
-    const Color& c =
+    return component_sum(
         image_.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
-                      static_cast<std::size_t>(x)];
-    return double{c.r} + double{c.g} + double{c.b};
+                      static_cast<std::size_t>(x)]);
   }
 
   const EnvironmentBackground& image_;

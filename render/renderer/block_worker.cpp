@@ -74,9 +74,9 @@ void BlockWorker::position_samples() {
   samples_.resize(pixels_.size());
   if (!sampler.single()) find_numbers(RandomSet::film);
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const auto& [x, y, sample] = pixels_[k];
+    const SampleId& id = pixels_[k];
     const RasterPoint point =
-        sampler.single() ? sampler.position(x, y, sample) : sampler.position(x, y, numbers_.get(k));
+        sampler.single() ? sampler.position(id) : sampler.position(id.x, id.y, numbers_.get(k));
     samples_.set(k, point.x, point.y);
   }
   if (!has_lens(camera.kind)) return;

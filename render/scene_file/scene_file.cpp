@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/base/ascii.h"
 #include "core/base/float_environment.h"
 #include "render/memory/scene_memory.h"
 #include "render/scene_file/input_file.h"
@@ -19,9 +20,8 @@ namespace {
 bool has_extension(std::string_view path, std::string_view extension) {
   if (path.size() < extension.size()) return false;
   path.remove_prefix(path.size() - extension.size());
-  return std::equal(path.begin(), path.end(), extension.begin(), [](char a, char b) {
-    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-  });
+  return std::equal(path.begin(), path.end(), extension.begin(),
+                    [](char a, char b) { return ascii_lower(a) == b; });
 }
 
 Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOptions& options) {

@@ -34,7 +34,7 @@ Scatter scatter(const FlatMaterial& material, const Surface& surface) {
   const Refraction bent = refract(surface.view, surface.normal, surface.cosine, eta);
   if (material.fresnel) {
     if (bent.total) return {material.mirror, {}, {}};
-    const double reflected = fresnel(surface.cosine, bent.cosine, eta);
+    const double reflected = fresnel(surface.cosine, bent, eta);
     return {material.mirror * static_cast<float>(reflected),
             material.transmission * static_cast<float>(1 - reflected), bent.direction};
   }

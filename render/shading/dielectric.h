@@ -20,15 +20,16 @@ inline Refraction refract(const Vec3d& view, const Vec3d& normal, double cosine,
   const double sine_squared = eta * eta * (1 - cosine * cosine);
   if (sine_squared >= 1) return {};
   const double beyond = std::sqrt(1 - sine_squared);
-  return {view * eta + normal * (eta * cosine - beyond), beyond, false};
+  return {
+      .direction = view * eta + normal * (eta * cosine - beyond), .cosine = beyond, .total = false};
 }
 
 /// The share of unpolarised light that a dielectric reflects, which is the mean of both
-/// polarisations (Fresnel's equations; Born and Wolf, Principles of Optics, 1.5.2). `cosine` and
-/// `eta` are as for refract(), `cosine_beyond` is Refraction::cosine.
-inline double fresnel(double cosine, double cosine_beyond, double eta) {
-  const double s = (eta * cosine - cosine_beyond) / (eta * cosine + cosine_beyond);
-  const double p = (eta * cosine_beyond - cosine) / (eta * cosine_beyond + cosine);
+/// polarisations (Fresnel's equations; Born and Wolf, Principles of Optics, 1.5.2). `bent` is
+/// what refract() gives for `cosine` and `eta`. Precondition: the reflection is not total.
+inline double fresnel(double cosine, const Refraction& bent, double eta) {
+  const double s = (eta * cosine - bent.cosine) / (eta * cosine + bent.cosine);
+  const double p = (eta * bent.cosine - cosine) / (eta * bent.cosine + cosine);
   return 0.5 * (s * s + p * p);
 }
 

@@ -9,12 +9,7 @@
 namespace boule {
 namespace {
 
-double mean(const Color& c) { return (double{c.r} + double{c.g} + double{c.b}) / 3; }
-
-/// A number u of the interval of length `share` from `first` on, spread over [0, 1) again.
-double spread(double u, double first, double share) {
-  return std::clamp((u - first) / share, 0.0, below_one);
-}
+double mean(const Color& c) { return component_sum(c) / 3; }
 
 }  // namespace
 
@@ -50,11 +45,12 @@ LobeSampler::Choice LobeSampler::choose(UnitPair numbers) const {
   const double u = numbers.u * sum_;
   double first = 0;
   if (u < first + diffuse_) {
-    return {Lobe::diffuse, warp_to_cosine(spread(u, first, diffuse_)), numbers.v};
+    return {Lobe::diffuse, warp_to_cosine(rescale(u, {.first = first, .size = diffuse_})),
+            numbers.v};
   }
   first += diffuse_;
   if (u < first + highlight_) {
-    const double inner = spread(u, first, highlight_);
+    const double inner = rescale(u, {.first = first, .size = highlight_});
     return {Lobe::highlight, warp_to_power(inner, material_->shininess), numbers.v};
   }
   first += highlight_;

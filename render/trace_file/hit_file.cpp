@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/ascii.h"
+
 namespace boule {
 namespace {
 
@@ -97,9 +99,7 @@ Status HitFile::commit(const std::function<bool()>& stop) {
 
 bool is_npy_name(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  for (char& c : extension) c = ascii_lower(c);
   return extension == ".npy";
 }
 

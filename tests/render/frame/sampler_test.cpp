@@ -15,7 +15,7 @@ TEST(Sampler, OneSampleIsThePixelCentre) {
   for (const PixelFilter filter : {PixelFilter::box, PixelFilter::tent}) {
     const Sampler sampler(1, 99, filter);
     for (const int i : {0, 1, 17, 65534}) {
-      const RasterPoint p = sampler.position(i, 2 * i % 100, 0);
+      const RasterPoint p = sampler.position({i, 2 * i % 100, 0});
       EXPECT_EQ(p.x, i + 0.5);
       EXPECT_EQ(p.y, 2 * i % 100 + 0.5);
     }
@@ -41,7 +41,7 @@ TEST(Sampler, EveryStratumHasItsShareForAnyNumber) {
       const int cells = columns * rows;
       std::vector<int> counts(static_cast<std::size_t>(cells));
       for (int s = 0; s < n; ++s) {
-        const RasterPoint p = sampler.position(0, 0, s);
+        const RasterPoint p = sampler.position({0, 0, s});
         ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << n << " " << s;
         ++counts[static_cast<std::size_t>(static_cast<int>(p.y * rows) * columns +
                                           static_cast<int>(p.x * columns))];
@@ -94,7 +94,7 @@ TEST(Sampler, EdgesAreAtLeastAsSmoothAsWithJitteredStrataForAnyNumber) {
   for (int n = 2; n <= 40; ++n) {
     const Sampler sampler(n, 5);
     const double error = edge_error(n, [&](int x, int y, int s) {
-      const RasterPoint p = sampler.position(x, y, s);
+      const RasterPoint p = sampler.position({x, y, s});
       return RasterPoint{p.x - x, p.y - y};
     });
     EXPECT_LE(error, 1.03 * jittered_error(n)) << n;  // with 8000 edges it is known to 1 %
@@ -103,20 +103,20 @@ TEST(Sampler, EdgesAreAtLeastAsSmoothAsWithJitteredStrataForAnyNumber) {
 
 TEST(Sampler, DependsOnPixelSampleAndSeedOnly) {
   const Sampler a(16, 1), again(16, 1), seeded(16, 2), finer(17, 1);
-  const RasterPoint p = a.position(3, 4, 5);
-  EXPECT_EQ(p.x, again.position(3, 4, 5).x);
-  EXPECT_EQ(p.y, again.position(3, 4, 5).y);
-  EXPECT_NE(p.x, seeded.position(3, 4, 5).x);
-  EXPECT_EQ(p.x, finer.position(3, 4, 5).x);
-  EXPECT_NE(p.x - 3, a.position(4, 4, 5).x - 4);
-  EXPECT_NE(p.x, a.position(3, 5, 5).x);
+  const RasterPoint p = a.position({3, 4, 5});
+  EXPECT_EQ(p.x, again.position({3, 4, 5}).x);
+  EXPECT_EQ(p.y, again.position({3, 4, 5}).y);
+  EXPECT_NE(p.x, seeded.position({3, 4, 5}).x);
+  EXPECT_EQ(p.x, finer.position({3, 4, 5}).x);
+  EXPECT_NE(p.x - 3, a.position({4, 4, 5}).x - 4);
+  EXPECT_NE(p.x, a.position({3, 5, 5}).x);
 }
 
 TEST(Sampler, AnEarlyStopHasSamplesAllOverThePixel) {
   for (const int n : {16, 64, 100, 256}) {
     const Sampler sampler(n, 3);
     int upper = 0;
-    for (int s = 0; s < n / 4; ++s) upper += sampler.position(0, 0, s).y < 0.5 ? 1 : 0;
+    for (int s = 0; s < n / 4; ++s) upper += sampler.position({0, 0, s}).y < 0.5 ? 1 : 0;
     EXPECT_NEAR(upper, n / 8.0, 0.5) << n;
   }
 }
@@ -125,7 +125,7 @@ TEST(Sampler, TakesTheLargestNumber) {
   const int n = 2147483647;
   const Sampler sampler(n, 3);
   for (const int s : {0, 1, n / 2, n - 1}) {
-    const RasterPoint p = sampler.position(7, 9, s);
+    const RasterPoint p = sampler.position({7, 9, s});
     EXPECT_TRUE(p.x >= 7 && p.x <= 8 && p.y >= 9 && p.y <= 10) << s;
   }
 }
@@ -138,7 +138,7 @@ TEST(Sampler, TentSamplesAreDistributedAsTheTent) {
   for (const double x : {-0.9, -0.5, -0.2, 0.0}) {
     int left = 0, right = 0, above = 0, below = 0;
     for (int s = 0; s < n; ++s) {
-      const RasterPoint p = sampler.position(20, 30, s);
+      const RasterPoint p = sampler.position({20, 30, s});
       ASSERT_TRUE(std::fabs(p.x - 20.5) <= 1 && std::fabs(p.y - 30.5) <= 1);
       left += p.x - 20.5 < x ? 1 : 0;
       right += p.x - 20.5 > -x ? 1 : 0;

@@ -53,7 +53,7 @@ TEST(Dielectric, ReflectsTotallyBeyondTheCriticalAngle) {
 TEST(Dielectric, FresnelHasItsKnownValues) {
   const auto reflected = [](double angle, double eta) {
     const double beyond = std::sqrt(1 - eta * eta * std::sin(angle) * std::sin(angle));
-    return fresnel(std::cos(angle), beyond, eta);
+    return fresnel(std::cos(angle), {.direction = {}, .cosine = beyond, .total = false}, eta);
   };
   // Head on: ((n - 1) / (n + 1))^2, from either side.
   EXPECT_NEAR(reflected(0, 1 / 1.5), 0.04, 1e-15);
