@@ -15,7 +15,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       wavefront_(settings.stream_size),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {
-  met_.reserve(StreamSurfaces::block_size);
+  scattering_hits_.reserve(StreamSurfaces::block_size);
 }
 
 void StreamIntegrator::use_light(const Light& light) {
@@ -38,8 +38,8 @@ bool StreamIntegrator::cancelled() const {
   return settings_.cancel != nullptr && settings_.cancel->load(std::memory_order_relaxed);
 }
 
-/// Makes room by powers of two: as blocks fill up one more than the other, memory must not be taken
-/// for each.
+/// Makes room by powers of two. The streams grow from block to block, and memory must not be
+/// allocated for each of them.
 void StreamIntegrator::trace_stream(const PathStream& stream, Coherence coherence) {
   const std::size_t count = stream.rays->size(), room = std::bit_ceil(count);
   hits_.resize(room);
@@ -53,7 +53,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, Coherence coherenc
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
-  for (const PlacedLight& light : lights_) add_light(light);
+  for (const TargetedLight& light : lights_) add_light(light);
   add_more_light();
   for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
 }
@@ -62,9 +62,9 @@ void StreamIntegrator::find_surfaces(const Block& block) {
   surfaces_.find(block.stream.rays->view(), hits_.view(), block.first, block.end - block.first);
 }
 
-/// Adds one light to the radiance of the points it reaches: one stream of shadow rays.
-void StreamIntegrator::add_light(const PlacedLight& light) {
-  const RayStream rays = illumination_.aim(kernels_, light.target, surfaces_);
+/// Adds the direct light of one light, which takes one stream of shadow rays.
+void StreamIntegrator::add_light(const TargetedLight& light) {
+  const RayStream rays = illumination_.make_shadow_rays(kernels_, light.target, surfaces_);
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
   illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());

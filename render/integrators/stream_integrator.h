@@ -14,9 +14,9 @@
 
 namespace boule {
 
-/// What integrators have in common that follow rays depth by depth, a stream at a time: the rays'
-/// hits, the points' direct light, the sum of both. Each says what a hit sends back by itself, on
-/// which points light falls, and which rays go on.
+/// The part of an integrator that follows rays depth by depth, a stream at a time: it finds their
+/// hits and the direct light there, and adds up the radiance. A derived class says what a hit sends
+/// back without direct light, on which hits direct light falls, and which rays go on.
 class StreamIntegrator : public Integrator {
  public:
   bool trace(const CameraRays& camera, Color* radiance) final;
@@ -24,14 +24,14 @@ class StreamIntegrator : public Integrator {
   [[nodiscard]] SampleFaults faults() const final { return wavefront_.faults(); }
 
  protected:
-  /// Rays first .. end - 1 of a stream, a block of StreamSurfaces.
+  /// Rays first .. end - 1 of a stream, which are a block of StreamSurfaces.
   struct Block {
     const PathStream& stream;
     std::size_t first, end;
   };
 
-  /// A ray of the block that met what sends light on.
-  struct Met {
+  /// A ray of the block, and the material that it met, which sends light on.
+  struct ScatteringHit {
     std::uint32_t ray;
     const FlatMaterial* material;
   };
@@ -40,24 +40,26 @@ class StreamIntegrator : public Integrator {
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                    const IntegratorSettings& settings);
 
-  /// From now on this light, of the scene, shines on all points that are lit.
+  /// From now on, direct light of this light of the scene is added to all lit hits.
   void use_light(const Light& light);
 
-  /// Called before the first stream of these rays, and before each stream of so many.
+  /// Called before the first stream of these camera rays.
   virtual void start(const CameraRays&) {}
+  /// Called before each stream, with room for how many rays to make.
   virtual void make_room(std::size_t) {}
 
-  /// Sets radiance(k) for every ray k of the block, tells illumination_ of lit points, and spawns
+  /// Sets radiance(k) for every ray k of the block, adds the lit hits to illumination_, and spawns
   /// the rays that go on, parents in order.
   virtual void shade(const Block& block) = 0;
 
-  /// Called when all blocks of a stream are shaded and its lights added.
+  /// Called when all blocks of a stream are shaded and their direct light is added.
   virtual void add_more_light() {}
 
   /// Finds the surfaces of all hits of the block.
   void find_surfaces(const Block& block);
 
-  /// True for each of these shadow rays that is blocked; valid until the next call.
+  /// Finds which of these shadow rays are blocked: 1 for those that are, else 0. Valid until the
+  /// next call.
   const std::uint8_t* find_blocked(const RayStream& shadow_rays, Coherence coherence);
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
@@ -72,20 +74,20 @@ class StreamIntegrator : public Integrator {
   Wavefront wavefront_;
   Illumination illumination_;
   StreamSurfaces surfaces_;
-  std::vector<Met> met_;  ///< working memory of one block
+  std::vector<ScatteringHit> scattering_hits_;  ///< working memory of one block
 
  private:
-  struct PlacedLight {
+  struct TargetedLight {
     const Light* light;
     ShadowTarget target;
   };
 
   void trace_stream(const PathStream& stream, Coherence coherence);
-  void add_light(const PlacedLight& light);
+  void add_light(const TargetedLight& light);
   [[nodiscard]] bool cancelled() const;
 
   GeometryView geometry_;
-  std::vector<PlacedLight> lights_;
+  std::vector<TargetedLight> lights_;
   std::uint64_t primary_ = 0, shadow_ = 0;
 
   // Working memory of one stream.

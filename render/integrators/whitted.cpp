@@ -16,7 +16,7 @@ Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
 void Whitted::shade(const Block& block) {
   const bool last = ends(block.stream);
   bool any_lit = false;
-  met_.clear();
+  scattering_hits_.clear();
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const std::int32_t id = hit(k).id;
     if (id == no_primitive) {
@@ -29,21 +29,23 @@ void Whitted::shade(const Block& block) {
       illumination_.add_point(k, material);
       any_lit = true;
     }
-    if (!last && scatters(material)) met_.push_back({k, &material});
+    if (!last && scatters(material)) scattering_hits_.push_back({k, &material});
   }
-  if (!any_lit && met_.empty()) return;
+  if (!any_lit && scattering_hits_.empty()) return;
   find_surfaces(block);
-  for (const Met& met : met_) go_on(met, surfaces_.get(met.ray - block.first));
+  for (const ScatteringHit& one : scattering_hits_) {
+    spawn_rays(one, surfaces_.get(one.ray - block.first));
+  }
 }
 
 /// Spawns the reflected ray before the refracted one: the picture's bits depend on this order.
-void Whitted::go_on(const Met& met, const Surface& surface) {
-  const Scatter way = scatter(*met.material, surface);
-  if (!is_black(way.reflection)) {
-    wavefront_.spawn(met.ray, leave(surface, Side::viewer, surface.mirrored), way.reflection);
+void Whitted::spawn_rays(const ScatteringHit& hit, const Surface& surface) {
+  const Scatter weights = scatter(*hit.material, surface);
+  if (!is_black(weights.reflection)) {
+    wavefront_.spawn(hit.ray, leave(surface, Side::viewer, surface.mirrored), weights.reflection);
   }
-  if (!is_black(way.refraction)) {
-    wavefront_.spawn(met.ray, leave(surface, Side::beyond, way.refracted), way.refraction);
+  if (!is_black(weights.refraction)) {
+    wavefront_.spawn(hit.ray, leave(surface, Side::beyond, weights.refracted), weights.refraction);
   }
 }
 

@@ -14,7 +14,7 @@ class Whitted final : public StreamIntegrator {
 
  private:
   void shade(const Block& block) override;
-  void go_on(const Met& met, const Surface& surface);
+  void spawn_rays(const ScatteringHit& hit, const Surface& surface);
 };
 
 }  // namespace boule

@@ -12,7 +12,7 @@
 #include "render/integrators/whitted.h"
 #include "render/memory/scene_memory.h"
 #include "render/renderer/aov_worker.h"
-#include "simd/dispatch/dispatch.h"
+#include "render/renderer/preparation.h"
 
 namespace boule {
 namespace {
@@ -39,17 +39,15 @@ Result<Renderer> Renderer::create(Scene&& scene, const RenderOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// If the scene is copied, it is copied within the try.
+/// If the scene is copied, it is copied within the guard.
 template <class AnyScene>
 Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
-  const FloatEnvironment environment;
   const Stopwatch watch;
-  try {
+  return guard_preparation([&]() -> Result<Renderer> {
     if (auto bad = check_scene_memory(scene)) return *bad;
     if (auto bad = validate(options)) return *bad;
-    const Result<const KernelTable*> selected = select_kernels(options.isa);
-    if (!selected) return selected.error();
-    const bool reference = options.solver == Solver::reference;
+    const auto kernels = kernels_for(options.isa, options.solver);
+    if (!kernels) return kernels.error();
     Scheduler scheduler(options.threads);
     Result<PreparedScene> prepared =
         prepare(std::forward<AnyScene>(scene), options.width, options.height,
@@ -57,15 +55,10 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
     if (!prepared) return prepared.error();
     RenderOptions fitted = options;
     fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());
-    Renderer renderer(fitted, std::move(prepared).value(),
-                      reference ? reference_kernels() : *selected.value());
+    Renderer renderer(fitted, std::move(prepared).value(), *kernels.value());
     renderer.prepare_seconds_ = watch.seconds();
     return renderer;
-  } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory while preparing the scene");
-  } catch (...) {  // an exception of a callback that is copied
-    return *diagnose([] { throw; });
-  }
+  });
 }
 
 Result<Image> Renderer::render() {

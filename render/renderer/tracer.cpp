@@ -9,7 +9,7 @@
 #include "core/surface.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/scene_memory.h"
-#include "simd/dispatch/dispatch.h"
+#include "render/renderer/preparation.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule {
@@ -53,27 +53,21 @@ Result<Tracer> Tracer::create(Scene&& scene, const TraceOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// If the scene is copied, it is copied within the try.
+/// If the scene is copied, it is copied within the guard.
 template <class AnyScene>
 Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
-  const FloatEnvironment environment;
   const Stopwatch watch;
-  try {
+  return guard_preparation([&]() -> Result<Tracer> {
     if (auto bad = check_scene_memory(scene)) return *bad;
     if (auto bad = validate(scene)) return *bad;
-    const Result<const KernelTable*> selected = select_kernels(options.isa);
-    if (!selected) return selected.error();
-    const bool reference = options.solver == Solver::reference;
+    const auto kernels = kernels_for(options.isa, options.solver);
+    if (!kernels) return kernels.error();
     Scene objects(std::forward<AnyScene>(scene));
     expand_instances(objects);
-    Tracer tracer(std::move(objects), options, reference ? reference_kernels() : *selected.value());
+    Tracer tracer(std::move(objects), options, *kernels.value());
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
-  } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory while preparing the scene");
-  } catch (...) {  // an exception of a callback that is copied
-    return *diagnose([] { throw; });
-  }
+  });
 }
 
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {

@@ -21,20 +21,21 @@ void Illumination::start(std::size_t rays) {
   if (materials_.size() < room) materials_.resize(room);
 }
 
-RayStream Illumination::aim(const KernelTable& kernels, const ShadowTarget& light,
-                            StreamSurfaces& surfaces) {
+RayStream Illumination::make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
+                                         StreamSurfaces& surfaces) {
   RayStream rays = shadow_rays_.view();
-  aimed_ = any_ ? kernels.make_shadow_rays(light, surfaces.lit(lit_.data(), size_),
-                                           {rays, to_light_.view(), cosines_.data(), rays_.data()})
-                : 0;
-  rays.size = aimed_;
+  shadow_count_ =
+      any_ ? kernels.make_shadow_rays(light, surfaces.lit(lit_.data(), size_),
+                                      {rays, to_light_.view(), cosines_.data(), rays_.data()})
+           : 0;
+  rays.size = shadow_count_;
   return rays;
 }
 
 template <class AnyLight>
 void Illumination::add_light(const AnyLight& light, const StreamSurfaces& surfaces,
                              const std::uint8_t* blocked, Color* radiance) const {
-  for (std::size_t k = 0; k < aimed_; ++k) {
+  for (std::size_t k = 0; k < shadow_count_; ++k) {
     if (blocked[k] != 0) continue;
     const std::size_t ray = rays_[k];
     const Color intensity = intensity_at(light, surfaces.point(ray));

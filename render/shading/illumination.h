@@ -13,15 +13,14 @@
 
 namespace boule {
 
-/// Direct light on the points that a stream's rays met, one light after the other: aim() makes the
-/// shadow rays, add_unblocked() takes their answers. One serves one thread and keeps its memory
-/// from stream to stream.
+/// The direct light on the hits of a stream's rays, one light after the other: make_shadow_rays()
+/// makes the shadow rays, and add_unblocked() adds the light of those that are not blocked.
 class Illumination {
  public:
-  /// Forgets all points, and makes room for one per ray. Throws std::bad_alloc.
+  /// Forgets all hits, and makes room for one per ray.
   void start(std::size_t rays);
 
-  /// Light may fall on the point that ray `ray` of the stream met.
+  /// Adds the hit of ray `ray` of the stream, on which light may fall.
   void add_point(std::size_t ray, const FlatMaterial& material) {
     lit_[ray] = 1;
     materials_[ray] = &material;
@@ -30,10 +29,11 @@ class Illumination {
 
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
   /// call. All points are found in `surfaces`.
-  RayStream aim(const KernelTable& kernels, const ShadowTarget& light, StreamSurfaces& surfaces);
+  RayStream make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
+                             StreamSurfaces& surfaces);
 
-  /// Adds what arrives of the light that was aimed at last to radiance[ray], for every shadow ray k
-  /// whose blocked[k] is 0.
+  /// Adds the light to radiance[ray] for every shadow ray k with blocked[k] = 0, where the shadow
+  /// ray belongs to ray `ray`. The light is that of the last shadow rays.
   void add_unblocked(const Light& light, const StreamSurfaces& surfaces,
                      const std::uint8_t* blocked, Color* radiance) const;
 
@@ -42,16 +42,16 @@ class Illumination {
   void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
                  Color* radiance) const;
 
-  std::size_t size_ = 0;  ///< rays
+  std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;
   AlignedArray<std::uint8_t> lit_;              ///< by ray
   std::vector<const FlatMaterial*> materials_;  ///< by ray
-  // By shadow ray.
-  std::size_t aimed_ = 0;
+  // By shadow ray:
+  std::size_t shadow_count_ = 0;
   RayBuffer shadow_rays_;
   VectorBuffer to_light_;
   AlignedArray<double> cosines_;      ///< n.l
-  AlignedArray<std::uint32_t> rays_;  ///< whose point it is
+  AlignedArray<std::uint32_t> rays_;  ///< the ray to whose hit it belongs
 };
 
 }  // namespace boule
