@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -38,19 +37,5 @@ inline constexpr double below_one = 1 - 0x1p-53;
 
 /// 32 random bits as a double in [0, 1).
 inline double unit_interval(std::uint32_t bits) { return bits * 0x1p-32; }
-
-/// The largest double below 1.
-inline constexpr double below_one = 1 - 0x1p-53;
-
-/// A part of the numbers in [0, 1).
-struct Interval {
-  double first, size;
-};
-
-/// A random number of an interval, spread over [0, 1) again. So a number that has chosen one of
-/// several intervals can be used once more. Precondition: the interval holds u, but for rounding.
-inline double rescale(double u, const Interval& interval) {
-  return std::clamp((u - interval.first) / interval.size, 0.0, below_one);
-}
 
 }  // namespace boule

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/math/random.h"
+#include "render/prepare/interval.h"
 
 namespace boule {
 namespace {

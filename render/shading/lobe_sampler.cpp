@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/math/elementary.h"
-#include "core/math/random.h"
 #include "core/math/warp.h"
+#include "render/prepare/interval.h"
 
 namespace boule {
 namespace {
