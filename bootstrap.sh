@@ -6,7 +6,7 @@ set -euo pipefail
 readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 # libclang-rt-14-dev: libFuzzer and the sanitizers.
-readonly test_packages=(binutils clang clang-format libclang-rt-14-dev libgmock-dev libgtest-dev
+readonly test_packages=(binutils clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev libgtest-dev
   libmpfr-dev librapidcheck-dev pkg-config qemu-user)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
