@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "bench/camera_rays.h"
 #include "bench/random4.h"
 #include "core/optics/camera_builder.h"
 #include "core/scene/camera.h"
@@ -43,18 +44,8 @@ std::vector<Plane> random_planes(std::size_t n) {
   return planes;
 }
 
-/// Pixels in Morton order, x first, so that each packet is a block of the picture.
 RayBuffer camera_rays() {
-  SampleBuffer samples;
-  samples.resize(side * side);
-  for (unsigned i = 0; i < side * side; ++i) {
-    unsigned x = 0, y = 0;
-    for (unsigned bit = 0; bit < 5; ++bit) {
-      x |= ((i >> (2 * bit)) & 1U) << bit;
-      y |= ((i >> (2 * bit + 1)) & 1U) << bit;
-    }
-    samples.set(i, x + 0.5, y + 0.5);
-  }
+  SampleBuffer samples = pixel_centers(side);
   PinholeCamera camera;
   camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   camera.fov = 25.61F;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/camera_rays.h"
 #include "bench/uniform_spheres.h"
 #include "core/optics/camera_builder.h"
 #include "core/scene/camera.h"
@@ -64,18 +65,8 @@ Figures figures(const BvhView& bvh) {
   return f;
 }
 
-/// Pixels in Morton order: each packet is a block of the picture.
 void make_rays(RayBuffer& rays) {
-  SampleBuffer samples;
-  samples.resize(std::size_t{side} * side);
-  for (unsigned i = 0; i < side * side; ++i) {
-    unsigned x = 0, y = 0;
-    for (unsigned bit = 0; bit < 10; ++bit) {
-      x |= ((i >> (2 * bit)) & 1U) << bit;
-      y |= ((i >> (2 * bit + 1)) & 1U) << bit;
-    }
-    samples.set(i, x + 0.5, y + 0.5);
-  }
+  SampleBuffer samples = pixel_centers(side);
   PinholeCamera camera;
   camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   camera.fov = 25.61F;

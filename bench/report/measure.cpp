@@ -1,23 +1,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <thread>
 
+#include "bench/cpu_model.h"
 #include "bench/report/commit.h"
 #include "bench/report/figures.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
 namespace {
-
-std::string cpu_model() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 /// "2026-11-22", or empty where SOURCE_DATE_EPOCH is not whole seconds.
 std::string source_date() {
@@ -30,12 +22,6 @@ std::string source_date() {
   if (*end != '\0' || gmtime_r(&seconds, &date) == nullptr) return "";
   return std::strftime(text, sizeof text, "%Y-%m-%d", &date) == 0 ? "" : text;
 }
-
-#if defined(__clang__)
-constexpr const char* compiler = __VERSION__;
-#else
-constexpr const char* compiler = "g++ " __VERSION__;
-#endif
 
 Provenance find_provenance(const std::string& command) {
   return {cpu_model(),

@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 
 #include "bench/report/chart_labels.h"
+#include "tests/support/file_bytes.h"
 
 namespace boule::bench {
 namespace {
@@ -76,8 +75,7 @@ TEST(Chart, OfTheRepositoryHaveTheirColorsInAttributes) {
   for (const auto& entry : std::filesystem::directory_iterator(BOULE_REPORT)) {
     if (entry.path().extension() != ".svg") continue;
     SCOPED_TRACE(entry.path());
-    std::ifstream file(entry.path());
-    expect_colors_without_css({std::istreambuf_iterator<char>(file), {}});
+    expect_colors_without_css(test::read_bytes(entry.path()));
     ++charts;
   }
   EXPECT_EQ(charts, 2U);

@@ -3,14 +3,13 @@
 
 #include <clocale>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <locale>
 #include <string>
 
 #include "render/image/write_image.h"
 #include "render/renderer/scene_hash.h"
 #include "render/scene_file/scene_file.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {
@@ -58,13 +57,10 @@ class HostLocale : public testing::Test {
     return (dir_.path() / name).string();
   }
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
+    write_bytes(path(name), text);
     return path(name);
   }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string read(const std::string& name) const { return read_bytes(path(name)); }
 
  private:
   TempDir dir_;

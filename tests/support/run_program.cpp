@@ -8,21 +8,13 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {
 namespace {
-
-std::string read_all(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// In the child: redirects its streams to files, sets its environment, becomes the program.
 [[noreturn]] void become(const std::string& path, const ProgramCall& call,
@@ -80,8 +72,8 @@ ProgramRun run_program(const std::string& path, const ProgramCall& call) {
   const int status = wait_for(child);
   ProgramRun run;
   run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  run.out = read_all(folder.path() / "out");
-  run.err = read_all(folder.path() / "err");
+  run.out = read_bytes(folder.path() / "out");
+  run.err = read_bytes(folder.path() / "err");
   return run;
 }
 

@@ -5,23 +5,13 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 
 #include "render/image/image.h"
+#include "tests/support/file_bytes.h"
 
 namespace boule::test {
-
-inline std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 /// The names in a folder, also hidden ones.
 inline std::set<std::string> names_in(const std::filesystem::path& folder) {

@@ -14,6 +14,7 @@
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
 #include "tests/render/npy_files.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_scenes.h"
 
@@ -232,8 +233,7 @@ TEST_F(MemoryFiles, HugePicturesAreRefusedByTheirHeaders) {
   const std::string good = write("good.exr", "");
   Image image(4, 4);
   ASSERT_FALSE(write_image(image, good));
-  std::ifstream opened(good, std::ios::binary);
-  const std::string file((std::istreambuf_iterator<char>(opened)), {});
+  const std::string file = read_bytes(good);
   struct Case {
     std::int32_t width, height;
   };

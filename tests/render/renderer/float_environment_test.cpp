@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 
 #include "render/frame/partial_picture.h"
@@ -19,6 +17,7 @@
 #include "tests/render/npy_files.h"
 #include "tests/render/path_scenes.h"
 #include "tests/render/ray_clouds.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/odd_float_environment.h"
 #include "tests/support/temp_dir.h"
 
@@ -42,15 +41,10 @@ class CallersFloatEnvironment : public testing::TestWithParam<Oddity> {
   }
 
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_.path() / name, std::ios::binary) << text;
+    write_bytes(folder_.path() / name, text);
     return (folder_.path() / name).string();
   }
-  std::string read(const std::string& name) const {
-    std::ifstream file(folder_.path() / name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  std::string read(const std::string& name) const { return read_bytes(folder_.path() / name); }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
  private:

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <ostream>
 #include <string>
 
 #include "render/scene_file/scene_file.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {
@@ -18,7 +18,7 @@ class SceneFolder {
   /// Writes a file of that name; its path.
   [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
     const std::string path = (dir_.path() / name).string();
-    std::ofstream(path, std::ios::binary) << bytes;
+    write_bytes(path, bytes);
     return path;
   }
   /// Writes a scene and loads it.

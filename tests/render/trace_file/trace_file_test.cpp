@@ -4,15 +4,14 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "render/trace_file/hit_file.h"
 #include "render/trace_file/ray_file.h"
 #include "tests/render/npy_files.h"
 #include "tests/render/ray_clouds.h"
 #include "tests/support/case_random.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::test {
@@ -24,15 +23,10 @@ class TraceFiles : public testing::Test {
     return (folder_.path() / name).string();
   }
   [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
+    write_bytes(path(name), bytes);
     return path(name);
   }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  [[nodiscard]] std::string read(const std::string& name) const { return read_bytes(path(name)); }
   [[nodiscard]] std::size_t file_count() const {
     const std::filesystem::directory_iterator entries(folder_.path());
     return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
