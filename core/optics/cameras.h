@@ -14,6 +14,9 @@ namespace boule {
 /// A further camera is a further struct here, its kind in CameraKind, a line in visit_camera() and
 /// its numbers in build_camera().
 
+/// What all primary rays of a camera have in common: bundles need to know it.
+enum class CommonPart { none, origin, direction };
+
 /// Where a camera is sampled: the raster point, and the lens, 0 .. 1 each, (0.5, 0.5) its centre.
 template <class T>
 struct CameraSampleOf {
@@ -39,6 +42,7 @@ BOULE_INLINE Vec3<T> film_vector(const CameraView& camera, const CameraSampleOf<
 /// From the eye along unit(forward + p) (lecture "Pinhole camera").
 struct PinholeRay {
   static constexpr CameraKind kind = CameraKind::pinhole;
+  static constexpr CommonPart common = CommonPart::origin;
 
   template <class T>
   BOULE_INLINE static CameraRayOf<T> of(const CameraView& camera, const CameraSampleOf<T>& sample) {
@@ -50,6 +54,7 @@ struct PinholeRay {
 /// From eye + p along forward (lecture "Orthographic camera").
 struct OrthographicRay {
   static constexpr CameraKind kind = CameraKind::orthographic;
+  static constexpr CommonPart common = CommonPart::direction;
 
   template <class T>
   BOULE_INLINE static CameraRayOf<T> of(const CameraView& camera, const CameraSampleOf<T>& sample) {
@@ -63,6 +68,7 @@ struct OrthographicRay {
 /// h: polynomials in h^2, without a root and smooth in the middle.
 struct FisheyeRay {
   static constexpr CameraKind kind = CameraKind::fisheye;
+  static constexpr CommonPart common = CommonPart::origin;
 
   template <class T>
   BOULE_INLINE static CameraRayOf<T> of(const CameraView& camera, const CameraSampleOf<T>& sample) {
@@ -84,6 +90,7 @@ struct FisheyeRay {
 /// at the lens' centre gives the pinhole's direction itself.
 struct ThinLensRay {
   static constexpr CameraKind kind = CameraKind::thin_lens;
+  static constexpr CommonPart common = CommonPart::none;
 
   template <class T>
   BOULE_INLINE static CameraRayOf<T> of(const CameraView& camera, const CameraSampleOf<T>& sample) {
@@ -100,6 +107,7 @@ struct ThinLensRay {
 /// eye as its origin and `scale` as its unit. Its picture is upside down, and so is the film.
 struct LensCameraRay {
   static constexpr CameraKind kind = CameraKind::lens;
+  static constexpr CommonPart common = CommonPart::none;
 
   template <class T>
   BOULE_INLINE static CameraRayOf<T> of(const CameraView& camera, const CameraSampleOf<T>& sample) {

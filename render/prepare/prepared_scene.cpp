@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/optics/cameras.h"
 #include "core/scene/instances.h"
 #include "render/prepare/default_camera.h"
 #include "render/prepare/default_light.h"
@@ -21,17 +22,15 @@ std::vector<FlatMaterial> flatten_all(const Scene& scene, Method method) {
 }
 
 Coherence primary_coherence(CameraKind kind) {
-  switch (kind) {
-    case CameraKind::orthographic:
+  switch (visit_camera(kind, [](auto formula) { return decltype(formula)::common; })) {
+    case CommonPart::origin:
+      return Coherence::common_origin;
+    case CommonPart::direction:
       return Coherence::common_direction;
-    case CameraKind::thin_lens:
-    case CameraKind::lens:
-      return Coherence::none;
-    case CameraKind::pinhole:
-    case CameraKind::fisheye:
+    case CommonPart::none:
       break;
   }
-  return Coherence::common_origin;
+  return Coherence::none;
 }
 
 /// What the rays through the centre of the camera's lens have in common, or all primary rays of a

@@ -40,7 +40,7 @@ struct Refusal {
   std::string text;
   int line, column;
   const char* key;
-  const char* words;
+  std::string words;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {

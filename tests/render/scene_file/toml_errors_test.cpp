@@ -1,3 +1,6 @@
+#include "core/scene/camera.h"
+#include "core/scene/field.h"
+#include "render/scene_file/nearest_name.h"
 #include "tests/render/scene_file/scene_folder.h"
 
 // TOML files that are wrong: each is refused at its line and column, with its key.
@@ -16,6 +19,8 @@ std::string scene(const std::string& text) { return "schema = 1\n" + text; }
 std::string camera(const std::string& text) {
   return scene("[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n" + text);
 }
+/// Every type of camera, the first of which is the default.
+std::string camera_types() { return list_names({names<Camera>.begin(), names<Camera>.end()}); }
 std::string material(const std::string& type, const std::string& text) {
   return scene("[material.red]\ntype = \"" + type + "\"\n" + text);
 }
@@ -124,8 +129,7 @@ const Refusal cameras[] = {
     {"LensFocusBehind", camera("type = \"lens\"\nfocus = [0, 0, 6]\n"), 6, 9, "camera.focus",
      "must lie in front of the camera"},
     {"UnknownType", camera("type = \"pinhol\"\n"), 5, 8, "camera.type",
-     "unknown 'pinhol', expected 'pinhole', 'orthographic', 'fisheye', 'thin_lens' or 'lens'; did "
-     "you mean 'pinhole'?"},
+     "unknown 'pinhol', expected " + camera_types() + "; did you mean 'pinhole'?"},
     {"TypeNoText", camera("type = 1\n"), 5, 8, "camera.type", "expected a string"},
     {"OtherTypesKey", camera("height = 2\n"), 5, 1, "camera.height", "unknown key 'height'"},
     {"KeySlip", camera("fvo = 45\n"), 5, 1, "camera.fvo", "did you mean 'fov'?"},
