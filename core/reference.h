@@ -8,7 +8,7 @@
 namespace boule::reference {
 
 /// The scalar path: the lecture's maths in double, one ray and one primitive at a time, every pair.
-/// It shares no code with the kernels and must equal solver `robust` bit for bit. Takes any
+/// It is written apart from the kernels and must equal solver `robust` bit for bit. Takes any
 /// numbers: what is NaN, infinite or without a direction is a miss. Throws nothing. Precondition:
 /// max_primitives at most.
 

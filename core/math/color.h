@@ -4,8 +4,8 @@
 
 namespace boule {
 
-/// Linear RGB, float, unbounded above (HDR; lecture "Color": LDR is what tone makes of it). Any
-/// numbers will do, as for Vec3.
+/// Linear RGB in float, unbounded above (lecture "Color": HDR, of which a tone curve makes LDR).
+/// Any numbers will do, as for Vec3.
 struct Color {
   float r = 0, g = 0, b = 0;
 };

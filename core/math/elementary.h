@@ -64,8 +64,8 @@ inline double power_of_two(int k) {
 inline constexpr double ln2_hi = 0x1.62e42fefa3800p-1;
 inline constexpr double ln2_lo = 0x1.ef35793c76730p-45;
 
-/// log(x) for normal and denormal x > 0, to about 2^-68 relative: times 745, the largest exponent
-/// exp takes, still far below half an ulp.
+/// log(x) for normal and denormal x > 0, with a relative error of about 2^-68. A power is wrong by
+/// no more than 745 times that, because exp takes exponents up to 745: far below half an ulp.
 inline DoubleDouble log_extended(double x) {
   int exponent = 0;
   if (x < 0x1p-1022) {
@@ -87,7 +87,7 @@ inline DoubleDouble log_extended(double x) {
   const double s_lo = ((numerator - back.hi) - back.lo - s * denominator_lo) / denominator;
   DoubleDouble z = two_product(s, s);
   z.lo += 2 * s * s_lo;
-  // atanh(s) / s = 1 + z (1/3 + z (1/5 + z tail)); only the tail does with plain doubles.
+  // atanh(s) / s = 1 + z (1/3 + z (1/5 + z tail)); plain doubles are enough for the tail.
   constexpr DoubleDouble third{1.0 / 3, 0x1.5555555555555p-56}, fifth{0.2, -0x1.999999999999ap-57};
   double tail = 0;
   for (int odd = 23; odd >= 7; odd -= 2) tail = tail * z.hi + 1.0 / odd;
@@ -191,8 +191,8 @@ inline double atan2(double y, double x) {
   return y < 0 ? -angle : angle;
 }
 
-/// sin(x) / x for -pi / 2 <= x <= pi / 2, from z = x^2; T is double or lanes of it. x times it is
-/// sin(x) with an error below 3 ulp.
+/// sin(x) / x for -pi / 2 <= x <= pi / 2, from z = x^2; T is double or lanes of it. x times the
+/// result is sin(x) with an error below 3 ulp.
 template <class T>
 BOULE_INLINE T sine_ratio(T z) {
   T sum = T(1.0);

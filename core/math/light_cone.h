@@ -9,9 +9,9 @@
 
 namespace boule {
 
-/// A sphere as a point outside of it sees it: the cone of directions that meet it (Shirley, Wang,
-/// Zimmerman, "Monte Carlo techniques for direct lighting calculations", 1996), chosen from evenly.
-/// T is double, or lanes of it.
+/// A sphere as a point outside of it sees it: the cone of directions that meet it, from which
+/// directions are drawn evenly (Shirley, Wang, Zimmerman, "Monte Carlo techniques for direct
+/// lighting calculations", 1996). T is double, or lanes of it.
 template <class T>
 class LightConeOf {
  public:
@@ -28,7 +28,8 @@ class LightConeOf {
     density_ = select(outside, cone_density(height_), T(0.0));
   }
 
-  /// Per solid angle, of every direction that meets the sphere; 0 where the point is not outside.
+  /// The density, per solid angle, of every direction that meets the sphere; 0 where the point is
+  /// not outside.
   [[nodiscard]] BOULE_INLINE const T& density() const { return density_; }
 
   /// A direction within the cone, of unit length; anything where the density is 0. The numbers lie
@@ -37,8 +38,8 @@ class LightConeOf {
     return direction_about(axis_, warp_to_cone(numbers.u, height_), numbers.v);
   }
 
-  /// How far a ray may go along a direction within the cone, rounded to float, and certainly not
-  /// meet the sphere itself. Anything where the density is 0.
+  /// How far a ray may go along a direction within the cone and certainly not meet the sphere
+  /// itself, even if the direction is rounded to float. Anything where the density is 0.
   [[nodiscard]] BOULE_INLINE T free_distance(const Vec3<T>& direction) const {
     // Rounding turns the direction by up to u, so the line passes the centre by up to u distance
     // nearer; twice that is taken. The nearer it passes, the earlier it meets the sphere.
@@ -57,7 +58,8 @@ class LightConeOf {
   }
 
  private:
-  /// How far the sphere is along a line that passes its centre at a distance, squared.
+  /// How far along a line the sphere begins. `aside2`: the distance at which the line passes the
+  /// centre, squared.
   [[nodiscard]] BOULE_INLINE T distance_to(const T& aside2) const {
     return sqrt(positive(distance_ * distance_ - aside2)) -
            sqrt(positive(radius_ * radius_ - aside2));

@@ -8,13 +8,13 @@
 
 namespace boule {
 
-/// A value at a time.
+/// A value, and the time at which it holds.
 struct TimedValue {
   double time, value;
 };
 
-/// The last of `values` that is not after `time`, or the first; 0 where there are none.
-/// Precondition of both functions: their times grow strictly.
+/// The index of the last of `values` that is not after `time`, or else of the first; 0 where there
+/// are none. Precondition, here and of monotone_cubic(): the times grow strictly.
 inline std::size_t value_before(std::span<const TimedValue> values, double time) {
   const auto after =
       std::upper_bound(values.begin(), values.end(), time,

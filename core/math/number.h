@@ -32,15 +32,15 @@ struct Numbers {
   T at[n];
 };
 
-/// Where one lane of Numbers lies in memory: number k at first[k step].
+/// One lane of Numbers in memory: number k is first[k * step].
 struct NumberColumn {
   double* first;
   std::size_t step;
   BOULE_INLINE double& operator[](std::size_t k) const { return first[k * step]; }
 };
 
-/// What a table in memory says of some numbers: find(given, found), of two NumberColumns, reads the
-/// given ones and sets the `count` found ones of one lane.
+/// Looks `count` numbers up in a table in memory by n given ones. find(given, found) does so for
+/// one lane: it reads the numbers of one NumberColumn and sets those of the other.
 template <std::size_t count, std::size_t n, class Find>
 BOULE_INLINE Numbers<double, count> look_up(Numbers<double, n> given, const Find& find) {
   Numbers<double, count> found;

@@ -29,7 +29,7 @@ inline std::uint64_t mix64(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// 2^64 over the golden ratio: counters that go through mix64() go in steps of it.
+/// 2^64 divided by the golden ratio: the step between counters that mix64() hashes.
 inline constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15u;
 
 /// The largest double below 1.

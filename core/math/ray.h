@@ -31,10 +31,10 @@ struct Ray {
   bool inside = false;
 };
 
-/// The open segment from `from` to `to` as a ray: dir = to - from, 0 < t < 1.
-/// tmax is short_of_the_end. A surface that the far end lies on, if it is tilted against the axes,
-/// may still be met by segments that graze it at sines below 1/4: rounding dir moves the end by up
-/// to u |dir|.
+/// The segment from `from` to `to` as a ray, without its ends: dir = to - from, and tmax is
+/// short_of_the_end. A surface that the far end lies on, if it is tilted against the axes, may
+/// still be met by segments that graze it at sines below 1/4: rounding dir moves the end by up to
+/// u |dir|.
 inline Ray segment(const Vec3d& from, const Vec3d& to) {
   Ray ray{from, vec_cast<float>(to - from)};
   ray.tmax = static_cast<float>(short_of_the_end);

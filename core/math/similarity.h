@@ -14,11 +14,11 @@ struct Similarity {
   double scale = 1;
   Vec3d shift;
 
-  /// R v: a direction, turned.
+  /// R v, for directions.
   [[nodiscard]] Vec3d rotate(const Vec3d& v) const {
     return {dot(row_x, v), dot(row_y, v), dot(row_z, v)};
   }
-  /// Where a point goes.
+  /// scale (R p) + shift, for points.
   [[nodiscard]] Vec3d apply(const Vec3d& p) const { return rotate(p) * scale + shift; }
 };
 
@@ -31,9 +31,8 @@ inline Similarity compose(const Similarity& outer, const Similarity& inner) {
           outer.scale * inner.scale, outer.apply(inner.shift)};
 }
 
-/// The cosine and sine of an angle in degrees, the same bits on every machine; exact at multiples
-/// of
-/// 90. NaN where it is not finite.
+/// The cosine and sine of an angle in degrees: the same bits on every machine, and exact at
+/// multiples of 90. NaN where the angle is not finite.
 inline Angle turn_of(double degrees) {
   double rest = std::fmod(degrees, 360.0);  // exact, as IEEE 754 wants it
   int quarters = 0;

@@ -40,7 +40,8 @@ BOULE_INLINE T scramble(T x, T seed) {
 }
 
 /// Pascal's triangle modulo 2 times the bits of x: digits of the second Sobol dimension, the first
-/// in bit 0. A digit is the sum of the bits whose number contains its own (Lucas).
+/// in bit 0. Digit i is the sum, modulo 2, of those bits j of x where the number j has all the
+/// binary digits of i (Lucas's theorem).
 template <class T>
 BOULE_INLINE T pascal(T x) {
   x = x ^ ((x >> 1) & T(0x55555555U));
@@ -56,8 +57,9 @@ BOULE_INLINE T pascal(T x) {
 /// counted from first_bounce on.
 enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
-/// The seed of all random numbers of one pixel: different pixels, 0 <= x, y, and different seeds of
-/// pictures have different ones. Any key is as good as any other, 0 too.
+/// A key for each pixel, from which all random numbers of the pixel follow. Different pixels, of
+/// coordinates from 0 on, and different seeds of pictures have different keys. Any key is as good
+/// as any other, 0 too.
 class PixelKeys {
  public:
   explicit PixelKeys(std::uint64_t seed) : seed_(mix64(seed)) {}
@@ -100,11 +102,12 @@ BOULE_INLINE auto sobol_point(const SobolSeedsOf<Integer>& seeds, Integer sample
 /// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel
 /// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). The first n samples
 /// of a pixel have, for any n, in every rectangle of 2^-a by 2^-b that tiles the unit square,
-/// n 2^-(a+b) points, rounded up or down: no direction, no n and no early stop is worse off. Sets
-/// are padded: one sample's points in two of them are independent, but two samples' are not quite,
-/// for every shuffle keeps samples together that differ in their last bits only. So a mean over
-/// several sets is right, its error a little off that of sets wholly apart, and what depends on two
-/// of them is spread about as random numbers are. Same bits on every machine, in any order.
+/// n 2^-(a+b) points, rounded up or down: samples are even in both directions and after any n. One
+/// sample's points in two sets are independent (padding). Those of two samples are not quite: every
+/// shuffle keeps samples together whose numbers differ in the last bits only. So a mean over
+/// several sets is right, but its error is not quite that of independent sets, and a function of
+/// two sets converges about as with random numbers. The bits are the same on every machine, in any
+/// order.
 inline UnitPair sobol_pair(std::uint64_t key, RandomSet set, std::uint32_t sample) {
   return sobol_point(sobol_seeds(key, set), sample);
 }

@@ -68,7 +68,7 @@ inline double power_density(double power, double n) {  // power: cosine^n
   return (n + 1) * power / (2 * elementary::pi);
 }
 
-/// The same spread evenly over a cone whose half angle has the cosine 1 - height.
+/// The same, spread evenly over a cone whose half angle has the cosine 1 - height.
 template <class T>
 BOULE_INLINE AngleOf<T> warp_to_cone(const T& u, const T& height) {
   const T h = u * height;

@@ -13,14 +13,15 @@ struct HalfExtent {
 
 double half_fov(float fov) { return double{fov} * (elementary::pi / 360); }
 
-/// Of square pixels whose film measures `half` from its middle to the end of `axis`.
+/// Half the extent of a film of square pixels that measures `half` from its middle to the end of
+/// `axis`.
 HalfExtent spread(double half, FovAxis axis, double width, double height) {
   const bool spans_width = axis == FovAxis::x || (axis == FovAxis::max && width >= height);
   if (spans_width) return {half, half * height / width};
   return {half * width / height, half};
 }
 
-// What each kind of camera sets in its view: the film's extent, and the rest.
+// fit() sets what is special to a kind of camera in its view, and returns the film's extent.
 
 HalfExtent fit(const PinholeCamera& camera, CameraView& view, double width, double height) {
   view.kind = CameraKind::pinhole;
@@ -58,13 +59,12 @@ double lens_radius(const Camera& camera) {
 }
 
 // Raster (0, 0) is the top left corner of the picture; the film runs from -1 to 1 and its y grows
-// upward. This is the one place where the picture is turned upside down (lecture "The image is
-// upside down").
+// upward. Nothing else turns the picture upside down (lecture "The image is upside down").
 RasterToFilm raster_to_film_x(int width) { return {2.0, -1.0 * width, 1.0 * width}; }
 RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1.0 * height}; }
 
-/// Whether the corners of a fisheye's film are more than 180 degrees from the view, where there is
-/// nothing; or so close to it that rounding may decide.
+/// Whether the corners of a fisheye's film are more than 180 degrees from `forward`, where there
+/// are no rays, or so close to that angle that rounding may decide.
 bool has_dark_corners(const CameraView& view) {
   constexpr double almost_pi = elementary::pi * (1 - 1e-9);
   // Filters reach beyond the frame by less than a pixel.

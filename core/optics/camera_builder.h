@@ -13,9 +13,9 @@ LensOptics build_lens(const Camera& camera, int width, int height);
 
 /// A valid camera made ready for an image of `width` x `height` pixels, 1 or more. The map, if
 /// there is one, must outlive the view, and so must the lens, which build_lens() makes; only a
-/// LensCamera needs one, and has no rays without. Preconditions, which find_problem() checks and
-/// nobody here: of an invalid camera the rays may be NaN, which miss; with an invalid map they are
-/// made of foreign memory.
+/// LensCamera needs one, and has no rays without. A valid camera and map are preconditions, which
+/// find_problem() checks and this function does not: rays of an invalid camera may be NaN, which
+/// miss; with an invalid map memory outside of it is read.
 CameraView build_camera(const Camera& camera, int width, int height,
                         const DistortionMap* map = nullptr, const LensOptics* lens = nullptr);
 

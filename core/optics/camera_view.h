@@ -33,7 +33,7 @@ struct CameraView {
   Vec3d right;    ///< u times half the film's width
   Vec3d up;       ///< v times half the film's height
   CameraKind kind;
-  bool weighs;  ///< not every sample has a ray that counts 1: weights are written
+  bool weighs;  ///< some samples may not count 1: their weights are written
   RasterToFilm film_x, film_y;
   Vec3d lens_right, lens_up;  ///< thin lens: u and v times its radius
   double inverse_focus;       ///< thin lens: 1 / distance of what is sharp

@@ -103,8 +103,9 @@ struct ThinLensRay {
   }
 };
 
-/// What comes out of a lens of real elements. Its space has right, up and -forward as its axes, the
-/// eye as its origin and `scale` as its unit. Its picture is upside down, and so is the film.
+/// What comes out of a lens of real elements. The lens' space has right, up and -forward as its
+/// axes, the eye as its origin and `scale` as its unit. A lens throws its picture upside down: the
+/// film's coordinates change their signs to make up for it.
 struct LensCameraRay {
   static constexpr CameraKind kind = CameraKind::lens;
   static constexpr CommonPart common = CommonPart::none;
@@ -127,7 +128,7 @@ struct LensCameraRay {
   }
 };
 
-/// visit(formula), the formula that of this kind of camera.
+/// Calls visit(formula) with the formula of this kind of camera.
 template <class Visitor>
 BOULE_INLINE auto visit_camera(CameraKind kind, const Visitor& visit) {
   switch (kind) {

@@ -4,10 +4,10 @@
 
 namespace boule {
 
-/// The integral of cos^4 over the exit pupil in the film's middle, exact to rounding, in the lens'
-/// unit squared: there the pupil is round, and the radii of its edges say all. 0: nothing passes,
-/// or no more than a billionth of the last surface's width does. Precondition: a lens with
-/// elements, as all here.
+/// The integral of cos^4 over the exit pupil of the film's middle, exact to rounding, in the lens'
+/// unit squared. The pupil is round there: the integral follows from the radii of its edges. 0:
+/// nothing passes, or only within a billionth of the last surface's width. Precondition, here and
+/// below: a lens with elements.
 double light_in_the_middle(const LensOptics& optics);
 
 /// Sets the pupil, in so many rings, 1 or more, and the exposure of a lens whose elements and film

@@ -20,9 +20,10 @@ struct FilmPointOf {
   T x, y;
 };
 
-/// The four pixels of an ST map around points given in pixels, from the first pixel's centre.
-/// Found: how far the point lies right of the pixels on its left, and below those above it, in
-/// pixels (outside 0 .. 1 beyond the map's rim), then their s and then their t, row by row.
+/// For look_up(): the four pixels of an ST map around a point. Given: x and y of the point, in
+/// pixels from the first pixel's centre. Found: how far the point lies right of the pixels on its
+/// left, and below those above it, in pixels (outside 0 .. 1 beyond the map's rim); then the four
+/// s and then the four t, row by row.
 struct MapCorners {
   const DistortionView& map;
 

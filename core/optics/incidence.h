@@ -19,7 +19,7 @@ struct ArrivalOf {
   Mask<T> is_from_origin;  ///< its tmin is 0
 };
 
-/// How it met that.
+/// The surface where a ray arrived.
 template <class T>
 struct ContactOf {
   Vec3<T> outward;  ///< geometric normal, of unit length, or not finite
@@ -32,9 +32,9 @@ BOULE_INLINE ContactOf<T> meet_sphere(const ArrivalOf<T>& ray, const Vec3<T>& ce
                                       const T& radius) {
   const Vec3<T> f = center - ray.org, outward = ray.point - center;
   const T ff = dot(f, f);
-  // From where the ray started, not from the angle: the solver took the second root for the same
-  // sign of the same expression, so a grazing ray cannot change sides. A ray that begins elsewhere
-  // than at its origin may meet the other root: there the angle tells.
+  // Which side is met follows from where the ray started, not from the angle: the solver took the
+  // second root for the same sign of the same expression, so a grazing ray cannot change sides. A
+  // ray that begins elsewhere than at its origin may meet the other root: there the angle tells.
   const Mask<T> starts_inside = ray.leaves_it | (ff - radius * radius <= T(0.0));
   const Mask<T> goes_out = T(0.0) < dot(outward, ray.dir);
   return {normalize(outward), sqrt(ff) + radius,
@@ -49,15 +49,15 @@ BOULE_INLINE ContactOf<T> meet_plane(const ArrivalOf<T>& ray, const Vec3<T>& poi
           T(0.0) < dot(ray.dir, normal)};
 }
 
-/// The unit normal on the side of a ray that met it so, of the unit direction `view`.
+/// The unit normal on the side that a ray came from; `view` is the ray's unit direction.
 template <class T>
 BOULE_INLINE Vec3<T> facing_normal(const ContactOf<T>& contact, const Vec3<T>& view) {
   const Vec3<T> turned = contact.outward * select(contact.inner, T(-1.0), T(1.0));
   const T largest(std::numeric_limits<double>::max());
   const Mask<T> x = abs(turned.x) <= largest, y = abs(turned.y) <= largest,
                 z = abs(turned.z) <= largest;
-  // A sphere too small for where it is: the point is its centre, and any normal is right. It faces
-  // the ray.
+  // Of a sphere that is too small for its distance from (0, 0, 0) the point is the centre. Any
+  // normal is right then; this one faces the ray.
   return select(x & y & z, turned, view * T(-1.0));
 }
 

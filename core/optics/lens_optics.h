@@ -7,7 +7,8 @@
 
 namespace boule {
 
-/// A lens focused and ready to be traced: who owns what a LensView shows. Meanings as there.
+/// A lens focused and ready to be traced: it owns the numbers of a LensView, which says what they
+/// mean.
 struct LensOptics {
   std::vector<LensElement> elements;
   std::vector<PupilRing> pupil;
@@ -18,13 +19,13 @@ struct LensOptics {
   double scale;
   double exposure;
 
-  /// Stays good where this is moved to; void once it is changed or gone.
+  /// Valid until this lens is changed or destroyed; moving it does no harm.
   [[nodiscard]] LensView view() const;
 };
 
-/// A valid camera's lens (find_problem()), focused, its exit pupil found, for a picture of these
-/// pixels, 1 or more, in so many rings, 1 or more. Of other lenses and sizes: numbers that may be
-/// NaN, rays that are stopped. Throws std::bad_alloc.
+/// A valid camera's lens (find_problem()), focused, with its exit pupil in so many rings, for a
+/// picture of so many pixels, all 1 or more. Other lenses and sizes give numbers that may be NaN,
+/// and rays that are stopped. Throws std::bad_alloc.
 LensOptics make_optics(const LensCamera& camera, int width, int height, int rings = 64);
 
 /// The light that the middle of such a camera's film gathers: light_in_the_middle(). 0 for a camera

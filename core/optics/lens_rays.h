@@ -42,9 +42,10 @@ BOULE_INLINE void pass_element(const LensElement& element, LensRayOf<T>& ray, Ma
   ray.dir = ray.dir * eta + normal * (sqrt(cosine2) - eta * cosine);
 }
 
-/// The two boxes of the exit pupil between which a film point's box lies, given how many rings it
-/// is from the film's middle. Found: how far it is from the inner to the outer box, then x0, x1 and
-/// y of both. Beyond the last ring that is the last one's outer box.
+/// For look_up(): the boxes of the exit pupil between which a film point's box lies. Given: how
+/// many rings the point is from the film's middle. Found: how far its box is from the inner to the
+/// outer one, 0 .. 1; then x0, x1 and y, of the inner and of the outer one each. Beyond the last
+/// ring it is that ring's outer box.
 struct PupilBoxes {
   const LensView& lens;
 

@@ -33,7 +33,7 @@ inline constexpr float limit = 1e18f;
 // ---- Bounds of roots: simd/kernel/search/root_bounds.h ----------------------------------------
 
 /// b and l = f - b unit are wrong by no more than spread u (|b| + 2 r) + E (1 + 48 u); needed is 12
-/// in place of 14. The discriminant is wrong by no more than spread' (2 r + 3 spread') + spread u
+/// instead of 14. The discriminant is wrong by no more than spread' (2 r + 3 spread') + spread u
 /// r^2, where spread' is that error.
 inline constexpr double spread = 14;
 
@@ -72,7 +72,7 @@ inline constexpr double box_step = 0x1p-22;
 ///   D2 = 2 G + 4 delta (r + delta): where Q >= D2 it hits
 ///   E1 = bundle_depth u F1: the error of the first root, v = X a + Y b + Z - sqrt(discriminant)
 ///
-/// From the lower bound of v to the upper it is 2 E1 + sqrt(D2); bundle_twice in place of 2 pays
+/// From the lower bound of v to the upper it is 2 E1 + sqrt(D2); bundle_twice instead of 2 pays
 /// for the rounding of that sum and of Z - E1. With a common direction E1 has bundle_depth u D
 /// besides. bundle_axis u D is also what boxes in (a, b) grow by, for the sides and for the grid: 3
 /// u D that matter and 16 u D for a ray's a.
@@ -88,10 +88,10 @@ inline constexpr float bundle_twice = 2.5F;
 inline constexpr float bundle_side = 1.05F;
 inline constexpr float bundle_side_parallel = 1.001F;
 
-/// With a common end rays are seen from there, backwards, d in place of d - d0. Their lines miss O
-/// by what the rounding of d to float has cost and by bundle_end of |O|_1 + |d|, which double has
-/// lost. That times bundle_shift_slope is added to delta, to E1, to what boxes grow by and to the
-/// rays' ends.
+/// With a common end rays are seen from there, backwards, with d instead of d - d0. Their lines
+/// miss O by what the rounding of d to float has cost and by bundle_end of |O|_1 + |d|, which
+/// double has lost. That times bundle_shift_slope is added to delta, to E1, to what boxes grow by
+/// and to the rays' ends.
 inline constexpr double bundle_shift_slope = 1.5;
 inline constexpr double bundle_end = 0x1p-50;
 

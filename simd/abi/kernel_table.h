@@ -48,11 +48,11 @@ struct KernelTable {
                         const RayStream& rays, const HitStream& hits,
                         const SurfaceStream& surfaces);
 
-  /// Makes the shadow rays of all lit points that face the light, in their order. How many.
+  /// Makes the shadow rays of all lit points that face the light, in their order. Returns how many.
   std::size_t (*make_shadow_rays)(const ShadowTarget& light, const LitStream& points,
                                   const ShadowRayStream& shadows);
 
-  /// Random numbers, and directions by them: see the streams.
+  /// Random numbers, and directions made of them: the streams say how.
   void (*sobol_points)(const SobolStream& points);
   void (*to_world)(const LocalDirectionStream& directions);
   void (*sample_cones)(const LightConeStream& cones);

@@ -22,9 +22,9 @@ inline constexpr int bins = 16;
 /// Again: bench_peers --scenes flake4,flake6 --rays primary,diffuse
 inline constexpr float unlike_radii = 2;
 
-/// A sphere whose box has more than this share of the area of all boxes together is a giant: it is
-/// kept out of the tree and tested against every ray, for nearly every ray would meet its box
-/// anyway. Up to most_giants of them, the largest. Set by trial.
+/// A sphere whose box has more than this share of the area of the box around all the others is a
+/// giant: it is kept out of the tree and tested against every ray, for nearly every ray would meet
+/// its box anyway. Up to most_giants of them, the largest. Set by trial.
 /// Again: bench_tree, with a ground sphere added to its scene
 inline constexpr double giant_share = 0.25;
 inline constexpr std::size_t most_giants = 16;

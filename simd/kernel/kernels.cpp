@@ -62,6 +62,8 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   }
 }
 
+// What the table points to. The functions that these call are always inlined and have no address.
+
 void camera_rays(const CameraView& camera, const SampleStream& samples, const RayStream& rays) {
   primary_rays(camera, samples, rays);
 }

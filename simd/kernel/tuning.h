@@ -136,6 +136,7 @@ inline constexpr std::size_t most_sorted_children = 48;
 inline constexpr unsigned most_candidates = 8;
 
 /// So many of those solves count as one step where packets and flights are compared. Set by trial.
+/// Again: as most_candidates
 inline constexpr unsigned solves_a_step = 2;
 
 // ---- The choice between packets and flights: search/scattered_stream.h ------------------------

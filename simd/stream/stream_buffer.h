@@ -121,7 +121,7 @@ class LocalDirectionBuffer {
   }
   /// What the kernels made of axis i.
   [[nodiscard]] Vec3d direction(std::size_t i) const { return vectors_.get(i); }
-  /// The first `size`; directions take their axes' places.
+  /// The first `size`; directions are written over their axes.
   LocalDirectionStream view(std::size_t size) {
     return {vectors_.view(), cosine_.data(), sine_.data(), turns_.data(), vectors_.view(), size};
   }
@@ -151,7 +151,7 @@ class LightConeBuffer {
   [[nodiscard]] Vec3d direction(std::size_t i) const { return center_.get(i); }
   [[nodiscard]] double density(std::size_t i) const { return density_[i]; }
   [[nodiscard]] float tmax(std::size_t i) const { return tmax_[i]; }
-  /// The first `size`; directions take the centres' places.
+  /// The first `size`; directions are written over the centres.
   LightConeStream view(std::size_t size) {
     return {org_.view(),    center_.view(),  radius_.data(), u_.data(), v_.data(),
             center_.view(), density_.data(), tmax_.data(),   size};

@@ -9,8 +9,8 @@
 
 /// All rays of a packet as one beam, by interval arithmetic: what the beam misses every ray misses.
 /// W boxes, or the boxes of W spheres, are tested at once; what remains is tested ray by ray.
-/// Chosen for packets whose rays go the same way along two axes at least. The slack
-/// (filter::beam) is derived in docs/numerics.md.
+/// Chosen for packets whose rays go the same way along two axes at least. docs/numerics.md derives
+/// the slack (filter::beam).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// An axis along which all rays go up, or all go down. They meet its plane at x at t >= x

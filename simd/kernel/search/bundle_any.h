@@ -14,7 +14,8 @@
 /// Where few rays are near a leaf's spheres they are met one by one, W spheres at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// (std::popcount() may be a call of a library function, which kernels must not make.)
+/// How many bits are set. Without an instruction for it, std::popcount() of a whole word would call
+/// a library function, which kernels must not do.
 BOULE_INLINE int count_bits(unsigned bits) {
   bits -= bits >> 1 & 0x55555555U;
   bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);

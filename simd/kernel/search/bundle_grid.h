@@ -8,8 +8,8 @@
 #include "simd/kernel/tuning.h"
 
 /// A coarse map of where a bundle's rays are. In a sparse bundle, one with many spheres for its
-/// rays, there are gaps between rays, and the more so the more rays have their answer. Boxes that
-/// lie in a gap, or beyond the ends of all rays around them, need not be visited.
+/// rays, there are gaps between rays, and they grow as rays get their answers. Boxes that lie in a
+/// gap, or beyond the ends of all rays around them, need not be visited.
 namespace boule::BOULE_KERNEL_ISA {
 
 class RayGrid {

@@ -10,8 +10,8 @@
 #include "simd/kernel/search/bundle_rays.h"
 
 /// A bundle against the boxes of a node: sixteen of them, W at a time, against the four planes that
-/// hold all rays. It only turns away boxes that no ray enters; the slack (filter::box)
-/// is derived in docs/numerics.md.
+/// hold all rays. It only turns away boxes that no ray enters; docs/numerics.md derives the slack
+/// (filter::box).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The four sides of a bundle, and its depth, for boxes in world coordinates.

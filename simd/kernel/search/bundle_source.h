@@ -31,7 +31,7 @@ BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
 BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
 BOULE_INLINE Real sum_abs_of(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-/// Writes W bits as bytes, 0 or 1.
+/// Writes W bits as bytes, 0 or 1; eight at a time, so that `bytes` needs room for max_width.
 BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
   for (int at = 0; at < width; at += 8) {
     // Eight copies of the byte, each of which keeps one bit; adding 0x7f to each sets the top bit
@@ -131,7 +131,8 @@ class SharedByRays {
 template <Common common>
 class RaysInOrder {
  public:
-  /// Rays first .. first + count - 1 of the stream, count at most tuning::bundle_size.
+  /// Rays first .. first + count - 1 of the stream, count at most tuning::bundle_size. What they
+  /// share is taken from the ray at three quarters, as load_bundle() does.
   RaysInOrder(const PaddedStream& stream, std::size_t first, std::size_t count)
       : stream_(stream),
         first_(first),

@@ -78,7 +78,7 @@ class LightGrid {
   }
 
  private:
-  /// The six bits of x and those of y in turn.
+  /// The six bits of x and those of y, one by one alternately.
   BOULE_INLINE static std::uint16_t curve_position(float x, float y) {
     unsigned both = static_cast<unsigned>(static_cast<int>(x)) |
                     static_cast<unsigned>(static_cast<int>(y)) << 16;
@@ -98,9 +98,9 @@ class CellSort {
   explicit CellSort(unsigned cells) : cells_(cells) {
     for (unsigned c = 0; c < cells; ++c) next_[c] = 0;
   }
-  /// Call it once for every ray, with the cell of the ray,
+  /// Counts a ray: to be called once for every ray, with its cell.
   BOULE_INLINE void count(std::uint16_t cell) { ++next_[cell]; }
-  /// and then this, which gives the order of the rays that have these cells.
+  /// Finds the order of the rays, once all are counted: `cell` has the cell of each.
   void find_order(const std::uint16_t* cell, std::size_t size, std::uint16_t* order) {
     unsigned before = 0;
     for (unsigned c = 0; c < cells_; ++c) {

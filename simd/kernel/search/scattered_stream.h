@@ -23,6 +23,7 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     flights.run(0, size);
     return;
   }
+  // As if a trial of half as many rays had preferred flights: one that agrees doubles the number.
   std::size_t begin = 0, rays_that_way = tuning::rays_after_trial / 2;
   bool was_packets = false;
   float visits = 0, steps = 0;
