@@ -6,7 +6,7 @@
 namespace boule {
 namespace {
 
-/// One surface, and how wide it is beside the last one.
+/// Checks one surface by itself, and its width against that of the last one.
 void check_surface(ProblemFinder& finder, const LensCamera& camera, std::size_t i) {
   const LensSurface& surface = camera.surfaces[i];
   const std::string its = "surface " + std::to_string(i + 1) + ": its ";
@@ -22,7 +22,7 @@ void check_surface(ProblemFinder& finder, const LensCamera& camera, std::size_t 
 
 void check_whole(ProblemFinder& finder, const CameraPose& pose) {
   finder.require("look_at", !(pose.eye == pose.look_at), "must differ from eye");
-  const Vec3d view = normalize(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
+  const Vec3d view = view_direction(pose);
   const Vec3d up = normalize(vec_cast<double>(pose.up));
   finder.require("up", length(cross(view, up)) > 1e-6,
                  "must not be within 1e-6 rad of the view direction");

@@ -22,11 +22,11 @@ struct Field {
   std::string_view key;
   Member Owner::*member;
   Rule rule;
-  /// True if scene files have other ways to give the value, by other keys or another type: their
-  /// reader has a function for it.
+  /// True if scene files can also give the value by other keys or another type. Their reader then
+  /// has a function for it.
   bool has_other_forms = false;
 
-  /// Of how many members the key gives the values.
+  /// The number of members that the key sets.
   static constexpr std::size_t member_count = 1;
 
   [[nodiscard]] constexpr Field with_other_forms() const { return {key, member, rule, true}; }
@@ -61,7 +61,7 @@ struct FieldList {
   std::tuple<Fields...> list;
 };
 
-/// The FieldList of a struct; std::nullptr_t of what has none.
+/// The FieldList of a struct; null for a type that has none.
 template <class T>
 inline constexpr std::nullptr_t fields = nullptr;
 
@@ -161,8 +161,8 @@ template <class T>
 inline constexpr bool lists_every_member =
     detail::count_members<T>() == detail::count_listed(fields<T>) && detail::lists_once(fields<T>);
 
-/// Calls visitor(field, member) for each field of a struct, in the order of its list, with a
-/// reference to the member; of a PairField with a Both. What the visitor throws reaches the caller.
+/// Calls visitor(field, member) for each field of a struct, in the order of its list. `member` is a
+/// reference to the member, or for a PairField a Both. What the visitor throws reaches the caller.
 template <HasFields T, class Visitor>
 constexpr void each_field(T& value, Visitor&& visitor) {
   using Struct = std::remove_const_t<T>;

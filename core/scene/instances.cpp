@@ -6,17 +6,18 @@
 namespace boule {
 namespace {
 
-using Material = std::optional<std::uint32_t>;
+/// The material that replaces all others inside an instance, if one does.
+using Replacement = std::optional<std::uint32_t>;
 
 constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
 
-/// Sums that stay where they are too large: groups multiply.
+/// The sum of two counts. It stops at `most`, because nested groups multiply counts beyond 64 bits.
 PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
   return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most)};
 }
 
-/// Goes through all groups, each once, inner ones first: counts what is in them, and finds those
-/// that contain themselves.
+/// Goes through all groups, each once and inner ones first. It counts the spheres and planes in
+/// them, and finds groups that contain themselves or are nested too deep.
 class GroupSurvey {
  public:
   explicit GroupSurvey(const Scene& scene)
@@ -27,10 +28,10 @@ class GroupSurvey {
     for (std::size_t i = 0; i < scene.groups.size() && !problem_; ++i) visit(i);
   }
 
-  /// What is wrong with an instance in a group.
+  /// The first Problem of an instance in a group, if any.
   [[nodiscard]] const std::optional<InstanceProblem>& problem() const { return problem_; }
 
-  /// By group, all that is inside it.
+  /// The spheres and planes in each group, those of its instances included.
   [[nodiscard]] const std::vector<PrimitiveCount>& counts() const { return counts_; }
 
  private:
@@ -54,8 +55,8 @@ class GroupSurvey {
     way_.pop_back();
   }
 
-  /// Visits the group of an instance if it was not yet, unless something is wrong with that: the
-  /// way there ends at max_nesting, and so does what begins there, visited earlier or not.
+  /// Visits the group `inner` of an instance, unless it was visited before. Reports a cycle, and a
+  /// nesting deeper than max_nesting: of the groups that lead here, or of those inside `inner`.
   void enter(std::size_t group, std::size_t instance, std::size_t inner) {
     if (states_[inner] == State::open) {
       return report(group, instance, "makes a cycle: " + way_round(inner));
@@ -79,7 +80,7 @@ class GroupSurvey {
 
   const Scene& scene_;
   std::vector<PrimitiveCount> counts_;
-  std::vector<std::size_t> depths_;  ///< by group: groups inside each other, itself among them
+  std::vector<std::size_t> depths_;  ///< by group: levels of groups in it, itself the first one
   std::vector<State> states_;
   std::vector<std::size_t> way_;  ///< the groups that are open, outer ones first
   std::optional<InstanceProblem> problem_;
@@ -91,7 +92,7 @@ PrimitiveCount count_with(const Scene& scene, const std::vector<PrimitiveCount>&
   return count;
 }
 
-/// A kind of primitive: where a group has its own, and how many are inside it.
+/// How to get the primitives of one kind from a group, and their number from a count.
 template <class Primitive>
 struct Kind;
 template <>
@@ -105,20 +106,21 @@ struct Kind<Plane> {
   static std::uint64_t count(const PrimitiveCount& count) { return count.planes; }
 };
 
-/// Calls function(primitive) with all of a kind that instances show. The depth of its recursion is
-/// max_nesting at most, and it enters no group in vain.
+/// Calls function(primitive) with all primitives of one kind that instances show. It recurses at
+/// most max_nesting deep, and skips groups without primitives of that kind.
 template <class Primitive, class Function>
 class Walk {
  public:
   Walk(const Scene& scene, const std::vector<PrimitiveCount>& counts, const Function& function)
       : scene_(scene), counts_(counts), function_(function) {}
 
-  void visit(const std::vector<Instance>& instances, const Similarity& outer, Material material) {
+  void visit(const std::vector<Instance>& instances, const Similarity& outer,
+             Replacement material) {
     for (const Instance& instance : instances) {
       if (Kind<Primitive>::count(counts_[instance.group]) == 0) continue;
       const Group& group = scene_.groups[instance.group];
       const Similarity transform = compose(outer, transform_of(instance));
-      const Material inside = material ? material : instance.material;
+      const Replacement inside = material ? material : instance.material;
       for (const Primitive& one : Kind<Primitive>::of(group)) {
         function_(transformed(one, transform, inside));
       }
@@ -132,14 +134,15 @@ class Walk {
   const Function& function_;
 };
 
-/// All of a kind that one of the scene's instances shows, or all of them.
+/// Calls function(primitive) with all primitives of one kind that these instances of the scene
+/// show.
 template <class Primitive, class Function>
 void walk(const Scene& scene, const std::vector<PrimitiveCount>& counts,
           const std::vector<Instance>& instances, const Function& function) {
   Walk<Primitive, Function>(scene, counts, function).visit(instances, {}, {});
 }
 
-/// Of an instance by itself, and of what it refers to.
+/// The first Problem of an instance by itself, or of its references to a group and a material.
 std::optional<Problem> find_own_problem(const Scene& scene, const Instance& instance) {
   if (auto problem = find_problem(instance)) return problem;
   if (instance.group >= scene.groups.size()) {
@@ -162,7 +165,7 @@ std::optional<InstanceProblem> find_own_problem(const Scene& scene,
   return std::nullopt;
 }
 
-/// True if all that an instance shows stays what it is in float.
+/// True if every sphere and plane that an instance shows is still valid after rounding to float.
 bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& counts,
                     const Instance& instance) {
   bool good = true;

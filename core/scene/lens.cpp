@@ -14,8 +14,8 @@ struct ParaxialRay {
   double height, slope;
 };
 
-/// Through all surfaces, up to the last one: at each the ray bends by its height times the power
-/// (n' - n) / R (Smith, "Modern Lens Design", 1992, "y-nu ray trace").
+/// Follows a ray through all surfaces, up to the last one. At each surface it bends by its height
+/// times the power (n' - n) / R (Smith, "Modern Lens Design", 1992, "y-nu ray trace").
 ParaxialRay trace_paraxial(std::span<const LensSurface> surfaces, ParaxialRay ray) {
   double index = 1;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {

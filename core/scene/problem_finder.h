@@ -20,8 +20,8 @@ namespace boule {
 
 class ProblemFinder;
 
-/// What no field by itself shows, for the types that have such. They are called only where every
-/// field is right.
+/// Check what several fields together must satisfy, for the types that have such conditions. They
+/// are called only where every field by itself is right.
 void check_whole(ProblemFinder& finder, const CameraPose& pose);
 void check_whole(ProblemFinder& finder, const LensSurface& surface);
 void check_whole(ProblemFinder& finder, const LensCamera& camera);
@@ -79,10 +79,10 @@ class ProblemFinder {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void check(std::string_view, const TypeRule&, Enum) {}
-  /// The scene that holds the materials and groups checks these.
+  /// Whether the scene has the material or group is checked with the scene.
   void check(std::string_view, const MaterialRule&, std::uint32_t) {}
   void check(std::string_view, const GroupRule&, std::uint32_t) {}
-  /// check_whole() does.
+  /// Checked by check_whole().
   template <class T>
   void check(std::string_view, const FileRule&, const T&) {}
 

@@ -26,9 +26,4 @@ std::string describe(const WholeRule& rule) {
   return std::to_string(rule.low) + (has_end ? " to " + std::to_string(rule.high) : " or above");
 }
 
-std::string describe(const DirectionRule&) { return "finite and not the zero vector"; }
-std::string describe(const MaterialRule&) { return "the name of a material"; }
-std::string describe(const GroupRule&) { return "the name of a group"; }
-std::string describe(const FileRule&) { return "the name of a file"; }
-
 }  // namespace boule

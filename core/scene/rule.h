@@ -5,11 +5,10 @@
 
 namespace boule {
 
-/// The rule of a field says which values it may hold. describe() words a rule so that "must be" and
-/// the words make a sentence: error messages and documents are made of them. All describe() throw
-/// std::bad_alloc.
+/// The rule of a field says which values it may hold. describe() words a rule for error messages,
+/// so that "must be" and the words make a sentence; it throws std::bad_alloc.
 
-/// Finite numbers between two bounds; of a vector or a colour, every component.
+/// Finite numbers between two bounds. The rule holds for every component of a vector or a colour.
 struct NumberRule {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -33,7 +32,8 @@ struct DirectionRule {};
 struct MaterialRule {};
 struct GroupRule {};
 
-/// What scene files take from another file that they name. It is checked with its whole struct.
+/// Values that scene files take from another file that they name. They are checked by check_whole()
+/// of the struct.
 struct FileRule {};
 
 /// Every value of the type; a struct with fields of its own has their rules.
@@ -41,10 +41,6 @@ struct TypeRule {};
 
 std::string describe(const NumberRule& rule);
 std::string describe(const WholeRule& rule);
-std::string describe(const DirectionRule& rule);
-std::string describe(const MaterialRule& rule);
-std::string describe(const GroupRule& rule);
-std::string describe(const FileRule& rule);
 
 namespace rule {
 

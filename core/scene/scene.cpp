@@ -16,8 +16,7 @@ std::string numbered(const std::string& name, std::size_t index) {
   return name + "[" + std::to_string(index) + "]";
 }
 
-/// Checks all of a scene but what its objects are, section by section in the order of
-/// fields<Scene>.
+/// Checks all of a scene but its objects, section by section in the order of fields<Scene>.
 class SectionCheck {
  public:
   explicit SectionCheck(const Scene& scene) {
