@@ -28,15 +28,17 @@ std::optional<float> number_of(std::string_view word) {
   return to_float32(number);
 }
 
-/// A surface, or nothing if the line is not one.
+/// The surface of a line, which has the fields in the order of their list; nothing if it has
+/// others.
 std::optional<LensSurface> surface_of(std::string_view line) {
   LensSurface surface;
-  for (float* out : {&surface.radius, &surface.thickness, &surface.index, &surface.aperture}) {
+  bool has_numbers = true;
+  each_field(surface, [&](const auto&, float& out) {
     const auto number = number_of(take_word(line));
-    if (!number) return std::nullopt;
-    *out = *number;
-  }
-  return take_word(line).empty() ? std::optional(surface) : std::nullopt;
+    has_numbers = has_numbers && number;
+    out = number.value_or(0);
+  });
+  return has_numbers && take_word(line).empty() ? std::optional(surface) : std::nullopt;
 }
 
 }  // namespace

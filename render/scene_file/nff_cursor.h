@@ -36,7 +36,8 @@ class NffCursor {
   /// The end of the line, or an error about the word that is there instead.
   bool take_line_end(const char* key);
 
-  /// Where a word of this line begins, the first is number 0, or where the line ends.
+  /// Where word `index` of this line begins; the first one is word 0. The end of the line if there
+  /// is no such word.
   [[nodiscard]] TextPlace place(std::size_t index = 0) const;
   /// Behind the last word taken.
   [[nodiscard]] TextPlace end_place() const { return place_of(at_); }

@@ -27,11 +27,7 @@ struct RowLayout {
 Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& request,
                                std::uint64_t file_size) {
   const bool has_radius = request.radius.has_value();
-  if (header.descr != "<f4" && header.descr != "<f8") {
-    return Diagnostic::of("holds " + quote(header.descr) +
-                          ", expected '<f4' or '<f8' (little-endian float32 or float64)");
-  }
-  if (auto bad = check_npy_order(header)) return *bad;
+  if (auto bad = check_npy_elements(header)) return *bad;
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
@@ -48,7 +44,7 @@ Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& reques
     return Diagnostic::of("has radii of its own in column 3: the key 'radius' contradicts them");
   }
   const RowLayout layout{shape[0], static_cast<std::size_t>(shape[1]),
-                         header.descr == "<f4" ? std::size_t{4} : std::size_t{8}};
+                         npy_is_double(header) ? std::size_t{8} : std::size_t{4}};
   if (auto bad = check_npy_length(header, layout.bytes(), file_size)) return *bad;
   return layout;
 }

@@ -1,6 +1,7 @@
 #include "render/scene_file/npy_rows.h"
 
 namespace boule {
+
 std::string npy_shape_text(const NpyHeader& header) {
   std::string text = "(";
   for (const std::uint64_t count : header.shape) {
@@ -9,7 +10,11 @@ std::string npy_shape_text(const NpyHeader& header) {
   return text + ")";
 }
 
-Status check_npy_order(const NpyHeader& header) {
+Status check_npy_elements(const NpyHeader& header) {
+  if (header.descr != "<f4" && header.descr != "<f8") {
+    return Diagnostic::of("holds " + quote(header.descr) +
+                          ", expected '<f4' or '<f8' (little-endian float32 or float64)");
+  }
   if (!header.fortran_order) return std::nullopt;
   return Diagnostic::of("is in Fortran order, expected C order (row by row)");
 }

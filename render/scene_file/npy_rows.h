@@ -18,8 +18,11 @@ namespace boule {
 /// "(3, 4)".
 std::string npy_shape_text(const NpyHeader& header);
 
-/// Refuses Fortran order.
-Status check_npy_order(const NpyHeader& header);
+/// Refuses numbers other than little-endian float32 and float64, and Fortran order.
+Status check_npy_elements(const NpyHeader& header);
+
+/// True if the numbers are float64. Precondition: check_npy_elements() has passed them.
+inline bool npy_is_double(const NpyHeader& header) { return header.descr == "<f8"; }
 
 /// Refuses a file of `file_size` bytes unless it is exactly as long as its header and shape[0] rows
 /// of `row_bytes` bytes each.

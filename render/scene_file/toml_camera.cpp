@@ -22,7 +22,8 @@ void read_keys(TomlTable& table, Kind& camera) {
 }
 
 void require_positive(TomlTable& table, const char* key, float value) {
-  if (!(std::isfinite(value) && value > 0)) table.report(key, "must be finite and above 0");
+  const NumberRule& allowed = rule::positive;
+  if (!allowed.allows(double{value})) table.report(key, "must be " + describe(allowed));
 }
 
 /// The radius of the lens: itself, or by the f-number, which is the focal length over the diameter.

@@ -1,7 +1,6 @@
 #include "render/scene_file/toml_reader.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "render/scene_file/toml_camera.h"

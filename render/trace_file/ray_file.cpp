@@ -26,17 +26,12 @@ Diagnostic named(Diagnostic error, const std::string& path) {
 
 /// An error unless the file declares rays and has exactly the length that it declares.
 Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
-  const bool is_double = header.descr == "<f8";
-  if (header.descr != "<f4" && !is_double) {
-    return Diagnostic::of("holds " + quote(header.descr) +
-                          ", expected '<f4' or '<f8' (little-endian float32 or float64)");
-  }
-  if (auto bad = check_npy_order(header)) return bad;
+  if (auto bad = check_npy_elements(header)) return bad;
   if (header.shape.size() != 2 || header.shape[1] != columns) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
                           ", expected (N, 8): origin, tmin, direction, tmax");
   }
-  return check_npy_length(header, row_bytes(is_double), file_size);
+  return check_npy_length(header, row_bytes(npy_is_double(header)), file_size);
 }
 
 /// The ray of one row. Adds 1 to `lost` if rounding took its origin or direction away.
@@ -72,7 +67,7 @@ Result<RayFile> RayFile::open(const std::string& path) {
   if (!header) return named(header.error(), path);
   if (auto bad = check_layout(header.value(), file.value().size())) return named(*bad, path);
   return RayFile(path, std::move(file).value(), header.value().shape[0],
-                 header.value().descr == "<f8");
+                 npy_is_double(header.value()));
 }
 
 Status RayFile::read(std::span<Ray> rays) {
