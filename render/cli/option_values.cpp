@@ -35,12 +35,9 @@ std::optional<std::vector<int>> split_numbers(const std::string& text, char sepa
 
 /// The switch that an AOV's name stands for, or null.
 bool* find_aov(AovSelection& aovs, const std::string& name) {
-  if (name == "depth") return &aovs.depth;
-  if (name == "normal") return &aovs.normal;
-  if (name == "position") return &aovs.position;
-  if (name == "id") return &aovs.id;
-  if (name == "albedo") return &aovs.albedo;
-  if (name == "z") return &aovs.z;
+  for (const AovName& aov : aov_names) {
+    if (name == aov.name) return &(aovs.*aov.wanted);
+  }
   return nullptr;
 }
 
@@ -80,6 +77,12 @@ std::optional<AovSelection> parse_aovs(const std::string& text) {
     *aov = true;
   }
   return aovs;
+}
+
+std::string list_aovs() {
+  std::string list;
+  for (const AovName& aov : aov_names) list += (list.empty() ? "" : ",") + std::string(aov.name);
+  return list;
 }
 
 std::optional<double> parse_duration(const std::string& text) {

@@ -27,8 +27,11 @@ std::optional<Size> parse_size(const std::string& text);
 /// "X0,Y0,X1,Y1" with 0 <= X0 < X1 and 0 <= Y0 < Y1.
 std::optional<PixelRect> parse_crop(const std::string& text);
 
-/// Some of "depth,normal,position,id,albedo,z", each once, at least one.
+/// Some of the names in list_aovs(), each once, at least one.
 std::optional<AovSelection> parse_aovs(const std::string& text);
+
+/// All names of AOVs: "depth,normal,position,id,albedo,z".
+std::string list_aovs();
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);

@@ -54,7 +54,7 @@ struct Choice {
 template <class T>
 Choice(const char*, T) -> Choice<T>;
 
-/// All enumerators, by their names in scene files.
+/// All enumerators, by their names.
 template <class Enum>
 std::array<Choice<Enum>, names<Enum>.size()> choices() {
   static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
@@ -123,10 +123,9 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--crop", command.crop, parse_crop,
              "X0,Y0,X1,Y1 in pixels from the upper left corner, 0 <= X0 < X1 and 0 <= Y0 < Y1",
              "X0,Y0,X1,Y1", "Render these pixels of the frame only");
-  add_parsed(app, "--aov", command.aovs, parse_aovs,
-             "some of depth,normal,position,id,albedo,z, each once", "NAMES",
-             "More channels in an EXR picture, each pixel's centre, unfiltered: any of "
-             "depth,normal,position,id,albedo,z");
+  add_parsed(
+      app, "--aov", command.aovs, parse_aovs, "some of " + list_aovs() + ", each once", "NAMES",
+      "More channels in an EXR picture, each pixel's centre, unfiltered: any of " + list_aovs());
   add_choice(app, "--polygons", command.polygons,
              std::array{Choice{"plane", PolygonPolicy::plane}, Choice{"skip", PolygonPolicy::skip},
                         Choice{"error", PolygonPolicy::error}},
@@ -197,10 +196,7 @@ void add_machine_options(CLI::App& app, RunOptions& command) {
   start_group(app, "Machine");
   app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
       ->type_name("NAME");
-  add_choice(app, "--solver", command.solver,
-             std::array{Choice{"fast", Solver::fast}, Choice{"robust", Solver::robust},
-                        Choice{"reference", Solver::reference}},
-             "How hits are found (robust)");
+  add_choice(app, "--solver", command.solver, choices<Solver>(), "How hits are found (robust)");
   add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
 }
 

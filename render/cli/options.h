@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "core/scene/scene.h"
@@ -13,6 +15,14 @@
 #include "render/renderer/aov_channels.h"
 #include "render/scene_file/scene_file.h"
 #include "simd/abi/isa.h"
+
+namespace boule {
+
+/// As --solver and statistics name them.
+template <>
+inline constexpr std::array<std::string_view, 3> names<Solver>{"fast", "robust", "reference"};
+
+}  // namespace boule
 
 namespace boule::cli {
 

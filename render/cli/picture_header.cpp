@@ -22,7 +22,7 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
       camera_matrices(renderer.scene().camera, options.width, options.height);
   Metadata header = {{"worldtocamera", matrices.world_to_camera},
                      {"samplesPerPixel", options.spp},
-                     {"boule:solver", solver_name(options.solver)},
+                     {"boule:solver", std::string(name_of(options.solver))},
                      {"boule:method", std::string(name_of(options.method))},
                      {"boule:filter", std::string(name_of(options.filter))},
                      {"boule:max_depth", std::to_string(options.max_depth)},

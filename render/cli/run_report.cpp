@@ -88,8 +88,7 @@ void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
 
 void RunReport::prepared(const RunStatistics& run) const {
   detail(fmt::format("prepared in {:.3f} s for {} ({}), solver {}", run.prepare_seconds, run.isa,
-                     counted(static_cast<std::size_t>(run.width), "lane"),
-                     solver_name(run.solver)));
+                     counted(static_cast<std::size_t>(run.width), "lane"), name_of(run.solver)));
 }
 
 ExitCode RunReport::finish(const Stats& stats) const {

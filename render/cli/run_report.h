@@ -15,9 +15,9 @@ namespace boule::cli {
 /// An error about the command line itself, with the option as its key.
 Diagnostic wrong_option(const std::string& message, const char* option);
 
-/// Checks the options that render and trace share, without reading the scene: above all, the
-/// `output`
-/// ("picture") and the statistics must not replace one of `inputs`, or each other.
+/// Checks the options that render and trace share, without reading the scene. Above all, the output
+/// and the statistics must not replace one of `inputs`, or each other. `output` is what messages
+/// call the output: "picture" or "hits".
 Status check_run(const RunOptions& options, const std::string& output,
                  const std::vector<std::string>& inputs = {});
 

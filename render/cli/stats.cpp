@@ -50,7 +50,7 @@ std::string as_text(const Stats& s) {
       "boule: stats: rays: {}, {:.1f} Mray/s\n"
       "{}"
       "boule: stats: peak memory {:.1f} MiB",
-      s.isa, counted(static_cast<std::size_t>(s.width), "lane"), solver_name(s.solver),
+      s.isa, counted(static_cast<std::size_t>(s.width), "lane"), name_of(s.solver),
       counted(s.threads, "thread"), s.picture ? picture_text(*s.picture) : "", s.load_seconds,
       s.prepare_seconds, work_name(s), s.work_seconds, s.write_seconds, s.total_seconds,
       rays_text(s), mrays_per_s(s), faults_text(s), peak_rss_mib());
@@ -63,8 +63,8 @@ Json rays_json(const Stats& s) {
 }
 
 std::string as_json(const Stats& s) {
-  Json json = {{"schema", 1},      {"version", BOULE_VERSION},        {"isa", s.isa},
-               {"width", s.width}, {"solver", solver_name(s.solver)}, {"threads", s.threads}};
+  Json json = {{"schema", 1},      {"version", BOULE_VERSION},    {"isa", s.isa},
+               {"width", s.width}, {"solver", name_of(s.solver)}, {"threads", s.threads}};
   if (s.picture) {
     json["size"] = {s.picture->size.width, s.picture->size.height};
     json["spp"] = s.picture->spp;
@@ -107,18 +107,6 @@ std::vector<std::string> fault_notes(const SampleFaults& faults) {
   tell(faults.not_finite, " not finite, shown as black");
   tell(faults.too_bright, " too bright for a float32, shown as the largest");
   return notes;
-}
-
-const char* solver_name(Solver solver) {
-  switch (solver) {
-    case Solver::fast:
-      return "fast";
-    case Solver::reference:
-      return "reference";
-    case Solver::robust:
-      break;
-  }
-  return "robust";
 }
 
 Status write_stats(const Stats& stats, const StatsTarget& target) {

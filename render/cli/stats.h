@@ -36,9 +36,6 @@ double mrays_per_s(const Stats& stats);
 /// A note for each kind of sample that the picture does not show as it was.
 std::vector<std::string> fault_notes(const SampleFaults& faults);
 
-/// "fast", "robust", "reference".
-const char* solver_name(Solver solver);
-
 /// Writes text to standard error, or JSON (schema 1) to standard output or to a file, which appears
 /// only when it is complete.
 Status write_stats(const Stats& stats, const StatsTarget& target);

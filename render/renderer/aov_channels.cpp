@@ -1,5 +1,6 @@
 #include "render/renderer/aov_channels.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -29,6 +30,11 @@ constexpr Kind kinds[] = {
 };
 
 }  // namespace
+
+bool AovSelection::any() const {
+  return std::any_of(aov_names.begin(), aov_names.end(),
+                     [this](const AovName& aov) { return this->*aov.wanted; });
+}
 
 AovChannels::AovChannels(const AovSelection& selection, const PixelRect& rect) : rect_(rect) {
   const auto pixels = static_cast<std::size_t>(rect.area());

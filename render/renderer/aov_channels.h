@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/frame/pixel_rect.h"
@@ -17,8 +19,23 @@ namespace boule {
 struct AovSelection {
   bool depth = false, normal = false, position = false, id = false, albedo = false, z = false;
 
-  [[nodiscard]] bool any() const { return depth || normal || position || id || albedo || z; }
+  /// True if any AOV is wanted.
+  [[nodiscard]] bool any() const;
 };
+
+/// One AOV: its name, and the member that says whether it is wanted.
+struct AovName {
+  std::string_view name;
+  bool AovSelection::*wanted;
+};
+
+/// All AOVs.
+inline constexpr std::array<AovName, 6> aov_names{{{"depth", &AovSelection::depth},
+                                                   {"normal", &AovSelection::normal},
+                                                   {"position", &AovSelection::position},
+                                                   {"id", &AovSelection::id},
+                                                   {"albedo", &AovSelection::albedo},
+                                                   {"z", &AovSelection::z}}};
 
 /// The wanted AOVs of every pixel of a picture, each number in a channel of its own. Two threads
 /// may set different pixels at the same time.
