@@ -15,10 +15,9 @@ struct LoadedModule {
 /// The image module (module_search.h), ready for files of this format. The first call loads it, and
 /// it stays loaded; after a failure the next call tries again. All threads that OpenImageIO and
 /// OpenEXR will need for such files are started here: `threads` of them, 256 at most, or none if
-/// they cannot be had. The Diagnostic says
-/// - where the module was looked for, or
-/// - that memory or threads are missing without which libraries below OpenImageIO end the process,
-/// or
+/// they cannot be had. The Diagnostic says one of these:
+/// - where the module was looked for;
+/// - that memory or threads are missing, without which libraries below OpenImageIO end the process;
 /// - that this process was forked from one whose threads it would need.
 Result<LoadedModule> load_image_module(const ImageFormat& format, int threads = 1);
 

@@ -1,3 +1,5 @@
+#include "render/image/write_image.h"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -14,7 +16,6 @@
 #include "render/image/module_loader.h"
 #include "render/image/output_file.h"
 #include "render/image/tone.h"
-#include "render/image/write_image.h"
 
 namespace boule {
 namespace {

@@ -30,7 +30,7 @@ struct RayCounts {
 /// How path tracing finds the light of spheres and environment images. The expected picture is the
 /// same for all three, but not its noise.
 /// - both: by light sampling and by the directions of paths, weighted (multiple importance
-/// sampling).
+///   sampling).
 /// - lights: by light sampling only (next-event estimation).
 /// - paths: by the directions of paths only.
 enum class LightSampling { both, lights, paths };

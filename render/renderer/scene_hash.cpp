@@ -83,7 +83,7 @@ class SceneHasher {
   /// How a picture is made is not in the hash.
   void add(const ImageSettings&) {}
   void add(const RenderSettings&) {}
-  /// Without a word for none: hashes that stand in files must stay.
+  /// A scene without a distortion adds nothing, so that it keeps the hash that files already hold.
   void add(const std::optional<DistortionMap>& distortion) {
     if (distortion) hash_.add(*distortion);
   }

@@ -3,6 +3,7 @@
 #include "simd/geometry/geometry.h"
 
 namespace boule {
+
 StreamSurfaces::StreamSurfaces(const PreparedScene& scene, const KernelTable& kernels)
     : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(sphere_rows(scene.spheres)) {
   views_.resize(block_size);

@@ -9,6 +9,6 @@
 #include "render/renderer/renderer.h"      // Renderer: a scene to a picture
 #include "render/renderer/tracer.h"        // Tracer: rays to hits, on all cores
 #include "render/scene_file/scene_file.h"  // load_scene()
-#include "simd/dispatch/dispatch.h"        // by the KernelTable of an instruction set
-#include "simd/geometry/geometry.h"        // Geometry, and
-#include "simd/stream/stream_buffer.h"     // RayBuffer and HitBuffer: rays to hits on one core,
+#include "simd/dispatch/dispatch.h"        // select_kernels(): rays to hits, on one core
+#include "simd/geometry/geometry.h"        // Geometry: the spheres and planes of such a search
+#include "simd/stream/stream_buffer.h"     // RayBuffer, HitBuffer: its rays and hits
