@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/math/ray.h"
+
 /// The bounds of every float filter: rejects, boxes, beams, bounds of roots, bundles. A filter may
 /// let a miss through; it never drops a hit. That holds because each constant here is at least what
 /// rounding can do, in units of u. docs/numerics.md derives them ("The float filter", "Bundles")
@@ -10,7 +12,7 @@
 /// the rounding of an origin to float has lost, |x - fl(x)| + |y - fl(y)| + |z - fl(z)|.
 namespace boule::filter {
 
-inline constexpr double u = 0x1p-24;
+inline constexpr double u = unit_roundoff;
 
 // ---- Reject: simd/kernel/search/sphere.h, simd/geometry/geometry.cpp --------------------------
 

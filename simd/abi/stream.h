@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/base/platform.h"
+#include "core/math/ray.h"
 
 namespace boule {
 
@@ -14,7 +15,7 @@ struct RayArrays {
   Array<double> org_x, org_y, org_z;
   Array<float> dir_x, dir_y, dir_z;
   Array<float> tmin, tmax;
-  Array<std::int32_t> source;  ///< primitive id the ray leaves, or -1
+  Array<std::int32_t> source;  ///< id of the primitive the ray leaves, or no_primitive
   Array<std::uint8_t> inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
 };
 
@@ -49,6 +50,18 @@ inline RayStream part(const RayStream& rays, std::size_t first, std::size_t size
   each_array([first](auto& array) { array += first; }, some);
   some.size = size;
   return some;
+}
+
+/// Ray i of a stream, or of other RayArrays. Precondition: there is one.
+template <class Rays>
+Ray get_ray(const Rays& rays, std::size_t i) {
+  Ray ray{{rays.org_x[i], rays.org_y[i], rays.org_z[i]},
+          {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}};
+  ray.tmin = rays.tmin[i];
+  ray.tmax = rays.tmax[i];
+  ray.source = rays.source[i];
+  ray.inside = rays.inside[i] != 0;
+  return ray;
 }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a

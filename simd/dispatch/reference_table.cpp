@@ -34,16 +34,6 @@ struct Primitives {
   }
 };
 
-Ray get_ray(const RayStream& rays, std::size_t i) {
-  Ray ray{{rays.org_x[i], rays.org_y[i], rays.org_z[i]},
-          {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}};
-  ray.tmin = rays.tmin[i];
-  ray.tmax = rays.tmax[i];
-  ray.source = rays.source[i];
-  ray.inside = rays.inside[i] != 0;
-  return ray;
-}
-
 void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
                  const HitStream& hits) {
   const Primitives all(geometry);

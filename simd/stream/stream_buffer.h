@@ -43,14 +43,7 @@ class RayBuffer {
   [[nodiscard]] Vec3f dir(std::size_t i) const {
     return {rays_.dir_x[i], rays_.dir_y[i], rays_.dir_z[i]};
   }
-  [[nodiscard]] Ray get(std::size_t i) const {
-    Ray ray{org(i), dir(i)};
-    ray.tmin = rays_.tmin[i];
-    ray.tmax = rays_.tmax[i];
-    ray.source = rays_.source[i];
-    ray.inside = rays_.inside[i] != 0;
-    return ray;
-  }
+  [[nodiscard]] Ray get(std::size_t i) const { return get_ray(rays_, i); }
 
   /// The rays as the kernels see them; valid until the next resize.
   RayStream view() {

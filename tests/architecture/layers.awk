@@ -14,7 +14,7 @@ BEGIN {
 
   layer(formulas, formulas, kernel_std)
   layer("^core/", "^core/", plain_std)
-  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/vec|optics/(camera|lens)_view)\\.h$)", kernel_std)
+  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/(ray|vec)|optics/(camera|lens)_view)\\.h$)", kernel_std)
   layer("^simd/(geometry|stream)/", "^(core|simd/(abi|geometry|stream))/", plain_std)
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
