@@ -8,12 +8,16 @@
 namespace boule {
 namespace {
 
+/// The surfaces from the film to the scene; `rear` is set to the last one's vertex.
 std::vector<LensElement> elements_of(const std::vector<LensSurface>& surfaces, double& rear) {
   std::vector<LensElement> elements;
   double vertex = 0, index = 1;
   for (const LensSurface& surface : surfaces) {
     const double radius = surface.radius, half = double{surface.aperture} / 2;
-    elements.push_back({radius, vertex + radius, half * half, double{surface.index} / index});
+    elements.push_back({.radius = radius,
+                        .z = vertex + radius,
+                        .aperture2 = half * half,
+                        .eta = double{surface.index} / index});
     rear = vertex;
     vertex += double{surface.thickness};
     index = surface.index;
@@ -33,17 +37,17 @@ void focus_elements(const LensCamera& camera, LensOptics& optics) {
 }  // namespace
 
 LensView LensOptics::view() const {
-  return {elements.data(),
-          static_cast<int>(elements.size()),
-          pupil.data(),
-          static_cast<int>(pupil.size()),
-          rings_per_length,
-          rear,
-          film,
-          half_width,
-          half_height,
-          scale,
-          exposure};
+  return {.elements = elements.data(),
+          .element_count = static_cast<int>(elements.size()),
+          .pupil = pupil.data(),
+          .ring_count = static_cast<int>(pupil.size()),
+          .rings_per_length = rings_per_length,
+          .rear = rear,
+          .film = film,
+          .half_width = half_width,
+          .half_height = half_height,
+          .scale = scale,
+          .exposure = exposure};
 }
 
 bool trace_lens(const std::vector<LensElement>& elements, Vec3d& org, Vec3d& dir) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/math/ray.h"
 #include "simd/abi/isa.h"
 #include "simd/geometry/binary_forest.h"
 #include "simd/geometry/collapse.h"
@@ -47,14 +48,14 @@ Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_fo
   bvh.slots = without_copies(apart, spheres);
   bvh.scanned = padded(bvh.slots.size());
   if (apart.size() == spheres.size()) {
-    bvh.slots.resize(bvh.scanned, -1);
+    bvh.slots.resize(bvh.scanned, no_primitive);
     return bvh;
   }
   SphereBuffers buffers(spheres.size() - apart.size());
   gather_others(spheres, apart, buffers.arrays[0].get(), parallel_for);
   const BinaryForest forest(buffers, parallel_for);
   bvh.nodes = collapse(forest);
-  bvh.slots.resize(bvh.scanned + forest.leaves() * bvh_leaf_size, -1);
+  bvh.slots.resize(bvh.scanned + forest.leaves() * bvh_leaf_size, no_primitive);
   bvh.blocks.resize(bvh.slots.size() / bvh_leaf_size, empty_block());
   const bool few = buffers.size <= tuning::chunk_size;
   const ParallelFor leaf_for = few ? serial_for : parallel_for;

@@ -13,7 +13,7 @@ namespace boule {
 /// A tree over spheres, and the order in which its leaves want them.
 struct Bvh {
   std::vector<BvhNode> nodes;        ///< the root first; none: the spheres are to be scanned
-  std::vector<std::int32_t> slots;   ///< sphere of each slot, or -1; those of leaf k: SphereView
+  std::vector<std::int32_t> slots;   ///< sphere of each slot, or no_primitive; leaf k: SphereView
   std::size_t scanned = 0;           ///< slots in front that are in no leaf
   AlignedArray<SphereBlock> blocks;  ///< sixteen slots each; only leaves are filled
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/math/ray.h"
 #include "simd/abi/filter_bounds.h"
 #include "simd/geometry/build_box.h"
 #include "simd/geometry/tuning.h"
@@ -15,6 +16,10 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// The id of a slot that holds no sphere: no ray's source, not even that of a ray that leaves
+/// nothing, which is no_primitive.
+constexpr std::int32_t empty_slot = no_primitive - 1;
 
 float round_up(double x) {
   const auto nearest = static_cast<float>(x);
@@ -63,7 +68,7 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       plane_count_(planes.size()),
       // Padding: every exact solve misses a sphere of radius NaN, and with r2p = -inf the filter
       // rejects it before that.
-      id_(bvh.slots.size(), -2),
+      id_(bvh.slots.size(), empty_slot),
       blocks_(std::move(bvh.blocks)),
       center_x_(scanned_),
       center_y_(scanned_),
@@ -126,14 +131,24 @@ void Geometry::set_plane(std::size_t i, const Plane& plane) {
 
 GeometryView Geometry::view() const {
   GeometryView view{};
-  view.spheres = {center_x_.data(), center_y_.data(),       center_z_.data(),
-                  radius_.data(),   reject_squared_.data(), reject_radius_.data(),
-                  scanned_,         blocks_.data(),         block_count_,
-                  id_.data()};
-  view.planes = {point_x_.data(),  point_y_.data(),
-                 point_z_.data(),  normal_x_.data(),
-                 normal_y_.data(), normal_z_.data(),
-                 plane_count_,     static_cast<std::int32_t>(sphere_count_)};
+  view.spheres = {.center_x = center_x_.data(),
+                  .center_y = center_y_.data(),
+                  .center_z = center_z_.data(),
+                  .radius = radius_.data(),
+                  .reject_squared = reject_squared_.data(),
+                  .reject_radius = reject_radius_.data(),
+                  .scanned = scanned_,
+                  .blocks = blocks_.data(),
+                  .block_count = block_count_,
+                  .id = id_.data()};
+  view.planes = {.point_x = point_x_.data(),
+                 .point_y = point_y_.data(),
+                 .point_z = point_z_.data(),
+                 .normal_x = normal_x_.data(),
+                 .normal_y = normal_y_.data(),
+                 .normal_z = normal_z_.data(),
+                 .size = plane_count_,
+                 .first_id = static_cast<std::int32_t>(sphere_count_)};
   view.bvh = {nodes_.data(), nodes_.size(), extent_};
   return view;
 }
