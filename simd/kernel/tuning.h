@@ -105,7 +105,8 @@ inline constexpr std::size_t pool_size = 65536;
 /// trial.
 /// Again: as pool_size
 constexpr int light_grid_side(std::size_t rays) { return rays < 1024 ? 16 : rays < 4096 ? 32 : 64; }
-inline constexpr unsigned most_light_cells = 64 * 64;
+inline constexpr unsigned most_light_cells =
+    light_grid_side(pool_size) * light_grid_side(pool_size);
 
 /// Rays that are read, and then sorted into cells, at a time; the square is fitted to each packet
 /// that starts at a multiple of this; it faces the mean of so many directions. Set by trial.

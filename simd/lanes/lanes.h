@@ -25,4 +25,8 @@ BOULE_INLINE bool all(Mask m) {
   return bits(m) == all_lanes;
 }
 
+BOULE_INLINE WideMask select(const WideMask& m, const WideMask& a, const WideMask& b) {
+  return (m & a) | (~m & b);
+}
+
 }  // namespace boule::BOULE_KERNEL_ISA

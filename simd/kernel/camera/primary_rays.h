@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "core/optics/cameras.h"
 #include "simd/abi/stream.h"
@@ -23,7 +24,7 @@ BOULE_INLINE void store_ray(const RayStream& rays, std::size_t first, const Vec3
   store(rays.tmin + first, Real(0.0F));
   store(rays.tmax + first, Real(std::numeric_limits<float>::infinity()));
   for (int lane = 0; lane < width; ++lane) {
-    rays.source[first + static_cast<std::size_t>(lane)] = -1;
+    rays.source[first + static_cast<std::size_t>(lane)] = no_primitive;
     rays.inside[first + static_cast<std::size_t>(lane)] = 0;
   }
 }

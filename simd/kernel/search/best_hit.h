@@ -26,7 +26,7 @@ struct ClosestHit {
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
       : t(no_hit),
-        id(-1),
+        id(no_primitive),
         pending(0),
         is_pending(uniform(false)),
         nearest(rays.filter.live_to),

@@ -165,7 +165,7 @@ class BundleClosest {
     const WideMask hit = has_hit(ray);
     if (!any(hit)) {
       store(hits.t + first, Wide(no_hit));
-      store(hits.id + first, Bits(-1));
+      store(hits.id + first, Bits(no_primitive));
       return;
     }
     ExactRays rays;
@@ -205,7 +205,7 @@ class BundleClosest {
     }
     for (int lane = 0; lane < width; ++lane) {
       const std::uint32_t slot = slot_[ray + lane];
-      id[lane] = slot == no_slot ? -1 : spheres_.id[slot];
+      id[lane] = slot == no_slot ? no_primitive : spheres_.id[slot];
     }
   }
 

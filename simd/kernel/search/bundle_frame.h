@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/math/geometry.h"
 #include "simd/kernel/search/bundle_source.h"
 
 /// The frame of a bundle, O and the axes U, V and W, and how its rays are brought into it. A ray is
@@ -13,20 +14,18 @@ struct BundleFrame {
   Vec3d org, u, v, w;
 };
 
-BOULE_INLINE Vec3d scaled_to_unit(const Vec3d& v) { return v * (1 / __builtin_sqrt(dot(v, v))); }
-
 /// The frame with W along `forward` and U as near to `side` as that allows. NaN where `forward` is
 /// 0 or NaN.
 BOULE_INLINE BundleFrame make_frame(const Vec3d& org, const Vec3d& forward, const Vec3d& side) {
-  const Vec3d w = scaled_to_unit(forward);
+  const Vec3d w = normalize(forward);
   Vec3d across = side - w * dot(side, w);
   if (!(dot(across, across) > 1e-12 * dot(side, side))) {
     // `side` lies along W, or is 0: an axis that does not lie along W will do.
     const Vec3d axis = __builtin_fabs(w.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
     across = axis - w * dot(axis, w);
   }
-  across = scaled_to_unit(across);
-  const Vec3d u = scaled_to_unit(across - w * dot(across, w));
+  across = normalize(across);
+  const Vec3d u = normalize(across - w * dot(across, w));
   return {org, u, cross(w, u), w};
 }
 
@@ -53,16 +52,16 @@ class Projection {
       const Vec3<Real> off = sight - middle_;
       const Real inverse = Real(1.0F) / (length_ + filter_dot(off, w_));
       return {filter_dot(off, u_) * inverse,      filter_dot(off, v_) * inverse, Real(0.0F),
-              filter_dot(sight, sight) * inverse, sum_abs_of(off) * inverse,     ray.shift};
+              filter_dot(sight, sight) * inverse, sum_abs(off) * inverse,        ray.shift};
     } else if constexpr (common == Common::end) {
       const Vec3<Real> back{Real(0.0F) - sight.x, Real(0.0F) - sight.y, Real(0.0F) - sight.z};
       const Real inverse = Real(1.0F) / filter_dot(back, w_);
       return {filter_dot(back, u_) * inverse,     filter_dot(back, v_) * inverse, Real(0.0F),
-              filter_dot(sight, sight) * inverse, sum_abs_of(back) * inverse,     ray.shift};
+              filter_dot(sight, sight) * inverse, sum_abs(back) * inverse,        ray.shift};
     } else {
       return {filter_dot(sight, u_), filter_dot(sight, v_),
               filter_dot(sight, w_), length_,
-              sum_abs_of(sight),     ray.shift};
+              sum_abs(sight),        ray.shift};
     }
   }
 

@@ -96,7 +96,7 @@ BOULE_INLINE void load_exact(const PacketRef& packet, const BundleRays& bundle, 
   const Wide tmax = widen(load(rays.tmax + first));
   out.tmin = Wide(0.0);
   out.tmax = select(largest < tmax, largest, tmax);
-  out.source = Bits(-1);
+  out.source = Bits(no_primitive);
   out.inside = widen(uniform(false));
   out.has_source = false;
 }
@@ -112,7 +112,7 @@ BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const std::uint32_t* 
     z[lane] = sphere.z;
     r[lane] = sphere.radius;
   }
-  return {{load(x), load(y), load(z)}, load(r), Bits(-1)};
+  return {{load(x), load(y), load(z)}, load(r), Bits(no_primitive)};
 }
 
 /// The sphere in one slot, in every lane.

@@ -100,7 +100,7 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
     }
     const BvhNode& node = geometry.bvh.nodes[visit.child];
     alignas(64) float near[Discs::size];
-    unsigned in = ~sides.enter(node, hits.limit(), near) & ((1U << node.size) - 1);
+    unsigned in = ~sides.find_missed(node, hits.limit(), near) & ((1U << node.size) - 1);
     if constexpr (Hits::sought == Sought::any) {
       if (effort.leaves >= fill_at) {
         hits.fill(grid);

@@ -39,8 +39,8 @@ class BundleSides {
     shift_ = rays.shift + static_cast<float>(filter::floor);
   }
 
-  /// Of the boxes in `entered`, as bits, those that the grid has rays for. `near`: as enter() gave
-  /// it.
+  /// Of the boxes in `entered`, as bits, those that the grid has rays for. `near`: as
+  /// find_missed() gave it.
   BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid, const float* near,
                                     unsigned entered) const {
     alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
@@ -65,10 +65,10 @@ class BundleSides {
 
   /// The children of a node that no ray enters before `limit`, as bits. Writes to `near` a lower
   /// bound of the v at which each is entered.
-  BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
+  BOULE_INLINE unsigned find_missed(const BvhNode& node, float limit, float* near) const {
     unsigned out = 0;
     for (std::size_t part = 0; part * width < bvh_width; ++part)
-      out |= enter_part(node, part, limit, near) << (part * width);
+      out |= find_missed_part(node, part, limit, near) << (part * width);
     return out;
   }
 
@@ -138,8 +138,8 @@ class BundleSides {
   }
 
   /// The same for W boxes; filter_bounds.h says how they are rounded (box).
-  BOULE_INLINE unsigned enter_part(const BvhNode& node, std::size_t part, float limit,
-                                   float* near) const {
+  BOULE_INLINE unsigned find_missed_part(const BvhNode& node, std::size_t part, float limit,
+                                         float* near) const {
     const Boxes boxes = boxes_of(node, part);
     RealMask out = Real(0.0F) < Real(0.0F);
     for (const Side& side : sides_) {

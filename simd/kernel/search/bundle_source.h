@@ -29,7 +29,6 @@ BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
-BOULE_INLINE Real sum_abs_of(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 /// Writes W bits as bytes, 0 or 1; eight at a time, so that `bytes` needs room for max_width.
 BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
@@ -85,7 +84,7 @@ class SharedByRays {
     } else if constexpr (common == Common::end) {
       const Vec3<Real> dir = load_direction(rays, packet.first);
       const Vec3<Wide> end = load_origin(rays, packet.first) + widen(dir);
-      return {dir, sum_abs_of(narrow(end - wide_all(org_)))};
+      return {dir, sum_abs(narrow(end - wide_all(org_)))};
     } else {
       return {narrow(load_origin(rays, packet.first) - wide_all(org_)), Real(0.0F)};
     }

@@ -23,7 +23,7 @@ class LightMap {
     Vec3d forward{0, 0, 0};
     const std::size_t step = (end - begin + tuning::light_samples - 1) / tuning::light_samples;
     for (std::size_t i = begin; i < end; i += step)
-      forward = forward + scaled_to_unit(direction_of(rays, i));
+      forward = forward + normalize(direction_of(rays, i));
     const BundleFrame frame = make_frame({0, 0, 0}, forward, {1, 0, 0});
     u_ = narrow_all(frame.u);
     v_ = narrow_all(frame.v);

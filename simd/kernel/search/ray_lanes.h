@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "simd/abi/filter_bounds.h"
 #include "simd/abi/stream.h"
@@ -22,9 +23,9 @@ struct ExactRays {
   Wide a;           ///< dir.dir
   Wide inverse_a;   ///< 1 / a
   Wide tmin, tmax;  ///< live: tmin < t <= tmax; tmax is at most FLT_MAX
-  Bits source;      ///< id of the primitive that the ray leaves, or -1
+  Bits source;      ///< id of the primitive that the ray leaves, or no_primitive
   WideMask inside;  ///< it leaves `source` on its inside
-  bool has_source;  ///< some lane's source is not -1
+  bool has_source;  ///< some lane's ray leaves a primitive
 };
 
 /// Rays for the filters, in float. Distances are t |dir|: along the unit direction.
@@ -46,7 +47,10 @@ struct RayLanes {
   unsigned inside;  ///< the lanes of exact.inside, as bits
 };
 
-BOULE_INLINE Wide sum_abs(const Vec3<Wide>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+template <class T>
+BOULE_INLINE T sum_abs(const Vec3<T>& v) {
+  return abs(v.x) + abs(v.y) + abs(v.z);
+}
 BOULE_INLINE Vec3<Wide> widen(const Vec3<Real>& v) { return {widen(v.x), widen(v.y), widen(v.z)}; }
 BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
   return {narrow(v.x), narrow(v.y), narrow(v.z)};
@@ -83,13 +87,13 @@ BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
 }
 
-/// Finds what follows from org, dir, tmin, tmax and source.
+/// Finds what follows from dir, tmax and source.
 BOULE_INLINE void finish(ExactRays& rays) {
   rays.a = dot(rays.dir, rays.dir);
   rays.inverse_a = Wide(1.0) / rays.a;
   const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
   rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
-  rays.has_source = !all(rays.source == Bits(-1));
+  rays.has_source = !all(rays.source == Bits(no_primitive));
 }
 
 /// Loads rays first .. first + W - 1; `first` is a multiple of W.

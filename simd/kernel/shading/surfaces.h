@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/math/ray.h"
 #include "core/optics/incidence.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/shading.h"
@@ -15,10 +16,6 @@ namespace boule::BOULE_KERNEL_ISA {
 BOULE_INLINE void store(std::uint8_t* p, const WideMask& m) {
   const unsigned set = bits(m);
   for (int lane = 0; lane < width; ++lane) p[lane] = static_cast<std::uint8_t>(set >> lane & 1U);
-}
-
-BOULE_INLINE WideMask select(const WideMask& m, const WideMask& a, const WideMask& b) {
-  return (m & a) | (~m & b);
 }
 
 using Arrivals = ArrivalOf<Wide>;
@@ -45,7 +42,7 @@ class MetPrimitives {
                 std::size_t live)
       : planes_(geometry.planes), id_(id) {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
-      const std::int32_t primitive = lane < live ? id[lane] : -1;
+      const std::int32_t primitive = lane < live ? id[lane] : no_primitive;
       const bool sphere = primitive >= 0 && primitive < planes_.first_id;
       rows_[lane] =
           sphere ? spheres.first + static_cast<std::size_t>(primitive) * spheres.stride : no_sphere;
