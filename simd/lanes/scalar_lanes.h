@@ -57,7 +57,6 @@ BOULE_INLINE Bits count_from(std::uint32_t first) { return Bits(first); }
 
 BOULE_INLINE Real load(const float* p) { return *p; }
 BOULE_INLINE Wide load(const double* p) { return *p; }
-BOULE_INLINE Wide load_as_wide(const std::int32_t* p) { return static_cast<double>(*p); }
 BOULE_INLINE WideMask load_set(const std::uint8_t* p) { return {*p != 0}; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }

@@ -93,35 +93,23 @@ BOULE_INLINE Doubles to_double_low(Integers a) { return vcvtq_f64_u64(vmovl_u32(
 BOULE_INLINE Doubles to_double_high(Integers a) { return vcvtq_f64_u64(vmovl_high_u32(a)); }
 #endif
 
-// Half a register of signed integers as doubles; and the lanes whose byte is not 0.
+// The lanes, of half a register, whose byte is not 0.
 #if defined(__AVX512F__)
-BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
-  return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
-}
 BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
   const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
   return static_cast<__mmask8>(_mm_test_epi8_mask(bytes, bytes));
 }
 #elif defined(__AVX2__)
-BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
-  return _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
 BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
   const __m256i bytes = _mm256_cvtepu8_epi64(_mm_loadu_si32(p));
   return _mm256_castsi256_pd(_mm256_cmpgt_epi64(bytes, _mm256_setzero_si256()));
 }
 #elif defined(__SSE4_2__)
-BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
-  return _mm_cvtepi32_pd(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
-}
 BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
   const __m128i bytes = _mm_cvtepu8_epi64(_mm_loadu_si16(p));
   return _mm_castsi128_pd(_mm_cmpgt_epi64(bytes, _mm_setzero_si128()));
 }
 #else
-BOULE_INLINE Doubles load_as_doubles(const std::int32_t* p) {
-  return vcvtq_f64_s64(vmovl_s32(vld1_s32(p)));
-}
 BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
   const uint64x2_t bytes = {p[0], p[1]};
   return vtstq_u64(bytes, bytes);

@@ -69,10 +69,6 @@ BOULE_INLINE Real load(const float* p) { return Floats::load_aligned(p); }
 BOULE_INLINE Wide load(const double* p) {
   return {Doubles::load_aligned(p), Doubles::load_aligned(p + width / 2)};
 }
-/// Integers as doubles.
-BOULE_INLINE Wide load_as_wide(const std::int32_t* p) {
-  return {gaps::load_as_doubles(p), gaps::load_as_doubles(p + width / 2)};
-}
 /// The lanes whose byte is not 0.
 BOULE_INLINE WideMask load_set(const std::uint8_t* p) {
   return {gaps::load_set(p), gaps::load_set(p + width / 2)};

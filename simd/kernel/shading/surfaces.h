@@ -53,12 +53,12 @@ class MetPrimitives {
 
   [[nodiscard]] bool none() const { return (spheres_ | planes_met_) == 0; }
 
-  /// `ids`: those of the primitives, as doubles.
-  [[nodiscard]] BOULE_INLINE Contacts meet(const Arrivals& rays, const Wide& ids) const {
+  /// `ids`: those of the primitives.
+  [[nodiscard]] BOULE_INLINE Contacts meet(const Arrivals& rays, const Bits& ids) const {
     Contacts met = meet_spheres(rays, rows_);
     for (unsigned left = planes_met_; left != 0;) {
       const std::int32_t id = id_[__builtin_ctz(left)];
-      const WideMask same = ids == Wide(static_cast<double>(id));
+      const WideMask same = widen(ids == Bits(id));
       const Contacts plane =
           meet_plane(rays, planes_, static_cast<std::size_t>(id - planes_.first_id));
       met.outward = select(same, plane.outward, met.outward);
@@ -69,8 +69,8 @@ class MetPrimitives {
     return met;
   }
 
-  [[nodiscard]] BOULE_INLINE WideMask is_sphere(const Wide& ids) const {
-    return ids < Wide(static_cast<double>(planes_.first_id));
+  [[nodiscard]] BOULE_INLINE WideMask is_sphere(const Bits& ids) const {
+    return widen(~(Bits(planes_.first_id) <= ids));
   }
 
  private:
@@ -87,12 +87,12 @@ BOULE_INLINE void find_surfaces_of_packet(const MetPrimitives& primitives, const
                                           const SurfaceStream& surfaces) {
   const VectorStream orgs{rays.org_x, rays.org_y, rays.org_z};
   const Real tmin = load(rays.tmin + first);
-  const Wide ids = load_as_wide(hits.id + first);
+  const Bits ids = load_integers(hits.id + first);
   Arrivals arrived{load(orgs, first),
                    widen(Vec3<Real>{load(rays.dir_x + first), load(rays.dir_y + first),
                                     load(rays.dir_z + first)}),
                    {},
-                   ids == load_as_wide(rays.source + first),
+                   widen(ids == load_integers(rays.source + first)),
                    widen((tmin <= Real(0.0F)) & (Real(0.0F) <= tmin))};
   arrived.point = arrived.org + arrived.dir * load(hits.t + first);
   const Contacts met = primitives.meet(arrived, ids);

@@ -33,7 +33,7 @@ struct LaneOutputs {
   alignas(64) std::uint32_t left_shift[most_lanes], right_shift[most_lanes];  ///< of i, by 5
   alignas(64) std::uint32_t integer_select[most_lanes];  ///< i where a < b, else j
   alignas(64) std::int32_t signed_integers[most_lanes];  ///< i, through signed arrays
-  alignas(64) double integer_as_wide[most_lanes], signed_as_wide[most_lanes];  ///< of i
+  alignas(64) double integer_as_wide[most_lanes];        ///< of i
   /// From index 1 on: the lanes where a < b, of a, one after the other; the same of i; the same of
   /// x where x < y; and of |a| the halves.
   alignas(64) float chosen[most_lanes + 1];
