@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# clang_tidy.sh ROOT COMPILE_COMMANDS CLANG_TIDY: the checks of .clang-tidy over every source that is
-# compiled, and every header of ours that one includes. Most of the time goes into the system's
+# clang_tidy.sh ROOT COMPILE_COMMANDS CLANG_TIDY [FOLDER...]: the checks of .clang-tidy over every source that is
+# compiled, or of those in the folders, and every header of ours that one includes. Most of the time goes into the system's
 # headers, so the sources of a folder are read together, a dozen at a time. Where two sources of a
 # dozen define the same name, each half is read by itself, and so on; programs are read one by one.
 # Tests are read without the checks that they break on purpose: they use what was moved away, ask for
@@ -9,6 +9,8 @@
 # clang-tidy.
 set -euo pipefail
 root="$1" commands="$2" clang_tidy="$3"
+shift 3
+folders="$*"
 readonly together=12
 left_out_of_tests=
 for check in bugprone-integer-division bugprone-misplaced-widening-cast bugprone-string-constructor \
@@ -23,7 +25,7 @@ trap 'rm -rf "$work"' EXIT
 
 # A line per compilation: its group, the file, and what of its options says how to read it.
 sources() {
-  awk -v root="$root/" '
+  awk -v root="$root/" -v folders="${folders// /|}" '
     /"command":/ { command = $0 }
     /"file":/ {
       file = $0
@@ -31,6 +33,7 @@ sources() {
       sub(/",? *$/, "", file)
       if (index(file, root) != 1) next
       group = substr(file, length(root) + 1)
+      if (folders != "" && group !~ "^(" folders ")/") next
       sub(/\/[^\/]*$/, "", group)
       gsub(/\\\\\\"/, "\"", command)
       isa = ""

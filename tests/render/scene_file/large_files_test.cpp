@@ -68,7 +68,7 @@ TEST(ReadText, NulBytesAtTheBordersOfBlocksHaveTheirPlace) {
 
 /// A hole of this many bytes, behind a text.
 std::string sparse_file(const SceneFolder& files, const std::string& text, std::uintmax_t size) {
-  const std::string path = files.write("a.toml", text);
+  std::string path = files.write("a.toml", text);
   std::filesystem::resize_file(path, size);
   return path;
 }

@@ -17,7 +17,7 @@ class SceneFolder {
  public:
   /// Writes a file of that name; its path.
   [[nodiscard]] std::string write(const std::string& name, const std::string& bytes) const {
-    const std::string path = (dir_.path() / name).string();
+    std::string path = (dir_.path() / name).string();
     write_bytes(path, bytes);
     return path;
   }
