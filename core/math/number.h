@@ -33,18 +33,18 @@ struct Numbers {
 };
 
 /// One lane of Numbers in memory: number k is first[k * step].
-struct NumberColumn {
+struct SpacedNumbers {
   double* first;
   std::size_t step;
   BOULE_INLINE double& operator[](std::size_t k) const { return first[k * step]; }
 };
 
 /// Looks `count` numbers up in a table in memory by n given ones. find(given, found) does so for
-/// one lane: it reads the numbers of one NumberColumn and sets those of the other.
+/// one lane: it reads the numbers of one SpacedNumbers and sets those of the other.
 template <std::size_t count, std::size_t n, class Find>
 BOULE_INLINE Numbers<double, count> look_up(Numbers<double, n> given, const Find& find) {
   Numbers<double, count> found;
-  find(NumberColumn{given.at, 1}, NumberColumn{found.at, 1});
+  find(SpacedNumbers{given.at, 1}, SpacedNumbers{found.at, 1});
   return found;
 }
 

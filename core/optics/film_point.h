@@ -27,7 +27,7 @@ struct FilmPointOf {
 struct MapCorners {
   const DistortionView& map;
 
-  BOULE_INLINE void operator()(NumberColumn point, NumberColumn found) const {
+  BOULE_INLINE void operator()(SpacedNumbers point, SpacedNumbers found) const {
     const int column = first_of_two(point[0], map.width), row = first_of_two(point[1], map.height);
     found[0] = point[0] - column;
     found[1] = point[1] - row;

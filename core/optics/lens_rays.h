@@ -49,7 +49,7 @@ BOULE_INLINE void pass_element(const LensElement& element, LensRayOf<T>& ray, Ma
 struct PupilBoxes {
   const LensView& lens;
 
-  BOULE_INLINE void operator()(NumberColumn rings, NumberColumn found) const {
+  BOULE_INLINE void operator()(SpacedNumbers rings, SpacedNumbers found) const {
     const bool on_film = rings[0] < lens.ring_count;
     const int index = on_film ? static_cast<int>(rings[0]) : lens.ring_count - 1;
     found[0] = on_film ? rings[0] - index : 1;

@@ -17,8 +17,8 @@ struct CameraPose {
 
 template <>
 inline constexpr auto fields<CameraPose> =
-    field_list("pose", field("eye", &CameraPose::eye, rule::finite),
-               field("look_at", &CameraPose::look_at, rule::finite),
+    field_list("pose", field("eye", &CameraPose::eye, rule::point),
+               field("look_at", &CameraPose::look_at, rule::point),
                field("up", &CameraPose::up, rule::direction));
 
 /// L; NaN where there is none.

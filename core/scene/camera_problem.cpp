@@ -6,6 +6,12 @@
 namespace boule {
 namespace {
 
+void check_up(ProblemFinder& finder, const Vec3d& view, const Vec3f& up) {
+  const Vec3d upward = normalize(vec_cast<double>(up));
+  finder.require("up", length(cross(view, upward)) > 1e-6,
+                 "must not be within 1e-6 rad of the view direction");
+}
+
 /// Checks one surface by itself, and its width against that of the last one.
 void check_surface(ProblemFinder& finder, const LensCamera& camera, std::size_t i) {
   const LensSurface& surface = camera.surfaces[i];
@@ -22,10 +28,12 @@ void check_surface(ProblemFinder& finder, const LensCamera& camera, std::size_t 
 
 void check_whole(ProblemFinder& finder, const CameraPose& pose) {
   finder.require("look_at", !(pose.eye == pose.look_at), "must differ from eye");
-  const Vec3d view = view_direction(pose);
-  const Vec3d up = normalize(vec_cast<double>(pose.up));
-  finder.require("up", length(cross(view, up)) > 1e-6,
-                 "must not be within 1e-6 rad of the view direction");
+  check_up(finder, view_direction(pose), pose.up);
+}
+
+void check_whole(ProblemFinder& finder, const CameraFit& fit) {
+  if (!fit.direction || !fit.up) return;
+  check_up(finder, normalize(vec_cast<double>(*fit.direction)), *fit.up);
 }
 
 void check_whole(ProblemFinder& finder, const LensSurface& surface) {
@@ -52,5 +60,7 @@ void check_whole(ProblemFinder& finder, const LensCamera& camera) {
 std::optional<Problem> find_problem(const Camera& camera) {
   return std::visit([](const auto& kind) { return first_problem(kind); }, camera);
 }
+
+std::optional<Problem> find_problem(const CameraFit& fit) { return first_problem(fit); }
 
 }  // namespace boule

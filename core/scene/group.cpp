@@ -13,14 +13,14 @@ Sphere transformed(const Sphere& sphere, const Similarity& transform,
                    std::optional<std::uint32_t> material) {
   return {vec_cast<float>(transform.apply(vec_cast<double>(sphere.center))),
           static_cast<float>(transform.scale * static_cast<double>(sphere.radius)),
-          material.value_or(sphere.material)};
+          material ? MaterialRef(*material) : sphere.material};
 }
 
 Plane transformed(const Plane& plane, const Similarity& transform,
                   std::optional<std::uint32_t> material) {
   return {vec_cast<float>(transform.apply(vec_cast<double>(plane.point))),
           vec_cast<float>(transform.rotate(vec_cast<double>(plane.normal))),
-          material.value_or(plane.material)};
+          material ? MaterialRef(*material) : plane.material};
 }
 
 }  // namespace boule

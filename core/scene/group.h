@@ -19,14 +19,14 @@ struct Instance {
   Vec3f translate;
   Vec3f rotate;     ///< degrees about x, then y, then z (rotation())
   float scale = 1;  ///< above 0
-  /// Replaces every material in the group and in the groups inside it.
+  /// Replaces every material in the group and in the groups inside it, with its colour.
   std::optional<std::uint32_t> material;
 };
 
 template <>
 inline constexpr auto fields<Instance> =
     field_list("instance", field("group", &Instance::group, rule::group),
-               field("translate", &Instance::translate, rule::finite),
+               field("translate", &Instance::translate, rule::point),
                field("rotate", &Instance::rotate, rule::finite),
                field("scale", &Instance::scale, rule::positive),
                field("material", &Instance::material, rule::material));

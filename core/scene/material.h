@@ -85,6 +85,10 @@ inline constexpr auto fields<Phong> = field_list(
 
 using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong>;
 
+/// A material in another colour, which takes the place of its own. The radiance of an emissive one
+/// becomes that colour times its largest component.
+Material recolored(const Material& material, const Color& color);
+
 /// The first Problem of a material: a field against its rule.
 std::optional<Problem> find_problem(const Material& material);
 

@@ -1,15 +1,18 @@
 #pragma once
 
-#include <cstdio>
+#include <array>
+#include <charconv>
 #include <string>
 
 namespace boule {
 
-/// A number for an error message: six digits at most. Throws std::bad_alloc.
-inline std::string number_text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
+/// A number for a message, in so many digits at most, with a point in any locale. Throws
+/// std::bad_alloc. Precondition: 1 <= digits <= 17.
+inline std::string number_text(double value, int digits = 6) {
+  std::array<char, 32> buffer{};
+  char* const end = buffer.data() + buffer.size();
+  return {buffer.data(),
+          std::to_chars(buffer.data(), end, value, std::chars_format::general, digits).ptr};
 }
 
 }  // namespace boule

@@ -5,20 +5,21 @@
 
 #include "core/math/vec.h"
 #include "core/scene/field.h"
+#include "core/scene/material_ref.h"
 #include "core/scene/problem.h"
 
 namespace boule {
 
-/// A sphere of positive radius; `material` indexes Scene::materials.
+/// A sphere of positive radius; `material` is one of Scene::materials, perhaps in another colour.
 struct Sphere {
   Vec3f center;
   float radius = 1;
-  std::uint32_t material = 0;
+  MaterialRef material{};
 };
 
 template <>
 inline constexpr auto fields<Sphere> = field_list("sphere",
-                                                  field("center", &Sphere::center, rule::finite),
+                                                  field("center", &Sphere::center, rule::point),
                                                   field("radius", &Sphere::radius, rule::positive),
                                                   field("material", &Sphere::material,
                                                         rule::material));
@@ -27,12 +28,12 @@ inline constexpr auto fields<Sphere> = field_list("sphere",
 struct Plane {
   Vec3f point;
   Vec3f normal{0, 1, 0};
-  std::uint32_t material = 0;
+  MaterialRef material{};
 };
 
 template <>
 inline constexpr auto fields<Plane> = field_list("plane",
-                                                 field("point", &Plane::point, rule::finite),
+                                                 field("point", &Plane::point, rule::point),
                                                  field("normal", &Plane::normal, rule::direction),
                                                  field("material", &Plane::material,
                                                        rule::material));

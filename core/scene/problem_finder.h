@@ -11,6 +11,7 @@
 #include "core/math/geometry.h"
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
+#include "core/scene/camera_fit.h"
 #include "core/scene/distortion.h"
 #include "core/scene/field.h"
 #include "core/scene/number_text.h"
@@ -23,6 +24,7 @@ class ProblemFinder;
 /// Check what several fields together must satisfy, for the types that have such conditions. They
 /// are called only where every field by itself is right.
 void check_whole(ProblemFinder& finder, const CameraPose& pose);
+void check_whole(ProblemFinder& finder, const CameraFit& fit);
 void check_whole(ProblemFinder& finder, const LensSurface& surface);
 void check_whole(ProblemFinder& finder, const LensCamera& camera);
 void check_whole(ProblemFinder& finder, const DistortionMap& map);
@@ -79,8 +81,10 @@ class ProblemFinder {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void check(std::string_view, const TypeRule&, Enum) {}
+  void check(std::string_view, const TypeRule&, bool) {}
   /// Whether the scene has the material or group is checked with the scene.
   void check(std::string_view, const MaterialRule&, std::uint32_t) {}
+  void check(std::string_view, const MaterialRule&, MaterialRef) {}
   void check(std::string_view, const GroupRule&, std::uint32_t) {}
   /// Checked by check_whole().
   template <class T>

@@ -25,6 +25,10 @@ struct WholeRule {
   [[nodiscard]] constexpr bool allows(int x) const { return x >= low && x <= high; }
 };
 
+/// Finite points of the scene. Scene files may count them from another point than 0: their `origin`
+/// is subtracted from each.
+struct PointRule : NumberRule {};
+
 /// Finite vectors of any length but 0.
 struct DirectionRule {};
 
@@ -53,6 +57,7 @@ constexpr NumberRule from_to(double low, double high) { return {.low = low, .hig
 inline constexpr NumberRule acute_view{
     .low = 0, .high = 180, .takes_low = false, .takes_high = false, .unit = " degrees"};
 inline constexpr NumberRule any_view{.low = 0, .high = 360, .takes_low = false, .unit = " degrees"};
+inline constexpr PointRule point{};
 inline constexpr DirectionRule direction{};
 inline constexpr MaterialRule material{};
 inline constexpr GroupRule group{};

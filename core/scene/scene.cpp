@@ -43,6 +43,10 @@ class SectionCheck {
     if (!finder.problem()) return std::nullopt;
     return Diagnostic::about(key, finder.problem()->message);
   }
+  static Status check(const std::string& key, const NumberRule& rule,
+                      const std::optional<Color>& color) {
+    return color ? check(key, rule, *color) : std::nullopt;
+  }
   static Status check(const std::string& key, const TypeRule&,
                       const std::vector<NamedMaterial>& materials) {
     for (const NamedMaterial& named : materials) {
@@ -75,7 +79,7 @@ template <class Primitive>
 Status check_primitives(const std::string& name, const std::vector<Primitive>& primitives,
                         const Scene& scene) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const bool has_material = primitives[i].material < scene.materials.size();
+    const bool has_material = primitives[i].material.index() < scene.materials.size();
     if (is_valid(primitives[i]) && has_material) continue;
     const std::string path = numbered(name, i);
     if (auto problem = find_problem(primitives[i])) return located(path, problem);

@@ -9,6 +9,7 @@
 #include "core/math/color.h"
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
+#include "core/scene/camera_fit.h"
 #include "core/scene/distortion.h"
 #include "core/scene/field.h"
 #include "core/scene/group.h"
@@ -25,6 +26,7 @@ inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
 namespace rule {
 inline constexpr WholeRule image_side{.low = 1, .high = max_image_side};
 inline constexpr WholeRule samples{.low = 1, .high = max_count};
+inline constexpr NumberRule outline{.low = 0, .high = 100, .unit = " pixels"};
 inline constexpr WholeRule bounces{.low = 0, .high = max_count};
 }  // namespace rule
 
@@ -40,12 +42,16 @@ struct ImageSettings {
   int height = 720;  ///< pixels, 1 .. 65535
   int spp = 1;       ///< samples per pixel, >= 1
   PixelFilter filter = PixelFilter::box;
+  bool transparent = false;  ///< with alpha: how much of a pixel the objects cover
+  float outline = 0;         ///< width of dark lines around what is seen, in pixels; 0: none
 };
 
 template <>
 inline constexpr auto fields<ImageSettings> = field_list(
     "image", field("size", &ImageSettings::width, &ImageSettings::height, rule::image_side),
-    field("spp", &ImageSettings::spp, rule::samples), field("filter", &ImageSettings::filter));
+    field("spp", &ImageSettings::spp, rule::samples), field("filter", &ImageSettings::filter),
+    field("transparent", &ImageSettings::transparent),
+    field("outline", &ImageSettings::outline, rule::outline));
 
 /// How light is followed. whitted: direct light, mirrors and glass. path: all light, by path
 /// tracing.
@@ -84,10 +90,14 @@ inline constexpr auto fields<NamedMaterial> = field_list(
 struct Scene {
   ImageSettings image;
   RenderSettings render;
-  std::optional<Camera> camera;             ///< none: framed on the objects
+  std::optional<Camera> camera;             ///< none: fitted to the objects
+  CameraFit fit;                            ///< how, where there is none
   std::optional<DistortionMap> distortion;  ///< of the camera's film
   Background background = ConstantBackground{};
   Color ambient;  ///< what every surface receives from everywhere
+  /// What camera rays see that hit nothing; none: the background. Mirrors, glass and paths always
+  /// see the background.
+  std::optional<Color> backdrop;
   std::vector<NamedMaterial> materials;
   std::vector<Light> lights;
   std::vector<Sphere> spheres;
@@ -97,14 +107,15 @@ struct Scene {
 };
 
 template <>
-inline constexpr auto fields<Scene> =
-    field_list("scene", field("image", &Scene::image), field("render", &Scene::render),
-               field("camera", &Scene::camera), field("camera.distortion", &Scene::distortion),
-               field("background", &Scene::background),
-               field("background.ambient", &Scene::ambient, rule::not_negative),
-               field("material", &Scene::materials), field("light", &Scene::lights),
-               field("sphere", &Scene::spheres), field("plane", &Scene::planes),
-               field("group", &Scene::groups), field("instance", &Scene::instances));
+inline constexpr auto fields<Scene> = field_list(
+    "scene", field("image", &Scene::image), field("render", &Scene::render),
+    field("camera", &Scene::camera), field("camera", &Scene::fit),
+    field("camera.distortion", &Scene::distortion), field("background", &Scene::background),
+    field("background.ambient", &Scene::ambient, rule::not_negative),
+    field("background.backdrop", &Scene::backdrop, rule::not_negative),
+    field("material", &Scene::materials), field("light", &Scene::lights),
+    field("sphere", &Scene::spheres), field("plane", &Scene::planes),
+    field("group", &Scene::groups), field("instance", &Scene::instances));
 
 /// The first thing wrong with a scene, or nothing. The Diagnostic's key is a dotted path as in
 /// scene files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer,

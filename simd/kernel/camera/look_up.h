@@ -13,7 +13,7 @@ BOULE_INLINE Numbers<Wide, count> look_up(const Numbers<Wide, n>& given, const F
   alignas(64) double in[n][width], out[count][width];
   for (std::size_t k = 0; k < n; ++k) store(in[k], given.at[k]);
   for (std::size_t lane = 0; lane < width; ++lane) {
-    find(NumberColumn{in[0] + lane, width}, NumberColumn{out[0] + lane, width});
+    find(SpacedNumbers{in[0] + lane, width}, SpacedNumbers{out[0] + lane, width});
   }
   Numbers<Wide, count> found;
   for (std::size_t k = 0; k < count; ++k) found.at[k] = load(out[k]);

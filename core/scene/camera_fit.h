@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "core/math/vec.h"
+#include "core/scene/camera.h"
+#include "core/scene/field.h"
+#include "core/scene/problem.h"
+
+namespace boule {
+
+/// The kinds of camera that can be fitted to a scene.
+enum class FittedCamera { pinhole, orthographic };
+template <>
+inline constexpr std::array<std::string_view, 2> names<FittedCamera>{"pinhole", "orthographic"};
+
+namespace rule {
+/// What a margin leaves of the picture must not be nothing.
+inline constexpr NumberRule margin{.low = 0, .high = 0.5, .takes_high = false};
+}  // namespace rule
+
+/// How the camera of a scene is found that has none: the tightest frame in which the outlines of
+/// all spheres lie.
+struct CameraFit {
+  FittedCamera type = FittedCamera::pinhole;
+  std::optional<Vec3f> direction{};   ///< in which it looks, any length; none: default_view()
+  std::optional<Vec3f> up{};          ///< as that of a CameraPose; none: default_view()
+  float fov = 45;                     ///< of a pinhole, in degrees, 0 < fov < 180
+  std::optional<FovAxis> fov_axis{};  ///< of a pinhole; none: the shorter side of the picture
+  float margin = 0.05F;               ///< left free at each edge, of the picture's side; 0 to 0.5
+
+  friend bool operator==(const CameraFit&, const CameraFit&) = default;
+};
+
+template <>
+inline constexpr auto fields<CameraFit> = field_list(
+    "fit", field("type", &CameraFit::type),
+    field("direction", &CameraFit::direction, rule::direction),
+    field("up", &CameraFit::up, rule::direction), field("fov", &CameraFit::fov, rule::acute_view),
+    field("fov_axis", &CameraFit::fov_axis), field("margin", &CameraFit::margin, rule::margin));
+
+/// The first Problem of a fit: a field against its rule, or up within 1e-6 rad of the direction.
+std::optional<Problem> find_problem(const CameraFit& fit);
+
+}  // namespace boule
