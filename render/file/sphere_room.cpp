@@ -1,8 +1,8 @@
-#include "render/scene_file/sphere_room.h"
+#include "render/file/sphere_room.h"
 
 #include <algorithm>
 
-#include "render/scene_file/huge_pages.h"
+#include "render/file/huge_pages.h"
 
 namespace boule {
 

@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "core/base/error.h"
-#include "render/scene_file/input_file.h"
-#include "render/scene_file/npy_header.h"
+#include "render/file/input_file.h"
+#include "render/file/npy_header.h"
 
 namespace boule {
 

@@ -22,6 +22,9 @@ class InputFile {
   /// Its size in bytes when it was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
+  /// The system's number for the open file, which stays this object's; -1 once it was moved away.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
   /// Reads up to `count` bytes into `buffer`, which has room for them. Returns how many it read:
   /// less than `count` at the end of the file only. An error for a file that was moved away.
   Result<std::size_t> read(void* buffer, std::size_t count);

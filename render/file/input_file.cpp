@@ -1,4 +1,4 @@
-#include "render/scene_file/input_file.h"
+#include "render/file/input_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "render/file/huge_pages.h"
 #include "render/memory/available_memory.h"
-#include "render/scene_file/huge_pages.h"
 
 namespace boule {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/scene_file/npy_rows.h"
+#include "render/file/npy_rows.h"
 
 namespace boule {
 
@@ -11,6 +11,9 @@ std::string npy_shape_text(const NpyHeader& header) {
 }
 
 Status check_npy_elements(const NpyHeader& header) {
+  if (!header.fields.empty()) {
+    return Diagnostic::of("has named fields, expected rows of numbers");
+  }
   if (header.descr != "<f4" && header.descr != "<f8") {
     return Diagnostic::of("holds " + quote(header.descr) +
                           ", expected '<f4' or '<f8' (little-endian float32 or float64)");

@@ -1,4 +1,4 @@
-#include "render/scene_file/huge_pages.h"
+#include "render/file/huge_pages.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

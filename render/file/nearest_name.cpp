@@ -1,4 +1,4 @@
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,40 @@
+#include "render/file/growing_bytes.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "render/file/huge_pages.h"
+#include "render/memory/available_memory.h"
+
+namespace boule {
+
+GrowingBytes::~GrowingBytes() {
+  if (data_ != nullptr) ::munmap(data_, capacity_);
+}
+
+Status GrowingBytes::reserve(std::size_t capacity) {
+  if (capacity <= capacity_) return std::nullopt;
+  const std::size_t more = capacity - capacity_;
+  const std::string who = capacity_ == 0 ? "unpacked, it needs" : "unpacked, it needs another";
+  if (auto none = check_memory(more, who)) return none;
+  void* const grown = data_ == nullptr ? ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE,
+                                                MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
+                                       : ::mremap(data_, capacity_, capacity, MREMAP_MAYMOVE);
+  if (grown == MAP_FAILED) {
+    return Diagnostic::of("memory for it: " + std::generic_category().message(errno));
+  }
+  prefer_huge_pages(grown, capacity);
+  data_ = static_cast<char*>(grown);
+  capacity_ = capacity;
+  return std::nullopt;
+}
+
+Status GrowingBytes::grow() {
+  constexpr std::size_t block = std::size_t{1} << 20;
+  return reserve(capacity_ + std::max(block, capacity_ / 2));
+}
+
+}  // namespace boule

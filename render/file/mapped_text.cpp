@@ -1,0 +1,79 @@
+#include "render/file/mapped_text.h"
+
+#include <sys/mman.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "render/file/input_file.h"
+#include "render/file/unpack.h"
+#include "render/memory/available_memory.h"
+
+namespace boule {
+namespace {
+
+constexpr std::uint64_t largest_read = std::uint64_t{16} << 20;
+
+Diagnostic cannot_read(const std::string& path, const std::string& reason) {
+  return Diagnostic::in_file(path, "cannot read it: " + reason);
+}
+
+Result<std::string> read_whole(InputFile& file, const std::string& path) {
+  if (auto none = check_memory(file.size(), "it needs")) return cannot_read(path, none->message);
+  std::string text(static_cast<std::size_t>(file.size()), '\0');
+  const auto got = file.read(text.data(), text.size());
+  if (!got) return got.error();
+  text.resize(got.value());
+  return text;
+}
+
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
+}  // namespace
+
+void MappedText::Unmap::operator()(void* map) const { ::munmap(map, bytes); }
+
+MappedText MappedText::of(std::string text) {
+  MappedText made;
+  made.owned_ = std::make_unique<const std::string>(std::move(text));
+  made.text_ = without_mark(*made.owned_);
+  return made;
+}
+
+Result<MappedText> MappedText::open(const std::string& path) {
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  const std::uint64_t size = file.value().size();
+  MappedText opened;
+  std::string_view bytes;
+  if (size <= largest_read) {
+    auto text = read_whole(file.value(), path);
+    if (!text) return text.error();
+    opened.owned_ = std::make_unique<const std::string>(std::move(text).value());
+    bytes = *opened.owned_;
+  } else {
+    if (size > address_room()) return cannot_read(path, "it is larger than the memory's limit");
+    const auto length = static_cast<std::size_t>(size);
+    void* const map = ::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.value().descriptor(), 0);
+    if (map == MAP_FAILED) return cannot_read(path, std::generic_category().message(errno));
+    opened.map_ = std::unique_ptr<void, Unmap>(map, Unmap{length});
+    bytes = {static_cast<const char*>(map), length};
+  }
+  opened.text_ = without_mark(bytes);
+  const Packing packing = packing_of(bytes);
+  if (packing == Packing::none) return opened;
+  auto unpacked = unpack(packing, bytes);
+  if (!unpacked) return cannot_read(path, unpacked.error().message);
+  MappedText text;
+  text.unpacked_ = std::move(unpacked).value();
+  text.text_ = without_mark({text.unpacked_.data(), text.unpacked_.size()});
+  return text;
+}
+
+}  // namespace boule

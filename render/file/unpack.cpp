@@ -1,0 +1,161 @@
+#include "render/file/unpack.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#ifdef BOULE_HAS_ZLIB
+#include <zlib.h>
+#endif
+#ifdef BOULE_HAS_ZSTD
+#include <zstd.h>
+#endif
+
+namespace boule {
+namespace {
+
+[[maybe_unused]] bool only_zeros(std::string_view rest) {
+  return rest.find_first_not_of('\0') == std::string_view::npos;
+}
+
+[[maybe_unused]] Diagnostic damaged(const std::string& packer, const std::string& reason) {
+  return Diagnostic::of("its " + packer + " data are damaged: " + reason);
+}
+
+#ifdef BOULE_HAS_ZLIB
+class GzipUnpacker {
+ public:
+  explicit GzipUnpacker(std::string_view packed) : rest_(packed) {}
+  GzipUnpacker(const GzipUnpacker&) = delete;
+  GzipUnpacker& operator=(const GzipUnpacker&) = delete;
+  ~GzipUnpacker() { inflateEnd(&stream_); }
+
+  Status run() {
+    constexpr int gzip_only = 16 + MAX_WBITS;
+    if (inflateInit2(&stream_, gzip_only) != Z_OK) return Diagnostic::of("zlib has no memory");
+    do {
+      if (auto wrong = member()) return wrong;
+      inflateReset(&stream_);
+    } while (!only_zeros(rest_));
+    return std::nullopt;
+  }
+
+  GrowingBytes take() { return std::move(text_); }
+
+ private:
+  /// Unpacks one member and leaves `rest_` at what follows it.
+  Status member() {
+    for (;;) {
+      if (text_.size() == text_.capacity()) {
+        if (auto none = text_.grow()) return none;
+      }
+      const int answer = step();
+      if (answer == Z_STREAM_END) return std::nullopt;
+      if (answer == Z_BUF_ERROR && rest_.empty()) {
+        return damaged("gzip", "the file ends before them");
+      }
+      if (answer != Z_OK && answer != Z_BUF_ERROR) {
+        return damaged("gzip", stream_.msg != nullptr ? stream_.msg : "not what zlib expected");
+      }
+    }
+  }
+
+  int step() {
+    constexpr std::size_t most = std::size_t{1} << 30;  // zlib counts in 32 bits
+    const std::size_t in = std::min(most, rest_.size());
+    const std::size_t out = std::min(most, text_.capacity() - text_.size());
+    // zlib does not write to its input.
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));
+    stream_.avail_in = static_cast<uInt>(in);
+    stream_.next_out = reinterpret_cast<Bytef*>(text_.data() + text_.size());
+    stream_.avail_out = static_cast<uInt>(out);
+    const int answer = inflate(&stream_, Z_NO_FLUSH);
+    rest_.remove_prefix(in - stream_.avail_in);
+    text_.set_size(text_.size() + (out - stream_.avail_out));
+    return answer;
+  }
+
+  std::string_view rest_;
+  GrowingBytes text_;
+  z_stream stream_ = {};
+};
+
+Result<GrowingBytes> unpack_gzip(std::string_view packed) {
+  GzipUnpacker unpacker(packed);
+  if (auto wrong = unpacker.run()) return *wrong;
+  return unpacker.take();
+}
+#else
+Result<GrowingBytes> unpack_gzip(std::string_view) {
+  return Diagnostic::of(
+      "it is packed by gzip, and this build cannot unpack it: it was made without zlib (package "
+      "zlib1g-dev)");
+}
+#endif
+
+#ifdef BOULE_HAS_ZSTD
+/// Room for a frame that tells its length. One that lies is refused here, or finds too much room.
+Status reserve_frame(std::string_view packed, GrowingBytes& text) {
+  const unsigned long long length = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (length == ZSTD_CONTENTSIZE_UNKNOWN || length == ZSTD_CONTENTSIZE_ERROR) return std::nullopt;
+  if (length > std::numeric_limits<std::size_t>::max() / 2) {
+    return damaged("Zstandard", "no text is as long as they say");
+  }
+  const std::size_t needed = text.size() + static_cast<std::size_t>(length);
+  // Many small frames must not move the bytes each time.
+  const bool is_small = text.size() > 0 && needed - text.size() < text.size() / 2;
+  return needed > text.capacity() && is_small ? text.grow() : text.reserve(needed);
+}
+
+Result<GrowingBytes> unpack_zstandard(std::string_view packed) {
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
+                                                                          &ZSTD_freeDStream);
+  if (stream == nullptr) return Diagnostic::of("Zstandard has no memory");
+  GrowingBytes text;
+  ZSTD_inBuffer in = {packed.data(), packed.size(), 0};
+  std::size_t answer = 0;  // 0: between two frames
+  for (;;) {
+    const std::string_view rest = packed.substr(in.pos);
+    if (answer == 0 && only_zeros(rest)) return text;
+    if (answer == 0) {
+      if (auto none = reserve_frame(rest, text)) return *none;
+    }
+    if (text.size() == text.capacity()) {
+      if (auto none = text.grow()) return *none;
+    }
+    ZSTD_outBuffer out = {text.data(), text.capacity(), text.size()};
+    answer = ZSTD_decompressStream(stream.get(), &out, &in);
+    if (ZSTD_isError(answer) != 0) return damaged("Zstandard", ZSTD_getErrorName(answer));
+    text.set_size(out.pos);
+    if (answer != 0 && rest.empty() && out.pos < out.size) {
+      return damaged("Zstandard", "the file ends before them");
+    }
+  }
+}
+#else
+Result<GrowingBytes> unpack_zstandard(std::string_view) {
+  return Diagnostic::of(
+      "it is packed by Zstandard, and this build cannot unpack it: it was made without libzstd "
+      "(package libzstd-dev)");
+}
+#endif
+
+}  // namespace
+
+Packing packing_of(std::string_view bytes) {
+  using std::literals::operator""sv;
+  if (bytes.starts_with("\x1f\x8b"sv)) return Packing::gzip;
+  if (bytes.starts_with("\x28\xb5\x2f\xfd"sv)) return Packing::zstandard;
+  // A frame to be skipped, as parallel packers write them in front.
+  const bool skips = bytes.size() >= 4 && bytes.substr(1, 3) == "\x2a\x4d\x18"sv;
+  const int first = bytes.empty() ? 0 : static_cast<unsigned char>(bytes.front());
+  return skips && first >= 0x50 && first <= 0x5f ? Packing::zstandard : Packing::none;
+}
+
+Result<GrowingBytes> unpack(Packing packing, std::string_view packed) {
+  return packing == Packing::gzip ? unpack_gzip(packed) : unpack_zstandard(packed);
+}
+
+}  // namespace boule

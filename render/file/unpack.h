@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/base/error.h"
+#include "render/file/growing_bytes.h"
+
+namespace boule {
+
+/// What a file's content is packed by.
+enum class Packing { none, gzip, zstandard };
+
+/// By the first bytes of a file.
+Packing packing_of(std::string_view bytes);
+
+/// What `packed` holds: all members of gzip's format, or all frames of Zstandard's. Zeros that pad
+/// the end are skipped. An error, with a message only, if the bytes are damaged or end too early,
+/// if the build has no library for them, or if memory does not suffice, as soon as that is known.
+Result<GrowingBytes> unpack(Packing packing, std::string_view packed);
+
+}  // namespace boule
