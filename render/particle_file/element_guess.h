@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+namespace boule {
+
+/// The symbol of an atom's element by its name and that of its residue, where a file does not tell
+/// the element: "C" for the atom CA of the residue ALA, "Ca" for that of the residue CA. What comes
+/// before the name's first letter does not count. In this order it is
+/// - two letters as symbols are written: "Fe2";
+/// - an ion, whose residue has the same letters: NA, CL, ZN, and those of CHARMM (SOD, CLA, ...);
+/// - one of BR, CL, FE, MG, SE, SI, ZN at the start of the name;
+/// - the first letter, if that is a symbol (or D);
+/// - else the whole name, which is no element: a grain of a coarse model, a virtual site.
+/// The result is a view of `atom` or of memory that stays.
+std::string_view element_of_atom(std::string_view atom, std::string_view residue);
+
+}  // namespace boule

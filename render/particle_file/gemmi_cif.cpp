@@ -1,0 +1,351 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "render/particle_file/gemmi_call.h"
+#include "render/particle_file/gemmi_particles.h"
+#include "render/particle_file/text_lines.h"
+
+// clang refuses a std::vector of an incomplete type in gemmi/cifdoc.hpp, which C++20 forbids.
+#if defined(BOULE_HAS_GEMMI) && !defined(__clang__)
+#include <gemmi/cif.hpp>
+#include <gemmi/elem.hpp>
+#include <gemmi/numb.hpp>
+
+#include "render/particle_file/gemmi_cell.h"
+#endif
+
+namespace boule {
+
+#if !defined(BOULE_HAS_GEMMI) || defined(__clang__)
+
+bool has_gemmi_cif() { return false; }
+Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view, bool,
+                                                   const std::optional<std::vector<std::string>>&) {
+  return Diagnostic::of("no gemmi");
+}
+
+#else
+
+namespace {
+
+namespace cif = gemmi::cif;
+using Row = cif::Table::Row;
+
+/// With the place, where gemmi tells it: "cif:LINE:COLUMN(BYTE): MESSAGE" or "cif:LINE MESSAGE".
+Diagnostic cif_error(const std::string& what) {
+  constexpr std::string_view source = "cif:";
+  if (!what.starts_with(source)) return Diagnostic::of(what);
+  const char* const end = what.data() + what.size();
+  Diagnostic error;
+  const char* at = std::from_chars(what.data() + source.size(), end, error.line).ptr;
+  if (at < end && *at == ':') {
+    at = std::from_chars(at + 1, end, error.column).ptr;
+    at = std::find(at, end, ' ');
+  }
+  while (at < end && (*at == ' ' || *at == ':')) ++at;
+  error.message = "gemmi says: " + std::string(at, end);
+  return error;
+}
+
+/// The text of a value; empty for '?', '.' and columns that are not there.
+std::string text_at(const Row& row, std::size_t column) {
+  return row.has2(column) ? cif::as_string(row[column]) : std::string();
+}
+
+/// The first of two columns that has a value.
+std::string text_at(const Row& row, std::size_t column, std::size_t other) {
+  std::string text = text_at(row, column);
+  return text.empty() ? text_at(row, other) : text;
+}
+
+/// The symbol at the start of "Fe3+", "C12", "OW"; "X" for others.
+const char* element_of(const std::string& symbol) {
+  const auto is_letter = [&](std::size_t i) {
+    const char c = i < symbol.size() ? symbol[i] : ' ';
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+  };
+  if (!is_letter(0)) return "X";
+  const gemmi::Element one(symbol.substr(0, 1)), two(symbol.substr(0, is_letter(1) ? 2 : 1));
+  return (two.elem == gemmi::El::X ? one : two).name();
+}
+
+double finite_or(const std::string& text, double other) {
+  const double number = text.empty() ? other : cif::as_number(text, other);
+  return std::isfinite(number) ? number : other;
+}
+
+/// The atoms of one block of the file.
+class CifAtoms {
+ public:
+  CifAtoms(cif::Block& block, bool water, const std::optional<std::vector<std::string>>& wanted)
+      : block_(block), water_(water), wanted_(wanted) {}
+
+  /// The frames; none if the block has no atoms.
+  Result<std::vector<ParticleFrame>> read() {
+    cif::Table residues = block_.find("_atom_site.", residue_tags());
+    if (residues.length() > 0) return read_residues(residues);
+    cif::Table sites = block_.find("_atom_site_", site_tags());
+    if (sites.length() > 0) return read_sites(sites);
+    return std::vector<ParticleFrame>();
+  }
+
+ private:
+  enum ResidueColumn : std::size_t {
+    x,
+    y,
+    z,
+    id,
+    symbol,
+    atom,
+    auth_atom,
+    alternative,
+    residue,
+    auth_residue,
+    chain,
+    auth_chain,
+    residue_number,
+    auth_residue_number,
+    insertion,
+    occupancy,
+    b_factor,
+    model
+  };
+  /// In the order of ResidueColumn; '?': may be missing.
+  static std::vector<std::string> residue_tags() {
+    return {"Cartn_x",       "Cartn_y",         "Cartn_z",
+            "?id",           "?type_symbol",    "?label_atom_id",
+            "?auth_atom_id", "?label_alt_id",   "?label_comp_id",
+            "?auth_comp_id", "?label_asym_id",  "?auth_asym_id",
+            "?label_seq_id", "?auth_seq_id",    "?pdbx_PDB_ins_code",
+            "?occupancy",    "?B_iso_or_equiv", "?pdbx_PDB_model_num"};
+  }
+  enum SiteColumn : std::size_t {
+    site_x,
+    site_y,
+    site_z,
+    label,
+    site_symbol,
+    site_occupancy,
+    disorder_group
+  };
+  static std::vector<std::string> site_tags() {
+    return {"fract_x",      "fract_y",    "fract_z",        "?label",
+            "?type_symbol", "?occupancy", "?disorder_group"};
+  }
+
+  Result<std::vector<ParticleFrame>> read_residues(cif::Table& table) {
+    const auto cell = cell_of("_cell.");
+    if (!cell) return cell.error();
+    std::map<std::string, std::size_t> models;  // in `columns`
+    std::vector<MoleculeColumns> columns;
+    for (Row row : table) {
+      const auto [found, is_new] = models.try_emplace(text_at(row, model), columns.size());
+      if (is_new) columns.emplace_back(MoleculeKind::residues, water_);
+      if (auto wrong = add_atom(table, row, columns[found->second])) return *wrong;
+    }
+    std::vector<ParticleFrame> frames;
+    for (MoleculeColumns& each : columns) {
+      frames.push_back(each.finish(wanted_));
+      if (cell.value()) frames.back().cell = cell.value()->particle;
+    }
+    return frames;
+  }
+
+  Status add_atom(cif::Table& table, const Row& row, MoleculeColumns& columns) {
+    MoleculeAtom read;
+    if (auto wrong = read_position(table, row, read.position)) return wrong;
+    const auto occupied = number_at(table, row, occupancy, "occupancy", 1);
+    if (!occupied) return occupied.error();
+    const auto factor = number_at(table, row, b_factor, "bfactor", 0);
+    if (!factor) return factor.error();
+    const std::string name = text_at(row, auth_atom, atom), element = text_at(row, symbol),
+                      residue_name = text_at(row, auth_residue, residue),
+                      chain_name = text_at(row, auth_chain, chain),
+                      location = text_at(row, alternative), code = text_at(row, insertion);
+    read.element = element_of(element.empty() ? name : element);
+    read.name = name;
+    read.residue = residue_name;
+    read.chain = chain_name;
+    read.insertion = code;
+    read.alternative = location;
+    // Both may be texts, in theory.
+    read.residue_number = finite_or(text_at(row, auth_residue_number, residue_number), 0);
+    read.id = finite_or(text_at(row, id), row.row_index + 1);
+    read.occupancy = occupied.value();
+    read.b_factor = factor.value();
+    columns.add(read);
+    return std::nullopt;
+  }
+
+  Result<std::vector<ParticleFrame>> read_sites(cif::Table& table) {
+    const auto cell = cell_of("_cell_");
+    if (!cell) return cell.error();
+    if (!cell.value()) {
+      return error_in(table, "its positions are fractions of a cell, which it does not have");
+    }
+    MoleculeColumns columns(MoleculeKind::sites, true);
+    std::size_t disordered = 0;
+    for (Row row : table) {
+      MoleculeAtom read;
+      if (auto wrong = read_position(table, row, read.position)) return *wrong;
+      const auto occupied = number_at(table, row, site_occupancy, "occupancy", 1);
+      if (!occupied) return occupied.error();
+      if (finite_or(text_at(row, disorder_group), 1) > 1) {
+        ++disordered;
+        continue;
+      }
+      const Vec3d f = read.position;
+      const gemmi::Position p = cell.value()->gemmi.orthogonalize(gemmi::Fractional(f.x, f.y, f.z));
+      const std::string name = text_at(row, label), element = text_at(row, site_symbol);
+      read.position = {p.x, p.y, p.z};
+      read.element = element_of(element.empty() ? name : element);
+      read.name = name;
+      read.id = row.row_index + 1;
+      read.occupancy = occupied.value();
+      columns.add(read);
+    }
+    std::vector<ParticleFrame> frames;
+    frames.push_back(columns.finish(wanted_));
+    frames.back().cell = cell.value()->particle;
+    note_sites(disordered, frames.back().notes);
+    return frames;
+  }
+
+  void note_sites(std::size_t disordered, std::vector<std::string>& notes) {
+    if (has_symmetry()) notes.emplace_back("only the asymmetric unit is read");
+    if (disordered == 0) return;
+    notes.push_back(std::to_string(disordered) + (disordered == 1 ? " atom" : " atoms") +
+                    " left out: other alternative locations");
+  }
+
+  /// True if there are operations besides the identity.
+  bool has_symmetry() {
+    for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
+      if (const cif::Column column = block_.find_values(tag)) return column.length() > 1;
+    }
+    for (const char* tag : {"_space_group_name_H-M_alt", "_symmetry_space_group_name_H-M"}) {
+      const std::string* const name = block_.find_value(tag);
+      if (name == nullptr || cif::is_null(*name)) continue;
+      const std::string group = cif::as_string(*name);
+      return group != "P 1" && group != "P1";
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool wants(const char* name) const {
+    return !wanted_ || std::count(wanted_->begin(), wanted_->end(), name) > 0;
+  }
+
+  Diagnostic error_in(const cif::Table& table, std::string message, std::string key = {}) const {
+    const int line = table.loop_item == nullptr ? 0 : table.loop_item->line_number;
+    return {.message = std::move(message), .key = std::move(key), .line = line};
+  }
+
+  /// The nearest double to a number that must be there, or, with `none`, to one that may be missing
+  /// and is not read unless it is wanted.
+  Result<double> number_at(const cif::Table& table, const Row& row, std::size_t column,
+                           const char* name, std::optional<double> none) const {
+    if (none && (!row.has2(column) || !wants(name))) return *none;
+    const double number = cif::as_number(row[column]);
+    if (std::isfinite(number)) return number;
+    return error_in(table,
+                    "expected a finite number in row " + std::to_string(row.row_index + 1) +
+                        " of the atoms, found " + quote(row[column]),
+                    name);
+  }
+
+  Status read_position(const cif::Table& table, const Row& row, Vec3d& position) const {
+    const std::array<double*, 3> targets{&position.x, &position.y, &position.z};
+    constexpr std::array axes{"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto number = number_at(table, row, axis, axes[axis], std::nullopt);
+      if (!number) return number.error();
+      *targets[axis] = number.value();
+    }
+    return std::nullopt;
+  }
+
+  /// A cell as gemmi has it, and as the frame gets it.
+  struct CifCell {
+    gemmi::UnitCell gemmi;
+    ParticleCell particle;
+  };
+
+  /// The cell; nothing where there is none, or one of edges 1, which stands for none.
+  Result<std::optional<CifCell>> cell_of(const std::string& prefix) {
+    const std::optional<CifCell> none;
+    cif::Table table = block_.find(
+        prefix, {"length_a", "length_b", "length_c", "angle_alpha", "angle_beta", "angle_gamma"});
+    if (table.length() == 0) return none;
+    std::array<double, 6> numbers{};
+    const Row row = table[0];
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!row.has2(i)) return none;
+      numbers[i] = cif::as_number(row[i]);
+      if (std::isfinite(numbers[i])) continue;
+      return Diagnostic::about("cell", "expected a finite number, found " + quote(row[i]));
+    }
+    if (std::count(numbers.begin(), numbers.begin() + 3, 1.0) == 3) return none;
+    CifCell cell{gemmi::UnitCell(numbers), {}};
+    set_fractions(cell.gemmi);
+    const auto particle = particle_cell(cell.gemmi);
+    if (!particle) return Diagnostic::about("cell", particle.error().message);
+    cell.particle = particle.value();
+    return std::optional(cell);
+  }
+
+  /// What _atom_sites says of the cell's axes, where they lie unusually.
+  void set_fractions(gemmi::UnitCell& cell) {
+    std::vector<std::string> tags;
+    for (const char* row : {"1", "2", "3"}) {
+      for (const char* column : {"1", "2", "3"}) {
+        tags.push_back(std::string("matrix[") + row + "][" + column + "]");
+      }
+      tags.push_back(std::string("vector[") + row + "]");
+    }
+    cif::Table table = block_.find("_atom_sites.fract_transf_", tags);
+    if (table.length() == 0) return;
+    const Row row = table[0];
+    gemmi::Transform fractions;
+    std::size_t column_at = 0;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) fractions.mat[i][k] = cif::as_number(row[column_at++]);
+      fractions.vec.at(i) = cif::as_number(row[column_at++], 0);
+    }
+    // Not finite where a number is missing: then it tells nothing.
+    if (std::isfinite(fractions.mat.determinant())) cell.set_matrices_from_fract(fractions);
+  }
+
+  cif::Block& block_;
+  bool water_;
+  const std::optional<std::vector<std::string>>& wanted_;
+};
+
+}  // namespace
+
+bool has_gemmi_cif() { return true; }
+
+Result<std::vector<ParticleFrame>> read_cif_frames(
+    std::string_view text, bool water, const std::optional<std::vector<std::string>>& wanted) {
+  std::vector<ParticleFrame> frames;
+  auto wrong = call_gemmi([&]() -> Status {
+    cif::Document document = cif::read_memory(text.data(), text.size(), "cif");
+    for (cif::Block& block : document.blocks) {
+      auto read = CifAtoms(block, water, wanted).read();
+      if (!read) return read.error();
+      frames = std::move(read).value();
+      if (!frames.empty()) return std::nullopt;
+    }
+    return Diagnostic::of("it holds no positions of atoms: _atom_site.Cartn_x, _atom_site_fract_x");
+  });
+  if (!wrong) return frames;
+  return wrong->line == 0 && wrong->key.empty() ? cif_error(wrong->message) : *wrong;
+}
+
+#endif
+
+}  // namespace boule

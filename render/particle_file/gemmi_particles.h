@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "render/particle_file/molecule_columns.h"
+#include "render/particle_file/pdb_records.h"
+
+// What gemmi does for the readers of PDB and mmCIF. No other file sees its headers, which take long
+// to compile.
+
+namespace boule {
+
+/// False in a build without gemmi. Then the other functions must not be called; read_cif_frames not
+/// without the second either, which is false for clang too: it does not compile that part.
+bool has_gemmi();
+bool has_gemmi_cif();
+
+/// Adds the atoms of PDB records in their order.
+Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns);
+
+/// The cell of PDB records CRYST1 and SCALE, in lines of 80 bytes. An error if there is none with
+/// these edges and angles.
+Result<ParticleCell> read_pdb_cell(const std::string& records);
+
+/// The frames of a CIF file, macromolecules or small molecules; the Diagnostic has a line where
+/// gemmi tells it.
+Result<std::vector<ParticleFrame>> read_cif_frames(
+    std::string_view text, bool water, const std::optional<std::vector<std::string>>& wanted);
+
+}  // namespace boule

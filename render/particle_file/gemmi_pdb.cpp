@@ -1,0 +1,113 @@
+#include "render/particle_file/gemmi_particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/particle_file/gemmi_call.h"
+
+#ifdef BOULE_HAS_GEMMI
+#include <gemmi/pdb.hpp>
+
+#include "render/particle_file/gemmi_cell.h"
+#endif
+
+namespace boule {
+
+#ifndef BOULE_HAS_GEMMI
+
+bool has_gemmi() { return false; }
+Status add_pdb_atoms(PdbRecords, MoleculeColumns&) { return Diagnostic::of("no gemmi"); }
+Result<ParticleCell> read_pdb_cell(const std::string&) { return Diagnostic::of("no gemmi"); }
+
+#else
+
+namespace {
+
+constexpr std::size_t record_bytes = 81;
+
+/// Replaces the serial numbers by the places of the records, from 0, and returns them.
+std::vector<int> take_serials(std::string& records) {
+  std::vector<int> serials;
+  for (std::size_t at = 0; at < records.size(); at += record_bytes) {
+    serials.push_back(gemmi::pdb_impl::read_serial(records.data() + at + 6));
+    std::string place = std::to_string(serials.size() - 1);
+    place.insert(0, 5 - std::min<std::size_t>(place.size(), 5), ' ');
+    records.replace(at + 6, 5, place);
+  }
+  return serials;
+}
+
+struct AtomPlace {
+  const gemmi::Chain* chain = nullptr;
+  const gemmi::Residue* residue = nullptr;
+  const gemmi::Atom* atom = nullptr;
+};
+
+/// The atoms in the order of their records; gemmi puts those of a residue together.
+std::vector<AtomPlace> atoms_in_order(const gemmi::Structure& structure, std::size_t count) {
+  std::vector<AtomPlace> places(count);
+  for (const gemmi::Model& model : structure.models) {
+    for (const gemmi::Chain& chain : model.chains) {
+      for (const gemmi::Residue& residue : chain.residues) {
+        for (const gemmi::Atom& atom : residue.atoms) {
+          const auto place = static_cast<std::size_t>(atom.serial);
+          if (place < count) places[place] = {&chain, &residue, &atom};
+        }
+      }
+    }
+  }
+  return places;
+}
+
+std::string_view one_letter(const char& letter, char none) {
+  return letter == none ? std::string_view() : std::string_view(&letter, 1);
+}
+
+}  // namespace
+
+bool has_gemmi() { return true; }
+
+Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns) {
+  return call_gemmi([&]() -> Status {
+    const std::vector<int> serials = take_serials(records.lines);
+    const gemmi::Structure structure =
+        gemmi::read_pdb_from_memory(records.lines.data(), records.lines.size(), "pdb");
+    const std::vector<AtomPlace> places = atoms_in_order(structure, serials.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto [chain, residue, atom] = places[i];
+      if (atom == nullptr) return Diagnostic::of("gemmi does not understand an atom's record");
+      columns.add({.position = records.numbers[i].position,
+                   .element = atom->element.name(),
+                   .name = atom->name,
+                   .residue = residue->name,
+                   .chain = chain->name,
+                   .insertion = one_letter(residue->seqid.icode, ' '),
+                   .alternative = one_letter(atom->altloc, '\0'),
+                   .residue_number = residue->seqid.num.has_value()
+                                         ? static_cast<double>(residue->seqid.num.value)
+                                         : 0,
+                   .id = static_cast<double>(serials[i]),
+                   .occupancy = records.numbers[i].occupancy,
+                   .b_factor = records.numbers[i].b_factor});
+    }
+    return std::nullopt;
+  });
+}
+
+Result<ParticleCell> read_pdb_cell(const std::string& records) {
+  ParticleCell cell;
+  auto wrong = call_gemmi([&]() -> Status {
+    const auto structure = gemmi::read_pdb_from_memory(records.data(), records.size(), "pdb");
+    auto found = particle_cell(structure.cell);
+    if (!found) return found.error();
+    cell = found.value();
+    return std::nullopt;
+  });
+  if (wrong) return *wrong;
+  return cell;
+}
+
+#endif
+
+}  // namespace boule

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "render/particle_file/particle_frame.h"
+
+namespace boule {
+
+/// A box of LAMMPS: the edges are (hi.x - lo.x, 0, 0), (xy, hi.y - lo.y, 0), (xz, yz, hi.z - lo.z).
+struct LammpsBox {
+  Vec3d lo, hi;
+  double xy = 0, xz = 0, yz = 0;
+};
+
+/// The box whose bounding box a dump gives in place of `lo` and `hi`
+/// (docs.lammps.org/Howto_triclinic.html).
+LammpsBox box_in_bounds(LammpsBox bounds);
+
+ParticleCell cell_of(const LammpsBox& box);
+
+/// True for the names of the `units` styles: "real", "metal", "lj" ...
+bool is_lammps_units(std::string_view units);
+
+/// How many angstrom the unit of length of this `units` style has; 1 for "lj" and unknown ones.
+double lammps_length_in_angstrom(std::string_view units);
+
+}  // namespace boule

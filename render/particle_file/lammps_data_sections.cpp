@@ -1,0 +1,197 @@
+#include "render/particle_file/lammps_data_sections.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "render/particle_file/lammps_box.h"
+#include "render/particle_file/text_lines.h"
+#include "render/particle_file/text_number.h"
+
+namespace boule {
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+
+std::vector<std::string_view> comment_words(std::string_view line) {
+  const std::size_t hash = line.find('#');
+  return words_of(hash == std::string_view::npos ? std::string_view() : line.substr(hash + 1));
+}
+
+/// "C", "Fe": what chemistry writes, and types seldom do.
+bool looks_like_element(std::string_view word) {
+  if (word.empty() || word.size() > 2 || word[0] < 'A' || word[0] > 'Z') return false;
+  return word.size() == 1 || (word[1] >= 'a' && word[1] <= 'z');
+}
+
+/// "units = real", as LAMMPS writes it into the first line.
+double units_of(std::string_view first_line) {
+  const auto words = words_of(first_line);
+  for (std::size_t i = 0; i + 2 < words.size(); ++i) {
+    if (words[i] != "units" || words[i + 1] != "=") continue;
+    return lammps_length_in_angstrom(words[i + 2].substr(0, words[i + 2].find(',')));
+  }
+  return 1;
+}
+
+bool is_box_keyword(std::string_view word) {
+  return word == "xlo" || word == "ylo" || word == "zlo" || word == "xy";
+}
+
+class SectionFinder {
+ public:
+  explicit SectionFinder(std::string_view text) : text_(text), lines_(text) {}
+
+  Result<DataSections> run() {
+    found_.length_in_angstrom = units_of(lines_.next());
+    while (!lines_.at_end() && !at_section()) {
+      if (auto wrong = header_line()) return *wrong;
+    }
+    if (has_box_) found_.cell = cell_of(box_);
+    if (has_box_ && !is_finite(*found_.cell)) {
+      return error_at_line(lines_.line(), "the box is larger than the largest number", "xlo");
+    }
+    while (!lines_.at_end()) {
+      if (auto wrong = section()) return *wrong;
+    }
+    if (!found_.atom_rows.exists() && found_.atoms > 0) {
+      return error_at_line(lines_.line(), "the file ends without a section Atoms", "Atoms");
+    }
+    if (elements_.size() == found_.types) found_.elements = std::move(elements_);
+    return std::move(found_);
+  }
+
+ private:
+  /// Names of sections start with a letter, all other lines with numbers.
+  [[nodiscard]] bool at_section() const {
+    const auto words = words_of(without_comment(lines_.peek()));
+    return !words.empty() && is_letter(words.front().front());
+  }
+
+  Status header_line() {
+    const std::uint64_t number = lines_.line();
+    const std::string_view line = lines_.next();
+    const auto words = words_of(without_comment(line));
+    const auto keyword = std::find_if(words.begin(), words.end(), is_box_keyword);
+    if (keyword != words.end()) {
+      return box_line(number, line, {words.begin(), keyword}, std::string(*keyword));
+    }
+    const std::size_t names = static_cast<std::size_t>(
+        std::find_if(words.begin(), words.end(), [](auto w) { return is_letter(w.front()); }) -
+        words.begin());
+    if (names == words.size()) return std::nullopt;
+    const std::string name(words[names]);
+    if (name == "atoms" || (name == "atom" && words.size() == names + 2)) {
+      const auto count = names == 1 ? count_in(words[0]) : std::nullopt;
+      const std::string key = name == "atoms" ? "atoms" : "atom types";
+      if (!count) return error_at_line(number, "expected a count before " + quote(key), key);
+      (name == "atoms" ? found_.atoms : found_.types) = *count;
+      has_count_ = has_count_ || name == "atoms";
+    }
+    return std::nullopt;  // else a count of bonds, and the like
+  }
+
+  Status box_line(std::uint64_t number, std::string_view line,
+                  const std::vector<std::string_view>& words, const std::string& name) {
+    double LammpsBox::*tilts[] = {&LammpsBox::xy, &LammpsBox::xz, &LammpsBox::yz};
+    double Vec3d::*axes[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
+    constexpr std::array lows{"xlo", "ylo", "zlo"};
+    const auto axis = std::find(lows.begin(), lows.end(), name) - lows.begin();
+    const bool is_tilt = name == "xy";
+    std::array<double, 3> numbers{};
+    const std::size_t count = is_tilt ? 3 : 2;
+    for (std::size_t i = 0; i < std::min(count, words.size()); ++i) {
+      const auto value = number_in(words[i]);
+      if (!value || !std::isfinite(*value)) {
+        return error_at_word(number, line, words[i],
+                             "expected a finite number, found " + quote(words[i]), name);
+      }
+      numbers[i] = *value;
+    }
+    if (words.size() != count) {
+      return error_at_line(
+          number, "expected " + std::to_string(count) + " numbers before " + quote(name), name);
+    }
+    if (is_tilt) {
+      for (std::size_t i = 0; i < 3; ++i) box_.*tilts[i] = numbers[i];
+    } else {
+      has_box_ = true;
+      box_.lo.*axes[axis] = numbers[0];
+      box_.hi.*axes[axis] = numbers[1];
+    }
+    return std::nullopt;
+  }
+
+  Status section() {
+    const std::uint64_t number = lines_.line();
+    const std::string_view line = lines_.next();
+    const auto words = words_of(without_comment(line));
+    if (words.empty()) return std::nullopt;
+    if (!is_letter(words.front().front())) {
+      return error_at_line(number, "expected the name of a section, found " + quote(line));
+    }
+    skip_comments();
+    if (words.size() == 1 && words[0] == "Atoms") {
+      const auto style = comment_words(line);
+      if (!style.empty()) found_.atom_rows.style = std::string(style.front());
+      return rows("Atoms", number, found_.atom_rows);
+    }
+    if (words.size() == 1 && words[0] == "Velocities") {
+      return rows("Velocities", number, found_.velocity_rows);
+    }
+    if (words.size() == 1 && words[0] == "Masses") return masses(number);
+    while (!lines_.at_end() && !at_section()) lines_.skip(1);
+    return std::nullopt;
+  }
+
+  void skip_comments() {
+    while (!lines_.at_end() && words_of(without_comment(lines_.peek())).empty()) lines_.skip(1);
+  }
+
+  static Status too_short(const std::string& name, std::uint64_t line, std::uint64_t expected,
+                          std::uint64_t rows) {
+    return error_at_line(line,
+                         "the header promises " + std::to_string(expected) +
+                             " rows, the file ends after " + std::to_string(rows),
+                         name);
+  }
+
+  Status rows(const std::string& name, std::uint64_t line, DataSection& section) {
+    if (section.exists()) return error_at_line(line, "the section is there twice", name);
+    if (!has_count_) return error_at_line(line, "the header has no count of atoms", "atoms");
+    const std::size_t begin = lines_.offset();
+    section.line = lines_.line();
+    section.rows = lines_.skip(found_.atoms);
+    section.text = text_.substr(begin, lines_.offset() - begin);
+    if (section.rows == found_.atoms) return std::nullopt;
+    return too_short(name, line, found_.atoms, section.rows);
+  }
+
+  Status masses(std::uint64_t line) {
+    for (std::uint64_t i = 0; i < found_.types; ++i) {
+      if (lines_.at_end()) return too_short("Masses", line, found_.types, i);
+      const auto words = comment_words(lines_.next());
+      if (!words.empty() && looks_like_element(words.front())) {
+        elements_.emplace_back(words.front());
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::string_view text_;
+  TextLines lines_;
+  DataSections found_;
+  std::vector<std::string> elements_;
+  LammpsBox box_;
+  bool has_box_ = false;
+  bool has_count_ = false;  ///< of atoms
+};
+
+}  // namespace
+
+Result<DataSections> find_data_sections(std::string_view text) { return SectionFinder(text).run(); }
+
+}  // namespace boule

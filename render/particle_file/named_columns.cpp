@@ -1,0 +1,117 @@
+#include "render/particle_file/named_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <unordered_map>
+#include <utility>
+
+#include "render/particle_file/text_number.h"
+
+namespace boule {
+namespace {
+
+/// The shortest text of a number: 1 is "1".
+std::string shortest_text(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+TextColumn texts_of(const NumberColumn& numbers) {
+  TextColumn column{numbers.name, {}, {}};
+  column.indices.reserve(numbers.values.size());
+  std::unordered_map<double, std::uint32_t> known;
+  double last = 0;
+  std::uint32_t last_index = 0;
+  for (const double value : numbers.values) {
+    if (column.texts.empty() || value != last) {
+      const auto [found, is_new] =
+          known.try_emplace(value, static_cast<std::uint32_t>(column.texts.size()));
+      if (is_new) column.texts.push_back(shortest_text(value));
+      last = value;
+      last_index = found->second;
+    }
+    column.indices.push_back(last_index);
+  }
+  return column;
+}
+
+}  // namespace
+
+void NamedColumns::add(const std::string& name, std::string_view example) {
+  constexpr std::array axes{"x", "y", "z"};
+  const auto axis = std::find(axes.begin(), axes.end(), name);
+  if (axis != axes.end()) {
+    add_position(name, static_cast<std::size_t>(axis - axes.begin()));
+  } else if (name == "element" || name == "species") {
+    add_species(name);
+  } else if (name == "-") {
+    add_skipped(name);
+  } else {
+    add_kept(name, number_in(example) ? ColumnUse::number : ColumnUse::text);
+  }
+}
+
+void NamedColumns::add_position(const std::string& name, std::size_t axis) {
+  columns_.push_back({name, ColumnUse::position, axis});
+}
+
+void NamedColumns::add_species(const std::string& name) {
+  if (frame_.species) return add_kept(name, ColumnUse::text);
+  frame_.species.emplace().name = name;
+  columns_.push_back({name, ColumnUse::species, 0});
+}
+
+void NamedColumns::add_kept(const std::string& name, ColumnUse use) {
+  if (!wants(name)) frame_.unread.push_back(name);
+  if (!wants(name) && name != "id" && name != "type") {
+    add_skipped(name);
+  } else if (use == ColumnUse::text) {
+    columns_.push_back(add_text_column(frame_, name));
+  } else {
+    columns_.push_back(add_number_column(frame_, name, use));
+  }
+}
+
+bool NamedColumns::wants(const std::string& name) const {
+  return !wanted_ || std::find(wanted_->begin(), wanted_->end(), name) != wanted_->end();
+}
+
+Status NamedColumns::check_positions() const {
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto found =
+        std::count_if(columns_.begin(), columns_.end(), [&](const TextRowColumn& column) {
+          return column.use == ColumnUse::position && column.index == axis;
+        });
+    const std::string name = axes[axis];
+    if (found == 0) return Diagnostic::about(name, "there is no column of positions for " + name);
+    if (found > 1) return Diagnostic::about(name, "more than one column has the position " + name);
+  }
+  return std::nullopt;
+}
+
+void NamedColumns::finish() {
+  take_types_as_species(frame_, wants("type"));
+  const auto is_unwanted = [this](const auto& column) { return !wants(column.name); };
+  std::erase_if(frame_.texts, is_unwanted);
+  std::erase_if(frame_.numbers, is_unwanted);
+}
+
+void take_types_as_species(ParticleFrame& frame, bool keep) {
+  if (frame.species) return;
+  const auto is_type = [](const auto& column) { return column.name == "type"; };
+  const auto texts = std::find_if(frame.texts.begin(), frame.texts.end(), is_type);
+  if (texts != frame.texts.end()) {
+    frame.species = *texts;
+    if (!keep) frame.texts.erase(texts);
+    return;
+  }
+  const auto numbers = std::find_if(frame.numbers.begin(), frame.numbers.end(), is_type);
+  if (numbers == frame.numbers.end()) return;
+  frame.species = texts_of(*numbers);
+  if (!keep) frame.numbers.erase(numbers);
+}
+
+}  // namespace boule

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "render/particle_file/particle_frame.h"
+#include "render/particle_file/text_rows.h"
+
+namespace boule {
+
+/// Columns that are known by their names: "x", "y", "z" are the position, "element" or "species"
+/// the species, "-" is skipped, and all others are kept under their names.
+class NamedColumns {
+ public:
+  /// `wanted` as in ParticleFileOptions; `frame` gets the columns.
+  NamedColumns(const std::optional<std::vector<std::string>>& wanted, ParticleFrame& frame)
+      : wanted_(wanted), frame_(frame) {}
+
+  /// Adds a column. What `example`, its text in the first row, is decides whether it is of numbers;
+  /// what nobody wants is skipped, but for "id" and "type".
+  void add(const std::string& name, std::string_view example);
+  void add_position(const std::string& name, std::size_t axis);
+  void add_species(const std::string& name);
+  void add_kept(const std::string& name, ColumnUse use);  ///< number, logical or text
+  void add_skipped(const std::string& name) { columns_.push_back({name, ColumnUse::skipped, 0}); }
+
+  /// What is to be done when the rows are read: takes types as species, and drops what was
+  /// read for such ends only.
+  void finish();
+
+  /// True if a column of this name is to be kept.
+  [[nodiscard]] bool wants(const std::string& name) const;
+
+  /// Nothing if there is exactly one column for each axis; else a message.
+  [[nodiscard]] Status check_positions() const;
+
+  [[nodiscard]] std::span<const TextRowColumn> columns() const { return columns_; }
+
+ private:
+  const std::optional<std::vector<std::string>>& wanted_;
+  ParticleFrame& frame_;
+  std::vector<TextRowColumn> columns_;
+};
+
+/// Makes the column "type" the species where there is none: numbers become texts. With `keep`, the
+/// column stays as it is too. To be called when the columns are read.
+void take_types_as_species(ParticleFrame& frame, bool keep);
+
+}  // namespace boule

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "render/particle_file/particle_frame.h"
+
+namespace boule {
+
+/// How a particle file is read.
+struct ParticleFileOptions {
+  /// A name of particle_formats(); empty: by the file's name, else its content.
+  std::string format{};
+  /// Names for the columns, for files that do not name them themselves; empty: those of the format.
+  std::vector<std::string> columns{};
+  bool water = false;  ///< PDB and mmCIF: with water
+  /// The columns to keep besides positions and species; none: all.
+  std::optional<std::vector<std::string>> wanted{};
+};
+
+/// The names of all formats ("xyz", "dump", ...), and the list of their endings for messages.
+std::vector<std::string_view> particle_formats();
+std::string known_particle_endings();
+
+/// True if a file of this name is one of particles by its ending. (.npy files are not: scene_file
+/// reads those, unless they hold named fields.)
+bool is_particle_name(std::string_view path);
+
+/// True if the content of the file tells a format; false, too, if it cannot be read.
+bool has_particle_content(const std::string& path);
+
+/// One format's reader of one open file.
+class ParticleReader {
+ public:
+  ParticleReader() = default;
+  ParticleReader(const ParticleReader&) = delete;
+  ParticleReader& operator=(const ParticleReader&) = delete;
+  virtual ~ParticleReader() = default;
+
+  /// How many frames the file has, >= 1.
+  [[nodiscard]] virtual std::size_t frames() const = 0;
+
+  /// Frame `frame`, from 0. The Diagnostic has line, column and, as its key, the column's name
+  /// where they are known; its file is set by ParticleFile. Precondition: frame < frames().
+  virtual Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) = 0;
+};
+
+/// A particle file: one frame or a trajectory. Opening it finds the frames (a trajectory is read
+/// through once for that), so that each frame is then read by itself. Takes any file; throws
+/// std::bad_alloc.
+class ParticleFile {
+ public:
+  static Result<ParticleFile> open(const std::string& path, const ParticleFileOptions& options = {},
+                                   const ParallelFor& parallel_for = serial_for);
+
+  [[nodiscard]] std::size_t frames() const { return reader_->frames(); }
+
+  /// A frame, from 0; negative numbers count from the end, -1 is the last. An error if there is no
+  /// such frame.
+  Result<ParticleFrame> read(long frame = -1, const ParallelFor& parallel_for = serial_for);
+
+  /// The name of the format that was found.
+  [[nodiscard]] std::string_view format() const { return format_; }
+
+ private:
+  ParticleFile(std::string path, std::string_view format, std::unique_ptr<ParticleReader> reader);
+
+  std::string path_;
+  std::string_view format_;
+  std::unique_ptr<ParticleReader> reader_;
+};
+
+}  // namespace boule

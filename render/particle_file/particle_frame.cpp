@@ -1,0 +1,31 @@
+#include "render/particle_file/particle_frame.h"
+
+#include <algorithm>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+template <class Column>
+const Column* find_column(const std::vector<Column>& columns, const std::string& name) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const Column& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool is_finite(const ParticleCell& cell) {
+  return is_finite(cell.a) && is_finite(cell.b) && is_finite(cell.c) && is_finite(cell.origin);
+}
+
+const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name) {
+  return find_column(frame.numbers, name);
+}
+
+const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name) {
+  return find_column(frame.texts, name);
+}
+
+}  // namespace boule

@@ -1,0 +1,157 @@
+#include "render/particle_file/table_head.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "render/particle_file/text_lines.h"
+#include "render/particle_file/text_number.h"
+#include "render/particle_file/text_pieces.h"
+#include "render/particle_file/text_rows.h"
+
+namespace boule {
+namespace {
+
+/// A line and where it is.
+struct PlacedLine {
+  std::string_view text;
+  std::size_t begin = 0;
+  std::uint64_t line = 0;
+};
+
+/// The first lines: some that are neither blank nor comments, and the last comment before them.
+struct FirstLines {
+  std::vector<PlacedLine> lines;
+  std::string_view comment;
+};
+
+FirstLines first_lines(std::string_view text) {
+  constexpr std::size_t enough = 10;
+  FirstLines found;
+  for (TextLines lines(text); !lines.at_end() && found.lines.size() < enough;) {
+    PlacedLine next{{}, lines.offset(), lines.line()};
+    next.text = lines.next();
+    if (!is_table_gap(next.text)) {
+      found.lines.push_back(next);
+    } else if (found.lines.empty() && !words_of(next.text).empty()) {
+      found.comment = next.text;
+    }
+  }
+  return found;
+}
+
+std::string_view without_blanks(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view without_comment_mark(std::string_view line) {
+  line = without_blanks(line);
+  while (!line.empty() && (line.front() == '#' || line.front() == '/')) line.remove_prefix(1);
+  return without_blanks(line);
+}
+
+/// True if all lines have the same number of columns between these, three at least. Tabs also
+/// align columns: then there are empty ones.
+bool separates(char separator, const std::vector<PlacedLine>& lines) {
+  const std::size_t count = split_table_line(lines.front().text, separator).size();
+  if (count < 3) return false;
+  return std::all_of(lines.begin(), lines.end(), [&](const PlacedLine& line) {
+    const auto columns = split_table_line(line.text, separator);
+    const bool aligned = separator == '\t' && std::count(columns.begin(), columns.end(), "") > 0;
+    return columns.size() == count && !aligned;
+  });
+}
+
+char separator_of(const std::vector<PlacedLine>& lines) {
+  for (const char separator : {'\t', ';', ','}) {
+    if (separates(separator, lines)) return separator;
+  }
+  for (const char separator : {';', ','}) {  // a row may be too short or too long
+    if (split_table_line(lines.front().text, separator).size() >= 3) return separator;
+  }
+  return 0;
+}
+
+std::size_t count_numbers(const std::vector<std::string_view>& columns) {
+  return static_cast<std::size_t>(
+      std::count_if(columns.begin(), columns.end(),
+                    [](std::string_view text) { return number_in(text).has_value(); }));
+}
+
+/// The names in a comment, if it has one for each of the columns: numpy.savetxt writes such.
+std::vector<std::string> names_in_comment(std::string_view comment, char separator,
+                                          std::size_t columns) {
+  const std::string_view text = without_comment_mark(comment);
+  for (const char between : {separator, ',', '\0'}) {
+    const auto names = split_table_line(text, between);
+    const auto has = [&](char axis) {
+      return std::any_of(names.begin(), names.end(), [axis](std::string_view name) {
+        return name.size() == 1 && (name[0] == axis || name[0] == axis - 'a' + 'A');
+      });
+    };
+    if (names.size() != columns || !has('x') || !has('y') || !has('z')) continue;
+    return {names.begin(), names.end()};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string_view> split_table_line(std::string_view line, char separator) {
+  std::vector<std::string_view> columns;
+  const auto is_between = [separator](char c) {
+    return separator == 0 ? is_blank(c) : c == separator;
+  };
+  std::size_t i = 0;
+  const auto skip_blanks = [&] {
+    while (i < line.size() && is_blank(line[i]) && line[i] != separator) ++i;
+  };
+  skip_blanks();
+  while (i < line.size() || (separator != 0 && !columns.empty())) {
+    if (separator == 0 && line[i] == '#') break;  // a comment
+    if (i < line.size() && line[i] == '"') {
+      const std::size_t end = std::min(line.find('"', i + 1), line.size());
+      columns.push_back(line.substr(i + 1, end - i - 1));
+      i = std::min(end + 1, line.size());
+      while (separator != 0 && i < line.size() && line[i] != separator) ++i;
+    } else {
+      const std::size_t begin = i;
+      while (i < line.size() && !is_between(line[i])) ++i;
+      columns.push_back(without_blanks(line.substr(begin, i - begin)));
+    }
+    if (separator != 0 && i == line.size()) break;
+    if (separator != 0) ++i;
+    skip_blanks();
+  }
+  return columns;
+}
+
+Result<TableHead> parse_table_head(std::string_view text) {
+  const FirstLines first = first_lines(text);
+  if (first.lines.empty()) return Diagnostic::of("it holds no rows");
+  TableHead head;
+  head.separator = separator_of(first.lines);
+  std::size_t row = 0;
+  head.first_row = split_table_line(first.lines[0].text, head.separator);
+  if (head.first_row.size() > most_text_columns) {
+    return error_at_line(first.lines[0].line, too_many_columns().message);
+  }
+  if (count_numbers(head.first_row) < 3) {
+    head.names.assign(head.first_row.begin(), head.first_row.end());
+    head.names_line = first.lines[0].line;
+    if (first.lines.size() == 1) {
+      return error_at_line(first.lines[0].line, "no rows follow the line that names the columns");
+    }
+    row = 1;
+    head.first_row = split_table_line(first.lines[1].text, head.separator);
+  } else {
+    head.names = names_in_comment(first.comment, head.separator, head.first_row.size());
+  }
+  head.begin = first.lines[row].begin;
+  head.line = first.lines[row].line;
+  return head;
+}
+
+}  // namespace boule
