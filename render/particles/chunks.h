@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/base/float_environment.h"
+#include "core/base/parallel.h"
+
+namespace boule {
+
+/// Into how many chunks a loop over so many particles is cut. It depends on nothing else, so what
+/// is put together chunk by chunk does not depend on the threads.
+inline constexpr std::size_t chunk_size = std::size_t{1} << 16;
+constexpr std::size_t chunks_of(std::size_t count) { return (count + chunk_size - 1) / chunk_size; }
+
+/// Calls body(chunk, begin, end) for all chunks of 0 .. count - 1, in the default float
+/// environment.
+template <class Body>
+void in_chunks(const ParallelFor& parallel_for, std::size_t count, const Body& body) {
+  parallel_for(chunks_of(count), [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const std::size_t begin = chunk * chunk_size;
+    body(chunk, begin, std::min(begin + chunk_size, count));
+  });
+}
+
+}  // namespace boule

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/scene/number_text.h"
+#include "render/particles/chunks.h"
+#include "render/particles/particle_colors.h"
+
+namespace boule {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+using Columns = std::array<ParticleNumbers, 3>;
+using Components = std::array<double, 3>;
+
+/// Calls body(particle, components) for all particles.
+template <class Body>
+void for_components(const ColoredFrame& colored, const Columns& columns, const Body& body) {
+  in_chunks(
+      colored.parallel_for, colored.frame.size(),
+      [&](std::size_t, std::size_t begin, std::size_t end) {
+        constexpr std::size_t block_size = 1024;
+        std::array<std::array<double, block_size>, 3> block;
+        for (; begin < end; begin += block_size) {
+          const std::size_t stop = std::min(begin + block_size, end);
+          for (std::size_t k = 0; k < 3; ++k) columns[k].read(begin, stop, block[k].data());
+          for (std::size_t i = begin; i < stop; ++i) {
+            body(i, Components{block[0][i - begin], block[1][i - begin], block[2][i - begin]});
+          }
+        }
+      });
+}
+
+bool is_part(double v) { return v >= 0 && v <= 1; }
+bool is_code(double v) { return v >= 0 && v <= 255 && v == std::floor(v); }
+
+/// The first particles whose components are not from 0 to 1, or not whole and from 0 to 255.
+struct Found {
+  std::size_t no_part = none, no_code = none;
+};
+
+Found check(const ColoredFrame& colored, const Columns& columns) {
+  std::vector<Found> found(chunks_of(colored.frame.size()));
+  for_components(colored, columns, [&](std::size_t i, const Components& components) {
+    Found& chunk = found[i / chunk_size];
+    for (const double v : components) {
+      if (!is_part(v)) chunk.no_part = std::min(chunk.no_part, i);
+      if (!is_code(v)) chunk.no_code = std::min(chunk.no_code, i);
+    }
+  });
+  Found all;
+  for (const Found& chunk : found) {
+    all.no_part = std::min(all.no_part, chunk.no_part);
+    all.no_code = std::min(all.no_code, chunk.no_code);
+  }
+  return all;
+}
+
+Diagnostic wrong_components(const ColoredFrame& colored, const Columns& columns,
+                            std::size_t particle) {
+  std::string text;
+  for (const ParticleNumbers& column : columns) {
+    text += (text.empty() ? "" : ", ") + number_text(column.at(particle));
+  }
+  return Diagnostic::about("color", "the colour of " + colored.name_of(particle) + " is " + text +
+                                        ", expected numbers from 0 to 1");
+}
+
+}  // namespace
+
+Result<ParticleMaterials> take_components(const ColoredFrame& colored,
+                                          const std::vector<std::string>& names) {
+  Columns columns{ParticleNumbers(0), ParticleNumbers(0), ParticleNumbers(0)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto found = find_particle_numbers(colored.frame, names[k], "color");
+    if (!found) return found.error();
+    columns[k] = std::move(found).value();
+  }
+  const Found found = check(colored, columns);
+  const bool codes = found.no_part != none;
+  if (codes && found.no_code != none) return wrong_components(colored, columns, found.no_part);
+  ParticleMaterials made;
+  made.values.resize(colored.frame.size());
+  const double scale = codes ? 1 : 255;
+  for_components(colored, columns, [&](std::size_t i, const Components& components) {
+    const auto code = [&](std::size_t k) {
+      return static_cast<std::uint8_t>(std::lround(components[k] * scale));
+    };
+    made.values[i] = colored.in({code(0), code(1), code(2)});
+  });
+  if (codes) {
+    made.notes.push_back("the columns " + quote(names[0]) + ", " + quote(names[1]) + " and " +
+                         quote(names[2]) + " are taken as codes from 0 to 255");
+  }
+  return made;
+}
+
+}  // namespace boule

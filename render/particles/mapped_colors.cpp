@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/scene/number_text.h"
+#include "render/particles/chunks.h"
+#include "render/particles/particle_colors.h"
+#include "render/particles/percentiles.h"
+
+namespace boule {
+namespace {
+
+/// Where a number lies between the ends of a range: 0 at the least, 1 at the largest.
+class Place {
+ public:
+  explicit Place(const std::array<double, 2>& range)
+      : least_(range[0]), width_(range[1] - range[0]), half_(range[1] / 2 - range[0] / 2) {}
+
+  [[nodiscard]] double operator()(double number) const {
+    return std::isfinite(width_) ? (number - least_) / width_ : (number / 2 - least_ / 2) / half_;
+  }
+
+ private:
+  double least_, width_, half_;
+};
+
+/// A range around what is the same for all particles.
+std::array<double, 2> range_around(double number) {
+  const double half = std::max(std::fabs(number), 1.0) / 2;
+  constexpr double most = std::numeric_limits<double>::max();
+  return {std::max(number - half, -most), std::min(number + half, most)};
+}
+
+std::array<double, 2> choose_range(const ColoredFrame& colored, const ParticleNumbers& numbers,
+                                   const std::string& by, std::vector<std::string>& notes) {
+  const std::string name = "the colours of " + quote(by);
+  if (colored.frame.size() == 0) return {0, 1};
+  auto range = percentiles(numbers, colored.frame.size(), colored.parallel_for);
+  if (!(range[0] < range[1])) {
+    notes.push_back(name + " are those of one number, " + number_text(range[0]));
+    return range_around(range[0]);
+  }
+  notes.push_back(name + " go from " + number_text(range[0]) + " to " + number_text(range[1]) +
+                  ", the 1st and 99th percentile");
+  return range;
+}
+
+}  // namespace
+
+Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedColors& mapped,
+                                      const std::string& key) {
+  const auto numbers = find_particle_numbers(colored.frame, mapped.by, key);
+  if (!numbers) return numbers.error();
+  ParticleMaterials made;
+  const std::array<double, 2> range =
+      mapped.range ? *mapped.range : choose_range(colored, numbers.value(), mapped.by, made.notes);
+  if (!(range[0] < range[1]) || !std::isfinite(range[0]) || !std::isfinite(range[1])) {
+    return Diagnostic::about("color.range", "expected two finite numbers, the larger one last");
+  }
+  made.colors.scale = {mapped.by, mapped.map, range};
+  made.values.resize(colored.frame.size());
+  const Place place(range);
+  in_chunks(colored.parallel_for, made.values.size(),
+            [&](std::size_t, std::size_t begin, std::size_t end) {
+              std::vector<double> block(end - begin);
+              numbers.value().read(begin, end, block.data());
+              for (std::size_t i = begin; i < end; ++i) {
+                made.values[i] = colored.in(mapped.map.color(place(block[i - begin])));
+              }
+            });
+  return made;
+}
+
+}  // namespace boule

@@ -1,0 +1,224 @@
+#include "render/particles/particle_radii.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/scene/number_text.h"
+#include "render/file/nearest_name.h"
+#include "render/particles/chunks.h"
+#include "render/particles/elements.h"
+#include "render/particles/particle_columns.h"
+#include "render/particles/typical_distance.h"
+
+namespace boule {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+const char* table_text(RadiusTable table) {
+  return table == RadiusTable::vdw ? "van der Waals radii" : "covalent radii";
+}
+
+/// The radius of a species in angstrom; 0 if the table has none.
+double table_radius(RadiusTable table, const std::string& species) {
+  const Element* const element = find_element(species);
+  if (element == nullptr) return 0;
+  return table == RadiusTable::vdw ? element->vdw : element->covalent;
+}
+
+/// Decides rules for one frame.
+class Decision {
+ public:
+  Decision(const ParticleFrame& frame, const ParallelFor& parallel_for)
+      : frame_(frame), parallel_for_(parallel_for) {}
+
+  Result<RadiusSource> operator()(double radius) const {
+    RadiusSource source;
+    source.all = radius;
+    source.text = "the same for all";
+    return source;
+  }
+
+  Result<RadiusSource> operator()(const RadiusColumn& column) const {
+    const auto found = find_particle_numbers(frame_, column.name, "radius");
+    if (!found) return found.error();
+    RadiusSource source = from_column(column.name, 1);
+    if (column.name == "diameter") {
+      source.notes.emplace_back("the column 'diameter' is taken as radii");
+    }
+    return source;
+  }
+
+  Result<RadiusSource> operator()(RadiusTable table) const {
+    if (!frame_.species) {
+      return Diagnostic::about(
+          "radius", std::string(table_text(table)) + " need elements, the file tells none");
+    }
+    return from_table(table);
+  }
+
+  Result<RadiusSource> operator()(std::monostate) const {
+    if (find_number_column(frame_, "radius") != nullptr) return from_column("radius", 1);
+    if (find_number_column(frame_, "diameter") != nullptr) return from_column("diameter", 0.5);
+    if (most_are_elements()) {
+      RadiusSource source = from_table(RadiusTable::vdw);
+      source.notes.push_back("the radii are " + source.text);
+      return source;
+    }
+    RadiusSource source;
+    source.all = typical_radius();
+    source.text = "half the typical distance to the nearest neighbour";
+    source.notes.push_back("the radius is " + source.text + ", " + number_text(source.all));
+    return source;
+  }
+
+ private:
+  static RadiusSource from_column(const std::string& name, double factor) {
+    RadiusSource source;
+    source.column = name;
+    source.factor = factor;
+    source.text =
+        std::string(factor == 1 ? "the column " : "half of the column ") + printable(name, 40);
+    return source;
+  }
+
+  RadiusSource from_table(RadiusTable table) const {
+    RadiusSource source;
+    const double unit = frame_.length_in_angstrom;
+    source.text = std::string(table_text(table)) + ", in " +
+                  (unit == 1    ? "angstrom"
+                   : unit == 10 ? "nm"
+                                : number_text(unit) + " angstrom");
+    std::vector<std::string_view> unknown;
+    for (const std::string& species : frame_.species->texts) {
+      source.by_species.push_back(table_radius(table, species) / unit);
+      if (source.by_species.back() == 0) unknown.push_back(species);
+    }
+    if (unknown.empty()) return source;
+    const double typical = typical_radius();
+    std::replace(source.by_species.begin(), source.by_species.end(), 0.0, typical);
+    source.notes.push_back("the table of " + std::string(table_text(table)) +
+                           " lacks the species " + short_list(unknown) + ": their radius is half" +
+                           " the typical distance to the nearest neighbour, " +
+                           number_text(typical));
+    return source;
+  }
+
+  static std::string short_list(std::vector<std::string_view> names) {
+    constexpr std::size_t most = 10;
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    if (more == 0) return list_names(names);
+    names.resize(most);
+    std::string list;
+    for (const std::string_view name : names) list += quote(name) + ", ";
+    return list + "and " + std::to_string(more) + " more";
+  }
+
+  /// Some may be none: the fourth point of water molecules, for instance.
+  [[nodiscard]] bool most_are_elements() const {
+    if (!frame_.species) return false;
+    std::vector<bool> is_element;
+    for (const std::string& text : frame_.species->texts) {
+      is_element.push_back(find_element(text) != nullptr);
+    }
+    const auto& indices = frame_.species->indices;
+    const auto elements =
+        std::count_if(indices.begin(), indices.end(), [&](auto i) { return is_element[i]; });
+    return static_cast<std::size_t>(elements) > frame_.size() / 2;
+  }
+
+  [[nodiscard]] double typical_radius() const {
+    const double distance = typical_distance(frame_.positions, parallel_for_);
+    return distance > 0 ? distance / 2 : 1;
+  }
+
+  const ParticleFrame& frame_;
+  const ParallelFor& parallel_for_;
+};
+
+bool is_radius(double radius) {
+  return radius > 0 && radius <= static_cast<double>(std::numeric_limits<float>::max()) &&
+         static_cast<float>(radius) > 0;
+}
+
+/// Why a radius cannot be used. `who` is "the radius" or "the radius of particle 3 of 10".
+Diagnostic wrong_radius(const std::string& who, double radius, double scale) {
+  if (!(radius > 0) || !std::isfinite(radius)) {
+    return Diagnostic::about(
+        "radius", who + " is " + number_text(radius) + ", expected a finite number above 0");
+  }
+  return Diagnostic::about(is_radius(radius) ? "scale" : "radius",
+                           who + " is " + number_text(radius * scale) + ", which is too " +
+                               (radius * scale < 1 ? "small" : "large") + " for a sphere");
+}
+
+ParticleRadii one_radius(double radius, bool is_used) {
+  return {{static_cast<float>(radius)}, is_used ? radius : 0};
+}
+
+/// The radii of a chunk; the first that cannot be used, and the least of the others.
+struct Chunk {
+  std::size_t wrong = none;
+  double smallest = std::numeric_limits<double>::infinity();
+};
+
+Result<ParticleRadii> radii_of(const ParticleNumbers& numbers, double factor, double scale,
+                               std::size_t count, const ParticleNamer& name_of,
+                               const ParallelFor& parallel_for) {
+  ParticleRadii radii;
+  radii.values.resize(count);
+  std::vector<Chunk> chunks(chunks_of(count));
+  in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    std::vector<double> block(end - begin);
+    numbers.read(begin, end, block.data());
+    Chunk found;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double radius = block[i - begin] * factor * scale;
+      if (is_radius(radius)) {
+        radii.values[i] = static_cast<float>(radius);
+        found.smallest = std::min(found.smallest, radius);
+      } else {
+        found.wrong = std::min(found.wrong, i);
+      }
+    }
+    chunks[chunk] = found;
+  });
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Chunk& chunk : chunks) {
+    if (chunk.wrong != none) {
+      return wrong_radius("the radius of " + name_of(chunk.wrong), numbers.at(chunk.wrong) * factor,
+                          scale);
+    }
+    smallest = std::min(smallest, chunk.smallest);
+  }
+  radii.smallest = count > 0 ? smallest : 0;
+  return radii;
+}
+
+}  // namespace
+
+Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const RadiusRule& rule,
+                                        const ParallelFor& parallel_for) {
+  return std::visit(Decision(frame, parallel_for), rule);
+}
+
+Result<ParticleRadii> make_radii(const ParticleFrame& frame, const RadiusSource& source,
+                                 double scale, const ParticleNamer& name_of,
+                                 const ParallelFor& parallel_for) {
+  if (source.column.empty() && source.by_species.empty()) {
+    if (!is_radius(source.all * scale)) return wrong_radius("the radius", source.all, scale);
+    return one_radius(source.all * scale, frame.size() > 0);
+  }
+  if (!source.column.empty()) {
+    const auto numbers = find_particle_numbers(frame, source.column, "radius");
+    if (!numbers) return numbers.error();
+    return radii_of(numbers.value(), source.factor, scale, frame.size(), name_of, parallel_for);
+  }
+  const ParticleNumbers numbers(*frame.species, source.by_species);
+  return radii_of(numbers, 1, scale, frame.size(), name_of, parallel_for);
+}
+
+}  // namespace boule

@@ -1,0 +1,212 @@
+#include "render/particles/particle_select.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "render/particle_file/text_number.h"
+#include "render/particles/chunks.h"
+#include "render/particles/particle_columns.h"
+#include "render/particles/select_expression.h"
+
+namespace boule {
+namespace {
+
+using Kind = SelectStep::Kind;
+constexpr std::size_t block_size = 2048;
+
+/// A step with its columns found. A comparison is of numbers, or it is an answer for each text.
+struct FoundStep {
+  Kind kind = Kind::compare;
+  Comparison comparison{};
+  std::optional<ParticleNumbers> left, right;
+  const std::uint32_t* texts = nullptr;
+  std::vector<std::uint8_t> answers;
+};
+
+template <class T>
+bool holds(Comparison comparison, const T& a, const T& b) {
+  switch (comparison) {
+    case Comparison::less:
+      return a < b;
+    case Comparison::less_equal:
+      return a <= b;
+    case Comparison::equal:
+      return a == b;
+    case Comparison::not_equal:
+      return a != b;
+    case Comparison::greater_equal:
+      return a >= b;
+    case Comparison::greater:
+      break;
+  }
+  return a > b;
+}
+
+/// Finds the columns of steps.
+class Finder {
+ public:
+  explicit Finder(const ParticleFrame& frame) : frame_(frame) {}
+
+  Result<FoundStep> find(const SelectStep& step) const {
+    FoundStep found;
+    found.kind = step.kind;
+    found.comparison = step.comparison;
+    if (step.kind != Kind::compare) return found;
+    const auto* const left_text = std::get_if<std::string>(&step.left);
+    const auto* const right_text = std::get_if<std::string>(&step.right);
+    if (left_text != nullptr) return find_texts(step, *left_text, step.right, found);
+    if (right_text != nullptr) return find_texts(step, *right_text, step.left, found);
+    auto right = numbers(step.right);
+    if (!right) return right.error();  // first: a species without quotes stands there
+    auto left = numbers(step.left);
+    if (!left) return left.error();
+    found.left = std::move(left).value();
+    found.right = std::move(right).value();
+    return found;
+  }
+
+ private:
+  static Diagnostic error_at(std::size_t place, const std::string& message) {
+    return Diagnostic::about("select", message + " (character " + std::to_string(place) + ")");
+  }
+
+  Result<ParticleNumbers> numbers(const SelectValue& value) const {
+    if (const auto* const number = std::get_if<double>(&value)) return ParticleNumbers(*number);
+    const auto& [name, place] = std::get<ColumnName>(value);
+    auto found = find_particle_numbers(frame_, name, "select");
+    if (found) return found;
+    if (find_particle_texts(frame_, name) != nullptr) {
+      return error_at(place,
+                      "the column " + quote(name) + " is of texts, compare it with one in quotes");
+    }
+    const bool is_text = frame_.species && std::count(frame_.species->texts.begin(),
+                                                      frame_.species->texts.end(), name) > 0;
+    return error_at(place, is_text
+                               ? "there is no column " + quote(name) + "; species stand in quotes"
+                               : found.error().message);
+  }
+
+  Result<FoundStep> find_texts(const SelectStep& step, const std::string& text,
+                               const SelectValue& other, FoundStep found) const {
+    const auto* const column = std::get_if<ColumnName>(&other);
+    if (column == nullptr) return error_at(step.place, "a text can only be compared with a column");
+    const TextColumn* const texts = find_particle_texts(frame_, column->name);
+    if (texts == nullptr) {
+      const auto numbers = find_particle_numbers(frame_, column->name, "select");
+      return error_at(column->place, numbers ? "the column " + quote(column->name) +
+                                                   " is of numbers, compare it with one"
+                                             : numbers.error().message);
+    }
+    if (step.comparison != Comparison::equal && step.comparison != Comparison::not_equal) {
+      return error_at(step.place, "texts are only compared by == and !=");
+    }
+    found.texts = texts->indices.data();
+    for (const std::string& one : texts->texts) {
+      found.answers.push_back(holds(step.comparison, one, text) ? 1 : 0);
+    }
+    return found;
+  }
+
+  const ParticleFrame& frame_;
+};
+
+/// The stack of answers for one block of particles.
+class Block {
+ public:
+  explicit Block(std::size_t depth)
+      : answers_(depth * block_size), left_(block_size), right_(block_size) {}
+
+  /// The answers of all steps for particles begin .. end - 1.
+  const std::uint8_t* run(const std::vector<FoundStep>& steps, std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    std::uint8_t* top = answers_.data();
+    for (const FoundStep& step : steps) {
+      std::uint8_t* const last = top - block_size;
+      if (step.kind == Kind::compare) {
+        compare(step, begin, end, top);
+        top += block_size;
+      } else if (step.kind == Kind::negate) {
+        for (std::size_t i = 0; i < count; ++i) last[i] ^= 1U;
+      } else {
+        std::uint8_t* const other = last - block_size;
+        for (std::size_t i = 0; i < count; ++i) {
+          other[i] = step.kind == Kind::both ? other[i] & last[i] : other[i] | last[i];
+        }
+        top = last;
+      }
+    }
+    return answers_.data();
+  }
+
+ private:
+  void compare(const FoundStep& step, std::size_t begin, std::size_t end, std::uint8_t* out) {
+    const std::size_t count = end - begin;
+    if (step.texts != nullptr) {
+      for (std::size_t i = 0; i < count; ++i) out[i] = step.answers[step.texts[begin + i]];
+      return;
+    }
+    step.left->read(begin, end, left_.data());
+    step.right->read(begin, end, right_.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      out[i] = holds(step.comparison, left_[i], right_[i]) ? 1 : 0;
+    }
+  }
+
+  std::vector<std::uint8_t> answers_;
+  std::vector<double> left_, right_;
+};
+
+template <class T>
+void keep(std::vector<T>& values, const std::vector<std::uint8_t>& selected) {
+  if (values.size() != selected.size()) return;  // columns that a reader leaves empty
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[kept] = values[i];
+    kept += selected[i];
+  }
+  values.resize(kept);
+  if (kept < values.capacity() / 2) values.shrink_to_fit();
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> select_particles(const ParticleFrame& frame,
+                                                   const std::string& select,
+                                                   const ParallelFor& parallel_for) {
+  auto expression = parse_select(select, "select");
+  if (!expression) return expression.error();
+  std::vector<FoundStep> steps;
+  for (const SelectStep& step : expression.value().steps) {
+    auto found = Finder(frame).find(step);
+    if (!found) return found.error();
+    steps.push_back(std::move(found).value());
+  }
+  std::vector<std::uint8_t> selected(frame.size());
+  const std::size_t depth = expression.value().depth();
+  in_chunks(parallel_for, frame.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    Block block(depth);
+    for (; begin < end; begin += block_size) {
+      const std::size_t stop = std::min(begin + block_size, end);
+      std::copy_n(block.run(steps, begin, stop), stop - begin, selected.data() + begin);
+    }
+  });
+  return selected;
+}
+
+void keep_particles(ParticleFrame& frame, const std::vector<std::uint8_t>& selected,
+                    const ParallelFor& parallel_for) {
+  std::vector<std::function<void()>> lists{[&] { keep(frame.positions, selected); }};
+  for (NumberColumn& column : frame.numbers) {
+    lists.emplace_back([&] { keep(column.values, selected); });
+  }
+  for (TextColumn& column : frame.texts) {
+    lists.emplace_back([&] { keep(column.indices, selected); });
+  }
+  if (frame.species) lists.emplace_back([&] { keep(frame.species->indices, selected); });
+  parallel_for(lists.size(), [&](std::size_t i) { lists[i](); });
+}
+
+}  // namespace boule

@@ -1,0 +1,232 @@
+#include "render/particles/particle_spheres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/float_environment.h"
+#include "core/scene/scene.h"
+#include "render/file/sphere_room.h"
+#include "render/memory/available_memory.h"
+#include "render/memory/scene_memory.h"
+#include "render/particles/chunks.h"
+#include "render/particles/particle_colors.h"
+#include "render/particles/particle_columns.h"
+#include "render/particles/particle_radii.h"
+#include "render/particles/particle_select.h"
+
+namespace boule {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+/// The product of the counts, or the first number above the most spheres if it is larger.
+std::uint64_t count_images(const std::array<int, 3>& counts) {
+  std::uint64_t images = 1;
+  for (const int count : counts) {
+    images = std::min<std::uint64_t>(images * static_cast<std::uint64_t>(count),
+                                     std::uint64_t{max_primitives} + 1);
+  }
+  return images;
+}
+
+Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
+                  std::vector<std::string>& notes) {
+  const bool replicates = count_images(style.replicate) > 1;
+  if (!frame.cell) {
+    if (style.wrap) return Diagnostic::about("wrap", "the file tells no cell to wrap into");
+    if (replicates) return Diagnostic::about("replicate", "the file tells no cell to replicate");
+    return std::nullopt;
+  }
+  const ParticleCell& cell = *frame.cell;
+  const std::array<Vec3d, 3> vectors{cell.a, cell.b, cell.c};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (style.replicate[k] == 1) continue;
+    const std::string name(1, "abc"[k]);
+    if (vectors[k] == Vec3d{}) {
+      return Diagnostic::about("replicate", "the file's cell has no vector " + name);
+    }
+    if (!cell.periodic[k]) {
+      notes.push_back("the file's cell is not periodic along " + name +
+                      ", but is replicated along it");
+    }
+  }
+  if (style.wrap && cell.periodic == std::array<bool, 3>{}) {
+    notes.emplace_back("the file's cell is not periodic, so nothing is wrapped into it");
+  }
+  return std::nullopt;
+}
+
+Status check_style(const ParticleStyle& style) {
+  if (!(style.scale > 0) || !std::isfinite(style.scale)) {
+    return Diagnostic::about("scale", "expected a finite number above 0");
+  }
+  for (const int count : style.replicate) {
+    if (count < 1) return Diagnostic::about("replicate", "expected three numbers from 1 on");
+  }
+  return std::nullopt;
+}
+
+/// Whether the spheres, and what is kept to make them, fit into memory and ids.
+Status check_room(std::size_t particles, const ParticleStyle& style) {
+  const std::uint64_t images = count_images(style.replicate);
+  const std::string key = images > 1 ? "replicate" : "file";
+  if (particles > 0 && images > max_primitives / particles) {
+    return Diagnostic::about(key, "more than " + std::to_string(max_primitives) + " spheres");
+  }
+  constexpr std::uint64_t kept = sizeof(float) + sizeof(MaterialRef);
+  const std::uint64_t spheres = images * particles;
+  return check_memory(bytes_of_spheres(spheres) + kept * particles,
+                      std::to_string(spheres) + " spheres need", key);
+}
+
+/// The place in a frame of the particle that is at `shown` among those that are selected.
+std::size_t place_of(std::size_t shown, const std::vector<std::uint8_t>& selected) {
+  if (selected.empty()) return shown;
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    if (selected[i] != 0 && shown-- == 0) return i;
+  }
+  return selected.size();
+}
+
+std::array<Vec3d, 2> bounds_of(const std::vector<Vec3d>& positions,
+                               const ParallelFor& parallel_for) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const std::array<Vec3d, 2> empty{Vec3d{inf, inf, inf}, Vec3d{-inf, -inf, -inf}};
+  const auto extend = [](std::array<Vec3d, 2>& box, const Vec3d& low, const Vec3d& high) {
+    for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      box[0].*axis = std::min(box[0].*axis, low.*axis);
+      box[1].*axis = std::max(box[1].*axis, high.*axis);
+    }
+  };
+  std::vector<std::array<Vec3d, 2>> boxes(chunks_of(positions.size()), empty);
+  in_chunks(parallel_for, positions.size(),
+            [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+              std::array<Vec3d, 2> box = empty;
+              for (std::size_t i = begin; i < end; ++i) extend(box, positions[i], positions[i]);
+              boxes[chunk] = box;
+            });
+  if (boxes.empty()) return {};
+  std::array<Vec3d, 2> all = empty;
+  for (const auto& [low, high] : boxes) extend(all, low, high);
+  return all;
+}
+
+/// The box of all images of a box: each shift is that of a corner of the images' own box.
+std::array<Vec3d, 2> bounds_of_images(const std::array<Vec3d, 2>& box, const ParticleCell& cell,
+                                      const std::array<int, 3>& counts) {
+  std::array<Vec3d, 2> all = box;
+  const std::array<Vec3d, 3> vectors{cell.a, cell.b, cell.c};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d farthest = vectors[k] * static_cast<double>(counts[k] - 1);
+    for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      all[farthest.*axis < 0 ? 0 : 1].*axis += farthest.*axis;
+    }
+  }
+  return all;
+}
+
+void append(std::vector<std::string>& notes, std::vector<std::string> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(notes));
+}
+
+/// The frame without the particles that are not selected; returns which were, or nothing for all.
+Result<std::vector<std::uint8_t>> apply_select(ParticleFrame& frame, const std::string& select,
+                                               const ParallelFor& parallel_for) {
+  if (select.empty()) return std::vector<std::uint8_t>();
+  if (auto full = check_memory(frame.size(), "selecting particles needs", "select")) return *full;
+  const std::size_t count = frame.size();
+  auto selected = select_particles(frame, select, parallel_for);
+  if (!selected) return selected;
+  keep_particles(frame, selected.value(), parallel_for);
+  if (frame.positions.empty() && count > 0) {
+    frame.notes.push_back("none of " + std::to_string(count) + " particles meets the selection");
+  }
+  return selected;
+}
+
+}  // namespace
+
+Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame frame, const ParticleStyle& style,
+                                              const ParallelFor& parallel_for) {
+  const FloatEnvironment environment;
+  const std::size_t count = frame.size();
+  if (auto wrong = check_style(style)) return *std::move(wrong);
+  if (auto wrong = check_cell(frame, style, frame.notes)) return *std::move(wrong);
+  auto source = find_radius_source(frame, style.radius, parallel_for);
+  if (!source) return source.error();
+  auto selected = apply_select(frame, style.select, parallel_for);
+  if (!selected) return selected.error();
+  if (auto full = check_room(frame.size(), style)) return *std::move(full);
+  const ParticleNamer name_of = [&](std::size_t shown) {
+    return particle_text(place_of(shown, selected.value()), count);
+  };
+  auto radii = make_radii(frame, source.value(), style.scale, name_of, parallel_for);
+  if (!radii) return radii.error();
+  auto materials = make_materials(frame, style, name_of, parallel_for);
+  if (!materials) return materials.error();
+
+  ParticleSpheres made;
+  if (style.wrap) {
+    if (auto wrong = wrap_into(*frame.cell, frame.positions, parallel_for)) {
+      return *std::move(wrong);
+    }
+  }
+  made.bounds_ = bounds_of(frame.positions, parallel_for);
+  if (count_images(style.replicate) > 1) {
+    made.images_ = CellImages(*frame.cell, style.replicate);
+    if (!frame.positions.empty()) {
+      made.bounds_ = bounds_of_images(made.bounds_, *frame.cell, style.replicate);
+    }
+  }
+  made.positions_ = std::move(frame.positions);
+  made.radii_ = std::move(radii.value().values);
+  made.smallest_radius_ = radii.value().smallest;
+  made.materials_ = std::move(materials.value().values);
+  made.colors_ = std::move(materials.value().colors);
+  made.radius_source_ = std::move(source.value().text);
+  made.cell_ = frame.cell;
+  made.notes_ = std::move(frame.notes);
+  append(made.notes_, std::move(source.value().notes));
+  append(made.notes_, std::move(materials.value().notes));
+  return made;
+}
+
+Status ParticleSpheres::append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                                  const ParallelFor& parallel_for) const {
+  const FloatEnvironment environment;
+  const std::string key = images_.size() > 1 ? "replicate" : "file";
+  if (auto full =
+          check_memory(bytes_of_spheres(size()), std::to_string(size()) + " spheres need", key)) {
+    return full;
+  }
+  const std::size_t first = spheres.size();
+  make_room(spheres, size());
+  spheres.resize(first + size());
+  const std::size_t radius_step = radii_.size() > 1 ? 1 : 0;
+  const std::size_t material_step = materials_.size() > 1 ? 1 : 0;
+  std::vector<std::size_t> wrong(chunks_of(size()), none);
+  in_chunks(parallel_for, size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    std::size_t image = begin / positions_.size(), i = begin % positions_.size();
+    Vec3d shift = images_.shift(image);
+    for (std::size_t n = begin; n < end; ++n, ++i) {
+      if (i == positions_.size()) {
+        i = 0;
+        shift = images_.shift(++image);
+      }
+      // The shift last: what is far from zero has no digits left for it.
+      const Vec3d center = (positions_[i] - origin) + shift;
+      spheres[first + n] = {vec_cast<float>(center), radii_[i * radius_step],
+                            materials_[i * material_step]};
+      if (!is_valid(spheres[first + n])) wrong[chunk] = std::min(wrong[chunk], i);
+    }
+  });
+  const std::size_t least = wrong.empty() ? none : *std::min_element(wrong.begin(), wrong.end());
+  if (least == none) return std::nullopt;
+  spheres.resize(first);
+  return Diagnostic::about(key, "the position of " + particle_text(least, positions_.size()) +
+                                    " is too far from the origin for a sphere");
+}
+
+}  // namespace boule

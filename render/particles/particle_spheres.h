@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/math/srgb.h"
+#include "core/math/vec.h"
+#include "core/scene/material_ref.h"
+#include "core/scene/primitive.h"
+#include "render/particle_file/particle_frame.h"
+#include "render/particles/cell_images.h"
+#include "render/particles/color_meaning.h"
+#include "render/particles/particle_style.h"
+
+namespace boule {
+
+/// The spheres of one frame, before they are rounded: which particles are shown, their images,
+/// radii and colours.
+class ParticleSpheres {
+ public:
+  /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
+  /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "wrap",
+  /// "replicate"): an unknown column (with the one that was meant, if any), a radius that is not
+  /// above 0 or not finite with its particle (from 1, in the order of the frame), no cell to wrap
+  /// into, more spheres than there is memory for or than ids allow. Throws std::bad_alloc. The
+  /// same for any threads.
+  static Result<ParticleSpheres> make(ParticleFrame frame, const ParticleStyle& style,
+                                      const ParallelFor& parallel_for = serial_for);
+
+  /// Spheres, images included.
+  [[nodiscard]] std::size_t size() const { return positions_.size() * images_.size(); }
+
+  /// The smallest box of the spheres' centres; two equal corners where there are none.
+  [[nodiscard]] const std::array<Vec3d, 2>& center_bounds() const { return bounds_; }
+  /// 0 where there are no spheres.
+  [[nodiscard]] double smallest_radius() const { return smallest_radius_; }
+  [[nodiscard]] const ParticleColors& colors() const { return colors_; }
+  /// How radii were chosen: "the column radius", "van der Waals radii, in angstrom", ...
+  [[nodiscard]] const std::string& radius_source() const { return radius_source_; }
+  [[nodiscard]] const std::optional<ParticleCell>& cell() const { return cell_; }
+  /// What was decided for the user, a sentence each; the frame's own are among them.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+  /// Appends the spheres: `origin` is subtracted in double, then all is rounded to float, once.
+  /// The particles come in the order of the file, all of one image before those of the next
+  /// (CellImages). An error, and no sphere more, if a centre is too large for a float or there is
+  /// no memory.
+  Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                   const ParallelFor& parallel_for = serial_for) const;
+
+ private:
+  std::vector<Vec3d> positions_;  ///< of the particles that are shown
+  /// Of each of them, or one for all.
+  std::vector<float> radii_;
+  std::vector<MaterialRef> materials_;
+  CellImages images_;
+  std::array<Vec3d, 2> bounds_{};
+  double smallest_radius_ = 0;
+  ParticleColors colors_;
+  std::string radius_source_;
+  std::optional<ParticleCell> cell_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace boule

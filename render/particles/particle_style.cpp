@@ -1,0 +1,54 @@
+#include "render/particles/particle_style.h"
+
+#include <algorithm>
+
+#include "render/particles/particle_columns.h"
+#include "render/particles/select_expression.h"
+
+namespace boule {
+namespace {
+
+void add_radius_columns(const RadiusRule& rule, std::vector<std::string>& names) {
+  if (std::holds_alternative<std::monostate>(rule)) {
+    names.insert(names.end(), {"radius", "diameter"});
+  } else if (const auto* const column = std::get_if<RadiusColumn>(&rule)) {
+    add_column_names(column->name, names);
+  }
+}
+
+void add_color_columns(const ColorRule& rule, std::vector<std::string>& names) {
+  if (std::holds_alternative<std::monostate>(rule)) {
+    names.insert(names.end(), {"color", "red", "green", "blue"});
+  } else if (const auto* const columns = std::get_if<ColorColumns>(&rule)) {
+    for (const std::string& name : columns->names) add_column_names(name, names);
+  } else if (const auto* const mapped = std::get_if<MappedColors>(&rule)) {
+    add_column_names(mapped->by, names);
+  }
+}
+
+/// None of an expression that cannot be read: ParticleSpheres tells what is wrong.
+void add_select_columns(const std::string& select, std::vector<std::string>& names) {
+  if (select.empty()) return;
+  const auto expression = parse_select(select, "select");
+  if (!expression) return;
+  for (const SelectStep& step : expression.value().steps) {
+    for (const SelectValue* const value : {&step.left, &step.right}) {
+      const auto* const column = std::get_if<ColumnName>(value);
+      if (column != nullptr) add_column_names(column->name, names);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> columns_of(const ParticleStyle& style) {
+  std::vector<std::string> names;
+  add_radius_columns(style.radius, names);
+  add_color_columns(style.color, names);
+  add_select_columns(style.select, names);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace boule
