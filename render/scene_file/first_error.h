@@ -28,6 +28,11 @@ class FirstError {
                          .column = place.column};
   }
 
+  /// Reports an error of another file, which it names.
+  void report(const Diagnostic& error) {
+    if (!status_) status_ = error;
+  }
+
   /// The file the errors are about.
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] std::optional<int> frame() const { return frame_; }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "render/scene_file/float32.h"
-#include "render/scene_file/input_file.h"
+#include "render/file/float32.h"
+#include "render/file/input_file.h"
 
 namespace boule {
 namespace {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "render/scene_file/float32.h"
+#include "render/file/float32.h"
 
 namespace boule {
 namespace {

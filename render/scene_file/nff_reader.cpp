@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
+#include "render/file/sphere_room.h"
 #include "render/scene_file/nff_camera.h"
 #include "render/scene_file/nff_cursor.h"
 #include "render/scene_file/nff_polygon.h"
-#include "render/scene_file/sphere_room.h"
 
 namespace boule {
 namespace {

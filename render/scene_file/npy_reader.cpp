@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/file/float32.h"
+#include "render/file/input_file.h"
+#include "render/file/npy_header.h"
+#include "render/file/npy_rows.h"
+#include "render/file/sphere_room.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
-#include "render/scene_file/float32.h"
-#include "render/scene_file/input_file.h"
-#include "render/scene_file/npy_header.h"
-#include "render/scene_file/npy_rows.h"
-#include "render/scene_file/sphere_room.h"
 
 namespace boule {
 namespace {
@@ -27,7 +27,10 @@ struct RowLayout {
 Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& request,
                                std::uint64_t file_size) {
   const bool has_radius = request.radius.has_value();
-  if (auto bad = check_npy_elements(header)) return *bad;
+  if (auto bad = check_npy_elements(header)) {
+    if (!header.fields.empty()) bad->message += ": [[particles]] reads it";
+    return *bad;
+  }
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
@@ -69,10 +72,14 @@ class RowDecoder {
   template <class Number>
   bool append_all(const unsigned char* rows, std::size_t count,
                   std::vector<Sphere>& spheres) const {
-    return layout_.columns == 4 ? append_all<Number, 4>(rows, count, spheres)
-                                : append_all<Number, 3>(rows, count, spheres);
+    if (!(request_.origin == Vec3d{})) {
+      return layout_.columns == 4 ? append_all<Number, 4, true>(rows, count, spheres)
+                                  : append_all<Number, 3, true>(rows, count, spheres);
+    }
+    return layout_.columns == 4 ? append_all<Number, 4, false>(rows, count, spheres)
+                                : append_all<Number, 3, false>(rows, count, spheres);
   }
-  template <class Number, std::size_t columns>
+  template <class Number, std::size_t columns, bool has_origin>
   bool append_all(const unsigned char* rows, std::size_t count, std::vector<Sphere>& spheres) const;
   Status explain(const unsigned char* rows, std::uint64_t first, std::size_t count) const;
   std::optional<std::string> find_problem_in(const unsigned char* row) const;
@@ -82,16 +89,23 @@ class RowDecoder {
 };
 
 /// Appends rows of one kind; true if all are valid. If not, RowDecoder::explain() finds out why.
-template <class Number, std::size_t columns>
+template <class Number, std::size_t columns, bool has_origin>
 bool RowDecoder::append_all(const unsigned char* rows, std::size_t count,
                             std::vector<Sphere>& spheres) const {
   const float common_radius = request_.radius.value_or(0);
-  const std::uint32_t material = request_.material;
+  const MaterialRef material = request_.material;
+  const Vec3d& o = request_.origin;
+  const double origin[4] = {o.x, o.y, o.z, 0};
   bool all_valid = true;
   for (std::size_t row = 0; row < count; ++row, rows += columns * sizeof(Number)) {
     float numbers[4] = {0, 0, 0, common_radius};
     for (std::size_t i = 0; i < columns; ++i) {
-      numbers[i] = float32_or_nan(npy_number<Number>(rows + i * sizeof(Number)));
+      const Number number = npy_number<Number>(rows + i * sizeof(Number));
+      if constexpr (has_origin) {
+        numbers[i] = float32_or_nan(double{number} - origin[i]);
+      } else {
+        numbers[i] = float32_or_nan(number);
+      }
     }
     const Sphere sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3], material};
     all_valid &= is_valid(sphere);
@@ -114,11 +128,14 @@ Status RowDecoder::explain(const unsigned char* rows, std::uint64_t first,
 /// What is wrong with the sphere of one row, in words.
 std::optional<std::string> RowDecoder::find_problem_in(const unsigned char* row) const {
   constexpr const char* names[] = {"center x", "center y", "center z", "radius"};
+  const Vec3d& o = request_.origin;
+  const double origin[4] = {o.x, o.y, o.z, 0};
   float numbers[4] = {0, 0, 0, request_.radius.value_or(0)};
   for (std::size_t i = 0; i < layout_.columns; ++i) {
     const unsigned char* bytes = row + i * layout_.width;
-    const auto number = to_float32(layout_.width == 8 ? npy_number<double>(bytes)
-                                                      : double{npy_number<float>(bytes)});
+    const double read =
+        layout_.width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
+    const auto number = to_float32(read - origin[i]);
     if (!number) return std::string(names[i]) + " is too large for a 32-bit float";
     numbers[i] = *number;
   }

@@ -14,8 +14,9 @@ namespace boule {
 struct NpySpheres {
   std::string path;
   std::optional<float> radius;  ///< above 0; required for N x 3, refused for N x 4
-  std::uint32_t material = 0;   ///< of all of them
+  MaterialRef material;         ///< of all of them
   bool is_scene = false;        ///< the file is the whole scene: no key can give a radius
+  Vec3d origin{};               ///< subtracted from the centres before they are rounded
 };
 
 /// Appends the file's spheres: little-endian float32 or float64, C order, each number rounded to

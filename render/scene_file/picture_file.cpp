@@ -1,6 +1,6 @@
 #include "render/scene_file/picture_file.h"
 
-#include "render/scene_file/input_file.h"
+#include "render/file/input_file.h"
 
 namespace boule {
 

@@ -7,10 +7,11 @@
 
 #include "core/base/ascii.h"
 #include "core/base/float_environment.h"
+#include "render/file/input_file.h"
 #include "render/memory/scene_memory.h"
-#include "render/scene_file/input_file.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
+#include "render/scene_file/particle_file_cache.h"
 #include "render/scene_file/toml_reader.h"
 
 namespace boule {
@@ -27,7 +28,7 @@ bool has_extension(std::string_view path, std::string_view extension) {
 Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOptions& options) {
   const auto text = read_text(path);
   if (!text) return text.error();
-  return has_extension(path, ".toml") ? read_toml(text.value(), path, options.frame)
+  return has_extension(path, ".toml") ? read_toml(text.value(), path, options)
                                       : read_nff(text.value(), path, options.polygons);
 }
 
@@ -52,27 +53,40 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
     return Diagnostic::in_file(
         path, "not a scene file by its name, expected an extension .toml, .nff or .npy");
   }
-  auto loaded = is_npy ? read_npy_scene(path) : read_text_scene(path, options);
-  if (!loaded) return loaded;
-  if (auto too_large = check_scene_memory(loaded.value().scene)) {
-    too_large->file = path;
-    return *too_large;
-  }
-  return loaded;
+  return is_npy ? read_npy_scene(path) : read_text_scene(path, options);
 }
 
-}  // namespace
-
-Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
+/// Calls `read`, and refuses what does not fit into memory.
+template <class Read>
+Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions& options,
+                                 const Read& read) {
   const FloatEnvironment environment;
   const auto too_large = Diagnostic::in_file(path, "needs more memory than there is");
   try {
-    return load(path, options);
+    Result<LoadedScene> loaded = read();
+    if (options.particle_files != nullptr) options.particle_files->close_unused();
+    if (!loaded) return loaded;
+    if (auto bad = check_scene_memory(loaded.value().scene)) {
+      bad->file = path;
+      return *bad;
+    }
+    return loaded;
   } catch (const std::bad_alloc&) {
     return too_large;
   } catch (const std::length_error&) {  // more spheres than a vector can have
     return too_large;
   }
+}
+
+}  // namespace
+
+Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
+  return load_checked(path, options, [&] { return load(path, options); });
+}
+
+Result<LoadedScene> load_scene_text(const std::string& toml, const std::string& shown_path,
+                                    const SceneFileOptions& options) {
+  return load_checked(shown_path, options, [&] { return read_toml(toml, shown_path, options); });
 }
 
 }  // namespace boule

@@ -59,7 +59,7 @@ void read_focus(TomlTable& table, Kind& camera) {
     return;
   }
   Vec3f point;
-  table.read("focus", point);
+  table.read_point("focus", point);
   if (!table.has("eye") || !table.has("look_at")) return;  // finish() reports it
   table.check(first_problem(camera.pose));                 // without a view there is no depth
   const double depth = depth_of(camera.pose, point);
@@ -118,7 +118,7 @@ DistortionMap map_of(const Image& image) {
   return map;
 }
 
-DistortionMap read_distortion(TomlTable table) {
+DistortionMap read_map(TomlTable table) {
   std::string name;
   table.read_file_name("file", name);
   table.finish({"file"});
@@ -137,13 +137,39 @@ DistortionMap read_distortion(TomlTable table) {
 
 }  // namespace
 
-Camera read_camera(TomlTable& table, std::optional<DistortionMap>& distortion) {
-  std::optional<TomlTable> distorted = table.table("distortion");
-  table.has("key");  // makes it known: apply_camera_keys() has read these tables
+Camera read_camera(TomlTable& table) {
+  table.has("distortion");  // makes it known: it has a reader of its own
+  table.has("key");         // likewise: apply_camera_keys() has read these tables
+  table.has("fit");         // is false
   Camera camera = read_kind<Camera>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
   table.check(find_problem(camera));
-  if (distorted) distortion = read_distortion(std::move(*distorted));
   return camera;
+}
+
+std::optional<CameraFit> read_camera_fit(TomlTable& table) {
+  bool is_fitted = false;
+  table.read("fit", is_fitted);
+  if (!is_fitted) return std::nullopt;
+  for (const char* key : {"eye", "look_at", "key"}) {
+    if (table.has(key)) table.report(key, "cannot stand beside 'fit'");
+  }
+  table.has("distortion");
+  CameraFit fit;
+  read_fields(table, fit);
+  if (fit.type == FittedCamera::orthographic) {
+    for (const char* key : {"fov", "fov_axis"}) {
+      if (table.has(key)) table.report(key, "an orthographic camera has none");
+    }
+  }
+  table.finish();
+  table.check(find_problem(fit));
+  return fit;
+}
+
+std::optional<DistortionMap> read_distortion(TomlTable& camera) {
+  std::optional<TomlTable> table = camera.table("distortion");
+  if (!table) return std::nullopt;
+  return read_map(std::move(*table));
 }
 
 }  // namespace boule

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/math/vec.h"
+#include "render/file/float32.h"
 
 namespace boule {
 namespace {
 
-void add(CameraTrack& track, double frame, const Vec3f& value, TextPlace place) {
-  const Vec3d v = vec_cast<double>(value);
+void add(CameraTrack& track, double frame, const Vec3d& v, TextPlace place) {
   track.values[0].push_back({frame, v.x});
   track.values[1].push_back({frame, v.y});
   track.values[2].push_back({frame, v.z});
@@ -53,7 +53,7 @@ class CameraKeys {
     for (CameraTrack& track : motion_.tracks) {
       if (!table.has(track.key)) continue;
       any = true;
-      Vec3f value;
+      Vec3d value;
       track.components == 3 ? table.read(track.key, value) : table.read(track.key, value.x);
       add(track, frame, value, table.place_of(track.key));
     }
@@ -83,26 +83,27 @@ TomlMember member_of(const CameraTrack& track, double frame) {
   return {std::string(track.key), place, std::move(value)};
 }
 
-float number_at(const CameraTrack& track, std::size_t component, double frame) {
-  return static_cast<float>(monotone_cubic(track.values[component], frame));
-}
-
-void move(Vec3f& point, const CameraTrack& track, double frame) {
+/// `origin` is subtracted from the point.
+void move(Vec3f& point, const CameraTrack& track, double frame, const Vec3d& origin) {
   if (track.places.empty()) return;
-  point = {number_at(track, 0, frame), number_at(track, 1, frame), number_at(track, 2, frame)};
+  const Vec3d at{monotone_cubic(track.values[0], frame), monotone_cubic(track.values[1], frame),
+                 monotone_cubic(track.values[2], frame)};
+  const Vec3d moved = at - origin;
+  point = {float32_or_inf(moved.x), float32_or_inf(moved.y), float32_or_inf(moved.z)};
 }
 
 void move(float& number, const CameraTrack& track, double frame) {
-  if (!track.places.empty()) number = number_at(track, 0, frame);
+  if (track.places.empty()) return;
+  number = float32_or_inf(monotone_cubic(track.values[0], frame));
 }
 
 /// The first Problem of a camera at a frame; `sharp` is the point that it keeps in focus.
 std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame, Camera camera,
-                                       const std::optional<Vec3f>& sharp) {
+                                       const Vec3d& origin, const std::optional<Vec3f>& sharp) {
   const auto move_it = [&](auto& kind) {
     const auto& [eye, look_at, fov, aperture, focus] = motion.tracks;
-    move(kind.pose.eye, eye, frame);
-    move(kind.pose.look_at, look_at, frame);
+    move(kind.pose.eye, eye, frame, origin);
+    move(kind.pose.look_at, look_at, frame, origin);
     if constexpr (requires { kind.fov; }) move(kind.fov, fov, frame);
     if constexpr (requires { kind.aperture; }) move(kind.aperture, aperture, frame);
     if constexpr (requires { kind.focus; }) {
@@ -146,10 +147,10 @@ std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<i
 
 void check_camera_keys(const CameraMotion& motion, const Camera& camera, TomlTable& table) {
   std::optional<Vec3f> sharp;
-  if (table.has_array("focus")) table.read("focus", sharp.emplace());
+  if (table.has_array("focus")) table.read_point("focus", sharp.emplace());
   const Camera light = without_elements(camera, motion);
   for (const int frame : motion.frames) {
-    const auto problem = find_problem_at(motion, frame, light, sharp);
+    const auto problem = find_problem_at(motion, frame, light, table.origin(), sharp);
     if (!problem) continue;
     const std::string_view field = problem->field;
     TextPlace place = table.place_of(field);

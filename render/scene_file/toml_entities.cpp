@@ -53,9 +53,10 @@ RenderSettings read_render(TomlTable& table) {
   return render;
 }
 
-Background read_background(TomlTable& table, Color& ambient) {
+Background read_background(TomlTable& table, Scene& scene) {
   return read_kind<Background>(table, [&](auto& from, auto& kind) {
-    from.read("ambient", ambient);
+    from.read("ambient", scene.ambient);
+    if (from.has("backdrop")) from.read("backdrop", scene.backdrop.emplace());
     read_keys(from, kind);
   });
 }
@@ -65,6 +66,9 @@ Material read_material(TomlTable& table) {
 }
 
 Light read_light(TomlTable& table) {
+  std::string frame;
+  table.read("relative_to", frame);
+  if (frame == name_of(LightFrame::camera)) table.set_origin(nullptr);
   return read_kind<Light>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
 }
 

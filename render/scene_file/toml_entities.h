@@ -10,7 +10,8 @@ namespace boule {
 
 ImageSettings read_image(TomlTable& table);
 RenderSettings read_render(TomlTable& table);
-Background read_background(TomlTable& table, Color& ambient);
+/// The table of the background also has the scene's ambient light and its backdrop.
+Background read_background(TomlTable& table, Scene& scene);
 Material read_material(TomlTable& table);
 Light read_light(TomlTable& table);
 

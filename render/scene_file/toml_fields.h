@@ -14,6 +14,8 @@ namespace boule {
 class TomlNames {
  public:
   virtual std::uint32_t material_of(TomlTable& table) = 0;
+  /// The same in the colour that the table names, if it names one.
+  virtual MaterialRef colored_material_of(TomlTable& table) = 0;
   virtual std::uint32_t group_of(TomlTable& table) = 0;
 
  protected:
@@ -46,6 +48,7 @@ class TomlFields {
   void read(std::string_view key, const Rule& rule, std::optional<T>& member) {
     if (table_.has(key)) read(key, rule, member.emplace());
   }
+  void read(std::string_view key, const PointRule&, Vec3f& point) { table_.read_point(key, point); }
   void read(std::string_view key, const WholeRule&, Both<int>& both) {
     table_.read(key, both.first, both.second);
   }
@@ -61,6 +64,9 @@ class TomlFields {
   }
   void read(std::string_view, const MaterialRule&, std::uint32_t& member) {
     member = names_->material_of(table_);
+  }
+  void read(std::string_view, const MaterialRule&, MaterialRef& member) {
+    member = names_->colored_material_of(table_);
   }
   void read(std::string_view, const GroupRule&, std::uint32_t& member) {
     member = names_->group_of(table_);

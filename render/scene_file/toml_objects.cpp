@@ -1,14 +1,18 @@
 #include "render/scene_file/toml_objects.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "core/scene/number_text.h"
+#include "render/file/nearest_name.h"
+#include "render/file/sphere_room.h"
 #include "render/memory/scene_memory.h"
-#include "render/scene_file/nearest_name.h"
 #include "render/scene_file/npy_reader.h"
+#include "render/scene_file/toml_color_map.h"
 #include "render/scene_file/toml_entities.h"
 
 namespace boule {
@@ -35,9 +39,12 @@ ObjectTables object_tables(TomlTable& table) {
   tables.planes = table.tables("plane");
   tables.instances = table.tables("instance");
   auto& all = tables.spheres;
-  for (TomlTable& one : table.tables("sphere")) all.push_back({std::move(one), false});
-  for (TomlTable& one : table.tables("spheres")) all.push_back({std::move(one), true});
-  // Ids follow the order in the file, of [[sphere]] and [[spheres]] together.
+  constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto source = static_cast<ObjectTables::Source>(i);
+    for (TomlTable& one : table.tables(keys[i])) all.push_back({std::move(one), source});
+  }
+  // Ids follow the order in the file, of all of them together.
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     const TextPlace p = a.table.place(), q = b.table.place();
     return std::tie(p.line, p.column) < std::tie(q.line, q.column);
@@ -63,9 +70,43 @@ T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_
 
 void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
                                std::vector<Sphere>& spheres) {
-  for (auto& [table, is_bulk] : tables) {
-    is_bulk ? read_bulk(table, spheres) : read_sphere(table, spheres);
+  for (auto& [table, source, particles] : tables) {
+    switch (source) {
+      case ObjectTables::Source::sphere:
+        read_sphere(table, spheres);
+        break;
+      case ObjectTables::Source::spheres:
+        read_bulk(table, spheres);
+        break;
+      case ObjectTables::Source::particles:
+        add_particles(table, particles, spheres);
+        break;
+    }
   }
+}
+
+void TomlObjects::load_particles(ObjectTables& tables) {
+  for (auto& [table, source, particles] : tables.spheres) {
+    if (source != ObjectTables::Source::particles) continue;
+    const std::uint32_t material = colorable_material_of(table, "material");
+    particles = read_particles(table, material, options_);
+    if (!particles) return;
+    notes_.insert(notes_.end(), particles->notes.begin(), particles->notes.end());
+    facts_.push_back(particles->facts);
+  }
+}
+
+/// Makes spheres of particles, and lets go of these.
+void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
+                                std::vector<Sphere>& spheres) {
+  if (!particles || error_.status()) return;
+  make_room(spheres, particles->spheres.size());
+  const std::size_t before = spheres.size();
+  if (auto bad = particles->spheres.append_to(spheres, table.origin(), options_.parallel_for)) {
+    spheres.resize(before);
+    table.report("file", bad->message);
+  }
+  particles.reset();
 }
 
 void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
@@ -77,18 +118,42 @@ void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
   NpySpheres request;
   table.read_file_name("file", name);
   if (table.has("radius")) table.read("radius", request.radius.emplace());
-  request.material = material_of(table);
+  request.material = colored_material_of(table);
+  const SphereColors colors = read_sphere_colors(table);
   table.finish({"file"});
   if (request.radius) table.check(find_problem(Sphere{{}, *request.radius}));
+  if (colors.any()) colorable_material_of(table, "material");
   if (error_.status()) return;
   request.path = table.file_path(name);
+  request.origin = table.origin();
+  const std::size_t before = spheres.size();
   if (auto bad = append_spheres(request, spheres)) {
-    table.report("file", quote(name) + ": " + bad->message);
+    return table.report("file", quote(name) + ": " + bad->message);
   }
+  if (colors.any()) color_bulk(table, colors, request.path, std::span(spheres).subspan(before));
+}
+
+void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
+                             std::span<Sphere> spheres) {
+  const auto scale = color_spheres(table, colors, spheres, options_);
+  if (!scale) return;
+  facts_.push_back({.table = table.path(),
+                    .file = path,
+                    .format = "npy",
+                    .particles = spheres.size(),
+                    .spheres = spheres.size(),
+                    .radius_source = table.has("radius") ? "the key radius" : "column 3"});
+  facts_.back().colors.scale = *scale;
+  if (colors.map.range || options_.color_ranges.contains(table.path())) return;
+  notes_.push_back("colours of " + printable(scale->by) + " go from " +
+                   number_text(scale->range[0]) + " to " + number_text(scale->range[1]) +
+                   ", the 1st and the 99th percentile");
 }
 
 void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {
+  default_ = &default_plane_material_;
   planes.push_back(read_checked<Plane>(table));
+  default_ = &default_material_;
 }
 
 void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
@@ -109,6 +174,7 @@ void TomlObjects::start_groups(const std::vector<TomlTable>& tables) {
 void TomlObjects::read_group(std::size_t group, TomlTable& table) {
   ObjectTables tables = object_tables(table);
   table.finish();
+  load_particles(tables);
   Group& own = scene_.groups[group];
   read_spheres(tables.spheres, own.spheres);
   for (TomlTable& plane : tables.planes) read_plane(plane, own.planes);
@@ -139,16 +205,31 @@ std::uint32_t TomlObjects::group_of(TomlTable& table) {
 }
 
 std::uint32_t TomlObjects::material_of(TomlTable& table) {
-  return table.has("material") ? find_id(table, "material", material_ids_) : default_material();
+  return table.has("material") ? find_id(table, "material", material_ids_) : add(*default_);
 }
 
-/// The material of objects that name none: a matte, added for the first of them.
-std::uint32_t TomlObjects::default_material() {
-  if (!default_id_) {
-    default_id_ = static_cast<std::uint32_t>(scene_.materials.size());
-    scene_.materials.push_back({"default", Matte{}});
+MaterialRef TomlObjects::colored_material_of(TomlTable& table) {
+  const std::uint32_t index = material_of(table);
+  if (!table.has("color")) return index;
+  const SrgbColor color = read_color_codes(table, "color");
+  return MaterialRef::colored(colorable_material_of(table, "color"), color);
+}
+
+std::uint32_t TomlObjects::colorable_material_of(TomlTable& table, const char* key) {
+  const std::uint32_t index = material_of(table);
+  if (index < MaterialRef::max_colored) return index;
+  table.report(key, "has a material that is not one of the first " +
+                        std::to_string(MaterialRef::max_colored) +
+                        " of the scene: those can be given colours");
+  return 0;
+}
+
+std::uint32_t TomlObjects::add(DefaultMaterial& material) {
+  if (!material.id) {
+    material.id = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back({material.name, material.matte});
   }
-  return *default_id_;
+  return *material.id;
 }
 
 }  // namespace boule

@@ -4,22 +4,29 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "render/scene_file/particle_facts.h"
+#include "render/scene_file/scene_file.h"
 #include "render/scene_file/toml_fields.h"
+#include "render/scene_file/toml_particles.h"
+#include "render/scene_file/toml_sphere_colors.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
 
 /// The tables of the objects of a scene or a group, in the order of the file.
 struct ObjectTables {
-  /// A [[sphere]], or a [[spheres]], which names a file of them.
+  /// What spheres come from: a [[sphere]], or a file that [[spheres]] or [[particles]] name.
+  enum class Source { sphere, spheres, particles };
   struct Spheres {
     TomlTable table;
-    bool is_bulk;
+    Source source;
+    std::optional<TomlParticles> particles{};  ///< once they are read
   };
   std::vector<Spheres> spheres;
   std::vector<TomlTable> planes;
@@ -30,22 +37,29 @@ struct ObjectTables {
 ObjectTables object_tables(TomlTable& table);
 
 /// Reads materials, and the objects of a scene and its groups: first read_materials(), then
-/// start_groups(), then the others.
+/// start_groups() and load_particles(), then the others.
 class TomlObjects final : private TomlNames {
  public:
-  /// Scene and error must outlive it.
-  TomlObjects(Scene& scene, FirstError& error) : scene_(scene), error_(error) {}
+  /// Scene, error and options must outlive it.
+  TomlObjects(Scene& scene, FirstError& error, const SceneFileOptions& options)
+      : scene_(scene), error_(error), options_(options) {}
 
   void read_materials(std::vector<TomlTable> tables);
 
   /// Gives every group its number: instances may name groups that come later.
   void start_groups(const std::vector<TomlTable>& tables);
+  /// Reads the files of the tables [[particles]]. They become spheres with the other objects.
+  void load_particles(ObjectTables& tables);
   void read_group(std::size_t group, TomlTable& table);
   void read_scene(ObjectTables& tables);
 
   /// Reports what find_instance_problem() finds at the instance's table, and an error if there is
   /// no memory for the spheres and planes that the instances show.
   void check_instances();
+
+  /// What the files of particles held, and what was decided for the user.
+  [[nodiscard]] const std::vector<ParticleFacts>& facts() const { return facts_; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   /// Where an instance was read.
@@ -58,6 +72,10 @@ class TomlObjects final : private TomlNames {
   void read_spheres(std::vector<ObjectTables::Spheres>& tables, std::vector<Sphere>& spheres);
   void read_sphere(TomlTable& table, std::vector<Sphere>& spheres);
   void read_bulk(TomlTable& table, std::vector<Sphere>& spheres);
+  void color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
+                  std::span<Sphere> spheres);
+  void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
+                     std::vector<Sphere>& spheres);
   void read_plane(TomlTable& table, std::vector<Plane>& planes);
   void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
                       std::vector<Instance>& instances);
@@ -66,13 +84,29 @@ class TomlObjects final : private TomlNames {
   T read_checked(TomlTable& table, std::initializer_list<std::string_view> required = {});
   std::uint32_t group_of(TomlTable& table) override;
   std::uint32_t material_of(TomlTable& table) override;
-  std::uint32_t default_material();
+  MaterialRef colored_material_of(TomlTable& table) override;
+  /// The material of primitives whose colours `key` gives.
+  std::uint32_t colorable_material_of(TomlTable& table, const char* key);
+
+  /// The material of objects that name none, added to the scene for the first of them.
+  struct DefaultMaterial {
+    const char* name;
+    Matte matte;
+    std::optional<std::uint32_t> id{};
+  };
+  std::uint32_t add(DefaultMaterial& material);
 
   Scene& scene_;
   FirstError& error_;
+  const SceneFileOptions& options_;
+  std::vector<ParticleFacts> facts_;
+  std::vector<std::string> notes_;
   std::map<std::string, std::uint32_t> material_ids_;
   std::map<std::string, std::uint32_t> group_ids_;
-  std::optional<std::uint32_t> default_id_;
+  DefaultMaterial default_material_{"default", Matte{}};
+  /// Darker, so that a sphere stands out from its floor.
+  DefaultMaterial default_plane_material_{"default plane", Matte{gray(0.45F)}};
+  DefaultMaterial* default_ = &default_material_;  ///< of the objects that are read now
   std::vector<InstanceTable> instance_tables_;
 };
 

@@ -7,6 +7,7 @@
 #include "render/scene_file/toml_camera_keys.h"
 #include "render/scene_file/toml_entities.h"
 #include "render/scene_file/toml_objects.h"
+#include "render/scene_file/toml_origin.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
@@ -17,21 +18,29 @@ namespace {
 class TomlReader {
  public:
   /// `motion` moves the camera from frame to frame; null: it stands still.
-  TomlReader(const TomlValue& root, const std::string& path, std::optional<int> frame,
+  TomlReader(const TomlValue& root, const std::string& path, const SceneFileOptions& options,
              const CameraMotion* motion)
-      : motion_(motion),
-        error_(path, frame),
-        root_(std::get<TomlMembers>(root.data), root.place, "", error_) {}
+      : options_(options),
+        motion_(motion),
+        error_(path, options.frame),
+        root_(std::get<TomlMembers>(root.data), root.place, "", error_) {
+    root_.set_origin(&origin_);
+  }
 
   Result<LoadedScene> read();
 
  private:
   void check_schema();
+  void choose_origin(const ObjectTables& objects);
   void read_camera_table(TomlTable& table);
+  void choose_up();
   void validate_whole();
 
+  const SceneFileOptions& options_;
   const CameraMotion* motion_;
-  Scene scene_;
+  Vec3d origin_;  ///< subtracted from all points, once it is known
+  LoadedScene loaded_;
+  Scene& scene_ = loaded_.scene;
   FirstError error_;
   TomlTable root_;
 };
@@ -44,23 +53,48 @@ Result<LoadedScene> TomlReader::read() {
   auto lights = root_.tables("light");
   auto objects = object_tables(root_);
   auto groups = root_.named_tables("group");
+  for (TomlTable& group : groups) group.set_origin(nullptr);  // each has its own
+  root_.has("origin");  // makes it known: it is read once the particles are there
   root_.finish();
   if (!root_.has("schema")) root_.report("schema", "missing key 'schema': write schema = 1");
 
   if (image) scene_.image = read_image(*image);
   if (render) scene_.render = read_render(*render);
-  if (camera) read_camera_table(*camera);
-  if (background) scene_.background = read_background(*background, scene_.ambient);
-  for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
-  TomlObjects reader(scene_, error_);
+  TomlObjects reader(scene_, error_, options_);
   reader.read_materials(std::move(materials));
   reader.start_groups(groups);
+  reader.load_particles(objects);
+  choose_origin(objects);
+  // From here on points are read.
+  if (camera) read_camera_table(*camera);
+  if (background) scene_.background = read_background(*background, scene_);
+  for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
   reader.read_scene(objects);
   for (std::size_t i = 0; i < groups.size(); ++i) reader.read_group(i, groups[i]);
   reader.check_instances();
+  loaded_.particles = reader.facts();
+  choose_up();
   validate_whole();
   if (error_.status()) return *error_.status();
-  return LoadedScene{std::move(scene_), {}, error_.data_files()};
+  std::vector<std::string> notes = reader.notes();
+  loaded_.notes.insert(loaded_.notes.begin(), notes.begin(), notes.end());
+  loaded_.data_files = error_.data_files();
+  loaded_.origin = origin_;
+  return std::move(loaded_);
+}
+
+/// Groups keep their own point 0: what shows them is moved.
+void TomlReader::choose_origin(const ObjectTables& objects) {
+  // A text is "auto": any other was refused when the series chose its origin.
+  if (options_.origin && (!root_.has("origin") || root_.has_text("origin"))) {
+    origin_ = *options_.origin;
+    return;
+  }
+  ParticleLists particles;
+  for (const auto& table : objects.spheres) {
+    if (table.particles) particles.push_back(&table.particles->spheres);
+  }
+  origin_ = read_origin(root_, particles, loaded_.notes);
 }
 
 void TomlReader::check_schema() {
@@ -71,8 +105,25 @@ void TomlReader::check_schema() {
 }
 
 void TomlReader::read_camera_table(TomlTable& table) {
-  scene_.camera = read_camera(table, scene_.distortion);
+  scene_.distortion = read_distortion(table);
+  if (const auto fit = read_camera_fit(table)) {
+    if (motion_ != nullptr) table.report("key", "cannot stand beside 'fit'");
+    scene_.fit = *fit;
+    return;
+  }
+  scene_.camera = read_camera(table);
   if (motion_ != nullptr && table.ok()) check_camera_keys(*motion_, *scene_.camera, table);
+}
+
+/// Where particles have a cell, z is up in a picture whose camera does not say otherwise.
+void TomlReader::choose_up() {
+  const auto& all = loaded_.particles;
+  const bool has_cell = std::any_of(
+      all.begin(), all.end(), [](const ParticleFacts& facts) { return facts.cell.has_value(); });
+  if (scene_.camera || scene_.fit.up || !has_cell) return;
+  CameraFit fit = scene_.fit;
+  fit.up = Vec3f{0, 0, 1};
+  if (!find_problem(fit)) scene_.fit = fit;  // unless it looks along z
 }
 
 /// Checks what the readers of single tables do not: settings, `ambient`, the number of objects.
@@ -91,13 +142,14 @@ void TomlReader::validate_whole() {
 }  // namespace
 
 Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
-                              std::optional<int> frame) {
+                              const SceneFileOptions& options) {
   auto root = parse_toml(text, path);
   if (!root) return root.error();
   FirstError error(path);
-  const auto motion = apply_camera_keys(std::get<TomlMembers>(root.value().data), frame, error);
+  const auto motion =
+      apply_camera_keys(std::get<TomlMembers>(root.value().data), options.frame, error);
   if (error.status()) return *error.status();
-  return TomlReader(root.value(), path, frame, motion ? &*motion : nullptr).read();
+  return TomlReader(root.value(), path, options, motion ? &*motion : nullptr).read();
 }
 
 }  // namespace boule

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +10,6 @@ namespace boule {
 /// Reads the TOML scene in `text`. `path` names it in errors; names of data files are relative to
 /// its folder. The scene has passed validate().
 Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
-                              std::optional<int> frame = {});
+                              const SceneFileOptions& options = {});
 
 }  // namespace boule

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <map>
 
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
 
 namespace boule {
 namespace {

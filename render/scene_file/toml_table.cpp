@@ -6,9 +6,11 @@
 #include <system_error>
 #include <utility>
 
-#include "render/scene_file/float32.h"
+#include "core/math/srgb.h"
+#include "render/file/float32.h"
+#include "render/file/nearest_name.h"
+#include "render/file/npz_member.h"
 #include "render/scene_file/frame_name.h"
-#include "render/scene_file/nearest_name.h"
 
 namespace boule {
 namespace {
@@ -39,7 +41,8 @@ std::string TomlTable::beside_scene(const std::string& name) const {
 
 std::string TomlTable::file_path(const std::string& name) {
   std::string path = beside_scene(name);
-  error_->add_data_file(path);
+  const auto in_archive = npz_name(path);
+  error_->add_data_file(in_archive ? in_archive->file : path);
   return path;
 }
 
@@ -60,6 +63,16 @@ bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }
 bool TomlTable::has_array(std::string_view key) {
   const TomlValue* value = find(key);
   return value != nullptr && std::holds_alternative<TomlArray>(value->data);
+}
+
+bool TomlTable::has_text(std::string_view key) {
+  const TomlValue* value = find(key);
+  return value != nullptr && std::holds_alternative<std::string>(value->data);
+}
+
+bool TomlTable::has_table(std::string_view key) {
+  const TomlValue* value = find(key);
+  return value != nullptr && std::holds_alternative<TomlMembers>(value->data);
 }
 
 const TomlValue* TomlTable::find(std::string_view key) {
@@ -106,6 +119,16 @@ void TomlTable::convert(const TomlValue& value, std::string_view key, float& out
   out = *rounded;
 }
 
+void TomlTable::convert(const TomlValue& value, std::string_view key, double& out) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data)) {
+    out = static_cast<double>(*integer);
+    return;
+  }
+  const auto* number = std::get_if<double>(&value.data);
+  if (number == nullptr) return report_type(value, key, "a number");
+  out = *number;
+}
+
 void TomlTable::convert(const TomlValue& value, std::string_view key, int& out) {
   const auto* integer = std::get_if<std::int64_t>(&value.data);
   if (integer == nullptr) return report_type(value, key, "an integer");
@@ -136,6 +159,18 @@ void TomlTable::read(std::string_view key, float& out) {
   if (const TomlValue* value = find(key)) convert(*value, key, out);
 }
 
+void TomlTable::read(std::string_view key, double& out) {
+  if (const TomlValue* value = find(key)) convert(*value, key, out);
+}
+
+void TomlTable::read(std::string_view key, bool& out) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return;
+  const auto* boolean = std::get_if<bool>(&value->data);
+  if (boolean == nullptr) return report_type(*value, key, "true or false");
+  out = *boolean;
+}
+
 void TomlTable::read(std::string_view key, int& out) {
   if (const TomlValue* value = find(key)) convert(*value, key, out);
 }
@@ -147,7 +182,21 @@ void TomlTable::read(std::string_view key, int& first, int& second) {
   convert((*array)[1], key, second);
 }
 
-void TomlTable::read(std::string_view key, Vec3f& out) {
+void TomlTable::read(std::string_view key, std::array<int, 3>& out) {
+  const TomlArray* array = find_array(key, 3, "integers");
+  if (array == nullptr) return;
+  for (std::size_t i = 0; i < out.size(); ++i) convert((*array)[i], key, out[i]);
+}
+
+void TomlTable::read(std::string_view key, std::array<double, 2>& out) {
+  const TomlArray* array = find_array(key, 2, "numbers");
+  if (array == nullptr) return;
+  convert((*array)[0], key, out[0]);
+  convert((*array)[1], key, out[1]);
+}
+
+template <class Number>
+void TomlTable::read_vector(std::string_view key, Vec3<Number>& out) {
   const TomlArray* array = find_array(key, 3, "numbers");
   if (array == nullptr) return;
   convert((*array)[0], key, out.x);
@@ -155,7 +204,30 @@ void TomlTable::read(std::string_view key, Vec3f& out) {
   convert((*array)[2], key, out.z);
 }
 
+void TomlTable::read(std::string_view key, Vec3f& out) { read_vector(key, out); }
+
+void TomlTable::read(std::string_view key, Vec3d& out) { read_vector(key, out); }
+
+void TomlTable::read_point(std::string_view key, Vec3f& out) {
+  if (origin() == Vec3d{}) return read(key, out);
+  Vec3d point = vec_cast<double>(out);
+  read(key, point);
+  point = point - origin();
+  const auto x = to_float32(point.x), y = to_float32(point.y), z = to_float32(point.z);
+  if (!x || !y || !z) return report(key, "is too large for a 32-bit float");
+  out = {*x, *y, *z};
+}
+
+/// Three linear numbers, or "#rrggbb".
 void TomlTable::read(std::string_view key, Color& out) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return;
+  if (const auto* text = std::get_if<std::string>(&value->data)) {
+    const auto color = parse_hex_color(*text);
+    if (!color) return report(key, quote(*text) + " is no colour, expected \"#rrggbb\"");
+    out = linear_of(*color);
+    return;
+  }
   Vec3f rgb{out.r, out.g, out.b};
   read(key, rgb);
   out = {rgb.x, rgb.y, rgb.z};
@@ -169,6 +241,19 @@ void TomlTable::read(std::string_view key, std::string& out) {
   out = *text;
 }
 
+void TomlTable::read(std::string_view key, std::vector<std::string>& out) {
+  const TomlValue* value = find(key);
+  if (value == nullptr) return;
+  const auto* array = std::get_if<TomlArray>(&value->data);
+  if (array == nullptr) return report_type(*value, key, "an array of strings");
+  out.clear();
+  for (const TomlValue& element : *array) {
+    const auto* text = std::get_if<std::string>(&element.data);
+    if (text == nullptr) return report_type(element, key, "a string");
+    out.push_back(*text);
+  }
+}
+
 std::size_t TomlTable::choose(std::string_view key, std::span<const std::string_view> names) {
   std::string name{names[0]};
   read(key, name);
@@ -180,11 +265,17 @@ std::size_t TomlTable::choose(std::string_view key, std::span<const std::string_
   return 0;
 }
 
+TomlTable TomlTable::inner(const TomlMembers& members, TextPlace place, std::string path) const {
+  TomlTable table(members, place, std::move(path), *error_);
+  table.origin_ = origin_;
+  return table;
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const TomlValue* value = find(key);
   if (value == nullptr) return std::nullopt;
   const auto* members = std::get_if<TomlMembers>(&value->data);
-  if (members != nullptr) return TomlTable(*members, value->place, path_of(key), *error_);
+  if (members != nullptr) return inner(*members, value->place, path_of(key));
   report_type(*value, key, "a table");
   return std::nullopt;
 }
@@ -206,7 +297,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
       report_type(element, name, expected);
       return list;
     }
-    list.push_back(TomlTable(*members, element.place, path_of(name), *error_));
+    list.push_back(inner(*members, element.place, path_of(name)));
   }
   return list;
 }
@@ -223,7 +314,7 @@ std::vector<TomlTable> TomlTable::named_tables(std::string_view key) {
                      std::string("expected a table, got ") + type_name(member.value));
       return list;
     }
-    list.push_back(TomlTable(*members, member.value.place, path, *error_));
+    list.push_back(inner(*members, member.value.place, path));
     list.back().name_ = member.key;
   }
   return list;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/particle_file/particle_frame.h"
+#include "render/particles/color_meaning.h"
+
+namespace boule {
+
+/// What was read for one table of a scene, [[particles]] or a [[spheres]] with colours: for
+/// `boule info` and for legends.
+struct ParticleFacts {
+  std::string table;             ///< its path in the scene file: "particles[0]", "spheres[2]"
+  std::string file;              ///< as LoadedScene::data_files
+  std::string format;            ///< a name of particle_formats(): "xyz"
+  std::size_t frames = 1;        ///< in the file
+  std::size_t frame = 0;         ///< that was read, from 0
+  std::optional<double> time{};  ///< of that frame, if the file tells it
+  std::size_t particles = 0;     ///< in that frame
+  std::size_t spheres = 0;       ///< that are shown, periodic images included
+  std::string radius_source{};   ///< as ParticleSpheres
+  ParticleColors colors{};
+  std::optional<ParticleCell> cell{};
+};
+
+/// The numbers that the ends of colour maps stand for, by ParticleFacts::table.
+using ColorRanges = std::map<std::string, std::array<double, 2>>;
+
+/// The ranges that were chosen: with them as SceneFileOptions::color_ranges, the other frames of a
+/// series have the colours of this one.
+inline ColorRanges color_ranges_of(const std::vector<ParticleFacts>& all) {
+  ColorRanges ranges;
+  for (const ParticleFacts& facts : all) {
+    if (facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
+  }
+  return ranges;
+}
+
+}  // namespace boule

@@ -1,0 +1,186 @@
+#include "render/scene_file/toml_particles.h"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "render/file/nearest_name.h"
+#include "render/particle_file/particle_file.h"
+#include "render/scene_file/frame_name.h"
+#include "render/scene_file/particle_file_cache.h"
+#include "render/scene_file/toml_particle_style.h"
+
+namespace boule {
+namespace {
+
+/// What the keys of a table say.
+struct ParticleKeys {
+  std::string name;  ///< of the file, in the scene file
+  std::string path;
+  bool has_slot = false;     ///< the name has a place for the frame's number
+  std::optional<int> frame;  ///< of the file
+  ParticleFileOptions file;
+  ParticleStyle style;
+};
+
+void check_format(TomlTable& table, const std::string& format) {
+  if (!table.has("format")) return;
+  const std::vector<std::string_view> known = particle_formats();
+  if (std::find(known.begin(), known.end(), format) != known.end()) return;
+  table.report("format", "unknown format " + quote(format) + ", expected " + list_names(known) +
+                             did_you_mean(format, known));
+}
+
+ParticleKeys read_keys(TomlTable& table, std::uint32_t material) {
+  ParticleKeys keys;
+  std::string as_written;
+  table.read("file", as_written);
+  keys.has_slot = has_frame_slot(as_written);
+  table.read_file_name("file", keys.name);
+  if (table.has("frame")) table.read("frame", keys.frame.emplace());
+  table.read("format", keys.file.format);
+  check_format(table, keys.file.format);
+  table.read("columns", keys.file.columns);
+  table.read("water", keys.file.water);
+  keys.style = read_particle_style(table);
+  keys.style.material = material;
+  table.finish({"file"});
+  return keys;
+}
+
+/// Reads the file that the keys name.
+class ParticleTable {
+ public:
+  ParticleTable(TomlTable& table, ParticleKeys keys, const SceneFileOptions& options)
+      : table_(table), keys_(std::move(keys)), options_(options) {}
+
+  std::optional<TomlParticles> read();
+
+ private:
+  void fix_color_range();
+  std::optional<ParticleFrame> read_frame();
+  std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
+  std::optional<std::size_t> choose_frame(std::size_t frames);
+  void report_file(const Diagnostic& error);
+  void report_key(const Diagnostic& error);
+
+  TomlTable& table_;
+  ParticleKeys keys_;
+  const SceneFileOptions& options_;
+  ParticleFacts facts_;
+};
+
+/// Gives colour maps the range that the series has for them. A column by itself is mapped if that
+/// is how the first frame had it.
+void ParticleTable::fix_color_range() {
+  const auto known = options_.color_ranges.find(table_.path());
+  if (known == options_.color_ranges.end()) return;
+  ColorRule& color = keys_.style.color;
+  if (const auto* columns = std::get_if<ColorColumns>(&color);
+      columns && columns->names.size() == 1) {
+    color = MappedColors{.by = std::string(columns->names.front())};
+  }
+  if (auto* mapped = std::get_if<MappedColors>(&color); mapped && !mapped->range) {
+    mapped->range = known->second;
+  }
+}
+
+std::optional<TomlParticles> ParticleTable::read() {
+  fix_color_range();
+  keys_.file.wanted = columns_of(keys_.style);
+  auto frame = read_frame();
+  if (!frame) return std::nullopt;
+  auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
+  if (!made) {
+    report_key(made.error());
+    return std::nullopt;
+  }
+  TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
+  const ParticleSpheres& spheres = particles.spheres;
+  particles.facts.spheres = spheres.size();
+  particles.facts.radius_source = spheres.radius_source();
+  particles.facts.colors = spheres.colors();
+  particles.facts.cell = spheres.cell();
+  for (const std::string& note : spheres.notes()) {
+    particles.notes.push_back(printable(keys_.name) + ": " + note);
+  }
+  return particles;
+}
+
+std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& file) {
+  ParticleFileCache own;
+  ParticleFileCache& cache = options_.particle_files != nullptr ? *options_.particle_files : own;
+  auto opened = cache.open(keys_.path, file, options_.parallel_for);
+  if (opened) return opened.value();
+  report_file(opened.error());
+  return nullptr;
+}
+
+std::optional<ParticleFrame> ParticleTable::read_frame() {
+  const std::shared_ptr<ParticleFile> file = open(keys_.file);
+  if (!file) return std::nullopt;
+  const auto number = choose_frame(file->frames());
+  if (!number) return std::nullopt;
+  auto frame = file->read(static_cast<long>(*number), options_.parallel_for);
+  if (!frame) {
+    report_file(frame.error());
+    return std::nullopt;
+  }
+  facts_ = {.table = table_.path(),
+            .file = keys_.path,
+            .format = std::string(file->format()),
+            .frames = file->frames(),
+            .frame = *number,
+            .time = frame.value().time,
+            .particles = frame.value().size()};
+  return std::move(frame).value();
+}
+
+/// The frame that the keys or the series ask for, from 0.
+std::optional<std::size_t> ParticleTable::choose_frame(std::size_t frames) {
+  const bool of_series = !keys_.frame && options_.frame && frames > 1 && !keys_.has_slot;
+  const long asked = of_series ? *options_.frame : keys_.frame.value_or(-1);
+  const long count = static_cast<long>(frames);
+  if (asked >= -count && asked < count) {
+    return static_cast<std::size_t>(asked < 0 ? asked + count : asked);
+  }
+  table_.report(
+      keys_.frame ? "frame" : "file",
+      quote(keys_.name) + " has no frame " + std::to_string(asked) + ", it has " +
+          (count == 1 ? "one frame, number 0"
+                      : std::to_string(count) + " frames, from 0 to " + std::to_string(count - 1)));
+  return std::nullopt;
+}
+
+/// Reports an error of the file: at its own line, else where the scene file names it.
+void ParticleTable::report_file(const Diagnostic& error) {
+  if (error.line > 0) return table_.report(error);
+  for (const char* key : {"columns", "format"}) {
+    if (error.key == key && table_.has(key)) return table_.report(key, error.message);
+  }
+  const std::string column = error.key.empty() ? "" : "column " + quote(error.key) + " ";
+  table_.report("file", quote(keys_.name) + ": " + column + error.message);
+}
+
+/// Reports what ParticleSpheres::make() refuses, at the key that is at fault.
+void ParticleTable::report_key(const Diagnostic& error) {
+  const std::size_t dot = error.key.find('.');
+  const std::string key = error.key.empty() ? "file" : error.key.substr(0, dot);
+  if (dot != std::string::npos && table_.has_table(key)) {
+    return table_.table(key)->report(error.key.substr(dot + 1), error.message);
+  }
+  table_.report(key, error.message);
+}
+
+}  // namespace
+
+std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
+                                            const SceneFileOptions& options) {
+  ParticleKeys keys = read_keys(table, material);
+  if (!table.ok()) return std::nullopt;
+  keys.path = table.file_path(keys.name);
+  return ParticleTable(table, std::move(keys), options).read();
+}
+
+}  // namespace boule

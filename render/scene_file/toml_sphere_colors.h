@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/scene/primitive.h"
+#include "render/particles/particle_spheres.h"
+#include "render/scene_file/npy_colors.h"
+#include "render/scene_file/scene_file.h"
+#include "render/scene_file/toml_color_map.h"
+#include "render/scene_file/toml_table.h"
+
+namespace boule {
+
+/// Where the spheres of a table [[spheres]] have their colours from: a file of colours, or one of
+/// numbers that a map makes colours of.
+struct SphereColors {
+  std::string colors;  ///< name of the file, or empty
+  ColorSpace space = ColorSpace::srgb;
+  std::string scalar;  ///< likewise
+  ColorMapKeys map;
+
+  [[nodiscard]] bool any() const { return !colors.empty() || !scalar.empty(); }
+};
+
+/// Reads the keys `colors`, `color_space`, `scalar`, `map` and `range`. Errors are reported through
+/// the table.
+SphereColors read_sphere_colors(TomlTable& table);
+
+/// Colours the spheres of a table; they keep their material, which is one that can be coloured.
+/// The map of numbers, with the range that was chosen, if there is one. Errors are reported through
+/// the table.
+std::optional<ParticleColors::Scale> color_spheres(TomlTable& table, const SphereColors& keys,
+                                                   std::span<Sphere> spheres,
+                                                   const SceneFileOptions& options);
+
+}  // namespace boule
