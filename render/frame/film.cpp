@@ -21,9 +21,9 @@ std::uint64_t Film::total_samples() const {
   return total;
 }
 
-Image Film::to_image() const {
+Image Film::to_image(Alpha alpha) const {
   const FloatEnvironment environment;
-  Image image(rect_.width(), rect_.height());
+  Image image(rect_.width(), rect_.height(), alpha);
   copy_to(image, rect_);
   return image;
 }
@@ -31,10 +31,15 @@ Image Film::to_image() const {
 void Film::copy_to(Image& image, const PixelRect& rect) const {
   const Pixel* pixel = pixels_.data();
   for (int y = rect_.y0; y < rect_.y1; ++y) {
-    Color* out = &image.at(rect_.x0 - rect.x0, y - rect.y0);
-    for (int x = rect_.x0; x < rect_.x1; ++x, ++pixel, ++out) {
-      const auto& [r, g, b, samples] = *pixel;
-      *out = samples == 0 ? Color{} : Color{mean(r, samples), mean(g, samples), mean(b, samples)};
+    const std::size_t row = image.index(rect_.x0 - rect.x0, y - rect.y0);
+    for (std::size_t x = 0; x < static_cast<std::size_t>(rect_.width()); ++x, ++pixel) {
+      const auto& [r, g, b, samples, covered] = *pixel;
+      if (samples == 0) {
+        image.set(row + x, {}, 0);
+      } else {
+        image.set(row + x, {mean(r, samples), mean(g, samples), mean(b, samples)},
+                  static_cast<float>(static_cast<double>(covered) / samples));
+      }
     }
   }
 }

@@ -46,6 +46,11 @@ class Film {
     pixel.b += static_cast<double>(sample.b);
     ++pixel.samples;
   }
+  /// The same for a sample of which 1 is covered by objects, or 0.
+  void add(int x, int y, const Color& sample, std::uint8_t covered) {
+    add(x, y, sample);
+    pixels_[rect_.index(x, y)].covered += covered;
+  }
 
   /// The number of samples of pixel (x, y) of the frame.
   [[nodiscard]] int samples(int x, int y) const { return pixels_[rect_.index(x, y)].samples; }
@@ -54,10 +59,11 @@ class Film {
   [[nodiscard]] std::uint64_t total_samples() const;
 
   /// The mean of each pixel's samples, at most the largest float; black where there is no sample.
-  [[nodiscard]] Image to_image() const;
+  /// Alpha is the share of the samples that were added as covered; 0 where there is no sample.
+  [[nodiscard]] Image to_image(Alpha alpha = Alpha::none) const;
 
-  /// Writes the same into `image`, a picture of the frame's pixels in `rect`. Precondition: `rect`
-  /// holds this film's pixels.
+  /// Writes the same into `image`, a picture of the frame's pixels in `rect`, with alpha if the
+  /// image has it. Precondition: `rect` holds this film's pixels.
   void copy_to(Image& image, const PixelRect& rect) const;
 
   /// Bytes that a film of the pixels in `rect` takes.
@@ -67,6 +73,7 @@ class Film {
   struct Pixel {
     double r = 0, g = 0, b = 0;
     std::int32_t samples = 0;
+    std::uint32_t covered = 0;  ///< how many of the samples are
   };
 
   PixelRect rect_;

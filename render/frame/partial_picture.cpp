@@ -131,7 +131,7 @@ void fill_coarse(const Film& film, Image& image) {
     for (int x = 0; x < image.width; ++x) {
       if (has_samples(film, x, y)) continue;
       const Pixel coarse = coarse_pixel(film, x, y);
-      if (coarse.x >= 0) image.at(x, y) = image.at(coarse.x, coarse.y);
+      if (coarse.x >= 0) image.copy_pixel(coarse.x, coarse.y, x, y);
     }
   }
 }
@@ -145,16 +145,16 @@ void fill_nearest(const Film& film, PixelOrder order, Image& image) {
       if (has_samples(film, x, y)) continue;
       if (order == PixelOrder::progressive && coarse_pixel(film, x, y).x >= 0) continue;
       const Pixel from = nearest[static_cast<std::size_t>(x)];
-      if (from.x >= 0) image.at(x, y) = image.at(from.x, from.y);
+      if (from.x >= 0) image.copy_pixel(from.x, from.y, x, y);
     }
   }
 }
 
 }  // namespace
 
-Image partial_picture(const Film& film, PixelOrder order) {
+Image partial_picture(const Film& film, PixelOrder order, Alpha alpha) {
   const FloatEnvironment environment;
-  Image image = film.to_image();
+  Image image = film.to_image(alpha);
   if (order == PixelOrder::rows || order == PixelOrder::tiles) return image;
   if (order == PixelOrder::progressive) fill_coarse(film, image);
   if (needs_nearest(film, order)) fill_nearest(film, order, image);

@@ -14,6 +14,6 @@ namespace boule {
 /// - frameless: the colour of the nearest pixel with samples; of equally near ones the leftmost, of
 ///   those the upper one. Black if no pixel has samples.
 /// - rows, tiles: black.
-Image partial_picture(const Film& film, PixelOrder order);
+Image partial_picture(const Film& film, PixelOrder order, Alpha alpha = Alpha::none);
 
 }  // namespace boule

@@ -50,6 +50,9 @@ struct CameraRays {
   RayBuffer& rays;
   Coherence coherence;      ///< what they have in common
   const SampleId* samples;  ///< of each ray; null will do except for path tracing
+  /// Room for one number per ray, which becomes 1 where the ray hits something, else 0; null where
+  /// nobody asks.
+  std::uint8_t* covered = nullptr;
 };
 
 /// Turns camera rays into radiance. One integrator serves one thread. It keeps its working memory

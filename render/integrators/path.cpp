@@ -111,26 +111,26 @@ const FlatMaterial* Path::find_emission(const PathStream& stream, std::uint32_t 
   Color& sum = radiance(index);
   sum = density > 0 ? crossed_lights(stream.rays->get(index), density, met.t) : Color{};
   if (met.id == no_primitive) {
-    sum = sum + seen_background(stream.rays->dir(index), density);
+    sum = sum + weighted_background(stream, index);
     return nullptr;
   }
-  const FlatMaterial& material = scene_.material_of(met.id);
+  const FlatMaterial& material = materials_.find(met.id);
   if (is_black(material.constant)) {
     return takes_direct_light(material) || scatters(material) ? &material : nullptr;
   }
   // Only emissive materials have a constant, and they send nothing on.
-  const double other = density > 0 ? emitter_density(stream.rays->org(index), met.id) : 0;
+  const double other =
+      density > 0 ? emitter_density(stream.rays->org(index), met.id, material.constant) : 0;
   sum = sum + material.constant * static_cast<float>(weight_of_hit(density, other));
   return nullptr;
 }
 
 /// The density with which light sampling at `org` chooses a direction to an emissive primitive; it
 /// is the same for all directions that meet it.
-double Path::emitter_density(const Vec3d& org, std::int32_t id) const {
+double Path::emitter_density(const Vec3d& org, std::int32_t id, const Color& radiance) const {
   const auto sphere = static_cast<std::size_t>(id);
   if (sphere >= scene_.spheres.size()) return 0;
-  const AreaLight light =
-      scene_.area_lights.light_of(scene_.spheres[sphere], scene_.material_of(id).constant);
+  const AreaLight light = scene_.area_lights.light_of(scene_.spheres[sphere], radiance);
   return (1 - environment_share_) * light.share *
          LightCone(org, light.center, light.radius).density();
 }
@@ -265,10 +265,12 @@ void Path::add_more_light() {
 }
 
 /// The background that a ray sees, weighted if light sampling could have found it too.
-Color Path::seen_background(const Vec3f& dir, double density) const {
-  const Color radiance = background_radiance(scene_.background, dir);
+Color Path::weighted_background(const PathStream& stream, std::uint32_t ray) const {
+  const Color radiance = seen_background(stream, ray);
+  const double density{stream.density[ray]};
   if (!(environment_share_ > 0) || !(density > 0)) return radiance;
-  const double other = scene_.environment.density(normalize(vec_cast<double>(dir)));
+  const double other =
+      scene_.environment.density(normalize(vec_cast<double>(stream.rays->dir(ray))));
   return radiance * static_cast<float>(weight_of_hit(density, environment_share_ * other));
 }
 

@@ -75,8 +75,9 @@ class Path final : public StreamIntegrator {
   void choose_directions(const PathStream& stream);
   bool survives(const PathStream& stream, const Point& point, UnitPair numbers, Bounce& bounce);
   void find_numbers(const PathStream& stream, Use use);
-  [[nodiscard]] Color seen_background(const Vec3f& dir, double density) const;
-  [[nodiscard]] double emitter_density(const Vec3d& org, std::int32_t id) const;
+  [[nodiscard]] Color weighted_background(const PathStream& stream, std::uint32_t ray) const;
+  [[nodiscard]] double emitter_density(const Vec3d& org, std::int32_t id,
+                                       const Color& radiance) const;
   [[nodiscard]] Color crossed_lights(const Ray& ray, double density, double t) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
   [[nodiscard]] double weight_of_light(double light_density, double density, bool last) const;

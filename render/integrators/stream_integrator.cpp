@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/shading/background_radiance.h"
 #include "render/shading/lights.h"
 
 namespace boule {
@@ -13,6 +14,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       kernels_(kernels),
       settings_(settings),
       wavefront_(settings.stream_size),
+      materials_(scene),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {
   scattering_hits_.reserve(StreamSurfaces::block_size);
@@ -28,7 +30,7 @@ bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
   wavefront_.start(camera.rays);
   while (const PathStream* stream = wavefront_.next()) {
     if (cancelled()) return false;
-    trace_stream(*stream, stream->depth == 0 ? camera.coherence : Coherence::none);
+    trace_stream(*stream, camera);
   }
   wavefront_.finish(radiance);
   return true;
@@ -40,22 +42,38 @@ bool StreamIntegrator::cancelled() const {
 
 /// Makes room by powers of two. The streams grow from block to block, and memory must not be
 /// allocated for each of them.
-void StreamIntegrator::trace_stream(const PathStream& stream, Coherence coherence) {
+void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& camera) {
   const std::size_t count = stream.rays->size(), room = std::bit_ceil(count);
   hits_.resize(room);
   if (radiance_.size() < room) radiance_.resize(room);
   surfaces_.resize(room);
   illumination_.start(count);
+  materials_.start(room);
   make_room(room);
   hits_.resize(count);
-  const Query query{settings_.solver, Form::automatic, coherence};
+  const bool first_hits = stream.depth == 0;
+  const Query query{settings_.solver, Form::automatic,
+                    first_hits ? camera.coherence : Coherence::none};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
   for (const TargetedLight& light : lights_) add_light(light);
   add_more_light();
   for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
+}
+
+void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    covered[k] = hit(k).id == no_primitive ? 0 : 1;
+  }
+}
+
+Color StreamIntegrator::seen_background(const PathStream& stream, std::size_t ray) const {
+  return stream.depth == 0 && scene_.backdrop
+             ? *scene_.backdrop
+             : background_radiance(scene_.background, stream.rays->dir(ray));
 }
 
 void StreamIntegrator::find_surfaces(const Block& block) {

@@ -8,6 +8,7 @@
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/shading/illumination.h"
+#include "render/shading/material_finder.h"
 #include "render/shading/stream_surfaces.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/aligned_array.h"
@@ -64,6 +65,8 @@ class StreamIntegrator : public Integrator {
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
   [[nodiscard]] Color& radiance(std::size_t ray) { return radiance_[ray]; }
+  /// What a ray of the stream sees of the background: the camera's own rays see the backdrop.
+  [[nodiscard]] Color seen_background(const PathStream& stream, std::size_t ray) const;
   [[nodiscard]] bool ends(const PathStream& stream) const {
     return stream.depth == settings_.max_depth;
   }
@@ -73,6 +76,7 @@ class StreamIntegrator : public Integrator {
   IntegratorSettings settings_;
   Wavefront wavefront_;
   Illumination illumination_;
+  MaterialFinder materials_;
   StreamSurfaces surfaces_;
   std::vector<ScatteringHit> scattering_hits_;  ///< working memory of one block
 
@@ -82,7 +86,8 @@ class StreamIntegrator : public Integrator {
     ShadowTarget target;
   };
 
-  void trace_stream(const PathStream& stream, Coherence coherence);
+  void trace_stream(const PathStream& stream, const CameraRays& camera);
+  void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
   [[nodiscard]] bool cancelled() const;
 

@@ -1,6 +1,5 @@
 #include "render/integrators/whitted.h"
 
-#include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
 
 namespace boule {
@@ -20,10 +19,10 @@ void Whitted::shade(const Block& block) {
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const std::int32_t id = hit(k).id;
     if (id == no_primitive) {
-      radiance(k) = background_radiance(scene_.background, block.stream.rays->dir(k));
+      radiance(k) = seen_background(block.stream, k);
       continue;
     }
-    const FlatMaterial& material = scene_.material_of(id);
+    const FlatMaterial& material = materials_.find(id);
     radiance(k) = material.constant;
     if (takes_direct_light(material)) {
       illumination_.add_point(k, material);

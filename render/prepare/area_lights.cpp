@@ -30,8 +30,12 @@ AreaLights::AreaLights(const Scene& scene) {
   }
   sphere_lights_ = lights_.size();
   for (const Sphere& sphere : scene.spheres) {
-    const auto* emissive = std::get_if<Emissive>(&scene.materials[sphere.material].material);
-    if (emissive) add(area_light(sphere.center, sphere.radius, emissive->radiance));
+    const Material& material = scene.materials[sphere.material.index()].material;
+    if (!std::holds_alternative<Emissive>(material)) continue;
+    const auto emissive = std::get<Emissive>(
+        sphere.material.has_color() ? recolored(material, linear_of(sphere.material.color()))
+                                    : material);
+    add(area_light(sphere.center, sphere.radius, emissive.radiance));
   }
   double sum = 0;
   for (AreaLight& light : lights_) {

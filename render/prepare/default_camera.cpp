@@ -4,47 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "core/math/elementary.h"
 #include "core/math/geometry.h"
+#include "render/prepare/camera_fitter.h"
+#include "render/prepare/default_view.h"
 
 namespace boule {
 namespace {
 
-constexpr double default_fov = 45;
-
-/// The distance to the objects is multiplied by this, to leave empty space around them.
-constexpr double margin = 1.05;
-
-/// A sphere around all spheres: its center is the middle of their bounding box.
-struct Enclosure {
-  Vec3d center;
-  double radius = 0;
-};
-
-Enclosure enclose(const std::vector<Sphere>& spheres) {
-  const auto [low, high] = bounds_of(spheres);
-  Enclosure enclosure{(low + high) * 0.5};
-  for (const Sphere& s : spheres) {
-    const double away = length(vec_cast<double>(s.center) - enclosure.center);
-    enclosure.radius = std::max(enclosure.radius, away + static_cast<double>(s.radius));
-  }
-  return enclosure;
-}
-
 /// The smallest distance from `point` that its float coordinates can resolve.
 double smallest_distance(const Vec3d& point) { return length(point) * 0x1p-12; }
-
-CameraPose pose_on_spheres(const std::vector<Sphere>& spheres) {
-  const Enclosure enclosure = enclose(spheres);
-  const double tangent = elementary::tan_acute(default_fov * (elementary::pi / 360));
-  const double sine = tangent / std::sqrt(1 + tangent * tangent);
-  const double distance =
-      std::max(enclosure.radius / sine * margin, smallest_distance(enclosure.center));
-  const Vec3d from = normalize(Vec3d{1, 0.7, 1.6});
-  return {vec_cast<float>(enclosure.center + from * distance),
-          vec_cast<float>(enclosure.center),
-          {0, 1, 0}};
-}
 
 CameraPose pose_on_plane(const Plane& plane) {
   const Vec3d point = vec_cast<double>(plane.point);
@@ -56,10 +24,10 @@ CameraPose pose_on_plane(const Plane& plane) {
   return {vec_cast<float>(point + (n * 0.4 + across) * distance), plane.point, vec_cast<float>(n)};
 }
 
-CameraPose default_pose(const Scene& scene) {
-  if (!scene.spheres.empty()) return pose_on_spheres(scene.spheres);
-  if (!scene.planes.empty()) return pose_on_plane(scene.planes.front());
-  return {};
+Camera camera_without_spheres(const Scene& scene, int width, int height) {
+  const CameraPose pose = scene.planes.empty() ? CameraPose{} : pose_on_plane(scene.planes.front());
+  const FovAxis shorter = width <= height ? FovAxis::x : FovAxis::y;
+  return PinholeCamera{pose, scene.fit.fov, scene.fit.fov_axis.value_or(shorter)};
 }
 
 }  // namespace
@@ -77,9 +45,11 @@ SphereBounds bounds_of(const std::vector<Sphere>& spheres) {
 }
 
 Camera default_camera(const Scene& scene, int width, int height) {
-  // The shorter side spans the field of view, so that the objects fit into both.
-  return PinholeCamera{default_pose(scene), static_cast<float>(default_fov),
-                       width <= height ? FovAxis::x : FovAxis::y};
+  if (scene.spheres.empty()) return camera_without_spheres(scene, width, height);
+  const View view = default_view(scene.fit, scene.spheres, scene.planes);
+  CameraFitter fitter(scene.fit, view, width, height);
+  fitter.add(scene.spheres);
+  return fitter.camera();
 }
 
 }  // namespace boule

@@ -12,13 +12,13 @@ struct SphereBounds {
 };
 SphereBounds bounds_of(const std::vector<Sphere>& spheres);
 
-/// The camera that a scene without one is given: a pinhole whose picture of `width` x `height`
-/// pixels shows every sphere. If there are planes only, it looks at the first one; if there is
-/// nothing, it looks along -z. Coordinates near the end of float's range can overflow here:
-/// find_problem() of the camera tells.
+/// The camera that a scene without one is given: one fitted to its spheres as `scene.fit` says, for
+/// pictures of `width` x `height` pixels (CameraFitter). If there are planes only, it is a pinhole
+/// that looks at the first one; if there is nothing, it looks along -z. Coordinates near the end of
+/// float's range can overflow here: find_problem() of the camera tells.
 Camera default_camera(const Scene& scene, int width, int height);
 
 /// The sentence that tells the user of it.
-inline constexpr const char* camera_note = "no camera in the scene: framed on the objects";
+inline constexpr const char* camera_note = "the camera is fitted to the objects";
 
 }  // namespace boule

@@ -1,10 +1,16 @@
 #include "render/prepare/default_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include "core/math/geometry.h"
 
 namespace boule {
 namespace {
+
+/// Together a little more than 1, so that what faces both is nearly as bright as its colour.
+constexpr float key_intensity = 0.95F, fill_intensity = 0.15F;
 
 /// Whether a background counts as light. A constant one and an image do so for path tracing only.
 bool is_light(const Background& background, Method method) {
@@ -28,7 +34,9 @@ bool has_emitter(const Scene& scene) {
     emits.push_back(emissive != nullptr && !is_black(emissive->radiance));
   }
   if (std::find(emits.begin(), emits.end(), true) == emits.end()) return false;
-  const auto gives = [&emits](const auto& object) -> bool { return emits[object.material]; };
+  const auto gives = [&emits](const auto& object) -> bool {
+    return emits[object.material.index()];
+  };
   return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
          std::any_of(scene.planes.begin(), scene.planes.end(), gives);
 }
@@ -42,15 +50,20 @@ bool lacks_light(const Scene& scene, Method method) {
 const char* light_note(const Scene& scene, Method method) {
   const bool unused =
       method == Method::whitted && std::holds_alternative<EnvironmentBackground>(scene.background);
-  return unused ? "no light in the scene, and by method whitted its environment is none: one white "
-                  "point light at the eye"
-                : "no light in the scene: one white point light at the eye";
+  return unused ? "no light in the scene, and by method whitted its environment is none: lit from "
+                  "the upper left, and weakly from the eye"
+                : "no light in the scene: lit from the upper left, and weakly from the eye";
 }
 
-PointLight light_at_eye(const Camera& camera) {
-  PointLight light;
-  light.position = std::visit([](const auto& any) { return any.pose.eye; }, camera);
-  return light;
+std::vector<Light> default_lights(const Camera& camera) {
+  const CameraPose pose = std::visit([](const auto& any) { return any.pose; }, camera);
+  const Vec3d forward = view_direction(pose);
+  const Vec3d right = normalize(cross(forward, vec_cast<double>(pose.up)));
+  const Vec3d up = cross(right, forward);
+  // Chosen by eye: 45 degrees from the view, as far to the side as up.
+  const Vec3d travels = normalize(forward + (right - up) * std::sqrt(0.5));
+  return {DirectionalLight{vec_cast<float>(travels), gray(key_intensity)},
+          PointLight{pose.eye, gray(fill_intensity), Falloff::none}};
 }
 
 }  // namespace boule

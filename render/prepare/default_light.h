@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/scene/scene.h"
 
 namespace boule {
@@ -10,8 +12,10 @@ namespace boule {
 /// are expanded.
 bool lacks_light(const Scene& scene, Method method);
 
-/// The light that such a scene is given: white, intensity 1, no falloff, at the camera's eye.
-PointLight light_at_eye(const Camera& camera);
+/// The lights that such a scene is given: a white directional one from the camera's upper left,
+/// which shows shape, and a weaker one at its eye, so that no shadow is black, nor a room that the
+/// other does not enter.
+std::vector<Light> default_lights(const Camera& camera);
 
 /// The sentence that tells the user of it.
 const char* light_note(const Scene& scene, Method method);

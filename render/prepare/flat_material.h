@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/math/color.h"
-#include "core/scene/material.h"
+#include "core/scene/scene.h"
 
 namespace boule {
 
@@ -31,6 +31,11 @@ FlatMaterial flatten(const Material& material, const Color& ambient);
 /// highlight sends on at most Ks of the light. If a material would send on more light than arrives,
 /// in any component, all its weights are divided by that sum, which conserves energy.
 FlatMaterial flatten_for_paths(const Material& material);
+
+/// A valid material for the method.
+inline FlatMaterial flatten(const Material& material, const Color& ambient, Method method) {
+  return method == Method::path ? flatten_for_paths(material) : flatten(material, ambient);
+}
 
 /// The largest share of light that the highlight of such a material sends on: Ks.
 inline double highlight_albedo(const FlatMaterial& m) {

@@ -1,5 +1,6 @@
 #include "render/prepare/prepared_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -7,6 +8,7 @@
 #include "core/scene/instances.h"
 #include "render/prepare/default_camera.h"
 #include "render/prepare/default_light.h"
+#include "render/prepare/placed_lights.h"
 
 namespace boule {
 namespace {
@@ -15,10 +17,22 @@ std::vector<FlatMaterial> flatten_all(const Scene& scene, Method method) {
   std::vector<FlatMaterial> flat;
   flat.reserve(scene.materials.size());
   for (const NamedMaterial& named : scene.materials) {
-    flat.push_back(method == Method::path ? flatten_for_paths(named.material)
-                                          : flatten(named.material, scene.ambient));
+    flat.push_back(flatten(named.material, scene.ambient, method));
   }
   return flat;
+}
+
+std::vector<Material> plain_materials(const Scene& scene) {
+  std::vector<Material> plain;
+  plain.reserve(scene.materials.size());
+  for (const NamedMaterial& named : scene.materials) plain.push_back(named.material);
+  return plain;
+}
+
+bool has_own_colors(const Scene& scene) {
+  const auto colored = [](const auto& primitive) { return primitive.material.has_color(); };
+  return std::any_of(scene.spheres.begin(), scene.spheres.end(), colored) ||
+         std::any_of(scene.planes.begin(), scene.planes.end(), colored);
 }
 
 Coherence primary_coherence(CameraKind kind) {
@@ -55,7 +69,7 @@ Status add_camera(Scene& scene, int width, int height, std::vector<std::string>&
 void add_light(Scene& scene, Method method, std::vector<std::string>& notes) {
   if (!lacks_light(scene, method)) return;
   notes.emplace_back(light_note(scene, method));
-  scene.lights.emplace_back(light_at_eye(*scene.camera));
+  scene.lights = default_lights(*scene.camera);
 }
 
 EnvironmentLight environment_light(const Scene& scene, Method method) {
@@ -74,11 +88,13 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   expand_instances(scene);
   std::vector<std::string> notes;
   if (auto bad = add_camera(scene, width, height, notes)) return *bad;
+  if (auto bad = place_lights(scene.lights, *scene.camera)) return *bad;
   add_light(scene, method, notes);
   EnvironmentLight environment = environment_light(scene, method);
   AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
   DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
   LensOptics lens = build_lens(*scene.camera, width, height);
+  const bool own_colors = has_own_colors(scene);
   // The view points to numbers in `distortion` and `lens`, which stay where they are when these
   // move.
   const CameraView view = build_camera(*scene.camera, width, height,
@@ -88,9 +104,14 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
       .spheres = std::move(scene.spheres),  // only now: the geometry has read them
       .planes = std::move(scene.planes),
       .materials = flatten_all(scene, method),
+      .plain_materials = plain_materials(scene),
+      .has_own_colors = own_colors,
+      .method = method,
+      .ambient = scene.ambient,
       .lights = std::move(scene.lights),
       .area_lights = std::move(area_lights),
       .background = std::move(scene.background),
+      .backdrop = scene.backdrop,
       .environment = std::move(environment),
       .camera = std::move(*scene.camera),
       .distortion = std::move(distortion),

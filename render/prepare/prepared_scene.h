@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,18 @@ namespace boule {
 /// A scene ready to be rendered at one size (the lecture's "preprocess"): it has a camera and a
 /// light, and is laid out for the kernels. It does not change any more.
 struct PreparedScene {
-  Geometry geometry;                    ///< what rays are tested against
-  std::vector<Sphere> spheres;          ///< by id, for shading
-  std::vector<Plane> planes;            ///< by id - spheres.size(), for shading
-  std::vector<FlatMaterial> materials;  ///< by Sphere::material and Plane::material
-  std::vector<Light> lights;            ///< in file order
-  AreaLights area_lights;               ///< for path tracing
+  Geometry geometry;                      ///< what rays are tested against
+  std::vector<Sphere> spheres;            ///< by id, for shading
+  std::vector<Plane> planes;              ///< by id - spheres.size(), for shading
+  std::vector<FlatMaterial> materials;    ///< by MaterialRef::index()
+  std::vector<Material> plain_materials;  ///< likewise: what those in other colours are made of
+  bool has_own_colors = false;            ///< some primitive has a colour of its own
+  Method method = Method::whitted;        ///< for which the materials are flattened
+  Color ambient;
+  std::vector<Light> lights;  ///< in file order
+  AreaLights area_lights;     ///< for path tracing
   Background background;
+  std::optional<Color> backdrop;   ///< what camera rays see instead
   EnvironmentLight environment;    ///< the background's image as a light, for path tracing
   Camera camera;                   ///< the scene's, or the default one
   DistortionMap distortion;        ///< owns what camera_view.distortion points to
@@ -36,11 +42,24 @@ struct PreparedScene {
   Coherence central_coherence;     ///< what those through the centre of the lens have in common
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
-  /// The material of the primitive with this id. Precondition: there is one.
-  [[nodiscard]] const FlatMaterial& material_of(std::int32_t id) const {
+  /// What the primitive with this id is made of. Precondition of this and of material_of(): there
+  /// is one.
+  [[nodiscard]] MaterialRef material_ref(std::int32_t id) const {
     const auto i = static_cast<std::size_t>(id);
     const std::size_t first_plane = spheres.size();
-    return materials[i < first_plane ? spheres[i].material : planes[i - first_plane].material];
+    return i < first_plane ? spheres[i].material : planes[i - first_plane].material;
+  }
+
+  /// A material in a colour of its own. Precondition: the reference has one.
+  [[nodiscard]] FlatMaterial colored_material(MaterialRef ref) const {
+    return flatten(recolored(plain_materials[ref.index()], linear_of(ref.color())), ambient,
+                   method);
+  }
+
+  /// The material of the primitive with this id.
+  [[nodiscard]] FlatMaterial material_of(std::int32_t id) const {
+    const MaterialRef ref = material_ref(id);
+    return ref.has_color() ? colored_material(ref) : materials[ref.index()];
   }
 };
 

@@ -16,7 +16,10 @@ Color weighed(const Color& radiance, float weight, SampleFaults& faults) {
 }  // namespace
 
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
-    : setup_(setup), integrator_(std::move(integrator)), radiance_(setup.stream_size) {
+    : setup_(setup),
+      integrator_(std::move(integrator)),
+      radiance_(setup.stream_size),
+      covered_(setup.alpha == Alpha::none ? 0 : setup.stream_size) {
   pixels_.reserve(setup.stream_size);
 }
 
@@ -96,29 +99,37 @@ void BlockWorker::find_numbers(RandomSet set) {
   numbers_.find(setup_.kernels, pixels_.size());
 }
 
+CameraRays BlockWorker::camera_rays(const SampleId* samples) {
+  return {rays_, setup_.scene.coherence, samples, covered_.empty() ? nullptr : covered_.data()};
+}
+
 bool BlockWorker::trace_all(Film& film) {
-  const CameraRays camera{rays_, setup_.scene.coherence, pixels_.data()};
-  if (!integrator_->trace(camera, radiance_.data())) return false;
+  if (!integrator_->trace(camera_rays(pixels_.data()), radiance_.data())) return false;
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    film.add(pixels_[k].x, pixels_[k].y, radiance_[k]);
+    film.add(pixels_[k].x, pixels_[k].y, radiance_[k], covered(k));
   }
   return true;
 }
 
-/// Traces the samples that have a ray. One without a ray counts as a black sample.
+/// Traces the samples that have a ray. One without a ray counts as a black sample that nothing
+/// covers.
 bool BlockWorker::trace_weighted(Film& film) {
   keep_live_rays(samples_, rays_);
   live_.clear();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     if (samples_.weight(k) != 0) live_.push_back(pixels_[k]);
   }
-  const CameraRays camera{rays_, setup_.scene.coherence, live_.data()};
-  if (!integrator_->trace(camera, radiance_.data())) return false;
-  const Color* radiance = radiance_.data();
+  if (!integrator_->trace(camera_rays(live_.data()), radiance_.data())) return false;
+  std::size_t ray = 0;
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const float weight = samples_.weight(k);
-    const Color sample = weight == 0 ? Color{} : weighed(*radiance++, weight, weighing_);
-    film.add(pixels_[k].x, pixels_[k].y, sample);
+    if (weight == 0) {
+      film.add(pixels_[k].x, pixels_[k].y, Color{}, 0);
+    } else {
+      film.add(pixels_[k].x, pixels_[k].y, weighed(radiance_[ray], weight, weighing_),
+               covered(ray));
+      ++ray;
+    }
   }
   return true;
 }

@@ -23,6 +23,7 @@ struct BlockSetup {
   Sampler sampler;
   std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
   std::size_t stream_size;                ///< most camera rays in a stream, >= 1
+  Alpha alpha;                            ///< whether films learn which samples are covered
 };
 
 /// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not
@@ -58,6 +59,10 @@ class BlockWorker {
   void position_samples();
   void find_numbers(RandomSet set);
   bool trace(Film& film);
+  [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
+  [[nodiscard]] std::uint8_t covered(std::size_t ray) const {
+    return covered_.empty() ? std::uint8_t{1} : covered_[ray];
+  }
   bool trace_all(Film& film);
   bool trace_weighted(Film& film);
 
@@ -69,7 +74,8 @@ class BlockWorker {
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;
-  SampleFaults weighing_;  ///< of samples that were finite before they were weighed
+  std::vector<std::uint8_t> covered_;  ///< by ray; empty without alpha
+  SampleFaults weighing_;              ///< of samples that were finite before they were weighed
   Film block_film_{PixelRect{0, 0, 1, 1}};
 };
 

@@ -2,6 +2,7 @@
 
 #include "render/image/image.h"
 #include "render/memory/available_memory.h"
+#include "render/renderer/outline.h"
 #include "simd/abi/stream.h"
 
 namespace boule {
@@ -15,8 +16,10 @@ int least_tile(const RenderOptions& options) {
 
 Status check_picture_memory(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
-  const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) +
-                               BlockOrder::bytes(rect, least_tile(options)) +
+  const std::uint64_t alpha_bytes = options.transparent ? rect.area() * sizeof(float) : 0;
+  const std::uint64_t line_bytes = options.outline > 0 ? Outline::bytes(rect) : 0;
+  const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) + alpha_bytes +
+                               line_bytes + BlockOrder::bytes(rect, least_tile(options)) +
                                AovChannels::bytes(options.aovs, rect);
   return check_memory(needed,
                       "a picture of " + std::to_string(rect.width()) + " x " +
@@ -32,6 +35,8 @@ RenderOptions options_of(const Scene& scene) {
   options.height = scene.image.height;
   options.spp = scene.image.spp;
   options.filter = scene.image.filter;
+  options.transparent = scene.image.transparent;
+  options.outline = scene.image.outline;
   options.method = scene.render.method;
   options.max_depth = scene.render.max_depth;
   return options;
@@ -59,6 +64,9 @@ Status validate(const RenderOptions& options) {
   if (auto bad = check_range("image.spp", options.spp, rule::samples)) return bad;
   if (auto bad = check_range("render.max_depth", options.max_depth, rule::bounces)) return bad;
   if (auto bad = check_range("tile", options.tile, {.low = 0, .high = max_tile})) return bad;
+  if (!rule::outline.allows(double{options.outline})) {
+    return Diagnostic::about("image.outline", "must be " + describe(rule::outline));
+  }
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {
     return Diagnostic::about("crop", "must be at least one pixel and lie within the frame of " +

@@ -27,7 +27,11 @@ struct RenderOptions {
   std::uint64_t seed = 0;  ///< of all random numbers
   Method method = Method::whitted;
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
+  /// Samples whose camera ray hits nothing are black, and pictures have alpha: the share of a
+  /// pixel's samples that hit something.
+  bool transparent = false;
   Solver solver = Solver::robust;
+  float outline = 0;              ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: none
   std::optional<PixelRect> crop;  ///< the pixels of the frame to render; all if there is none
   AovSelection aovs;              ///< which AOVs render_aovs() finds
   PixelOrder order = PixelOrder::tiles;
@@ -44,6 +48,11 @@ struct RenderOptions {
 
 /// The options that a scene asks for. Takes any scene.
 RenderOptions options_of(const Scene& scene);
+
+/// Whether pictures with these options have alpha.
+inline Alpha alpha_of(const RenderOptions& options) {
+  return options.transparent ? Alpha::coverage : Alpha::none;
+}
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);

@@ -26,7 +26,8 @@ Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const Kern
       scene_(std::make_unique<const PreparedScene>(std::move(scene))),
       setup_(std::make_unique<const BlockSetup>(
           BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
-                     block_pixels(options.tile), fitting_stream_size(scene_->spheres.size())})),
+                     block_pixels(options.tile), fitting_stream_size(scene_->spheres.size()),
+                     alpha_of(options)})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -53,6 +54,7 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
         prepare(std::forward<AnyScene>(scene), options.width, options.height,
                 scheduler.parallel_for(), options.method);
     if (!prepared) return prepared.error();
+    if (options.transparent) prepared.value().backdrop = Color{};
     RenderOptions fitted = options;
     fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());
     Renderer renderer(fitted, std::move(prepared).value(), *kernels.value());
@@ -66,11 +68,15 @@ Result<Image> Renderer::render() {
   const FloatEnvironment environment;
   try {
     const PixelRect whole = rect();
-    Image image(whole.width(), whole.height());
+    Image image(whole.width(), whole.height(), alpha_of(options_));
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
     if (auto bad = run_blocks(std::cref(task), {})) return *bad;
+    if (!(options_.outline > 0)) return image;
+    const auto lines = render_outline();
+    if (!lines) return lines.error();
+    lines.value().draw(image);
     return image;
   } catch (const std::bad_alloc&) {
     return Diagnostic::of("out of memory for the picture");
@@ -156,19 +162,51 @@ Result<std::vector<ImageChannel>> Renderer::render_aovs() {
 }
 
 Status Renderer::find_aovs(AovChannels& channels) {
-  std::vector<std::unique_ptr<AovWorker>> workers(scheduler_.workers());
+  return run_extra<AovWorker>(
+      blocks_, [this] { return std::make_unique<AovWorker>(*setup_, options_.solver); },
+      [&](AovWorker& worker, const PixelRect& block) { worker.render(block, channels); });
+}
+
+Result<Outline> Renderer::render_outline() {
+  if (!scene_) return moved_away();
+  const FloatEnvironment environment;
+  const Stopwatch watch;
+  try {
+    Outline outline(rect());
+    const Status status = options_.outline > 0 ? find_lines(outline) : std::nullopt;
+    render_seconds_ += watch.seconds();
+    if (status) return *status;
+    return outline;
+  } catch (const std::bad_alloc&) {
+    return Diagnostic::of("out of memory for the outline");
+  }
+}
+
+Status Renderer::find_lines(Outline& outline) {
+  const OutlineWorker::Lines lines{
+      {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
+  return run_extra<OutlineWorker>(
+      BlockOrder(rect(), OutlineWorker::block_side, PixelOrder::tiles),
+      [&] { return std::make_unique<OutlineWorker>(*setup_, lines); },
+      [&](OutlineWorker& worker, const PixelRect& block) { worker.find(block, outline); });
+}
+
+/// Calls task(worker, block) for each of the blocks, with workers that `make` makes.
+template <class Worker, class Make, class Task>
+Status Renderer::run_extra(const BlockOrder& blocks, const Make& make, const Task& task) {
+  std::vector<std::unique_ptr<Worker>> workers(scheduler_.workers());
   std::atomic<std::size_t> done{0};
   const auto body = [&](unsigned worker, std::size_t block) {
     auto& mine = workers[worker];
-    if (!mine) mine = std::make_unique<AovWorker>(*setup_, options_.solver);
-    mine->render(blocks_[block], channels);
+    if (!mine) mine = make();
+    task(*mine, blocks[block]);
     ++done;
   };
-  Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
+  Status status = scheduler_.run(blocks.size(), std::cref(body), options_.cancel);
   for (const auto& worker : workers) {
-    if (worker) aov_rays_ += worker->counts();
+    if (worker) extra_rays_ += worker->counts();
   }
-  if (!status && done != blocks_.size()) return Diagnostic::of("rendering was cancelled");
+  if (!status && done != blocks.size()) return Diagnostic::of("rendering was cancelled");
   return status;
 }
 
@@ -189,7 +227,7 @@ std::unique_ptr<BlockWorker> Renderer::make_worker() const {
 }
 
 RayCounts Renderer::count_rays() const {
-  RayCounts rays = aov_rays_;
+  RayCounts rays = extra_rays_;
   for (const auto& worker : workers_) {
     if (worker) rays += worker->counts();
   }

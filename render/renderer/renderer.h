@@ -12,6 +12,7 @@
 #include "render/image/image.h"
 #include "render/integrators/integrator.h"
 #include "render/renderer/block_worker.h"
+#include "render/renderer/outline.h"
 #include "render/renderer/render_options.h"
 #include "render/renderer/run_statistics.h"
 
@@ -57,6 +58,11 @@ class Renderer {
   /// if it was cancelled.
   Result<std::vector<ImageChannel>> render_aovs();
 
+  /// The lines that options.outline asks for. render() draws them itself; onto a picture of a film
+  /// they are drawn by Outline::draw(). Their rays count as primary rays. An error if it was
+  /// cancelled.
+  Result<Outline> render_outline();
+
   [[nodiscard]] const RenderOptions& options() const { return options_; }
   /// The pixels that a film for this renderer has.
   [[nodiscard]] PixelRect rect() const { return rendered_rect(options_); }
@@ -78,6 +84,9 @@ class Renderer {
   Status check_film(const Film& film) const;
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
   Status find_aovs(AovChannels& channels);
+  Status find_lines(Outline& outline);
+  template <class Worker, class Make, class Task>
+  Status run_extra(const BlockOrder& blocks, const Make& make, const Task& task);
 
   RenderOptions options_;
   std::unique_ptr<const PreparedScene> scene_;  ///< on the heap, because workers refer to it
@@ -85,7 +94,7 @@ class Renderer {
   BlockOrder blocks_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<BlockWorker>> workers_;
-  RayCounts aov_rays_;
+  RayCounts extra_rays_;  ///< of AOVs and outlines
   double prepare_seconds_ = 0;
   double render_seconds_ = 0;
 };

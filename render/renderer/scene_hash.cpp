@@ -22,6 +22,7 @@ class Hasher {
   void add(std::uint32_t number) { add(std::uint64_t{number}); }
   void add(int number) { add(static_cast<std::uint64_t>(number)); }
   void add(bool flag) { add(std::uint64_t{flag}); }
+  void add(MaterialRef material) { add(material.bits()); }
   void add(float x) { add(std::bit_cast<std::uint32_t>(x)); }
   template <class Enum>
   requires std::is_enum_v<Enum>
@@ -83,9 +84,17 @@ class SceneHasher {
   /// How a picture is made is not in the hash.
   void add(const ImageSettings&) {}
   void add(const RenderSettings&) {}
+  /// Nor is how a camera is fitted, where the scene has one or says nothing of it.
+  void add(const CameraFit& fit) {
+    if (!scene_.camera && !(fit == CameraFit{})) hash_.add(fit);
+  }
   /// A scene without a distortion adds nothing, so that it keeps the hash that files already hold.
   void add(const std::optional<DistortionMap>& distortion) {
     if (distortion) hash_.add(*distortion);
+  }
+  /// The same for a scene without a backdrop.
+  void add(const std::optional<Color>& backdrop) {
+    if (backdrop) hash_.add(*backdrop);
   }
   /// The scene's own and those that its instances show, as one list.
   void add(const std::vector<Sphere>& spheres) { add_primitives(spheres, count_.spheres); }

@@ -1,0 +1,118 @@
+#include "render/prepare/camera_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/elementary.h"
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+/// The share of the coordinates by which spheres are taken as larger: more than the rounding of the
+/// eye and of look_at to floats moves what is seen, 2^-24 each and at most four times that.
+constexpr double relative_guard = 0x1p-20;
+
+/// The least distance from the eye to look_at, as a share of the coordinates.
+constexpr double least_distance = 0x1p-12;
+
+/// tan(fov / 2) along each axis of the picture.
+struct HalfTangents {
+  double x, y;
+};
+
+HalfTangents half_tangents(double fov, FovAxis axis, double width, double height) {
+  const double tangent = elementary::tan_acute(fov * (elementary::pi / 360));
+  const double longer = std::max(width, height);
+  const double side = axis == FovAxis::max ? longer : axis == FovAxis::x ? width : height;
+  return {tangent * width / side, tangent * height / side};
+}
+
+/// The sine of an acute angle whose tangent is known.
+double sine_of(double tangent) { return tangent / std::sqrt(1 + tangent * tangent); }
+double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
+
+FovAxis axis_of(const CameraFit& fit, int width, int height) {
+  return fit.fov_axis.value_or(width <= height ? FovAxis::x : FovAxis::y);
+}
+
+}  // namespace
+
+CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, int height)
+    : fit_(fit), width_(width), height_(height), forward_(view.direction) {
+  right_ = normalize(cross(forward_, view.up));
+  up_ = cross(right_, forward_);
+  if (fit_.type == FittedCamera::orthographic) return;
+  const auto [x, y] = half_tangents(double{fit_.fov}, axis_of(fit_, width, height), width, height);
+  const double used = 1 - 2 * double{fit_.margin};
+  x_.sine = sine_of(x * used);
+  x_.cosine = cosine_of(x * used);
+  y_.sine = sine_of(y * used);
+  y_.cosine = cosine_of(y * used);
+}
+
+void CameraFitter::add(const std::vector<Sphere>& spheres) {
+  const auto narrow = [](Sides& sides, double across, double depth, double radius) {
+    const double inward = depth * sides.sine - radius;
+    sides.low = std::min(sides.low, inward + across * sides.cosine);
+    sides.high = std::min(sides.high, inward - across * sides.cosine);
+  };
+  for (const Sphere& s : spheres) {
+    const Vec3d center = vec_cast<double>(s.center);
+    const auto radius = static_cast<double>(s.radius);
+    const double depth = dot(center, forward_);
+    narrow(x_, dot(center, right_), depth, radius);
+    narrow(y_, dot(center, up_), depth, radius);
+    nearest_ = std::min(nearest_, depth - radius);
+    farthest_ = std::max(farthest_, depth + radius);
+    largest_ =
+        std::max({largest_, std::fabs(center.x), std::fabs(center.y), std::fabs(center.z), radius});
+  }
+}
+
+Camera CameraFitter::camera() const {
+  return fit_.type == FittedCamera::pinhole ? pinhole() : orthographic();
+}
+
+CameraPose CameraFitter::pose_at(double x, double y, double depth) const {
+  // Far enough from what it looks at that the direction has digits when both are floats.
+  const double target = std::max(middle_depth(), depth + largest_ * least_distance);
+  const Vec3d across = right_ * x + up_ * y;
+  return {vec_cast<float>(across + forward_ * depth), vec_cast<float>(across + forward_ * target),
+          vec_cast<float>(up_)};
+}
+
+/// A sphere is inside of a side where its distance from the plane is its radius at least. With the
+/// eye at (x, depth) the two sides of an axis ask for
+///   depth sine + x cosine <= low and depth sine - x cosine <= high,
+/// so the greatest depth of the eye is (low + high) / (2 sine), at x = (low - high) / (2 cosine).
+/// On the axis that asks for less than the other, that x leaves equal room on both sides.
+Camera CameraFitter::pinhole() const {
+  const auto greatest_depth = [](const Sides& sides, double guard) {
+    return (sides.low + sides.high - 2 * guard) / (2 * sides.sine);
+  };
+  const auto depth_for = [&](double guard) {
+    return std::min(greatest_depth(x_, guard), greatest_depth(y_, guard));
+  };
+  const auto middle = [](const Sides& sides) {
+    return (sides.low - sides.high) / (2 * sides.cosine);
+  };
+  const double guard = (largest_ + middle_depth() - depth_for(0)) * relative_guard;
+  const double depth = std::min(depth_for(guard), middle_depth() - largest_ * least_distance);
+  return PinholeCamera{pose_at(middle(x_), middle(y_), depth), fit_.fov,
+                       axis_of(fit_, width_, height_)};
+}
+
+/// The film is as high and wide as the spheres; the eye stands twice its height before the first.
+Camera CameraFitter::orthographic() const {
+  const double guard = largest_ * relative_guard;
+  const auto extent = [guard](const Sides& sides) { return 2 * guard - sides.low - sides.high; };
+  const auto middle = [](const Sides& sides) { return (sides.low - sides.high) / 2; };
+  const double aspect = static_cast<double>(width_) / height_;
+  const double used = 1 - 2 * double{fit_.margin};
+  const double height = std::max(extent(y_), extent(x_) / aspect) / used;
+  return OrthographicCamera{pose_at(middle(x_), middle(y_), nearest_ - 2 * height),
+                            static_cast<float>(height)};
+}
+
+}  // namespace boule

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "core/scene/camera.h"
+#include "core/scene/camera_fit.h"
+#include "core/scene/primitive.h"
+#include "render/prepare/default_view.h"
+
+namespace boule {
+
+/// Finds the tightest camera of one direction in whose frame the outlines of all spheres lie that
+/// it was given, in one frame or several. The order in which they come does not matter.
+class CameraFitter {
+ public:
+  /// For pictures of `width` x `height` pixels. Preconditions: `fit` has no Problem, and the up of
+  /// `view` does not lie along its direction.
+  CameraFitter(const CameraFit& fit, const View& view, int width, int height);
+
+  void add(const std::vector<Sphere>& spheres);
+
+  /// The camera. It looks at the middle of the spheres' depths. Its coordinates are floats: the
+  /// spheres are taken as larger by 2^-20 of the largest coordinate and of the eye's distance, so
+  /// that all outlines are in the frame in spite of the rounding. Spheres smaller than that are
+  /// seen from far enough that the direction keeps its digits. Numbers near the end of float's
+  /// range can overflow here: find_problem() of the camera tells. Precondition: a sphere was added.
+  [[nodiscard]] Camera camera() const;
+
+ private:
+  /// Two opposite sides of the frame are planes: of a pinhole they meet in its eye, of an
+  /// orthographic camera they are parallel. `low` and `high` are the least distances of a sphere's
+  /// surface from the planes as they would lie with the eye at the origin.
+  struct Sides {
+    double sine = 0, cosine = 1;                           ///< of half the angle between the planes
+    double low = std::numeric_limits<double>::infinity();  ///< from the left or the lower one
+    double high = std::numeric_limits<double>::infinity();  ///< from the right or the upper one
+  };
+
+  [[nodiscard]] Camera pinhole() const;
+  [[nodiscard]] Camera orthographic() const;
+  [[nodiscard]] CameraPose pose_at(double x, double y, double depth) const;
+  [[nodiscard]] double middle_depth() const { return (nearest_ + farthest_) / 2; }
+
+  CameraFit fit_;
+  int width_, height_;
+  Vec3d right_, up_, forward_;
+  Sides x_, y_;
+  double nearest_ = std::numeric_limits<double>::infinity();    ///< depth of the first sphere
+  double farthest_ = -std::numeric_limits<double>::infinity();  ///< and of the last
+  double largest_ = 0;  ///< of all coordinates and radii, without their signs
+};
+
+}  // namespace boule

@@ -1,0 +1,88 @@
+#include "render/prepare/default_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+Vec3d unit(const Vec3f& v) { return normalize(vec_cast<double>(v)); }
+
+/// The axis that a plane's normal lies along, within about 18 degrees; y if it lies along none or
+/// along x, as that of a wall does.
+Vec3d up_of(const std::vector<Plane>& planes) {
+  constexpr double steep = 0.95;
+  if (planes.empty()) return {0, 1, 0};
+  const Vec3d normal = unit(planes.front().normal);
+  if (std::fabs(normal.z) > steep) return {0, 0, normal.z > 0 ? 1.0 : -1.0};
+  return {0, normal.y < -steep ? -1.0 : 1.0, 0};
+}
+
+/// The directions by which a place is described from its front: right x up = front.
+struct Compass {
+  Vec3d right, up, front;
+};
+
+Compass compass_of(const Vec3d& up) {
+  const Vec3d aside = std::fabs(up.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d right = normalize(aside - up * dot(aside, up));
+  return {right, up, cross(right, up)};
+}
+
+/// How long the spheres are together along an axis.
+double extent_along(const Vec3d& axis, const std::vector<Sphere>& spheres) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  double low = inf, high = -inf;
+  for (const Sphere& s : spheres) {
+    const double along = dot(vec_cast<double>(s.center), axis);
+    const auto radius = static_cast<double>(s.radius);
+    low = std::min(low, along - radius);
+    high = std::max(high, along + radius);
+  }
+  return std::max(high - low, 0.0);
+}
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : 1; }
+
+/// The direction from the spheres to the camera.
+Vec3d way_to_camera(Compass compass, const std::vector<Sphere>& spheres) {
+  // Tangents. They are those of 32 and 20 degrees, and of 50 for what is flat.
+  constexpr double aside = 0.625, above = 0.371, above_flat = 1.19;
+  double wide = extent_along(compass.right, spheres), deep = extent_along(compass.front, spheres);
+  const double high = extent_along(compass.up, spheres);
+  // Of what is about as deep as wide, the front is the front.
+  constexpr double clearly = 1.1;
+  if (deep > wide * clearly) {
+    std::swap(wide, deep);
+    compass = {compass.front * -1.0, compass.up, compass.right};
+  }
+  const double flat = std::max(0.0, 1 - 2 * ratio(high, deep));
+  const double across = aside * std::min(1.0, ratio(deep, wide));
+  const double rise = (above + (above_flat - above) * flat) * std::sqrt(1 + across * across);
+  return normalize(compass.front + compass.right * across + compass.up * rise);
+}
+
+/// True for directions so close to each other, or to each other's opposite, that one is not upward
+/// in a picture in which the other is looked along.
+bool are_parallel(const Vec3d& a, const Vec3d& b) { return length(cross(a, b)) < 1e-3; }
+
+}  // namespace
+
+View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
+                  const std::vector<Plane>& planes) {
+  View view;
+  view.up = fit.up ? unit(*fit.up) : up_of(planes);
+  view.direction =
+      fit.direction ? unit(*fit.direction) : way_to_camera(compass_of(view.up), spheres) * -1.0;
+  if (!fit.up && are_parallel(view.up, view.direction)) {
+    // Seen from above or below, what is behind is upward, as on a map.
+    view.up = compass_of(view.up).front * -1.0;
+  }
+  return view;
+}
+
+}  // namespace boule

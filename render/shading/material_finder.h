@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/prepare/prepared_scene.h"
+
+namespace boule {
+
+/// Finds the materials of the hits of one stream of rays. Those in a colour of their own are made
+/// when they are met, and stay valid until the next stream.
+class MaterialFinder {
+ public:
+  /// `scene` must outlive it.
+  explicit MaterialFinder(const PreparedScene& scene) : scene_(scene) {}
+
+  /// Begins a stream of so many rays.
+  void start(std::size_t rays) {
+    made_.clear();
+    if (scene_.has_own_colors) made_.reserve(rays);  // so that no material moves
+  }
+
+  /// The material of a primitive. Precondition: it is called at most once for each ray.
+  const FlatMaterial& find(std::int32_t id) {
+    const MaterialRef ref = scene_.material_ref(id);
+    if (!ref.has_color()) return scene_.materials[ref.index()];
+    // Rays beside each other often meet the same primitive, or others of its colour.
+    if (!made_.empty() && ref == last_) return made_.back();
+    last_ = ref;
+    return made_.emplace_back(scene_.colored_material(ref));
+  }
+
+ private:
+  const PreparedScene& scene_;
+  std::vector<FlatMaterial> made_;
+  MaterialRef last_;
+};
+
+}  // namespace boule
