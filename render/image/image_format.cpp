@@ -13,10 +13,15 @@ constexpr int jpeg_segment = 60'000;
 // hdr stores colours with a shared exponent (RGBE). TIFF has 8 bits, as viewers and office programs
 // expect; for floats there is EXR.
 constexpr ImageFormat formats[] = {
-    {.extension = "exr", .writer = "openexr", .hdr = true, .channels = true, .remarks = true},
+    {.extension = "exr",
+     .writer = "openexr",
+     .alpha = true,
+     .hdr = true,
+     .channels = true,
+     .remarks = true},
     {.extension = "hdr", .writer = "hdr", .hdr = true},
     {.extension = "rgbe", .writer = "hdr", .hdr = true},
-    {.extension = "png", .writer = "png", .remarks = true},
+    {.extension = "png", .writer = "png", .alpha = true, .remarks = true},
     {.extension = "jpg",
      .writer = "jpeg",
      .longest_side = 65500,

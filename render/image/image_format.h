@@ -13,6 +13,7 @@ struct ImageFormat {
   int longest_side = std::numeric_limits<int>::max();
   /// Most bytes of all texts in the header; far above any remark where the format has no limit.
   int text_room = 1 << 24;
+  bool alpha = false;     ///< stores alpha: premultiplied where it is hdr, else straight
   bool hdr = false;       ///< stores linear floats; else 8 bits with the sRGB curve
   bool channels = false;  ///< stores extra named channels, and the crop window
   bool remarks = false;   ///< its header holds text, such as the remark that a picture is partial

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/math/srgb.h"
 #include "core/scene/scene.h"
 #include "render/image/file_damage.h"
 #include "render/image/image_format.h"
 #include "render/image/module_loader.h"
-#include "render/image/tone.h"
 #include "render/memory/available_memory.h"
 
 namespace boule {

@@ -7,14 +7,12 @@
 
 namespace boule {
 
-/// The linear value of a value `s` of the sRGB curve (IEC 61966-2-1), for 0..1 the exact one. The
-/// curve goes on outside of 0..1. Same bits on every machine.
-double linear_from_srgb(double s);
-
 /// A picture in 8-bit sRGB (IEC 61966-2-1), interleaved RGB, row 0 on top: 3 bytes for each of
-/// image.pixels. Colours are multiplied by 2^stops, clamped to 0..1, and rounded to the nearest
-/// code of the exact curve; NaN and negative numbers become 0. `stops` is clamped to -126..126, and
-/// NaN counts as 0. Same bytes on every machine.
+/// image.pixels. With alpha it is RGBA with straight colours, 4 bytes for each: a colour is divided
+/// by its alpha, and what nothing covers is 0. Alpha has no curve. Colours are multiplied by
+/// 2^stops, clamped to 0..1, and rounded to the nearest code of the exact curve; NaN and negative
+/// numbers become 0. `stops` is clamped to -126..126, and NaN counts as 0. Same bytes on every
+/// machine.
 std::vector<std::uint8_t> tone_map(const Image& image, float stops);
 
 }  // namespace boule

@@ -63,6 +63,7 @@ std::size_t sample_count(const ImageChannel& channel) {
 /// What is wrong with the extra channels, or an empty text.
 std::string channel_problem(const Image& image, const std::vector<ImageChannel>& channels) {
   std::set<std::string> names = {"R", "G", "B"};
+  if (!image.alpha.empty()) names.insert("A");
   for (const ImageChannel& channel : channels) {
     if (channel.name.empty() || !names.insert(channel.name).second) {
       return "channel " + quote(channel.name) + " has no name of its own";
@@ -85,6 +86,12 @@ std::string find_reason(const Image& image, const ImageFileOptions& options,
           static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
     return "the picture has no pixels";
   }
+  if (!image.alpha.empty() && image.alpha.size() != image.pixels.size()) {
+    return "the picture has not one alpha per pixel";
+  }
+  if (!image.alpha.empty() && !format->alpha) {
+    return std::string("a .") + format->extension + " file has no room for transparency";
+  }
   if (image.width > format->longest_side || image.height > format->longest_side) {
     return std::string("a .") + format->extension + " file has at most " +
            std::to_string(format->longest_side) + " pixels a side";
@@ -102,18 +109,29 @@ std::string find_reason(const Image& image, const ImageFileOptions& options,
   return channel_problem(image, options.channels);
 }
 
+/// R, G, B, and A if the picture has alpha.
+void plan_colors(const Image& image, const ImageFormat& format, Plan& plan) {
+  static_assert(sizeof(Color) == 3 * sizeof(float));
+  constexpr const char* names[] = {"R", "G", "B", "A"};
+  const std::size_t count = image.alpha.empty() ? 3 : 4;
+  const auto* floats = reinterpret_cast<const unsigned char*>(image.pixels.data());
+  const auto* alpha = reinterpret_cast<const unsigned char*>(image.alpha.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!format.hdr) {
+      plan.channels.push_back({names[i], module::SampleType::u8, plan.codes.data() + i, count});
+    } else if (i < 3) {
+      plan.channels.push_back(
+          {names[i], module::SampleType::f32, floats + i * sizeof(float), sizeof(Color)});
+    } else {
+      plan.channels.push_back({names[i], module::SampleType::f32, alpha, sizeof(float)});
+    }
+  }
+}
+
 void plan_channels(const Image& image, const ImageFileOptions& options, const ImageFormat& format,
                    Plan& plan) {
-  static_assert(sizeof(Color) == 3 * sizeof(float));
-  constexpr const char* names[] = {"R", "G", "B"};
   if (!format.hdr) plan.codes = tone_map(image, options.exposure_stops);
-  const auto* floats = reinterpret_cast<const unsigned char*>(image.pixels.data());
-  for (std::size_t i = 0; i < 3; ++i) {
-    plan.channels.push_back(
-        format.hdr ? module::Channel{names[i], module::SampleType::f32, floats + i * sizeof(float),
-                                     sizeof(Color)}
-                   : module::Channel{names[i], module::SampleType::u8, plan.codes.data() + i, 3});
-  }
+  plan_colors(image, format, plan);
   for (const ImageChannel& channel : options.channels) {
     const auto* integers = std::get_if<std::vector<std::uint32_t>>(&channel.samples);
     const void* samples = integers != nullptr
@@ -145,6 +163,8 @@ Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   Metadata header = {{"Software", "boule " BOULE_VERSION},
                      {"DateTime", options.date_time},
                      {"oiio:ColorSpace", format.hdr ? "Linear" : "sRGB"}};
+  // Straight colours stay as they are.
+  if (format.alpha && !format.hdr) header.emplace_back("oiio:UnassociatedAlpha", 1);
   if (writer == "openexr") {
     header.emplace_back("compression", compression_name(options.compression));
   } else if (writer == "jpeg" || writer == "webp") {
@@ -210,8 +230,9 @@ Status check_openable(const OutputFile& file, const std::string& path) {
   return {};
 }
 
-Status write(const Image& image, const std::string& path, const ImageFileOptions& options) {
-  const ImageFormat* format = find_image_format(path);
+/// The header's entries, or what is wrong with the arguments of write_image().
+Result<Metadata> make_header(const Image& image, const std::string& path,
+                             const ImageFileOptions& options, const ImageFormat* format) {
   if (const std::string reason = find_reason(image, options, format); !reason.empty()) {
     return cannot_write(path, reason);
   }
@@ -219,6 +240,32 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (const std::string reason = prepare_header_texts(header, *format); !reason.empty()) {
     return cannot_write(path, reason);
   }
+  return header;
+}
+
+/// Lets the module write the picture that is planned.
+Status write_planned(Plan& plan, const LoadedModule& loaded, const OpenFile& file) {
+  plan.picture.threads = loaded.threads;
+  module::Report report{};
+  loaded.table->write(&plan.picture, file.descriptor, &report);
+  if (plan.thrown) std::rethrow_exception(plan.thrown);
+  return status_of(report, file.name);
+}
+
+Status write_open(const Image& image, const OpenFile& file, const ImageFileOptions& options,
+                  const ImageFormat& format) {
+  auto header = make_header(image, file.name, options, &format);
+  if (!header) return header.error();
+  const auto loaded = load_image_module(format, options.threads);
+  if (!loaded) return cannot_write(file.name, loaded.error().message);
+  const auto plan = make_plan(image, options, format, std::move(header).value());
+  return write_planned(*plan, loaded.value(), file);
+}
+
+Status write(const Image& image, const std::string& path, const ImageFileOptions& options) {
+  const ImageFormat* format = find_image_format(path);
+  auto header = make_header(image, path, options, format);
+  if (!header) return header.error();
   // The file comes first, so that a missing folder is reported without loading anything.
   Result<OutputFile> created = OutputFile::create(path, options.stop);
   if (!created.ok()) return created.error();
@@ -226,28 +273,24 @@ Status write(const Image& image, const std::string& path, const ImageFileOptions
   if (options.temporary) options.temporary(file.path());
   const auto loaded = load_image_module(*format, options.threads);
   if (!loaded) return cannot_write(path, loaded.error().message);
-  const module::Table& table = *loaded.value().table;
-
-  const std::unique_ptr<Plan> plan = make_plan(image, options, *format, std::move(header));
-  plan->picture.threads = loaded.value().threads;
-  module::Report report{};
-  table.write(&plan->picture, file.descriptor(), &report);
-  if (plan->thrown) std::rethrow_exception(plan->thrown);
-  if (Status failure = status_of(report, path)) return failure;
+  const auto plan = make_plan(image, options, *format, std::move(header).value());
+  if (auto failure = write_planned(*plan, loaded.value(), {path, file.descriptor()}))
+    return failure;
   if (Status failure = check_openable(file, path)) return failure;
-  table.check(&plan->picture, file.path().c_str(), &report);
+  module::Report report{};
+  loaded.value().table->check(&plan->picture, file.path().c_str(), &report);
   if (Status failure = status_of(report, path)) return failure;
   if (Status failure = file.sync()) return failure;
   if (options.temporary) options.temporary({});
   return file.commit(options.stop);
 }
 
-}  // namespace
-
-Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
+/// Calls `write`, and turns its exceptions into Diagnostics about this file.
+template <class Write>
+Status guarded(const std::string& path, const Write& write) {
   const FloatEnvironment environment;
   try {
-    return write(image, path, options);
+    return write();
   } catch (const std::bad_alloc&) {
     return cannot_write(path, ENOMEM);
   } catch (const std::exception& other) {  // of a callback
@@ -255,6 +298,18 @@ Status write_image(const Image& image, const std::string& path, const ImageFileO
   } catch (...) {
     return cannot_write(path, "an unknown exception");
   }
+}
+
+}  // namespace
+
+Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
+  return guarded(path, [&] { return write(image, path, options); });
+}
+
+Status write_png(const Image& image, const OpenFile& file, const ImageFileOptions& options) {
+  return guarded(file.name, [&] {
+    return write_open(image, file, options, *find_image_format("picture.png"));
+  });
 }
 
 }  // namespace boule

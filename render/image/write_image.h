@@ -57,14 +57,16 @@ struct ImageFileOptions {
 };
 
 /// Writes a picture in the format of its extension: HDR formats as linear RGB float, LDR formats
-/// clamped, with the sRGB curve, in 8 bits. The file is written under a temporary name
-/// (OutputFile), opened again, checked, and renamed. So a failure leaves an old file as it was, and
-/// nothing else. Equal arguments make equal files, byte for byte. Takes any colours: LDR formats
-/// store NaN and negative numbers as 0, EXR stores them as they are.
+/// clamped, with the sRGB curve, in 8 bits. A picture with alpha gets a channel A: in EXR beside
+/// premultiplied colours, in PNG beside straight ones; other formats refuse it. The file is written
+/// under a temporary name (OutputFile), opened again, checked, and renamed. So a failure leaves an
+/// old file as it was, and nothing else. Equal arguments make equal files, byte for byte. Takes any
+/// colours: LDR formats store NaN and negative numbers as 0, EXR stores them as they are.
 ///
 /// The Diagnostic says "cannot write 'NAME': REASON", with the system's reason where there is one.
 /// Among the errors are
-/// - a picture without pixels, or with more of them on a side than the format can hold,
+/// - a picture without pixels, with alpha but not for each pixel, or with more of them on a side
+/// than the format can hold,
 /// - a crop outside its frame,
 /// - texts longer than the format has room for (JPEG: 60,000 bytes in all, others 16 MiB),
 /// - a channel without a name of its own, or without one sample per pixel,
@@ -81,5 +83,15 @@ struct ImageFileOptions {
 /// libraries wait for the threads.
 Status write_image(const Image& image, const std::string& path,
                    const ImageFileOptions& options = {});
+
+/// A file that is open, empty and seekable, and what messages call it.
+struct OpenFile {
+  const std::string& name;
+  int descriptor;
+};
+
+/// The same for a PNG that goes into a file of the caller's, where it is not checked.
+/// options.temporary is not called.
+Status write_png(const Image& image, const OpenFile& file, const ImageFileOptions& options);
 
 }  // namespace boule
