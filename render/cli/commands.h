@@ -8,6 +8,9 @@ namespace boule::cli {
 /// Renders a scene file to a picture file.
 ExitCode run(const RenderCommand& command);
 
+/// Writes the scene that shows a particle file to standard output.
+ExitCode run(const SceneCommand& command);
+
 /// Traces the rays of a file against a scene, to a file of hits.
 ExitCode run(const TraceCommand& command);
 

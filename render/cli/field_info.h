@@ -43,6 +43,10 @@ class FieldInfo {
   void add(const std::string& key, const MaterialRule&, std::uint32_t index) {
     json_[key] = scene_->materials[index].name;
   }
+  void add(const std::string& key, const MaterialRule& rule, MaterialRef material) {
+    add(key, rule, material.index());
+    if (material.has_color()) json_["color"] = shown(material.color());
+  }
   void add(const std::string& key, const GroupRule&, std::uint32_t index) {
     json_[key] = scene_->groups[index].name;
   }

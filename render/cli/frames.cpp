@@ -6,13 +6,14 @@
 #include <system_error>
 
 #include "render/cli/output_check.h"
+#include "render/cli/picture_stream.h"
 #include "render/cli/run_report.h"
 #include "render/scene_file/frame_name.h"
 
 namespace boule::cli {
 
 Status check_frames(const RenderCommand& command) {
-  if (!has_frame_slot(command.output)) {
+  if (command.output != standard_output && !has_frame_slot(command.output)) {
     return wrong_option(
         "with --frames the picture's name needs a place for the number, such as "
         "out.####.png",

@@ -4,8 +4,11 @@
 #include "render/cli/commands.h"
 #include "render/cli/frames.h"
 #include "render/cli/messages.h"
+#include "render/cli/particle_info.h"
+#include "render/cli/particle_scene.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/scene_info.h"
+#include "render/cli/scene_loader.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_file.h"
 
@@ -14,18 +17,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One scene, or one frame of a series.
-ExitCode tell(const InfoCommand& command, const std::string& scene, std::optional<int> frame) {
+/// What is told of one scene, or one frame of a series.
+Result<Json> info_of(const InfoCommand& command, const std::string& scene,
+                     std::optional<int> frame) {
   SceneFileOptions options;
   options.frame = frame;
-  const auto load = [&] {
-    ReadingLimit limit(command.load_limit);
-    const ReadingLimit::Reading reading(limit, scene);
-    return load_scene(scene, options);
-  };
-  auto loaded = load();
-  if (!loaded) return report(loaded.error(), invalid_input);
-  const Json info = scene_info(std::move(loaded).value(), scene);
+  ReadingLimit limit(command.load_limit);
+  const ReadingLimit::Reading reading(limit, scene);
+  if (is_particle_input(scene, command.look)) return particle_info(scene, command.look, frame);
+  if (!command.look.first.empty()) return not_particles(scene, command.look.first);
+  auto loaded = load_scene(scene, options);
+  if (!loaded) return loaded.error();
+  return scene_info(std::move(loaded).value(), scene);
+}
+
+/// Tells of one scene, or one frame of a series.
+ExitCode tell(const InfoCommand& command, const std::string& scene, std::optional<int> frame) {
+  const auto found = info_of(command, scene, frame);
+  if (!found) return report(found.error(), code_of_loading(found.error()));
+  const Json& info = found.value();
   // A file name may hold any bytes: what is not UTF-8 is replaced rather than refused.
   const auto as_json = [&] {
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,24 +1,11 @@
 #include "render/cli/option_values.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "core/scene/scene.h"
 
 namespace boule::cli {
 namespace {
-
-/// The parts of `text` between the separators, empty ones too.
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (;;) {
-    const std::size_t end = text.find(separator, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string::npos) return parts;
-    begin = end + 1;
-  }
-}
 
 /// The `count` whole numbers from `low` on that `text` consists of.
 std::optional<std::vector<int>> split_numbers(const std::string& text, char separator,
@@ -42,6 +29,17 @@ bool* find_aov(AovSelection& aovs, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
 
 std::optional<FrameRange> parse_frames(const std::string& text) {
   constexpr int last_frame = 999'999'999;
@@ -100,6 +98,12 @@ std::optional<double> parse_duration(const std::string& text) {
     return duration > 0 && duration <= 1e9 ? std::optional(duration) : std::nullopt;
   }
   return std::nullopt;
+}
+
+std::optional<BackgroundChoice> parse_background(const std::string& text) {
+  if (text == "transparent") return BackgroundChoice{};
+  const auto color = parse_hex_color(text);
+  return color ? std::optional(BackgroundChoice{color}) : std::nullopt;
 }
 
 std::optional<StatsTarget> parse_stats(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/cli/options.h"
 
@@ -18,6 +19,9 @@ std::optional<Number> parse_number(const std::string& text, Number low, Number h
   return good ? std::optional(number) : std::nullopt;
 }
 
+/// The parts of `text` between the separators, empty ones too.
+std::vector<std::string> split(const std::string& text, char separator);
+
 /// "A-B" with 0 <= A <= B, or "A" alone; "A-B:N" is every Nth of them, from A on, N >= 1.
 std::optional<FrameRange> parse_frames(const std::string& text);
 
@@ -32,6 +36,9 @@ std::optional<AovSelection> parse_aovs(const std::string& text);
 
 /// All names of AOVs: "depth,normal,position,id,albedo,z".
 std::string list_aovs();
+
+/// "#rrggbb" or "transparent".
+std::optional<BackgroundChoice> parse_background(const std::string& text);
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "core/scene/scene.h"
+#include "render/cli/look_options.h"
+#include "render/cli/look_values.h"
+#include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
 #include "render/cli/usage.h"
 
@@ -15,72 +18,8 @@ namespace {
 constexpr const char* description =
     "Boule renders scenes of spheres and planes: exact hits, the same bits on every machine.";
 
-/// "--threads" of "-t,--threads".
-std::string long_name(const std::string& names) { return names.substr(names.rfind(',') + 1); }
-
-CLI::ValidationError refuse(const std::string& names, const std::string& text,
-                            const std::string& expected) {
-  return CLI::ValidationError(long_name(names),
-                              quote(text) + " is not understood, expected " + expected);
-}
-
-/// An option whose value is parsed by `parse`, which returns a std::optional: none is an error.
-template <class Target, class Parse>
-void add_parsed(CLI::App& app, const std::string& names, Target& target, const Parse& parse,
-                const std::string& expected, const std::string& type, const std::string& help) {
-  const auto store = [&target, names, parse, expected](const std::string& text) {
-    const auto value = parse(text);
-    if (!value) throw refuse(names, text, expected);
-    target = *value;
-  };
-  app.add_option_function<std::string>(names, store, help)->type_name(type);
-}
-
-/// An option that takes a whole number within low .. high.
-template <class Number, class Target>
-void add_whole(CLI::App& app, const std::string& names, Target& target, Number low, Number high,
-               const std::string& help) {
-  const auto parse = [low, high](const std::string& text) { return parse_number(text, low, high); };
-  add_parsed(app, names, target, parse,
-             "a whole number from " + std::to_string(low) + " to " + std::to_string(high), "N",
-             help);
-}
-
-template <class T>
-struct Choice {
-  std::string_view name;
-  T value;
-};
-template <class T>
-Choice(const char*, T) -> Choice<T>;
-
-/// All enumerators, by their names.
-template <class Enum>
-std::array<Choice<Enum>, names<Enum>.size()> choices() {
-  static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
-  std::array<Choice<Enum>, names<Enum>.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {names<Enum>[i], static_cast<Enum>(i)};
-  return all;
-}
-
-/// An option that takes one of a few names.
-template <class Target, class T, std::size_t n>
-void add_choice(CLI::App& app, const std::string& name, Target& target,
-                const std::array<Choice<T>, n>& choices, const std::string& help) {
-  std::string names;
-  for (const Choice<T>& choice : choices)
-    names += (names.empty() ? "" : "|") + std::string(choice.name);
-  const auto parse = [choices](const std::string& text) -> std::optional<T> {
-    for (const Choice<T>& choice : choices) {
-      if (text == choice.name) return choice.value;
-    }
-    return std::nullopt;
-  };
-  add_parsed(app, name, target, parse, "one of " + names, names, help);
-}
-
 void add_scene(CLI::App& app, std::string& scene) {
-  app.add_option("SCENE", scene, "Scene: .toml, .nff, or spheres alone, N x 4: .npy")
+  app.add_option("SCENE", scene, "Scene: .toml, .nff, or spheres alone, N x 4: .npy; or particles")
       ->required()
       ->type_name("");
 }
@@ -106,9 +45,6 @@ void add_load_limit(CLI::App& app, std::optional<double>& seconds) {
                "Give up when reading the scene and data files takes longer (no limit)");
 }
 
-/// Puts the options that are added from now on under this heading of the help.
-void start_group(CLI::App& app, const char* heading) { app.option_defaults()->group(heading); }
-
 /// Options that change the picture.
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Picture");
@@ -118,6 +54,12 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--spp", command.spp, rule::samples.low, rule::samples.high, "Samples per pixel");
   add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
+  add_parsed(app, "--background", command.background, parse_background,
+             "a colour such as #ffffff, or transparent", "COLOR",
+             "What shows where nothing is: #rrggbb, or transparent (EXR, PNG)");
+  const auto parse_width = [](const std::string& text) { return parse_number(text, 0.0F, 100.0F); };
+  add_parsed(app, "--outline", command.outline, parse_width, "a number of pixels from 0 to 100",
+             "W", "Dark lines W pixels wide where what is seen changes (0)");
   add_whole(app, "--seed", command.seed, std::uint64_t{0},
             std::numeric_limits<std::uint64_t>::max(), "Seed of the random numbers (0)");
   add_parsed(app, "--crop", command.crop, parse_crop,
@@ -200,13 +142,24 @@ void add_machine_options(CLI::App& app, RunOptions& command) {
   add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
 }
 
+void add_legend(CLI::App& app, std::string& legend) {
+  add_parsed(app, "--legend", legend, parse_words, "the name of a file", "FILE.svg",
+             "Write what the colours of particles mean: a bar or a list");
+}
+
 void add_render(CLI::App& app, RenderCommand& command) {
   add_scene(app, command.scene);
   add_picture_options(app, command);
   add_light_options(app, command);
+  add_look_options(app, command.look);
   add_work_options(app, command);
+  app.get_option("--frame")->excludes("--frames");
   start_group(app, "Output");
-  add_output(app, command.output, "IMAGE", "Picture to write; its extension names the format");
+  add_output(app, command.output, "IMAGE",
+             "Picture to write; its extension names the format; - is standard output");
+  add_choice(app, "--format", command.format, choices<StreamFormat>(),
+             "Format of pictures on standard output");
+  add_legend(app, command.legend);
   add_compression(app, command.compression);
   add_report_options(app, command);
   add_machine_options(app, command);
@@ -231,10 +184,23 @@ void add_trace(CLI::App& app, TraceCommand& command) {
   add_machine_options(app, command);
 }
 
+void add_scene_text(CLI::App& app, SceneCommand& command) {
+  app.add_option("FILE", command.particles, "Particle file: .xyz and others")
+      ->required()
+      ->type_name("");
+  add_look_options(app, command.look);
+  start_group(app, "Work");
+  add_load_limit(app, command.load_limit);
+}
+
 void add_info(CLI::App& app, InfoCommand& command) {
   add_scene(app, command.scene);
   add_frames(app, command.frames,
              "Tell of these frames: #### in the names of scene and data is the frame's number");
+  start_group(app, look_heading);
+  add_file_options(app, command.look);
+  start_group(app, "Options");
+  app.get_option("--frame")->excludes("--frames");
   app.add_flag("--json", command.json, "As JSON, for programs");
   add_load_limit(app, command.load_limit);
 }
@@ -262,6 +228,7 @@ Command help_on(const CLI::App& app, const std::string& name) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   RenderCommand render;
+  SceneCommand scene;
   TraceCommand trace;
   InfoCommand info;
   IsaCommand isa;
@@ -278,6 +245,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   };
   CLI::App* const render_app = add_command("render", "Render a scene to a picture");
   add_render(*render_app, render);
+  CLI::App* const scene_app = add_command("scene", "Write the scene that shows a particle file");
+  add_scene_text(*scene_app, scene);
   CLI::App* const trace_app = add_command("trace", "Trace the rays of a file to hits");
   add_trace(*trace_app, trace);
   CLI::App* const info_app = add_command("info", "Tell what a scene holds");
@@ -298,9 +267,14 @@ Command parse_command_line(int argc, const char* const* argv) {
   }
   if (help_app->parsed()) return help_on(app, help_topic);
   if (version_app->parsed()) return TextCommand{version + "\n"};
-  if (render_app->parsed()) return render;
+  const auto checked = [](const CLI::App& chosen, auto& command) -> Command {
+    if (auto bad = check_look_options(chosen, command.look)) return *bad;
+    return command;
+  };
+  if (render_app->parsed()) return checked(*render_app, render);
+  if (scene_app->parsed()) return checked(*scene_app, scene);
   if (trace_app->parsed()) return trace;
-  if (info_app->parsed()) return info;
+  if (info_app->parsed()) return checked(*info_app, info);
   return isa;
 }
 

@@ -7,10 +7,13 @@
 #include <string_view>
 #include <variant>
 
+#include "core/math/srgb.h"
 #include "core/scene/scene.h"
+#include "render/cli/particle_look.h"
 #include "render/cli/progress_bar.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
+#include "render/image/encode_image.h"
 #include "render/image/write_image.h"
 #include "render/renderer/aov_channels.h"
 #include "render/scene_file/scene_file.h"
@@ -29,6 +32,11 @@ namespace boule::cli {
 /// Width and height in pixels.
 struct Size {
   int width, height;
+};
+
+/// What `--background` asks for: a colour, or no background at all.
+struct BackgroundChoice {
+  std::optional<SrgbColor> color;  ///< none: transparent
 };
 
 /// Frames of a series: first, first + step and so on, up to last.
@@ -72,6 +80,8 @@ struct RenderCommand : RunOptions {
   std::optional<Size> size;
   std::optional<int> spp;
   std::optional<PixelFilter> filter;
+  std::optional<BackgroundChoice> background;
+  std::optional<float> outline;  ///< pixels
   std::optional<Method> method;
   std::optional<int> max_depth;
   std::optional<PixelRect> crop;
@@ -84,7 +94,17 @@ struct RenderCommand : RunOptions {
   bool partial = false;  ///< if ended early, write the unfinished picture
   Compression compression = Compression::zip;
   float exposure_stops = 0;
+  std::optional<StreamFormat> format;  ///< of pictures on standard output
   PolygonPolicy polygons = PolygonPolicy::plane;
+  LookOptions look;    ///< of a particle file
+  std::string legend;  ///< a file for it; empty: none
+};
+
+/// `boule scene`.
+struct SceneCommand {
+  std::string particles;             ///< a particle file
+  std::optional<double> load_limit;  ///< seconds of reading
+  LookOptions look;
 };
 
 /// `boule trace`.
@@ -98,6 +118,7 @@ struct InfoCommand {
   std::string scene;
   std::optional<double> load_limit;  ///< seconds of reading
   std::optional<FrameRange> frames;
+  LookOptions look;  ///< of a particle file: its format and frame only
   bool json = false;
 };
 
@@ -117,8 +138,8 @@ struct UsageError {
   std::string help = "boule --help";
 };
 
-using Command =
-    std::variant<RenderCommand, TraceCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
+using Command = std::variant<RenderCommand, SceneCommand, TraceCommand, InfoCommand, IsaCommand,
+                             TextCommand, UsageError>;
 
 /// Parses the command line.
 Command parse_command_line(int argc, const char* const* argv);

@@ -44,7 +44,10 @@ Status check_output(const std::string& name) {
 
 Status check_stats_target(const StatsTarget& target) {
   if (target.form != StatsForm::json) return std::nullopt;
-  if (target.file != "-") return check_output(target.file);
+  return target.file == "-" ? check_standard_output() : check_output(target.file);
+}
+
+Status check_standard_output() {
   const int flags = fcntl(STDOUT_FILENO, F_GETFL);
   const bool writable = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY;
   return writable ? std::nullopt : Status(refusal("standard output", EBADF));

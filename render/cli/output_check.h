@@ -12,6 +12,9 @@ namespace boule::cli {
 /// The check leaves no file behind and does not wait for a pipe's reader, who may come later.
 Status check_output(const std::string& name);
 
+/// An error if nothing can be written to standard output.
+Status check_standard_output();
+
 /// check_output() for the statistics of a run, which go to a file or standard output.
 Status check_stats_target(const StatsTarget& target);
 

@@ -7,9 +7,13 @@
 #include "render/cli/commands.h"
 #include "render/cli/frames.h"
 #include "render/cli/interrupt.h"
+#include "render/cli/legend.h"
 #include "render/cli/live_report.h"
 #include "render/cli/messages.h"
+#include "render/cli/picture_stream.h"
 #include "render/cli/rendering.h"
+#include "render/cli/scene_loader.h"
+#include "render/cli/text_output.h"
 
 namespace boule::cli {
 namespace {
@@ -44,14 +48,27 @@ class SeriesTotals {
   Stats work_;
 };
 
+/// Writes the legend, if one is asked for, of the first scene that was read.
+ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
+  if (command.legend.empty()) return done;
+  Status status;
+  {
+    const WriteGuard guard;
+    status = write_text_file(legend_svg(loader.colors()), command.legend);
+  }
+  exit_if_interrupted();
+  return status ? report(*status, failed) : done;
+}
+
 ExitCode run_series(const RenderCommand& command, const FrameRange& frames) {
   if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
   if (auto bad = check_folders(command, frames)) return report(*bad, failed);
   LiveReport live(command, frames.count());
   SeriesTotals totals;
+  SceneLoader loader(command);
   for (int number = frames.first; number <= frames.last; number += frames.step) {
     live.start_frame();
-    Rendering frame(command_of_frame(command, number), live);
+    Rendering frame(command_of_frame(command, number), live, loader);
     const ExitCode code = frame.run();
     if (code != done) return code;
     if (frame.skipped()) {
@@ -64,8 +81,9 @@ ExitCode run_series(const RenderCommand& command, const FrameRange& frames) {
   }
   live.end_series();
   if (live.is_series() && command.verbosity != Verbosity::quiet)
-    print_note("boule: " + printable(command.output) + ": " + totals.text(live.seconds()));
-  return done;
+    print_note("boule: " + printable(shown_output(command.output)) + ": " +
+               totals.text(live.seconds()));
+  return write_legend(command, loader);
 }
 
 }  // namespace
@@ -74,7 +92,9 @@ ExitCode run(const RenderCommand& command) {
   if (command.frames) return run_series(command, *command.frames);
   if (auto bad = check_single(command)) return report(*bad, wrong_usage);
   LiveReport live(command);
-  return Rendering(command, live).run();
+  SceneLoader loader(command);
+  const ExitCode code = Rendering(command, live, loader).run();
+  return code == done ? write_legend(command, loader) : code;
 }
 
 }  // namespace boule::cli

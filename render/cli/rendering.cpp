@@ -9,8 +9,10 @@
 #include <system_error>
 
 #include "render/cli/interrupt.h"
+#include "render/cli/legend.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/picture_stream.h"
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
@@ -18,6 +20,7 @@
 #include "render/image/image_format.h"
 #include "render/image/output_file.h"
 #include "render/memory/available_memory.h"
+#include "render/prepare/default_camera.h"
 #include "render/renderer/scene_hash.h"
 
 namespace boule::cli {
@@ -25,7 +28,8 @@ namespace {
 
 /// Errors in the command that show without reading the scene.
 Status check(const RenderCommand& command) {
-  const ImageFormat* const format = find_image_format(command.output);
+  if (auto bad = check_picture_stream(command)) return bad;
+  const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
     return wrong_option("no picture format has the extension of " + quote(command.output) +
                             ", expected one of " + known_image_extensions(),
@@ -47,16 +51,67 @@ Status check(const RenderCommand& command) {
                             " file cannot say which crop it is: another one would be skipped",
                         "--skip-existing");
   }
-  return check_run(command, "picture", {command.scene});
+  std::vector<std::string> others = {command.scene};
+  if (!command.legend.empty()) others.push_back(command.legend);
+  return check_run(command, "picture", others);
 }
 
 /// Errors with the files to be written. A picture that is there already and may be skipped need not
 /// be writable.
 Status check_outputs(const RenderCommand& command) {
   if (auto bad = check_stats_target(command.stats)) return bad;
+  if (auto bad = command.legend.empty() ? std::nullopt : check_output(command.legend)) return bad;
+  if (command.output == standard_output) return check_standard_output();
   std::error_code ignored;
   const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
   return may_stay ? std::nullopt : check_output(command.output);
+}
+
+/// An error if a legend is asked for and there is none, or if it would replace a file that is read.
+Status check_legend(const RenderCommand& command, const std::vector<ParticleColors>& colors,
+                    const std::vector<std::string>& files) {
+  if (command.legend.empty()) return std::nullopt;
+  if (legend_svg(colors).empty()) {
+    return wrong_option("the scene has no particles whose colours mean numbers or species",
+                        "--legend");
+  }
+  RunOptions legend;
+  legend.output = command.legend;
+  auto bad = check_data_files(legend, "legend", files);
+  if (bad) bad->key = "--legend";
+  return bad;
+}
+
+/// Puts what the command line says about the background into the scene.
+void choose_background(const RenderCommand& command, Scene& scene) {
+  if (!command.background) return;
+  const std::optional<SrgbColor>& color = command.background->color;
+  scene.image.transparent = !color;
+  if (color) scene.backdrop = linear_of(*color);
+}
+
+/// An error if the picture is to be transparent and its format cannot be.
+Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
+  const ImageFormat& format = *picture_format(command);
+  if (!options.transparent || format.alpha) return std::nullopt;
+  return wrong_option(std::string("a .") + format.extension +
+                          " file cannot be transparent, expected --output to be an .exr or .png "
+                          "file, or --background to be a colour",
+                      command.background ? "--background" : "image.transparent");
+}
+
+CropWindow crop_window(const RenderOptions& options) {
+  if (!options.crop) return {};
+  return {options.width, options.height, options.crop->x0, options.crop->y0};
+}
+
+/// The shape of the picture that these options make.
+PictureShape shape_of(const RenderOptions& options) {
+  const PixelRect rect = rendered_rect(options);
+  PictureShape shape{rect.width(), rect.height(), crop_window(options),
+                     AovChannels::names(options.aovs)};
+  if (options.transparent) shape.channels.emplace_back("A");
+  return shape;
 }
 
 RenderOptions combine(const Scene& scene, const RenderCommand& command) {
@@ -69,6 +124,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.filter = command.filter.value_or(options.filter);
   options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
+  options.outline = command.outline.value_or(options.outline);
   options.crop = command.crop;
   options.aovs = command.aovs;
   options.seed = command.seed;
@@ -80,11 +136,6 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.isa = command.isa;
   options.solver = command.solver;
   return options;
-}
-
-CropWindow crop_window(const RenderOptions& options) {
-  if (!options.crop) return {};
-  return {options.width, options.height, options.crop->x0, options.crop->y0};
 }
 
 /// report() with the number of the frame, if any.
@@ -119,32 +170,36 @@ ExitCode Rendering::run() {
   // and to end the program normally meanwhile could crash.
   if (prepared != done && image_start_ && !image_start_->done()) std::_Exit(prepared);
   if (prepared != done || !renderer) return prepared;
-  for (const std::string& text : renderer->notes()) report_.note_once("boule: note: " + text);
+  for (const std::string& text : renderer->notes()) {
+    // A camera that nobody could have set need not be told of.
+    if (!loader_.is_made() || text != camera_note) report_.note_once("boule: note: " + text);
+  }
   return render(*renderer);
 }
 
 Result<LoadedScene> Rendering::load() {
   live_.start_stage("reading " + printable(command_.scene));
   const ReadingLimit::Reading reading(reading_limit_, command_.scene);
-  return load_scene(command_.scene, {command_.polygons, command_.frame});
+  return loader_.load(command_.frame);
 }
 
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   auto loaded = load();
-  if (!loaded) return refuse(loaded.error(), command_, invalid_input);
+  if (!loaded) return refuse(loaded.error(), command_, code_of_loading(loaded.error()));
+  if (auto bad = check_legend(command_, loader_.colors(), loaded.value().data_files))
+    return refuse(*bad, command_, wrong_usage);
   if (auto bad = check_data_files(command_, "picture", loaded.value().data_files))
     return refuse(*bad, command_, wrong_usage);
   Scene& scene = loaded.value().scene;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));
+  choose_background(command_, scene);
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);
-  const PixelRect rect = rendered_rect(options);
-  const PictureShape shape{rect.width(), rect.height(), crop_window(options),
-                           AovChannels::names(options.aovs)};
-  if (command_.skip_existing && is_finished_picture(command_.output, shape)) {
+  if (auto bad = check_transparency(options, command_)) return refuse(*bad, command_, wrong_usage);
+  if (command_.skip_existing && is_finished_picture(command_.output, shape_of(options))) {
     skipped_ = true;
     if (tells_of_itself())
       report_.note("boule: " + command_.output + ": is there already, skipped");
@@ -155,15 +210,18 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
   // Begun only here, so that a command that is refused above loads no module.
-  image_start_.emplace(command_.output, static_cast<int>(Scheduler(options.threads).workers()));
+  if (const auto file = file_to_encode(command_)) {
+    image_start_.emplace(*file, static_cast<int>(Scheduler(options.threads).workers()));
+  }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
   // are loaded end the process without a message.
+  const auto wait = [this] { return image_start_ ? image_start_->wait() : std::nullopt; };
   if (address_room() != std::numeric_limits<std::uint64_t>::max()) {
-    if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
+    if (auto bad = wait()) return refuse(*bad, command_, failed);
   }
   auto created = Renderer::create(std::move(scene), options);
   if (!created) return refuse_scene(created.error(), command_);
-  if (auto bad = image_start_->wait()) return refuse(*bad, command_, failed);
+  if (auto bad = wait()) return refuse(*bad, command_, failed);
   renderer = std::move(created).value();
   return done;
 }
@@ -175,7 +233,7 @@ ExitCode Rendering::render(Renderer& renderer) {
   live_.start_time_limit(command_.time_limit);
   std::vector<ImageChannel> channels;
   if (command_.aovs.any()) {  // first: a picture that is stopped has them too
-    live_.start_stage("finding the extra channels of " + printable(command_.output));
+    live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
     auto aovs = renderer.render_aovs();
     if (!aovs) return explain(aovs.error());
     channels = std::move(aovs).value();
@@ -187,7 +245,7 @@ ExitCode Rendering::render(Renderer& renderer) {
   if (!image) return explain(image.error());
   ImageFileOptions options = file_options(renderer);
   options.channels = std::move(channels);
-  live_.start_stage("writing " + printable(command_.output));
+  live_.start_stage("writing " + printable(shown_output(command_.output)));
   const ExitCode written = write(image.value(), options);
   const ExitCode end = written == done ? finish(renderer, image.value()) : written;
   return end == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : end;
@@ -196,15 +254,23 @@ ExitCode Rendering::render(Renderer& renderer) {
 /// The finished picture; or, with --partial, the unfinished one where it was stopped.
 Result<Image> Rendering::make_image(Renderer& renderer) {
   if (!command_.partial) return renderer.render();
+  // First: a picture that is stopped has its lines too.
+  const auto lines = renderer.render_outline();
+  if (!lines) return lines.error();
   Film film(renderer.rect());
   const Status status = renderer.render_live(film);
-  if (!status) return film.to_image();
+  const Alpha alpha = alpha_of(renderer.options());
+  const auto with_lines = [&lines](Image image) {
+    lines.value().draw(image);
+    return image;
+  };
+  if (!status) return with_lines(film.to_image(alpha));
   const PartialSamples samples{
       film.total_samples(),
       renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
   if (!StopGuard::flag() || samples.done == 0) return *status;
   partial_ = samples;
-  return partial_picture(film, renderer.options().order);
+  return with_lines(partial_picture(film, renderer.options().order, alpha));
 }
 
 /// Reports why a picture could not be made. The library knows that it was stopped, but not whether
@@ -246,7 +312,8 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
       removal.reset();
       path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
     };
-    status = write_image(image, command_.output, options);
+    status = command_.output == standard_output ? send_picture(image, *command_.format, options)
+                                                : write_image(image, command_.output, options);
     removal.reset();
     if (!status) {
       set_written(live_.is_series() ? "the frames up to this one had been written"
@@ -283,15 +350,15 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");
   if (partial_) {  // even if quiet: the exit code does not tell that the picture is partial
-    print_note(fmt::format("boule: {}: partial, {:.1f} % of its samples, {}", command_.output,
-                           partial_->percent(), cause));
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its samples, {}",
+                           shown_output(command_.output), partial_->percent(), cause));
     return;
   }
   if (!tells_of_itself()) return;
   report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
-                           command_.output, image.width, image.height, renderer.options().spp,
-                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
-                           counted(stats_.threads, "thread")));
+                           shown_output(command_.output), image.width, image.height,
+                           renderer.options().spp, stats_.work_seconds, mrays_per_s(stats_),
+                           stats_.isa, counted(stats_.threads, "thread")));
   if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
 }
 

@@ -11,6 +11,7 @@
 #include "render/cli/picture_header.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
+#include "render/cli/scene_loader.h"
 #include "render/cli/stats.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/image_start.h"
@@ -23,10 +24,11 @@ namespace boule::cli {
 /// exit code.
 class Rendering {
  public:
-  /// `live` must outlive it.
-  Rendering(RenderCommand command, LiveReport& live)
+  /// `live` and `loader` must outlive it. A series has one of each for all its frames.
+  Rendering(RenderCommand command, LiveReport& live, SceneLoader& loader)
       : command_(std::move(command)),
         live_(live),
+        loader_(loader),
         report_(command_, live),
         reading_limit_(command_.load_limit) {}
 
@@ -52,6 +54,7 @@ class Rendering {
 
   const RenderCommand command_;  ///< before what refers to it
   LiveReport& live_;
+  SceneLoader& loader_;
   RunReport report_;
   ReadingLimit reading_limit_;
   bool skipped_ = false;

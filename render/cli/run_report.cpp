@@ -8,6 +8,7 @@
 #include "core/scene/instances.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/picture_stream.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::cli {
@@ -45,8 +46,8 @@ Status check_run(const RunOptions& options, const std::string& output,
 
 bool is_stream(const std::string& output) {
   std::error_code ignored;
-  return std::filesystem::exists(output, ignored) &&
-         !std::filesystem::is_regular_file(output, ignored);
+  return output == standard_output || (std::filesystem::exists(output, ignored) &&
+                                       !std::filesystem::is_regular_file(output, ignored));
 }
 
 Status check_data_files(const RunOptions& options, const std::string& output,
@@ -77,6 +78,7 @@ void RunReport::detail(const std::string& text) const {
 
 void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
   for (const std::string& warning : loaded.warnings) note_once(warning);
+  for (const std::string& note : loaded.notes) note_once("boule: note: " + printable(note));
   const Scene& scene = loaded.scene;
   const PrimitiveCount count = count_primitives(scene);
   if (count.total() == 0) note_once("boule: note: no objects in the scene: nothing to be hit");

@@ -18,8 +18,8 @@ namespace {
 /// Each with the number of spheres and planes that are made of it.
 Json materials_info(const Scene& scene) {
   std::vector<std::size_t> objects(scene.materials.size());
-  for (const Sphere& sphere : scene.spheres) ++objects[sphere.material];
-  for (const Plane& plane : scene.planes) ++objects[plane.material];
+  for (const Sphere& sphere : scene.spheres) ++objects[sphere.material.index()];
+  for (const Plane& plane : scene.planes) ++objects[plane.material.index()];
   Json list = Json::array();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const NamedMaterial& named = scene.materials[i];
@@ -49,8 +49,9 @@ std::string inline_text(const Json& value) {
 
 /// True for a list of things rather than of coordinates: each gets a line.
 bool is_list(const std::string& key) {
-  for (const char* list : {"data_files", "lights", "materials", "notes", "warnings",
-                           "first_spheres", "first_planes", "group_list", "first_instances"}) {
+  for (const char* list :
+       {"data_files", "lights", "materials", "notes", "warnings", "first_spheres", "first_planes",
+        "group_list", "first_instances", "species", "columns"}) {
     if (key == list) return true;
   }
   return false;
@@ -88,13 +89,14 @@ void add_surroundings(Json& json, const Scene& scene) {
   }
   for (const Light& light : scene.lights) lights.push_back(kind_info(light));
   if (lacks_light(scene, scene.render.method)) {
-    lights.push_back(kind_info(light_at_eye(camera)));
+    for (const Light& light : default_lights(camera)) lights.push_back(kind_info(light));
     notes.push_back(light_note(scene, scene.render.method));
   }
   json["camera"] = camera_info(camera);
   if (scene.distortion) json["camera"]["distortion"] = fields_info(*scene.distortion);
   json["background"] = kind_info(scene.background);
   json["ambient"] = shown(scene.ambient);
+  if (scene.backdrop) json["backdrop"] = shown(*scene.backdrop);
   json["lights"] = std::move(lights);
   json["notes"] = std::move(notes);
 }
@@ -123,6 +125,7 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
   json["first_planes"] = planes_info(scene);
   json["group_list"] = std::move(groups);
   json["first_instances"] = std::move(instances);
+  for (const std::string& note : loaded.notes) json["notes"].push_back(note);
   json["warnings"] = loaded.warnings;
   return json;
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/math/color.h"
+#include "core/math/srgb.h"
 #include "core/math/vec.h"
 #include "core/scene/scene.h"
 
@@ -18,7 +19,9 @@ using Json = nlohmann::ordered_json;
 double shown(float x);
 Json shown(const Vec3f& v);
 Json shown(const Color& c);
+inline Json shown(SrgbColor color) { return hex_text(color); }
 inline Json shown(int number) { return number; }
+inline Json shown(bool flag) { return flag; }
 inline Json shown(const Both<const int>& both) { return {both.first, both.second}; }
 inline Json shown(const std::string& name) { return name; }
 /// An enumerator by its name.

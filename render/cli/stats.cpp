@@ -7,7 +7,7 @@
 
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
-#include "render/image/output_file.h"
+#include "render/cli/text_output.h"
 
 namespace boule::cli {
 namespace {
@@ -84,14 +84,6 @@ std::string as_json(const Stats& s) {
   return json.dump(2) + "\n";
 }
 
-Status write_file(const std::string& text, const std::string& path) {
-  const auto stop = [] { return WriteGuard::interrupted(); };
-  auto file = OutputFile::create(path, stop);
-  if (!file) return file.error();
-  if (auto bad = file.value().write(text.data(), text.size())) return bad;
-  return file.value().commit(stop);
-}
-
 }  // namespace
 
 double mrays_per_s(const Stats& stats) {
@@ -120,7 +112,7 @@ Status write_stats(const Stats& stats, const StatsTarget& target) {
       break;
   }
   if (target.file == "-") return print_data(as_json(stats));
-  return write_file(as_json(stats), target.file);
+  return write_text_file(as_json(stats), target.file);
 }
 
 }  // namespace boule::cli

@@ -102,6 +102,7 @@ ExitCode Tracing::run() {
   if (!rays) return report(rays.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
+  rays.value().count_from(loaded.value().origin);
   live_.start_stage("preparing " + printable(command_.scene));
 
   TraceOptions options;

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
+#include "render/particle_file/particle_file.h"
 
 namespace boule::cli {
 namespace {
@@ -37,16 +38,29 @@ std::vector<const CLI::Option*> missing_options(const CLI::App& command) {
       [](const CLI::Option* option) { return option->get_required() && option->count() == 0; });
 }
 
+/// The options of a command, those that must be there first: they are the likeliest to be meant.
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  auto options = command.get_options();
+  std::stable_partition(options.begin(), options.end(),
+                        [](const CLI::Option* option) { return option->get_required(); });
+  return options;
+}
+
+/// "'-o' (--output)": how an option is called whose name begins as `name` does.
+std::string both_names(const CLI::Option& option, const std::string& name) {
+  const std::string quickest = short_name(option);
+  return quote(quickest) + (quickest == name ? "" : " (" + name + ")");
+}
+
 std::string unknown_option(const CLI::App& command, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   const std::string text = "unknown option " + quote(name);
   Names known;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : options_of(command)) {
     for (const std::string& one : option->get_lnames()) {
       // Many programs accept the beginning of an option's name: it is not a misspelling of another.
       const bool is_start = name.size() > 3 && ("--" + one).starts_with(name);
-      if (is_start)
-        return text + "; did you mean " + quote(short_name(*option)) + " (--" + one + ")?";
+      if (is_start) return text + "; did you mean " + both_names(*option, "--" + one) + "?";
       known.push_back("--" + one);
     }
   }
@@ -79,7 +93,8 @@ std::string unexpected(const CLI::App& command, const std::string& word) {
 /// "-o IMAGE is missing".
 std::string missing(const CLI::App& app, const CLI::App& command) {
   if (&command == &app) {
-    return "a command is missing, expected " + list_names({"render", "trace", "info", "isa"});
+    return "a command is missing, expected " +
+           list_names({"render", "scene", "trace", "info", "isa"});
   }
   const CLI::Option& option = *missing_options(command).front();
   const std::string& type = option.get_type_name();
@@ -90,7 +105,8 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
 
 UsageError unknown_command(const CLI::App& app, const std::string& name) {
   const std::string text = "unknown command " + quote(name);
-  const bool is_scene = name.ends_with(".toml") || name.ends_with(".nff") || name.ends_with(".npy");
+  const bool is_scene = name.ends_with(".toml") || name.ends_with(".nff") ||
+                        name.ends_with(".npy") || is_particle_name(name);
   if (is_scene) return {text + "; did you mean 'boule render " + safe_name(name) + "'?"};
   return {text + suggest(name, command_names(app))};
 }

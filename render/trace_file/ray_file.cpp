@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
-#include "render/scene_file/float32.h"
-#include "render/scene_file/npy_header.h"
-#include "render/scene_file/npy_rows.h"
+#include "render/file/float32.h"
+#include "render/file/npy_header.h"
+#include "render/file/npy_rows.h"
 
 namespace boule {
 namespace {
@@ -34,14 +34,16 @@ Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
   return check_npy_length(header, row_bytes(npy_is_double(header)), file_size);
 }
 
-/// The ray of one row. Adds 1 to `lost` if rounding took its origin or direction away.
+/// The ray of one row, counted from `zero`. Adds 1 to `lost` if rounding took its origin or
+/// direction away.
 template <class Number>
-Ray decode_row(const unsigned char* row, std::uint64_t& lost) {
-  Number exact[columns];
+Ray decode_row(const unsigned char* row, const Vec3d& zero, std::uint64_t& lost) {
+  const double subtracted[columns] = {zero.x, zero.y, zero.z};
+  double exact[columns];
   float x[columns];
   bool overflows = false;
   for (std::size_t i = 0; i < columns; ++i) {
-    exact[i] = npy_number<Number>(row + i * sizeof(Number));
+    exact[i] = double{npy_number<Number>(row + i * sizeof(Number))} - subtracted[i];
     x[i] = float32_or_inf(exact[i]);
     const bool is_bound = i == 3 || i == 7;
     overflows |= !is_bound && std::isfinite(exact[i]) && !std::isfinite(x[i]);
@@ -82,7 +84,8 @@ Status RayFile::read(std::span<Ray> rays) {
     }
     for (std::size_t k = 0; k < count; ++k) {
       const unsigned char* const row = rows_.data() + k * width;
-      rays[first + k] = is_double_ ? decode_row<double>(row, lost_) : decode_row<float>(row, lost_);
+      rays[first + k] =
+          is_double_ ? decode_row<double>(row, zero_, lost_) : decode_row<float>(row, zero_, lost_);
     }
   }
   return std::nullopt;

@@ -7,7 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/math/ray.h"
-#include "render/scene_file/input_file.h"
+#include "core/math/vec.h"
+#include "render/file/input_file.h"
 
 namespace boule {
 
@@ -25,6 +26,10 @@ class RayFile {
   /// The number of rays in the file.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
+  /// Counts the origins of rays from this point: it is subtracted in double before they are
+  /// rounded.
+  void count_from(const Vec3d& zero) { zero_ = zero; }
+
   /// Reads the next rays.size() rays. An error if fewer are left, or if this was moved away.
   Status read(std::span<Ray> rays);
 
@@ -39,6 +44,7 @@ class RayFile {
   InputFile file_;
   std::uint64_t size_;
   bool is_double_;
+  Vec3d zero_;
   std::uint64_t lost_ = 0;
   std::vector<unsigned char> rows_;  ///< of one read, as in the file
 };

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "core/math/vec.h"
+
+namespace boule::cli {
+
+/// A finite number above 0.
+std::optional<double> parse_above_0(const std::string& text);
+
+/// Any text but an empty one.
+std::optional<std::string> parse_words(const std::string& text);
+
+/// A radius of particles: any text but an empty one and a number that is not above 0.
+std::optional<std::string> parse_radius(const std::string& text);
+
+/// Colours of particles: any text but an empty one and "#..." that is no colour.
+std::optional<std::string> parse_particle_color(const std::string& text);
+
+/// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.
+std::optional<std::string> parse_map(const std::string& text);
+std::string list_color_maps();
+
+/// "A,B" with A < B, both finite.
+std::optional<std::array<double, 2>> parse_range(const std::string& text);
+
+/// "x", "-x", "y", "-y", "z", "-z", or "X,Y,Z": a vector that is not zero, as float too.
+std::optional<Vec3d> parse_direction(const std::string& text);
+
+}  // namespace boule::cli

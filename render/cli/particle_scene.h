@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "render/cli/particle_look.h"
+#include "render/scene_file/scene_file.h"
+
+namespace boule::cli {
+
+/// Whether a file is shown by a scene that is made for it: one of particles by the options, its
+/// name or its content. A .npy file is one if it has named fields.
+bool is_particle_input(const std::string& path, const LookOptions& look);
+
+/// True for the endings of scenes: .toml, .nff, .npy.
+bool is_scene_name(const std::string& path);
+
+/// The scene of a particle file.
+struct ParticleScene {
+  std::string text;  ///< TOML: a file of it, in the working directory, has the same picture
+  LoadedScene loaded;
+  std::optional<LookFloor> floor;  ///< if it has one
+};
+
+/// Makes the scene that shows a particle file and reads it. If there is to be a floor, it is
+/// `floor`, else the one below what this frame shows. A Diagnostic whose key is an option
+/// ("--color") is about what the command line says of particles, any other about the file.
+Result<ParticleScene> load_particle_scene(const std::string& path, const LookOptions& look,
+                                          const SceneFileOptions& options,
+                                          const std::optional<LookFloor>& floor = {});
+
+/// How far along a direction, which has unit length, the spheres begin, in the coordinates of the
+/// file; none if there are no spheres.
+std::optional<double> lowest_along(const Vec3d& direction, const LoadedScene& loaded);
+
+/// The floor that touches what is lowest.
+LookFloor floor_at(double lowest, const Vec3d& up);
+
+/// Puts the floor into a scene that has the text of one without it.
+void add_floor(const LookFloor& floor, LoadedScene& loaded);
+
+}  // namespace boule::cli

@@ -1,0 +1,31 @@
+#include <string>
+
+#include "render/cli/commands.h"
+#include "render/cli/messages.h"
+#include "render/cli/particle_scene.h"
+#include "render/cli/reading_limit.h"
+#include "render/cli/run_report.h"
+#include "render/cli/scene_loader.h"
+#include "render/frame/scheduler.h"
+
+namespace boule::cli {
+
+ExitCode run(const SceneCommand& command) {
+  const std::string& path = command.particles;
+  if (!is_particle_input(path, command.look)) {
+    return report(not_particles(path, "FILE"), wrong_usage);
+  }
+  Scheduler scheduler(0);
+  SceneFileOptions options;
+  options.parallel_for = scheduler.parallel_for();
+  const auto load = [&] {
+    ReadingLimit limit(command.load_limit);
+    const ReadingLimit::Reading reading(limit, path);
+    return load_particle_scene(path, command.look, options);
+  };
+  const auto scene = load();
+  return scene ? print_as_result(scene.value().text)
+               : report(scene.error(), code_of_loading(scene.error()));
+}
+
+}  // namespace boule::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/camera.h"
+#include "render/cli/exit_code.h"
+#include "render/cli/options.h"
+#include "render/cli/particle_look.h"
+#include "render/frame/scheduler.h"
+#include "render/scene_file/particle_file_cache.h"
+#include "render/scene_file/scene_file.h"
+
+namespace boule::cli {
+
+/// Reads the scene that a command names, or makes that of a particle file; in a series anew for
+/// each frame. What the scene leaves to be chosen is chosen once for a series, so that nothing
+/// jumps from frame to frame: the camera, which is fitted to all frames, what colour maps show, the
+/// origin of coordinates, the floor.
+class SceneLoader {
+ public:
+  explicit SceneLoader(const RenderCommand& command);
+  SceneLoader(const SceneLoader&) = delete;
+  SceneLoader& operator=(const SceneLoader&) = delete;
+
+  /// The scene of a frame, or that of a single picture.
+  Result<LoadedScene> load(std::optional<int> frame);
+
+  /// Whether a scene was made for a particle file.
+  [[nodiscard]] bool is_made() const { return is_made_; }
+  /// What the colours of the first scene mean that was read, one for each table of particles.
+  [[nodiscard]] const std::vector<ParticleColors>& colors() const { return colors_; }
+
+ private:
+  Result<LoadedScene> read(std::optional<int> frame);
+  void keep_choices(const LoadedScene& first);
+  void fit_series(LoadedScene& first);
+  void use_choices(LoadedScene& loaded) const;
+
+  const std::string path_;  ///< with a slot for the frame's number
+  const LookOptions look_;
+  const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
+  const std::optional<Size> size_;
+  Scheduler scheduler_;
+  ParticleFileCache files_;
+  SceneFileOptions options_;
+  std::optional<LookFloor> floor_;  ///< of a series of a particle file
+  std::optional<Camera> camera_;    ///< of a series whose scene has none
+  std::vector<ParticleColors> colors_;
+  bool is_first_ = true;
+  bool is_made_ = false;
+};
+
+/// An error about an input that is no particle file, although `option` needs one.
+Diagnostic not_particles(const std::string& path, const std::string& option);
+
+/// The exit status for an error of load(): options have keys that begin with "--".
+ExitCode code_of_loading(const Diagnostic& error);
+
+}  // namespace boule::cli

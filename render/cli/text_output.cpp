@@ -1,0 +1,16 @@
+#include "render/cli/text_output.h"
+
+#include "render/cli/interrupt.h"
+#include "render/image/output_file.h"
+
+namespace boule::cli {
+
+Status write_text_file(const std::string& text, const std::string& path) {
+  const auto stop = [] { return WriteGuard::interrupted(); };
+  auto file = OutputFile::create(path, stop);
+  if (!file) return file.error();
+  if (auto bad = file.value().write(text.data(), text.size())) return bad;
+  return file.value().commit(stop);
+}
+
+}  // namespace boule::cli
