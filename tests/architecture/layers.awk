@@ -21,12 +21,15 @@ BEGIN {
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
   layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
+  layer("^render/file/", "^(core|render/(memory|file))/", any)
+  layer("^render/particle_file/", "^(core|render/(memory|file|particle_file))/", any)
+  layer("^render/particles/", "^(core|render/(memory|file|particle_file|particles))/", any)
   # Scenes name pictures: their reader returns plain numbers, which core can hold.
-  layer("^render/scene_file/", "^(core|render/(memory|scene_file))/|^render/image/(read_)?image\\.h$", any)
+  layer("^render/scene_file/", "^(core|render/(memory|file|particle_file|particles|scene_file))/|^render/image/(read_)?image\\.h$", any)
   layer("^render/threads/", "^render/threads/", plain_std "|^<pthread\\.h>$")
   layer("^render/image/", "^(core|render/(memory|threads|image))/", any)
   layer("^render/frame/", "^(core|render/(memory|threads|image|frame))/", any)
-  layer("^render/trace_file/", "^(core|render/(scene_file|image|frame|trace_file))/", any)
+  layer("^render/trace_file/", "^(core|render/(file|image|frame|trace_file))/", any)
   layer("^render/prepare/", narrow "|^render/prepare/", any)
   layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
@@ -41,11 +44,12 @@ BEGIN {
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")

@@ -29,7 +29,7 @@ npy() {
 # Where commands run: the scenes, what the documents say is there, and data for who has no NumPy.
 mkdir "$work/blocks" "$work/here"
 (cd "$source" && pages . | xargs awk -v folder="$work/blocks" -f "$here/blocks.awk")
-cp "$source"/scenes/*.{toml,npy,exr,lens} "$work/here"
+cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv} "$work/here"
 cd "$work/here"
 ln -s . scenes
 npy '2, 3' 24 >cloud.npy
@@ -92,12 +92,16 @@ try_ctest() {
 
 # try_line WHERE LINE
 try_line() {
-  local where="$1" line="$2" code=0 words
+  local where="$1" line="$2" code=0 words target=''
   [[ "$line" =~ '# exit code '([0-9]+) ]] && code="${BASH_REMATCH[1]}"
   line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
-  read -r -a words <<<"$line"
+  mapfile -t words < <(xargs -r printf '%s\n' <<<"$line")  # as the shell does, quotes and all
   ((${#words[@]} > 0)) || return 0
   tried=$((tried + 1))
+  if ((${#words[@]} > 2)) && [[ "${words[-2]}" == '>' ]]; then
+    target="${words[-1]}"
+    words=("${words[@]::${#words[@]}-2}")
+  fi
   case "${words[0]}" in
     boule | build/release/bin/boule) expect "$where" "$code" "$program" "${words[@]:1}" ;;
     build/release/bin/boule_*) expect "$where" "$code" "$(dirname "$program")/${words[0]##*/}" "${words[@]:1}" ;;
@@ -109,6 +113,7 @@ try_line() {
     git | clang-format-14) ;;
     *) [[ -x "$source/${words[0]}" ]] || complain "$where: nobody tries ${words[0]}" ;;
   esac
+  [[ -z "$target" ]] || cp "$work/out" "$target"
 }
 
 # try_commands BLOCK: a line that ends with \ goes on.
@@ -126,7 +131,7 @@ try_commands() {
 try_options() {
   local page="$source/docs/command_line.md" helped shown
   [[ -f "$page" ]] || return 0
-  helped="$(for command in '' render trace info isa; do
+  helped="$(for command in '' render scene trace info isa; do
     "$program" $command --help | grep -oE -- '(^ *|,)--?[a-z-]+' | tr -d ' ,'
   done | LC_ALL=C sort -u)"
   shown="$(grep -oE -- '`--?[a-z-]+' "$page" | tr -d '`' | LC_ALL=C sort -u || true)"

@@ -76,6 +76,10 @@ TEST_F(HostLocale, ChangesNoSceneAndNoFile) {
       write("scene.nff",
             "v\nfrom 0.5 0.25 5.3\nat 0 0 0\nup 0 1 0\nangle 45.1\nhither 1\nresolution 8 8\n"
             "f 0.1 0.2 0.3 0.4 0.5 3.3 0 1\ns 0.1 1234567.5 0.3 1.5e-1\n")};
+  write("far.xyz", "2\n\nC 1000.125 0.5 -2000.25\nC 1000.128 0.501 -2000.25\n");
+  const std::string particles = write("particles.toml",
+                                      "schema = 1\n[[particles]]\nfile = 'far.xyz'\nradius = "
+                                      "0.001\ncolor = {by = 'x', map = 'viridis'}\n");
   const Image image(3, 2);
   ImageFileOptions options;
   options.metadata = {{"boule:real", 1234.5f}, {"boule:whole", 1234567}};
@@ -86,6 +90,9 @@ TEST_F(HostLocale, ChangesNoSceneAndNoFile) {
       all += loaded ? std::to_string(scene_hash(loaded.value().scene)) : loaded.error().message;
       all += '\n';
     }
+    const auto loaded = load_scene(particles);
+    if (!loaded) return all + loaded.error().message;
+    for (const std::string& note : loaded.value().notes) all += note + '\n';
     for (const char* extension : {"exr", "hdr", "png", "jpg", "ppm"}) {
       const std::string name = prefix + "." + extension;
       const Status bad = write_image(image, path(name), options);
@@ -95,6 +102,8 @@ TEST_F(HostLocale, ChangesNoSceneAndNoFile) {
   };
   const std::string plain = look("plain");
   ASSERT_NE(plain.find('\n'), std::string::npos);
+  ASSERT_NE(plain.find("1000.12"), std::string::npos);
+  ASSERT_NE(plain.find("points are counted from ["), std::string::npos);
   const CommaLocale commas(path(""));
   if (!commas.has_c_locale()) std::printf("localedef makes no locale here: C++'s alone is tried\n");
   EXPECT_EQ(look("local"), plain);

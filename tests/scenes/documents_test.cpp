@@ -32,11 +32,15 @@ std::string two_centers() {
   return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dict + '\n' + std::string(24, '\0');
 }
 
+/// Where the format is described.
+std::filesystem::path scene_format() { return documents_folder() / "scene_format.md"; }
+
 /// A folder with the data files that the documents' scenes name.
 class DocumentFolder {
  public:
   DocumentFolder() {
     write("cloud.npy", two_centers());
+    write("water.xyz", code_blocks(read_bytes(scene_format()), "text").front());
     for (const char* name :
          {"sphereflake.npy", "barrel.exr", "sky.exr", "double_gauss_50mm.lens"}) {
       write(name, read_bytes(scenes_folder() / name));
@@ -57,9 +61,6 @@ class DocumentFolder {
 
   TempDir dir_;
 };
-
-/// Where the format is described.
-std::filesystem::path scene_format() { return documents_folder() / "scene_format.md"; }
 
 void expect_all_load(const std::filesystem::path& page, const std::string& language,
                      std::size_t at_least) {
@@ -116,6 +117,8 @@ TEST(Documents, NameEveryKeyOfTheReader) {
                             "[material.a]\ntype='phong'",
                             "[[sphere]]",
                             "[[spheres]]",
+                            "[[particles]]",
+                            "[[particles]]\n[particles.color]",
                             "[[plane]]",
                             "[[instance]]",
                             "[group.a]",

@@ -93,11 +93,11 @@ class WhittedOracle {
     at.sphere = i < scene_.spheres.size();
     if (at.sphere) {
       at.n = normalize(at.p - vec_cast<double>(scene_.spheres[i].center));
-      at.material = scene_.spheres[i].material;
+      at.material = scene_.spheres[i].material.index();
     } else {
       const Plane& plane = scene_.planes[i - scene_.spheres.size()];
       at.n = normalize(vec_cast<double>(plane.normal));
-      at.material = plane.material;
+      at.material = plane.material.index();
     }
     at.back = dot(at.n, view) > 0;
     if (at.back) at.n = -at.n;

@@ -44,22 +44,24 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("ambient"), json({0, 0, 0}));
   EXPECT_EQ(found.at("lights"),
             json::parse(R"([{"type": "point", "position": [3, 5, 4], "intensity": [1, 1, 1],
-                             "falloff": "none"}])"));
+                             "falloff": "none", "relative_to": "scene"}])"));
   EXPECT_EQ(found.at("materials"), json::parse(R"([
       {"name": "shiny", "type": "phong", "color": [0.8, 0.3, 0.1], "ka": 0, "kd": 0.7, "ks": 0.3,
        "shininess": 20, "transmission": 0.2, "ior": 1.3, "objects": 1},
-      {"name": "default", "type": "matte", "color": [0.8, 0.8, 0.8], "objects": 1}])"));
+      {"name": "default plane", "type": "matte", "color": [0.45, 0.45, 0.45], "objects": 1}])"));
   EXPECT_EQ(found.at("filter"), "box");
+  EXPECT_EQ(found.at("transparent"), false);
+  EXPECT_EQ(found.at("outline"), 0);
   EXPECT_EQ(found.at("data_files"), json::array());
   EXPECT_EQ(found.at("first_spheres"),
             json::parse(R"([{"center": [0, 1, 0], "radius": 1, "material": "shiny"}])"));
   EXPECT_EQ(found.at("first_planes"), json::parse(R"([{"point": [0, 0, 0], "normal": [0, 1, 0],
-                                                       "material": "default"}])"));
+                                                       "material": "default plane"}])"));
   EXPECT_EQ(found.at("group_list"), json::array());
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 25u);
+  EXPECT_EQ(found.size(), 27u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
@@ -137,11 +139,11 @@ TEST_F(Info, EveryKindOfThingIsNamed) {
   EXPECT_EQ(found.at("materials").at(4).at("radiance"), json({1, 1, 1}));
   EXPECT_EQ(found.at("lights").at(0),
             json::parse(R"({"type": "directional", "direction": [0, -1, 0],
-                            "intensity": [1, 1, 1]})"));
+                            "intensity": [1, 1, 1], "relative_to": "scene"})"));
   EXPECT_EQ(found.at("lights").at(1).at("falloff"), "inverse_square");
   EXPECT_EQ(found.at("lights").at(2),
             json::parse(R"({"type": "sphere", "center": [0, 0, 0], "radius": 0.5,
-                            "radiance": [1, 1, 1]})"));
+                            "radiance": [1, 1, 1], "relative_to": "scene"})"));
   EXPECT_EQ(found.at("method"), "path");
 }
 
@@ -177,10 +179,11 @@ TEST_F(Info, WhatTheSceneLeavesOutIsThereAndNoted) {
                                 "schema = 1\n[[sphere]]\ncenter = [1, 2, 3]\n"
                                 "radius = 0.5\n"));
   EXPECT_EQ(found.at("camera").at("look_at"), json({1, 2, 3}));
-  ASSERT_EQ(found.at("lights").size(), 1u);
-  EXPECT_EQ(found.at("lights").at(0).at("position"), found.at("camera").at("eye"));
+  ASSERT_EQ(found.at("lights").size(), 2u);
+  EXPECT_EQ(found.at("lights").at(0).at("type"), "directional");
+  EXPECT_EQ(found.at("lights").at(1).at("position"), found.at("camera").at("eye"));
   ASSERT_EQ(found.at("notes").size(), 2u);
-  EXPECT_THAT(found.at("notes").at(0).get<std::string>(), HasSubstr("no camera"));
+  EXPECT_THAT(found.at("notes").at(0).get<std::string>(), HasSubstr("camera is fitted"));
   EXPECT_THAT(found.at("notes").at(1).get<std::string>(), HasSubstr("no light"));
 }
 

@@ -128,7 +128,7 @@ TEST_F(Picture, ViewsAreOfThePixelsCentreAndMissesAreMarked) {
   }
   EXPECT_EQ(file.at("N.Y", 2, 17), 1);
   EXPECT_EQ(file.at("P.Y", 2, 17), 0);
-  EXPECT_EQ(file.at("albedo.R", 2, 17), static_cast<double>(0.8F));
+  EXPECT_EQ(file.at("albedo.R", 2, 17), static_cast<double>(0.45F));
   const double x = file.at("P.X", 16, 9), y = file.at("P.Y", 16, 9), z = file.at("P.Z", 16, 9);
   EXPECT_NEAR(x * x + (y - 1) * (y - 1) + z * z, 1, 1e-6);
   EXPECT_NEAR(file.at("Z", 16, 9), std::hypot(x, y - 1, z - 5), 1e-6);

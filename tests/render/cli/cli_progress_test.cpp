@@ -152,7 +152,7 @@ TEST_F(Progressing, ASeriesIsToldOfInAFewLines) {
   EXPECT_EQ(run.exit_code, 0);
   const auto lines = split(run.err, '\n');
   ASSERT_EQ(lines.size(), 3u) << run.err;
-  EXPECT_THAT(lines[0], HasSubstr("note: no camera in the scene"));
+  EXPECT_THAT(lines[0], HasSubstr("note: the camera is fitted"));
   EXPECT_THAT(lines[1], HasSubstr("note: no light in the scene"));
   EXPECT_THAT(lines[2], StartsWith("boule: " + path("o##.ppm") + ": 3 frames, "));
   const ProgramRun verbose = boule_run({"render", path("a.##.toml"), "-o", path("o##.ppm"),

@@ -63,6 +63,22 @@ class SceneInfo : public testing::TestWithParam<Kind> {
           test::npy_file(test::npy_dict("'<f4'", "(1, 3)"), std::string(12, '\0'));
       std::ofstream(to(".npy"), std::ios::binary) << centers;
     }
+    write_numbers("a_colors.npy", "(1, 3)", {0.25F, 0.5F, 0.75F});
+    write_numbers("b_colors.npy", "(1, 3)", {0.5F, 0.5F, 0.75F});
+    write_numbers("a_scalar.npy", "(1,)", {0});
+    write_numbers("b_scalar.npy", "(1,)", {1});
+    const std::string cell =
+        "Lattice=\"4 0 0 0 4 0 0 0 4\" Properties=species:S:1:pos:R:3:charge:R:1\n";
+    const std::string frame = "2\n" + cell + "O 1 1 1 0.5\nH 5 1 2 0.25\n";
+    std::ofstream(folder_.path() / "a.xyz") << "1\n" + cell + "O 1 1 1 0.5\n" + frame;
+    std::ofstream(folder_.path() / "b.xyz") << frame + "1\n" + cell + "O 1 1 1 0.5\n";
+  }
+
+  void write_numbers(const char* name, const char* shape, const std::vector<float>& numbers) const {
+    std::string data;
+    for (const float number : numbers) test::append_bytes(data, number);
+    std::ofstream(folder_.path() / name, std::ios::binary)
+        << test::npy_file(test::npy_dict("'<f4'", shape), data);
   }
 
   Result<LoadedScene> load(const std::string& text) const {
@@ -128,56 +144,78 @@ const Field focus{"focus", "4", "[0, 0, 2]"};
 const Field aperture{"aperture", "0.1", "0.2"};
 const Field color{"color", "[0.1, 0.2, 0.3]", "[0.1, 0.2, 0.4]"};
 const Field ambient{"ambient", "", "[0, 0, 0.1]"};
+const Field backdrop{"backdrop", "", "\"#ffffff\""};
 const Field shininess{"shininess", "5", "6"};
 const Field ior{"ior", "1.5", "1.25"};
 const Field intensity{"intensity", "[1, 2, 3]", "[1, 2, 4]"};
 const Field radiance{"radiance", "[1, 2, 3]", "[1, 2, 4]"};
+const Field relative_to{"relative_to", "\"scene\"", "\"camera\""};
 const Field center{"center", "[1, 2, 3]", "[1, 2, 4]"};
 const Field radius{"radius", "1", "2"};
 const Field material{"material", "\"m\"", "\"n\""};
 const Field sphere{"sphere", "[{}]", "[{radius = 2}]"};
 const Field spheres{"spheres", "", "[{file = \"a.npy\", radius = 1}]"};
+const Field particles{"particles", "", "[{file = \"a.xyz\"}]"};
 const Field plane{"plane", "[{}]", "[{point = [0, 1, 0]}]"};
 const std::string materials = "[material.m]\n[material.n]\n";
 const std::string groups = materials + "[[group.g.sphere]]\n[[group.h.plane]]\n";
 
 const Kind kinds[] = {
     {"root",
+     "sphere = [{}]\n",
      "",
-     "",
-     {},
+     {{"origin", "[0, 0, 0]", "[1, 0, 0]"}},
      {"schema", "image", "camera", "background", "render", "material", "light", "sphere", "spheres",
-      "plane", "group", "instance"}},
+      "particles", "plane", "group", "instance"}},
     {"image",
      "",
      "[image]",
-     {{"size", "[32, 18]", "[18, 32]"}, {"spp", "1", "2"}, {"filter", "\"box\"", "\"tent\""}}},
+     {{"size", "[32, 18]", "[18, 32]"},
+      {"spp", "1", "2"},
+      {"filter", "\"box\"", "\"tent\""},
+      {"transparent", "false", "true"},
+      {"outline", "0", "1.5"}}},
     {"render", "", "[render]", {{"method", "\"whitted\"", "\"path\""}, {"max_depth", "5", "6"}}},
+    {"fitted",
+     "[[sphere]]\n[[sphere]]\ncenter = [2, 1, 0]\n",
+     "[camera]\nfit = true",
+     {{"direction", "[0, 0, -1]", "[1, 0, -1]"},
+      {"up", "[0, 1, 0]", "[1, 1, 0]"},
+      fov,
+      fov_axis,
+      {"margin", "0", "0.1"}},
+     {"fit", "type", "eye", "look_at", "key", "distortion"}},
+    {"fitted_orthographic",
+     "[[sphere]]\n[[sphere]]\ncenter = [2, 1, 0]\n",
+     "[camera]\nfit = true",
+     {{"type", "\"pinhole\"", "\"orthographic\""}},
+     {"fit", "direction", "up", "fov", "fov_axis", "margin", "eye", "look_at", "key",
+      "distortion"}},
     {"pinhole",
      "",
      "[camera]",
      {{"type", "\"pinhole\"", "\"fisheye\""}, eye, look_at, up, fov, fov_axis, distortion},
-     {"key"}},
+     {"key", "fit"}},
     {"orthographic",
      "",
      "[camera]\ntype = \"orthographic\"",
      {eye, look_at, up, {"height", "2", "3"}, distortion},
-     {"type", "key"}},
+     {"type", "fit", "key"}},
     {"fisheye",
      "",
      "[camera]",
      {{"type", "\"fisheye\"", "\"pinhole\""}, eye, look_at, up, fov, fov_axis, distortion},
-     {"key"}},
+     {"key", "fit"}},
     {"thin_lens",
      "",
      "[camera]\ntype = \"thin_lens\"",
      {eye, look_at, up, fov, fov_axis, distortion, focus, aperture},
-     {"type", "key", "f_number", "focal_length"}},
+     {"type", "fit", "key", "f_number", "focal_length"}},
     {"thin_lens_by_number",
      "",
      "[camera]\ntype = \"thin_lens\"",
      {eye, look_at, {"f_number", "4", "8"}, {"focal_length", "0.05", "0.04"}},
-     {"type", "key", "up", "fov", "fov_axis", "distortion", "focus", "aperture"}},
+     {"type", "fit", "key", "up", "fov", "fov_axis", "distortion", "focus", "aperture"}},
     {"lens",
      "",
      "[camera]\ntype = \"lens\"",
@@ -190,7 +228,7 @@ const Kind kinds[] = {
       {"f_number", "2", "4"},
       {"film_width", "36", "24"},
       {"scale", "0.001", "0.002"}},
-     {"type", "key"}},
+     {"type", "fit", "key"}},
     {"camera_key",
      "",
      "[camera]\ntype = \"thin_lens\"\n[[camera.key]]\nframe = 1\neye = [0, 0, 5]\n"
@@ -210,21 +248,22 @@ const Kind kinds[] = {
     {"no_background",
      "",
      "[background]",
-     {{"type", "\"constant\"", "\"gradient\""}, ambient},
+     {{"type", "\"constant\"", "\"gradient\""}, ambient, backdrop},
      {"color"}},
-    {"constant", "", "[background]", {color, ambient}, {"type"}},
+    {"constant", "", "[background]", {color, ambient, backdrop}, {"type"}},
     {"gradient",
      "",
      "[background]\ntype = \"gradient\"",
      {{"bottom", "[0, 0, 1]", "[0, 0, 2]"},
       {"top", "[0, 0, 1]", "[0, 0, 2]"},
       {"up", "[0, 1, 0]", "[1, 0, 0]"},
-      ambient},
+      ambient,
+      backdrop},
      {"type"}},
     {"environment",
      "",
      "[background]\ntype = \"environment\"",
-     {{"file", "\"a.exr\"", "\"b.exr\""}, {"rotation", "0", "90"}, ambient},
+     {{"file", "\"a.exr\"", "\"b.exr\""}, {"rotation", "0", "90"}, ambient, backdrop},
      {"type"}},
     {"matte", "", "[material.m]", {{"type", "\"matte\"", "\"metal\""}, color}},
     {"plastic",
@@ -251,19 +290,57 @@ const Kind kinds[] = {
      "[[light]]\ntype = \"point\"",
      {{"position", "[1, 2, 3]", "[1, 2, 4]"},
       intensity,
-      {"falloff", "\"none\"", "\"inverse_square\""}},
+      {"falloff", "\"none\"", "\"inverse_square\""},
+      relative_to},
      {"type"}},
     {"directional",
      "",
      "[[light]]",
-     {{"type", "\"directional\"", "\"point\""}, intensity, {"direction", "", "[0, 0, 1]"}}},
-    {"sphere_light", "", "[[light]]\ntype = \"sphere\"", {center, radius, radiance}, {"type"}},
-    {"sphere", materials, "[[sphere]]", {center, radius, material}},
-    {"spheres", materials, "[[spheres]]", {{"file", "\"a.npy\"", "\"b.npy\""}, radius, material}},
+     {{"type", "\"directional\"", "\"point\""},
+      intensity,
+      {"direction", "", "[0, 0, 1]"},
+      relative_to}},
+    {"sphere_light",
+     "",
+     "[[light]]\ntype = \"sphere\"",
+     {center, radius, radiance, relative_to},
+     {"type"}},
+    {"sphere", materials, "[[sphere]]", {center, radius, material, color}},
+    {"spheres",
+     materials,
+     "[[spheres]]",
+     {{"file", "\"a.npy\"", "\"b.npy\""}, radius, material, color},
+     {"colors", "color_space", "scalar", "map", "range"}},
+    {"colored_spheres",
+     "",
+     "[[spheres]]\nfile = \"a.npy\"\nradius = 1",
+     {{"colors", "\"a_colors.npy\"", "\"b_colors.npy\""},
+      {"color_space", "\"srgb\"", "\"linear\""}},
+     {"file", "radius", "material", "color", "scalar", "map", "range"}},
+    {"mapped_spheres",
+     "",
+     "[[spheres]]\nfile = \"a.npy\"\nradius = 1",
+     {{"scalar", "\"a_scalar.npy\"", "\"b_scalar.npy\""},
+      {"map", "\"viridis\"", "\"grey\""},
+      {"range", "[-1, 2]", "[-1, 3]"}},
+     {"file", "radius", "material", "color", "colors", "color_space"}},
+    {"particles",
+     materials,
+     "[[particles]]",
+     {{"file", "\"a.xyz\"", "\"b.xyz\""},
+      {"frame", "-1", "0"},
+      {"radius", "\"covalent\"", "\"vdw\""},
+      {"scale", "1", "2"},
+      material,
+      {"color", "\"#102030\"", "\"element\""},
+      {"select", "", "\"x < 2\""},
+      {"wrap", "false", "true"},
+      {"replicate", "[1, 1, 1]", "[2, 1, 1]"}},
+     {"format", "columns", "water"}},
     {"plane",
      materials,
      "[[plane]]",
-     {{"point", "[1, 2, 3]", "[1, 2, 4]"}, {"normal", "[0, 1, 0]", "[0, 2, 0]"}, material}},
+     {{"point", "[1, 2, 3]", "[1, 2, 4]"}, {"normal", "[0, 1, 0]", "[0, 2, 0]"}, material, color}},
     {"instance",
      groups,
      "[[instance]]",
@@ -275,7 +352,7 @@ const Kind kinds[] = {
     {"group",
      groups,
      "[group.k]",
-     {sphere, spheres, plane, {"instance", "[{group = \"g\"}]", "[{group = \"h\"}]"}}},
+     {sphere, spheres, particles, plane, {"instance", "[{group = \"g\"}]", "[{group = \"h\"}]"}}},
     {"group_instance",
      groups,
      "[[group.k.instance]]",

@@ -29,6 +29,18 @@ class ImageContent : public testing::Test {
     input_ = OIIO::ImageInput::open(path);
     ASSERT_TRUE(input_) << OIIO::geterror();
   }
+  [[nodiscard]] std::string path_of(const char* name) const {
+    return (dir_.path() / name).string();
+  }
+  /// The codes of a file with alpha as they stand in it.
+  [[nodiscard]] std::vector<std::uint8_t> straight_codes(const char* name) const {
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(path_of(name), &wishes);
+    std::vector<std::uint8_t> codes(static_cast<std::size_t>(spec().width * spec().height * 4));
+    EXPECT_TRUE(input && input->read_image(0, 0, 0, 4, TypeDesc::UINT8, codes.data()));
+    return codes;
+  }
   [[nodiscard]] const OIIO::ImageSpec& spec() const { return input_->spec(); }
 
   /// Channels [begin, end) of all pixels, interleaved.
@@ -55,6 +67,14 @@ class ImageContent : public testing::Test {
   test::TempDir dir_;
   OIIO::ImageInput::unique_ptr input_;
 };
+
+/// Colours that are premultiplied by these alphas.
+Image half_covered() {
+  Image image(3, 1, Alpha::coverage);
+  image.set(0, {0.25f, 0.125f, 0}, 0.5f);
+  image.set(1, {1, 0.5f, 0.25f}, 1);
+  return image;
+}
 
 std::vector<float> floats_of(const Image& image) {
   std::vector<float> values;
@@ -252,6 +272,35 @@ TEST_F(ImageContent, WideAndTall) {
   const Image wide = test::noise(40000, 1);  // wider than the Radiance format can run-length encode
   round_trip(wide, "a.hdr");
   EXPECT_NEAR(floats()[119999], wide.at(39999, 0).b, 0.01F);
+}
+
+TEST_F(ImageContent, ExrHoldsAlphaBesidePremultipliedColours) {
+  const Image image = half_covered();
+  ASSERT_NO_FATAL_FAILURE(round_trip(image, "alpha.exr"));
+  EXPECT_EQ(spec().nchannels, 4);
+  EXPECT_EQ(channel<float>("R", TypeDesc::FLOAT), (std::vector<float>{0.25f, 1, 0}));
+  EXPECT_EQ(channel<float>("A", TypeDesc::FLOAT), image.alpha);
+}
+
+TEST_F(ImageContent, PngHoldsAlphaBesideStraightColours) {
+  const Image image = half_covered();
+  ASSERT_NO_FATAL_FAILURE(round_trip(image, "alpha.png"));
+  EXPECT_EQ(spec().nchannels, 4);
+  // OpenImageIO multiplies by alpha what it reads, so the file's own codes are told by tone_map().
+  const std::vector<std::uint8_t> expected = {188, 137, 0, 128, 255, 188, 137, 255, 0, 0, 0, 0};
+  EXPECT_EQ(tone_map(image, 0), expected);
+  EXPECT_EQ(straight_codes("alpha.png"), expected);
+}
+
+TEST_F(ImageContent, OtherFormatsRefuseAlpha) {
+  for (const char* name : {"a.jpg", "a.ppm", "a.hdr", "a.tif"}) {
+    const Status bad = write_image(half_covered(), path_of(name));
+    ASSERT_TRUE(bad) << name;
+    EXPECT_NE(bad->message.find("has no room for transparency"), std::string::npos) << name;
+  }
+  Image image = half_covered();
+  image.alpha.pop_back();
+  EXPECT_TRUE(write_image(image, path_of("a.png")));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/math/srgb.h"
 #include "render/image/tone.h"
 #include "render/image/write_image.h"
 #include "tests/render/image/files.h"

@@ -51,7 +51,7 @@ TEST(PathFurnace, GlassIsWhiteInTheMean) { expect_white(furnace(Glass{}), 64, 0.
 TEST(PathFurnace, ThirtyTwoTouchingSpheresWithoutALimitAreWhiteInTheMean) {
   Scene scene = furnace(Matte{gray(1)});
   scene.image = {64, 64, 1};
-  const std::uint32_t material = scene.spheres[0].material;
+  const MaterialRef material = scene.spheres[0].material;
   scene.spheres.clear();
   for (int i = 0; i < 32; ++i) {
     const auto x = static_cast<float>(i % 4), y = static_cast<float>(i / 4 % 4),

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "core/math/srgb.h"
 #include "render/frame/partial_picture.h"
 #include "render/image/read_image.h"
 #include "render/image/tone.h"

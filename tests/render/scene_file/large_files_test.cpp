@@ -11,11 +11,11 @@
 #include <random>
 #include <utility>
 
-#include "render/scene_file/input_file.h"
+#include "render/file/input_file.h"
+#include "render/file/npy_rows.h"
+#include "render/file/sphere_room.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
-#include "render/scene_file/npy_rows.h"
-#include "render/scene_file/sphere_room.h"
 #include "tests/render/npy_files.h"
 #include "tests/render/scene_file/scene_folder.h"
 

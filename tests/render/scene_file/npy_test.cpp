@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "render/scene_file/npy_header.h"
+#include "render/file/npy_header.h"
 #include "tests/render/scene_file/scene_dump.h"
 #include "tests/render/scene_file/scene_folder.h"
 
@@ -177,7 +177,9 @@ const BadCloud bad_clouds[] = {
     {"OpenString", npy_header("{'descr") + row, "a key was expected"},
     {"NoComma", npy_header("{'descr': '<f4' 'shape': ()}") + row, "',' or '}'"},
     {"TextBehind", npy_header(dict("<f4", "(1, 4)") + "x") + row, "follows the header"},
-    {"Structured", npy_header("{'descr': [('x', '<f4')], 'shape': (1,)}") + row, "unexpected"},
+    {"Structured",
+     npy_header("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (1,)}") + row,
+     "has named fields, expected rows of numbers: [[particles]] reads it"},
     {"BigEndian", npy_header(dict(">f4", "(1, 4)")) + row, "holds '>f4', expected '<f4'"},
     {"Half", npy_header(dict("<f2", "(2, 4)")) + row, "holds '<f2'"},
     {"Integers", npy_header(dict("<i4", "(1, 4)")) + row, "holds '<i4'"},

@@ -23,6 +23,7 @@ class SceneDump {
  private:
   void put(int value) { text_ += " " + std::to_string(value); }
   void put(std::uint32_t value) { text_ += " " + std::to_string(value); }
+  void put(MaterialRef material) { put(material.bits()); }
   void put(float value) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, " %a", static_cast<double>(value));

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
 #include "tests/render/scene_file/scene_folder.h"
 
 // What is a scene file at all, before anything in it is read.

@@ -1,6 +1,6 @@
 #include "core/scene/camera.h"
 #include "core/scene/field.h"
-#include "render/scene_file/nearest_name.h"
+#include "render/file/nearest_name.h"
 #include "tests/render/scene_file/scene_folder.h"
 
 // TOML files that are wrong: each is refused at its line and column, with its key.
@@ -45,6 +45,30 @@ const Refusal whole[] = {
      "kkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkk...", "unknown key"},
 };
 INSTANTIATE_TEST_SUITE_P(Whole, TomlErrors, testing::ValuesIn(whole), test::refusal_name);
+
+const Refusal fitted[] = {
+    {"EyeBesideFit", scene("[camera]\nfit = true\neye = [0, 0, 5]\n"), 4, 7, "camera.eye",
+     "cannot stand beside 'fit'"},
+    {"LookAtBesideFit", scene("[camera]\nlook_at = [0, 0, 5]\nfit = true\n"), 3, 11,
+     "camera.look_at", "cannot stand beside 'fit'"},
+    {"KeysBesideFit", scene("[camera]\nfit = true\n[[camera.key]]\nframe = 1\nfov = 30\n"), 2, 1,
+     "camera.key", "cannot stand beside 'fit'"},
+    {"FitNumber", scene("[camera]\nfit = 1\n"), 3, 7, "camera.fit",
+     "expected true or false, got an integer"},
+    {"FisheyeFit", scene("[camera]\nfit = true\ntype = \"fisheye\"\n"), 4, 8, "camera.type",
+     "'pinhole' or 'orthographic'"},
+    {"FovOfOrthographicFit", scene("[camera]\nfit = true\ntype = \"orthographic\"\nfov = 20\n"), 5,
+     7, "camera.fov", "an orthographic camera has none"},
+    {"HalfMargin", scene("[camera]\nfit = true\nmargin = 0.5\n"), 4, 10, "camera.margin",
+     "must be"},
+    {"NoDirection", scene("[camera]\nfit = true\ndirection = [0, 0, 0]\n"), 4, 13,
+     "camera.direction", "must not be the zero vector"},
+    {"UpAlongDirection", scene("[camera]\nfit = true\ndirection = [0, 0, -1]\nup = [0, 0, 1]\n"), 5,
+     6, "camera.up", "must not be within 1e-6 rad"},
+    {"FitSlip", scene("[camera]\nfit = true\nmargins = 0.1\n"), 4, 1, "camera.margins",
+     "did you mean 'margin'?"},
+};
+INSTANTIATE_TEST_SUITE_P(Fitted, TomlErrors, testing::ValuesIn(fitted), test::refusal_name);
 
 const Refusal syntax[] = {
     {"Garbage", scene("[image]\nspp = = 1\n"), 3, 7, "image.spp", "not valid TOML"},
@@ -134,7 +158,8 @@ const Refusal cameras[] = {
     {"OtherTypesKey", camera("height = 2\n"), 5, 1, "camera.height", "unknown key 'height'"},
     {"KeySlip", camera("fvo = 45\n"), 5, 1, "camera.fvo", "did you mean 'fov'?"},
     {"NamesOnce", scene("[camera]\ntype = \"thin_lens\"\nwhatever = 1\n"), 4, 1, "camera.whatever",
-     "expected 'distortion', 'key', 'type', 'eye', 'look_at', 'up', 'fov', 'fov_axis', 'focus', "
+     "expected 'distortion', 'fit', 'key', 'type', 'eye', 'look_at', 'up', 'fov', 'fov_axis', "
+     "'focus', "
      "'aperture', 'f_number' or 'focal_length'"},
     {"FovZero", camera("fov = 0\n"), 5, 7, "camera.fov", "above 0 and below 180"},
     {"FovHalfTurn", camera("fov = 180.0\n"), 5, 7, "camera.fov", "below 180"},

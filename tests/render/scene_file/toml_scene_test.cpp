@@ -175,6 +175,21 @@ TEST(TomlScene, FovAxes) {
   EXPECT_EQ(std::get<PinholeCamera>(*load(camera + "\"max\"").camera).fov_axis, FovAxis::max);
 }
 
+TEST(TomlScene, FittedCamera) {
+  const std::string fitted = "schema = 1\n[camera]\nfit = true\n";
+  EXPECT_FALSE(load(fitted).camera);
+  EXPECT_EQ(load(fitted).fit, CameraFit{});
+  const CameraFit all{FittedCamera::pinhole, Vec3f{1, 2, 3}, Vec3f{0, 0, 1}, 20,
+                      FovAxis::max,          0.25f};
+  EXPECT_EQ(load(fitted + "direction = [1, 2, 3]\nup = [0, 0, 1]\nfov = 20\nfov_axis = \"max\"\n"
+                          "margin = 0.25\n")
+                .fit,
+            all);
+  EXPECT_EQ(load(fitted + "type = \"orthographic\"\n").fit.type, FittedCamera::orthographic);
+  EXPECT_TRUE(
+      load("schema = 1\n[camera]\nfit = false\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n").camera);
+}
+
 TEST(TomlScene, RoundCameras) {
   const std::string start = "schema = 1\n[camera]\neye = [0,0,5]\nlook_at = [0,0,0]\ntype = ";
   const CameraPose pose{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
@@ -263,7 +278,7 @@ TEST(TomlScene, AnFNumberThatALensHasNotIsRefused) {
   for (const char* lens : {"none", "two", "flat"}) expect(lens, "8", "must have one stop");
 }
 
-TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatte) {
+TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatteAndPlanesADarkerOne) {
   const Scene scene = load(R"(schema = 1
 [[plane]]
 [[sphere]]
@@ -272,9 +287,10 @@ TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatte) {
 material = "red"
 )");
   Scene expected;
-  expected.materials = {{"red", Matte{}}, {"default", Matte{}}};
+  expected.materials = {
+      {"red", Matte{}}, {"default", Matte{}}, {"default plane", Matte{gray(0.45f)}}};
   expected.spheres = {{{0, 0, 0}, 1, 1}, {{0, 0, 0}, 1, 0}};
-  expected.planes = {{{0, 0, 0}, {0, 1, 0}, 1}};
+  expected.planes = {{{0, 0, 0}, {0, 1, 0}, 2}};
   EXPECT_EQ(dump(scene), dump(expected));
 }
 

@@ -1,0 +1,178 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/render/particle_file/broken_file.h"
+#include "tests/render/particle_file/read_text.h"
+
+namespace boule {
+namespace {
+
+using test::BrokenFile;
+using test::read_particles;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<double> numbers(const ParticleFrame& frame, const std::string& name) {
+  const NumberColumn* const column = find_number_column(frame, name);
+  return column == nullptr ? std::vector<double>() : column->values;
+}
+
+TEST(Table, SeparatorsAreFoundInTheFirstLines) {
+  for (const std::string between : {",", ";", "\t", " ", " , ", "   ", " \t "}) {
+    std::string text;
+    const std::vector<std::vector<std::string>> rows{
+        {"X", "y", "Z", "R", "name"}, {"1", "2", "3", ".5", "a"}, {"-4", "5e3", "+6", "1", "b"}};
+    for (const auto& row : rows) {
+      for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : between) + row[i];
+      text += "\r\n";
+    }
+    const auto read = read_particles("a.txt", text);
+    ASSERT_TRUE(read.ok()) << between << format_diagnostic(read.error());
+    const ParticleFrame& frame = read.value();
+    EXPECT_THAT(frame.positions, ElementsAre(Vec3d{1, 2, 3}, Vec3d{-4, 5000, 6})) << between;
+    EXPECT_THAT(numbers(frame, "radius"), ElementsAre(0.5, 1));
+    ASSERT_NE(find_text_column(frame, "name"), nullptr);
+    EXPECT_THAT(find_text_column(frame, "name")->texts, ElementsAre("a", "b"));
+  }
+}
+
+TEST(Table, WithoutNamesThereAreTheUsualOnes) {
+  const auto read = read_particles("a.csv", "1,2,3,4,5\n6,7,8,9,10\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_EQ(read.value().positions[1], (Vec3d{6, 7, 8}));
+  EXPECT_THAT(numbers(read.value(), "radius"), ElementsAre(4, 9));
+  EXPECT_THAT(numbers(read.value(), "c5"), ElementsAre(5, 10));
+  const auto atoms = read_particles("a.txt", "Fe 1 2 3\nC 4 5 6\n");
+  ASSERT_TRUE(atoms.ok()) << format_diagnostic(atoms.error());
+  EXPECT_EQ(atoms.value().positions[1], (Vec3d{4, 5, 6}));
+  EXPECT_THAT(atoms.value().species->texts, ElementsAre("Fe", "C"));
+  const auto given = read_particles("a.csv", "1,2,3,4\n", {.columns = {"type", "z", "y", "x"}});
+  ASSERT_TRUE(given.ok()) << format_diagnostic(given.error());
+  EXPECT_EQ(given.value().positions[0], (Vec3d{4, 3, 2}));
+  EXPECT_THAT(given.value().species->texts, ElementsAre("1"));
+}
+
+TEST(Table, CommentsNameColumnsAndAreSkipped) {
+  for (const std::string header : {"# x y z q", "#x,y,z,q", "// X Y Z q", "# note\n\n#  x y z q"}) {
+    const auto read = read_particles(
+        "a.txt", header + "\n1 2 3 4 # first\n\n  # between\n//\n5 6 7 8\n \t\n#end\n");
+    ASSERT_TRUE(read.ok()) << header << format_diagnostic(read.error());
+    EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{1, 2, 3}, Vec3d{5, 6, 7})) << header;
+    EXPECT_THAT(numbers(read.value(), "q"), ElementsAre(4, 8)) << header;
+  }
+  const auto other = read_particles("a.txt", "# made by hand\n1 2 3 4\n");
+  ASSERT_TRUE(other.ok());
+  EXPECT_THAT(numbers(other.value(), "radius"), ElementsAre(4));
+}
+
+TEST(Table, QuotesHoldSeparators) {
+  const auto read = read_particles(
+      "a.csv",
+      "\"\",\"x\",\"y\",\"z\",\"Element\",\"note\",color\n\"1\",1,2,\"3\",\"Fe\",\"a, b\",#ff0000\n"
+      "\"2\", 4 ,5,6, \"C\" ,\"\",\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  const ParticleFrame& frame = read.value();
+  EXPECT_THAT(frame.positions, ElementsAre(Vec3d{1, 2, 3}, Vec3d{4, 5, 6}));
+  EXPECT_THAT(frame.species->texts, ElementsAre("Fe", "C"));
+  ASSERT_EQ(frame.texts.size(), 2U);
+  EXPECT_THAT(frame.texts[0].texts, ElementsAre("a, b", ""));
+  EXPECT_THAT(frame.texts[1].texts, ElementsAre("#ff0000", ""));
+  EXPECT_TRUE(frame.numbers.empty());
+}
+
+TEST(Table, ColumnsOfParaviewAndDecimalCommasBesideSemicolons) {
+  const auto read =
+      read_particles("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\",\"diameter\"\n1,2,3,4\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_EQ(read.value().positions[0], (Vec3d{1, 2, 3}));
+  EXPECT_THAT(test::particle_error("a.csv", "x;y;z\n1,5;2,5;3,5\n"),
+              HasSubstr("2:1: expected a number, found '1,5' (x)"));
+}
+
+TEST(Table, TextsOfOtherFormatsAreKnownByTheirContent) {
+  const auto read = read_particles("a.txt", "1\ncomment\nFe 1 2 3\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_THAT(read.value().species->texts, ElementsAre("Fe"));
+}
+
+TEST(Table, LongTablesAreReadInPieces) {
+  constexpr std::size_t n = 150000;
+  std::string text = "x,y,z,name\n";
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i % 1000 == 7) text += "\n# a comment\n";
+    text += std::to_string(i) + ",0.5,-1,n" + std::to_string(i % 3) + "\n";
+  }
+  const auto read = read_particles("a.csv", text);
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  ASSERT_EQ(read.value().size(), n);
+  const TextColumn& names = read.value().texts[0];
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(read.value().positions[i].x, static_cast<double>(i));
+    ASSERT_EQ(names.indices[i], i % 3);
+  }
+  // The error's line counts blank lines and comments too: 300 of them, and the header.
+  EXPECT_THAT(test::particle_error("a.csv", text + "1,2,three,n0\n"),
+              HasSubstr("150302:5: expected a number, found 'three' (z)"));
+}
+
+std::vector<BrokenFile> broken_files() {
+  return {
+      {"Empty", "", "it holds no rows"},
+      {"OnlyComments", "# x y z\n\n", "it holds no rows"},
+      {"OnlyNames", "x,y,z\n", "1:1: no rows follow the line that names the columns"},
+      {"NoZ", "x,y,w\n1,2,3\n", "1:0: there is no column of positions for z (z)"},
+      {"TwoX", "x,X,y,z\n1,1,2,3\n2,\n", "3:3: expected a number, found '' (X)"},
+      {"TwoNames", "x,y,z,q,q\n1,2,3,4,5\n", "1:0: two columns have the name 'q' (q)"},
+      {"TwoPositions", "x,y,z,Points:0\n1,2,3,4\n1,2\n", "3:4: the row ends before this column"},
+      {"TextPosition", "x,y,z\n1,2,up\n", "2:5: expected a number, found 'up' (z)"},
+      {"EmptyPosition", "x,y,z\n1,,3\n", "2:3: expected a number, found '' (y)"},
+      {"Nan", "x,y,z\n1,2,3\n1,nan,3\n", "3:3: expected a finite number, found 'nan' (y)"},
+      {"Infinite", "x y z\n1 2 -inf\n", "2:5: expected a finite number, found '-inf' (z)"},
+      {"BeyondDouble", "x y z\n1 2 1e999\n", "expected a finite number, found '1e999' (z)"},
+      {"ShortRow", "1 2 3\n4 5\n", "2:4: the row ends before this column, expected 3 columns (z)"},
+      {"LongRow", "1 2 3\n4 5 6 7\n", "2:7: the row goes on with '7', expected 3 columns ()"},
+      {"LongRowOfCommas",
+       "1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n"
+       "4,5,6,7\n",
+       "11:6: the row goes on with '', expected 3 columns"},
+      {"OtherSeparator",
+       "x,y,z\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n"
+       "1;2;3\n",
+       "11:1: expected a number, found '1;2;3' (x)"},
+      {"BlankInNumber", "x,y,z\n1 2,3,4\n", "2:3: expected ',', found '2' (y)"},
+      {"QuoteWithoutEnd", "x,y,z,n\n1,2,3,a\n1,2,3,b\n1,\"2,3,4\n",
+       "4:3: expected a number, found '2,3,4' (y)"},
+      {"AfterQuote", "x,y,z,n\n1,2,3,\"a\" b\n", "2:11: the row goes on with 'b'"},
+      {"NulByte", std::string("x,y,z\n1,2,\0\n", 12), "2:5: expected a number, found '\\x00' (z)"},
+      {"Hexadecimal", "x y z\n0x1p3 2 3\n", "2:1: expected a number, found '0x1p3' (x)"},
+      {"TypesMixed", "x,y,z,q\n1,2,3,4\n1,2,3,four\n", "3:7: expected a number, found 'four' (q)"},
+      {"TooManyColumns", std::string(10000, ','), "1:1: it has more than 4096 columns"},
+      {"LongLine", "x y z\n1 2 " + std::string(10000000, '3') + "\n",
+       "2:5: expected a finite number, found '3333"},
+      {"TooFewGiven",
+       "1 2 3\n",
+       "0:0: names 2 columns, the file has 3 (columns)",
+       {.columns = {"x", "y"}}},
+      {"GivenTwice",
+       "1 2 3 4\n",
+       "two columns have the name 'x' (x)",
+       {.columns = {"x", "y", "z", "x"}}},
+      {"GivenWithoutY",
+       "1 2 3\n",
+       "0:0: there is no column of positions for y (y)",
+       {.columns = {"x", "-", "z"}}},
+      {"OneNumber", "1\n", "1:1: no rows follow"},
+  };
+}
+
+class BrokenTable : public testing::TestWithParam<BrokenFile> {};
+
+TEST_P(BrokenTable, IsRefusedWithItsPlace) { test::expect_refused(GetParam(), "csv"); }
+
+INSTANTIATE_TEST_SUITE_P(Files, BrokenTable, testing::ValuesIn(broken_files()), test::broken_name);
+
+}  // namespace
+}  // namespace boule

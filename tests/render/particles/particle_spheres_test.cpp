@@ -1,0 +1,153 @@
+#include "render/particles/particle_spheres.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstring>
+
+#include "tests/render/particles/particle_frames.h"
+
+namespace boule {
+namespace {
+
+using test::error_of;
+using test::row_of;
+using test::row_of_particles;
+using test::spheres_of;
+using test::threaded_for;
+using testing::HasSubstr;
+
+bool same_bits(const std::vector<Sphere>& a, const std::vector<Sphere>& b) {
+  static_assert(sizeof(Sphere) == 20);
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Sphere)) == 0;
+}
+
+/// Atoms with three decimals, as in a PDB file, on multiples of 2^-10 so that moving is exact.
+ParticleFrame protein(std::size_t count, const Vec3d& moved) {
+  const char* const elements[] = {"C", "N", "O", "H", "S"};
+  ParticleFrame frame;
+  std::vector<std::string> species;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto axis = [&](std::size_t k) { return double(i * k % 65521) * 0x1p-10 - 32; };
+    frame.positions.push_back(moved + Vec3d{axis(48271), axis(16807), axis(69621)});
+    species.emplace_back(elements[i % 5]);
+  }
+  frame.species = test::text_column("element", species);
+  frame.cell = ParticleCell{{70, 0, 0}, {10, 60, 0}, {5, 7, 80}, moved, {true, true, true}};
+  return frame;
+}
+
+TEST(ParticleSpheres, AreTheSameFarFromTheOrigin) {
+  const Vec3d far{1e6, 1e6, 1e6};
+  for (const std::array<int, 3>& replicate : {std::array{1, 1, 1}, std::array{2, 1, 3}}) {
+    const ParticleStyle style{.replicate = replicate};
+    const auto here = spheres_of(protein(2000, {}), style);
+    ASSERT_FALSE(here.empty());
+    EXPECT_TRUE(same_bits(spheres_of(protein(2000, far), style, far), here));
+    EXPECT_FALSE(same_bits(spheres_of(protein(2000, far), style), here));
+  }
+}
+
+TEST(ParticleSpheres, AreRoundedOnce) {
+  ParticleFrame frame = row_of_particles(1);
+  frame.positions[0] = {1.0 / 3, 16777217.5, -1e-3};
+  const auto spheres = spheres_of(frame, {.radius = 0.1, .scale = 0.3}, {0.1, 16777216, 0});
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_EQ(spheres[0].center.x, static_cast<float>(1.0 / 3 - 0.1));
+  EXPECT_EQ(spheres[0].center.y, 1.5F);
+  EXPECT_EQ(spheres[0].center.z, -1e-3F);
+  EXPECT_EQ(spheres[0].radius, static_cast<float>(0.1 * 0.3));
+}
+
+TEST(ParticleSpheres, AreAppended) {
+  const auto made = ParticleSpheres::make(row_of_particles(3), {.radius = 1.0}).value();
+  std::vector<Sphere> spheres(2);
+  ASSERT_FALSE(made.append_to(spheres, {}).has_value());
+  ASSERT_FALSE(made.append_to(spheres, {1, 0, 0}).has_value());
+  ASSERT_EQ(spheres.size(), 8U);
+  EXPECT_EQ(spheres[4].center.x, 2);
+  EXPECT_EQ(spheres[7].center.x, 1);
+}
+
+TEST(ParticleSpheres, KeepCellNotesAndBounds) {
+  ParticleFrame frame = protein(100, {});
+  frame.notes = {"a note of the file"};
+  const auto made = ParticleSpheres::make(frame, {}).value();
+  EXPECT_EQ(made.size(), 100U);
+  EXPECT_EQ(made.notes().front(), "a note of the file");
+  EXPECT_EQ(made.cell()->b, (Vec3d{10, 60, 0}));
+  EXPECT_EQ(made.center_bounds()[0].x, -32);
+  EXPECT_FALSE(ParticleSpheres::make(row_of_particles(2), {}).value().cell().has_value());
+}
+
+TEST(ParticleSpheres, OfNoParticles) {
+  for (const ParticleStyle& style :
+       {ParticleStyle{}, ParticleStyle{.color = MappedColors{.by = "x"}},
+        ParticleStyle{.select = "x > 0 && y == z"}}) {
+    const auto made = ParticleSpheres::make(ParticleFrame(), style);
+    ASSERT_TRUE(made.ok());
+    EXPECT_EQ(made.value().size(), 0U);
+    EXPECT_EQ(made.value().center_bounds()[0], made.value().center_bounds()[1]);
+    EXPECT_EQ(made.value().smallest_radius(), 0);
+    std::vector<Sphere> spheres;
+    EXPECT_FALSE(made.value().append_to(spheres, {}).has_value());
+  }
+}
+
+TEST(ParticleSpheres, RefusePositionsThatNoFloatHas) {
+  ParticleFrame frame = row_of_particles(3);
+  frame.positions[1].z = 1e40;
+  const auto made = ParticleSpheres::make(frame, {.radius = 1.0}).value();
+  std::vector<Sphere> spheres(5);
+  const Status wrong = made.append_to(spheres, {});
+  ASSERT_TRUE(wrong.has_value());
+  EXPECT_EQ(wrong->key, "file");
+  EXPECT_EQ(wrong->message,
+            "the position of particle 2 of 3 is too far from the origin for a sphere");
+  EXPECT_EQ(spheres.size(), 5U);
+}
+
+TEST(ParticleSpheres, AreTheSameForAnyThreads) {
+  ParticleFrame frame = protein(300000, {});
+  for (const char* name : {"q", "vx", "vy", "vz"}) {
+    NumberColumn column{name, {}};
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      column.values.push_back(double(i * (column.name[0] + column.name.size()) % 7919));
+    }
+    frame.numbers.push_back(column);
+  }
+  for (const ParticleStyle& style :
+       {ParticleStyle{.color = MappedColors{.by = "|v|"}},
+        ParticleStyle{.select = "q > 100 && species != 'H'", .wrap = true, .replicate = {1, 2, 1}},
+        ParticleStyle{.radius = RadiusTable::covalent, .color = MappedColors{.by = "q"}}}) {
+    const auto serial = ParticleSpheres::make(frame, style).value();
+    std::vector<Sphere> expected;
+    ASSERT_FALSE(serial.append_to(expected, {1, 2, 3}).has_value());
+    for (const std::size_t threads : {2, 5}) {
+      const auto made = ParticleSpheres::make(frame, style, threaded_for(threads)).value();
+      std::vector<Sphere> spheres;
+      ASSERT_FALSE(made.append_to(spheres, {1, 2, 3}, threaded_for(threads)).has_value());
+      EXPECT_TRUE(same_bits(spheres, expected));
+      EXPECT_EQ(made.notes(), serial.notes());
+      EXPECT_EQ(made.center_bounds(), serial.center_bounds());
+    }
+  }
+}
+
+TEST(ParticleSpheres, RefuseWhatDoesNotFitIntoMemory) {
+  ParticleFrame frame = row_of_particles(1000);
+  frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
+  const ParticleStyle style{.radius = 1.0, .replicate = {100, 100, 200}};
+  rlimit saved{};
+  getrlimit(RLIMIT_AS, &saved);
+  const rlimit limit{rlim_t{20} << 30, saved.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  const std::string error = error_of(frame, style);
+  setrlimit(RLIMIT_AS, &saved);
+  EXPECT_THAT(error,
+              HasSubstr("replicate: 2000000000 spheres need 38147 MiB of memory, there are"));
+}
+
+}  // namespace
+}  // namespace boule
