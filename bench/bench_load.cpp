@@ -1,5 +1,6 @@
 // How fast one thread reads scenes from the page cache: the text of NFF, the rows of .npy, and
-// whole scenes of either, beside the rate at which the system hands over the bytes.
+// whole scenes of either, beside the rate at which the system hands over the bytes; and the frames
+// of particle files. load_peers.py times other readers of the latter.
 //
 //   bench_load [spheres]
 //
@@ -19,7 +20,8 @@
 
 #include "bench/random4.h"
 #include "bench/uniform_spheres.h"
-#include "render/scene_file/input_file.h"
+#include "render/file/input_file.h"
+#include "render/particle_file/particle_file.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/scene_file.h"
@@ -75,6 +77,30 @@ std::string npy_bytes(const std::vector<Sphere>& spheres, const char* descr, boo
   return bytes;
 }
 
+/// An XYZ file as simulations write it, or a LAMMPS dump: names, positions and velocities.
+std::string particle_text(const std::vector<Sphere>& spheres, bool is_dump) {
+  const std::string count = std::to_string(spheres.size());
+  std::string text = count + "\ncloud\n";
+  if (is_dump) {
+    text = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + count +
+           "\nITEM: BOX BOUNDS pp pp pp\n-10 10\n-10 10\n-10 10\n"
+           "ITEM: ATOMS id type x y z vx vy vz\n";
+  }
+  char line[256];
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const double x = spheres[i].center.x, y = spheres[i].center.y, z = spheres[i].center.z;
+    if (is_dump) {
+      std::snprintf(line, sizeof line, "%zu %zu %g %g %g %g %g %g\n", i + 1, i % 3 + 1, x, y, z,
+                    z / 7, x / 7, y / 7);
+    } else {
+      constexpr const char* elements[] = {"O", "H", "H"};
+      std::snprintf(line, sizeof line, "%-2s %14.8f %14.8f %14.8f\n", elements[i % 3], x, y, z);
+    }
+    text += line;
+  }
+  return text;
+}
+
 /// One thing to time: what it reads, and how. `work` returns the number of spheres it has found.
 struct Row {
   std::string name;
@@ -91,6 +117,8 @@ class LoadBench {
     add_npy("float32 N x 4", npy_bytes<float>(spheres_, "<f4", true), true);
     add_npy("float64 N x 4", npy_bytes<double>(spheres_, "<f8", true), true);
     add_npy("float32 N x 3", npy_bytes<float>(spheres_, "<f4", false), false);
+    add_particles("cloud.xyz", particle_text(spheres_, false));
+    add_particles("cloud.dump", particle_text(spheres_, true));
   }
 
   /// False if a row found anything but all spheres.
@@ -164,8 +192,8 @@ class LoadBench {
 
   void add_npy(const std::string& kind, const std::string& bytes, bool has_radii) {
     const std::string name = "npy " + kind, stem = "cloud" + std::to_string(rows_.size());
-    const NpySpheres request{write(stem + ".npy", bytes),
-                             has_radii ? std::nullopt : std::optional<float>(1)};
+    const NpySpheres request{
+        write(stem + ".npy", bytes), has_radii ? std::nullopt : std::optional<float>(1), {}};
     const std::string scene =
         write(stem + ".toml", "schema = 1\n[[spheres]]\nfile = \"" + stem + ".npy\"\n" +
                                   (has_radii ? "" : "radius = 1\n"));
@@ -175,6 +203,20 @@ class LoadBench {
                        return append_spheres(request, spheres) ? 0 : spheres.size();
                      }});
     add_load(name, scene, bytes.size());
+  }
+
+  void add_particles(const std::string& name, const std::string& text) {
+    const std::string path = write(name, text);
+    add_read(name, path, text.size());
+    rows_.push_back({name + ": open, which finds the frames", text.size(), [this, path] {
+                       const auto file = ParticleFile::open(path);
+                       return file && file.value().frames() == 1 ? spheres_.size() : 0;
+                     }});
+    rows_.push_back({name + ": open and read", text.size(), [path] {
+                       auto file = ParticleFile::open(path);
+                       const auto frame = file.value().read();
+                       return frame ? frame.value().size() : 0;
+                     }});
   }
 
   test::TempDir folder_;
