@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""particles.py: writes the particle files of docs/particles.md into the working directory.
+
+gold.xyz    a nanoparticle: a truncated octahedron, with each atom's number of neighbours
+slab.xyz    a surface of copper in its cell, with carbon monoxide on it
+salt.xyz    a cube of sodium chloride
+heap.xyz    grains of many sizes that were poured on a floor, with their speeds
+disc.csv    a galaxy: stars on circles, with their speeds
+wave.xyz    a chain of 40 atoms that swings: a trajectory of 10 frames
+"""
+import math
+import random
+
+
+def write(name, header, rows):
+    with open(name, "w", encoding="ascii") as file:
+        file.write(f"{len(rows)}\n{header}\n")
+        file.writelines(row + "\n" for row in rows)
+
+
+def lattice(n, step, basis):
+    for i in range(-n, n + 1):
+        for j in range(-n, n + 1):
+            for k in range(-n, n + 1):
+                for x, y, z in basis:
+                    yield (step * (i + x), step * (j + y), step * (k + z))
+
+
+FACE_CENTRED = ((0, 0, 0), (0, 0.5, 0.5), (0.5, 0, 0.5), (0.5, 0.5, 0))
+
+
+def gold():
+    a = 4.078
+    atoms = [p for p in lattice(4, a, FACE_CENTRED)
+             if sum(map(abs, p)) <= 4.01 * a and max(map(abs, p)) <= 2.51 * a]
+    near = (a * math.sqrt(0.5) * 1.1) ** 2
+    rows = []
+    for p in atoms:
+        neighbours = sum(1 for q in atoms if 0 < sum((s - t) ** 2 for s, t in zip(p, q)) < near)
+        rows.append("Au %.3f %.3f %.3f %d" % (*p, neighbours))
+    write("gold.xyz", "Properties=species:S:1:pos:R:3:neighbours:I:1", rows)
+
+
+def slab():
+    d, layers, n = 2.556, 3, 8  # distance of neighbours
+    rise = d * math.sqrt(2 / 3)
+    rows = []
+    for layer in range(layers):
+        for i in range(n):
+            for j in range(n):
+                x = d * (i + 0.5 * (j % 2) + (0.5 if layer % 3 == 1 else 0))
+                y = d * (math.sqrt(3) / 2 * j + math.sqrt(3) / 6 * (layer % 3))
+                rows.append("Cu %.3f %.3f %.3f" % (x % (n * d), y, rise * layer))
+    for i, j in ((1, 1), (4, 2), (6, 5), (2, 5), (5, 7)):
+        x = d * (i + 0.5 * (j % 2)) % (n * d)
+        y = d * (math.sqrt(3) / 2 * j + math.sqrt(3) / 3)
+        top = rise * (layers - 1)
+        rows.append("C %.3f %.3f %.3f" % (x, y, top + 1.85))
+        rows.append("O %.3f %.3f %.3f" % (x, y, top + 3.0))
+    cell = "%.3f 0 0 0 %.3f 0 0 0 20" % (n * d, n * d * math.sqrt(3) / 2)
+    write("slab.xyz", f'Lattice="{cell}" Properties=species:S:1:pos:R:3', rows)
+
+
+def salt():
+    n, step = 8, 2.82
+    rows = []
+    for i in range(n):
+        for j in range(n):
+            for k in range(n):
+                x, y, z = (step * (c - (n - 1) / 2) for c in (i, j, k))
+                rows.append("%s %.2f %.2f %.2f" % ("Cl" if (i + j + k) % 2 else "Na", x, y, z))
+    edge = n * step
+    write("salt.xyz", f'Lattice="{edge} 0 0 0 {edge} 0 0 0 {edge}" '
+          f'Origin="{-edge / 2} {-edge / 2} {-edge / 2}" Properties=species:S:1:pos:R:3', rows)
+
+
+def rest(x, y, r, grains):
+    """The height at which a grain that falls at x, y first touches another one or the floor."""
+    height = r
+    for gx, gy, gz, gr in grains:
+        across = (gx - x) ** 2 + (gy - y) ** 2
+        if across < (gr + r) ** 2:
+            height = max(height, gz + math.sqrt((gr + r) ** 2 - across))
+    return height
+
+
+def heap():
+    """Each grain rolls down in small steps as far as it gets."""
+    rng = random.Random(4)
+    grains = []
+    for _ in range(700):
+        r = 0.03 * 10 ** rng.random()
+        angle, away = rng.uniform(0, 2 * math.pi), 0.5 * math.sqrt(rng.random())
+        x, y = away * math.cos(angle), away * math.sin(angle)
+        z = rest(x, y, r, grains)
+        for _ in range(60):
+            way = rng.uniform(0, 2 * math.pi)
+            nx, ny = x + 0.5 * r * math.cos(way), y + 0.5 * r * math.sin(way)
+            nz = rest(nx, ny, r, grains)
+            if nz < z:
+                x, y, z = nx, ny, nz
+        grains.append((x, y, z, r))
+    rows = []
+    for x, y, z, r in grains:
+        speed = 0.6 * z + 0.25 * math.hypot(x, y) * rng.random()
+        vx, vy, vz = (speed * rng.gauss(0, 0.6) for _ in range(3))
+        rows.append("%.3f %.3f %.3f %.3f %.3f %.3f %.3f" % (x, y, z, r, vx, vy, vz))
+    write("heap.xyz", 'Lattice="4 0 0 0 4 0 0 0 2" Origin="-2 -2 0" '
+          "Properties=pos:R:3:radius:R:1:velo:R:3", rows)
+
+
+def disc():
+    rng = random.Random(5)
+    with open("disc.csv", "w", encoding="ascii") as file:
+        file.write("x,y,z,radius,speed\n")
+        for i in range(1500):
+            away = 0.1 + 2 * rng.random()
+            arm = math.pi * (i % 2) + 2.2 * math.log(away) + rng.gauss(0, 0.3)
+            x, y, z = away * math.cos(arm), away * math.sin(arm), rng.gauss(0, 0.04)
+            file.write("%.3f,%.3f,%.3f,%.3f,%.2f\n" % (x, y, z, 0.02 + 0.04 * rng.random() ** 3,
+                                                       1 / math.sqrt(0.2 + away)))
+
+
+def wave():
+    with open("wave.xyz", "w", encoding="ascii") as file:
+        for frame in range(10):
+            file.write("40\nProperties=pos:R:3:vz:R:1\n")
+            for i in range(40):
+                phase = 2 * math.pi * (i / 20 - frame / 10)
+                file.write("%.2f 0 %.3f %.3f\n" % (0.5 * i, 2 * math.sin(phase), -math.cos(phase)))
+
+
+if __name__ == "__main__":
+    for make in (gold, slab, salt, heap, disc, wave):
+        make()
