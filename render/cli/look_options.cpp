@@ -70,7 +70,7 @@ std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& l
     break;
   }
   const std::string help = "boule " + app.get_name() + " --help";
-  const bool has_map = has_color_map(look);
+  const bool has_map = has_color_map(look.color);
   if (!look.map.empty() && !has_map) return UsageError{"--map needs --color COLUMN", help};
   if (look.range && !has_map) return UsageError{"--range needs --color COLUMN", help};
   return std::nullopt;

@@ -46,6 +46,12 @@ std::optional<std::string> parse_particle_color(const std::string& text) {
   return text.empty() || is_broken ? std::nullopt : std::optional(text);
 }
 
+bool has_color_map(const std::string& color) {
+  const bool is_columns = color.find(' ') != std::string::npos;
+  const bool is_kind = color == "element" || color == "species";
+  return !color.empty() && !is_kind && !color.starts_with('#') && !is_columns;
+}
+
 std::optional<std::string> parse_map(const std::string& text) {
   const auto& known = names<NamedColorMap>;
   const bool is_name = std::find(known.begin(), known.end(), text) != known.end();

@@ -20,6 +20,9 @@ std::optional<std::string> parse_radius(const std::string& text);
 /// Colours of particles: any text but an empty one and "#..." that is no colour.
 std::optional<std::string> parse_particle_color(const std::string& text);
 
+/// True if these colours of particles are a column, whose numbers a map turns into colours.
+bool has_color_map(const std::string& color);
+
 /// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.
 std::optional<std::string> parse_map(const std::string& text);
 std::string list_color_maps();

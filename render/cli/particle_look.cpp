@@ -197,13 +197,6 @@ void add_floor(std::string& text, const LookFloor& floor) {
 
 }  // namespace
 
-bool has_color_map(const LookOptions& options) {
-  const std::string& color = options.color;
-  const bool is_columns = color.find(' ') != std::string::npos;
-  const bool is_kind = color == "element" || color == "species";
-  return !color.empty() && !is_kind && !color.starts_with('#') && !is_columns;
-}
-
 std::string look_scene(const std::string& file, const LookOptions& options,
                        const std::optional<LookFloor>& floor) {
   std::string text = "schema = 1\n";

@@ -45,9 +45,6 @@ struct LookOptions {
   std::string first{};  ///< the first option of these that was given: "--look"; empty: none
 };
 
-/// True if the colours are those of a map of a column.
-bool has_color_map(const LookOptions& options);
-
 /// The floor of a scene, in the coordinates of the file: a plane through `point` with the normal
 /// `up`.
 struct LookFloor {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/cli/look_values.h"
+
 namespace boule::cli {
 namespace {
 
@@ -47,12 +49,12 @@ TEST(ParticleLook, ColorsOfOneKindStandByThemselves) {
   LookOptions look;
   for (const char* color : {"element", "species", "#4080c0", "red green blue"}) {
     look.color = color;
-    EXPECT_FALSE(has_color_map(look)) << color;
+    EXPECT_FALSE(has_color_map(look.color)) << color;
     EXPECT_THAT(scene_of(look), HasSubstr("\ncolor = \"" + look.color + "\"\n"));
   }
   // A column may be of numbers or of names.
   look.color = "energy";
-  EXPECT_TRUE(has_color_map(look));
+  EXPECT_TRUE(has_color_map(look.color));
   EXPECT_THAT(scene_of(look), HasSubstr("\ncolor = \"energy\"\n"));
   look.map = "magma";
   EXPECT_THAT(scene_of(look), HasSubstr("\n[particles.color]\nby = \"energy\"\nmap = \"magma\"\n"));

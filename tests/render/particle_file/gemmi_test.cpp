@@ -250,6 +250,9 @@ struct Broken {
   std::string name, text, error;
 };
 
+/// In place of its bytes, which hold addresses.
+void PrintTo(const Broken& file, std::ostream* out) { *out << file.name << ": " << file.error; }
+
 class GemmiBroken : public testing::TestWithParam<Broken> {};
 
 TEST_P(GemmiBroken, IsRefused) {

@@ -169,6 +169,9 @@ struct Broken {
   std::string text, error;
 };
 
+/// In place of its bytes, which hold addresses.
+void PrintTo(const Broken& file, std::ostream* out) { *out << file.error; }
+
 class GroBroken : public testing::TestWithParam<Broken> {};
 
 TEST_P(GroBroken, IsRefused) {
