@@ -8,10 +8,10 @@ trap 'rm -rf "$work"' EXIT
 unset BOULE_ISA
 
 # Most of the time would go into the hard cases as bundles, the sweep, a million samples of every
-# camera, and large scenes, where the scalar path looks at every sphere; the others run the same kernels, HashOfAllHits in every form. And
-# an emulator tells nothing about time.
+# camera, and large scenes, where the scalar path looks at every sphere. The others run the same
+# kernels, HashOfAllHits in every form. And an emulator tells nothing about time.
 slow="*HardBundles*:*RejectSweep*:*RaysAlongAnAxis*:*GivesTheScalarPathsAnswers*:*FindsShadows*"
-slow="$slow:*SortsShadowRays*:*CameraTwin*"
+slow="$slow:*SortsShadowRays*:*CameraTwin*:*SidesOfBoxesFar*:*SpecksAroundALight*"
 "${emulated[@]}" "$equivalence" --gtest_filter="*$isa*-$slow" >"$work/out" 2>"$work/err" ||
   { tail -n 30 "$work/out" "$work/err"; exit 1; }
 tail -n 1 "$work/out"
