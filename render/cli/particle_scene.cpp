@@ -88,7 +88,7 @@ Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& 
 
 bool is_particle_input(const std::string& path, const LookOptions& look) {
   if (!look.format.empty()) return true;
-  if (has_ending(path, ".npy")) return has_named_fields(path);
+  if (has_ending(path, ".npy")) return !look.first.empty() || has_named_fields(path);
   if (is_scene_name(path)) return false;
   return is_particle_name(path) || has_particle_content(path);
 }

@@ -10,7 +10,8 @@
 namespace boule::cli {
 
 /// Whether a file is shown by a scene that is made for it: one of particles by the options, its
-/// name or its content. A .npy file is one if it has named fields.
+/// name or its content. A .npy file is one if it has named fields, or if an
+/// option of particles was given.
 bool is_particle_input(const std::string& path, const LookOptions& look);
 
 /// The scene of a file that is none of particles. The error for a name that is neither a scene's

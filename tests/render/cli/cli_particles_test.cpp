@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/render/cli/program.h"
+#include "tests/render/npy_files.h"
 
 namespace boule::test {
 namespace {
@@ -139,6 +140,15 @@ TEST_F(Particles, HaveColumnsThatTheCommandLineNames) {
   render(file, "a.ppm", {"--columns", names, "--color", "rho"});
   const ProgramRun wrong = refused_run({"info", file, "--columns", "id,type,rho,x,y"}, 3);
   EXPECT_THAT(wrong.err, HasSubstr("there is no column of positions for z"));
+}
+
+TEST_F(Particles, OfPlainArraysAreShownByTheirOptions) {
+  // Centres alone: as a scene they lack radii.
+  const std::string file =
+      write("row.npy", npy_file(npy_dict("'<f8'", "(2, 3)"), std::string(48, '\0')));
+  EXPECT_THAT(refused_run({"render", file, "-o", path("a.ppm")}, 3).err, HasSubstr("radius"));
+  render(file, "a.ppm", {"--radius", "0.5"});
+  EXPECT_THAT(boule_run({"info", file, "--input-format", "npy"}).out, HasSubstr("particles: 2"));
 }
 
 TEST_F(Particles, AreDescribed) {
