@@ -86,6 +86,8 @@ TEST_F(Particles, FilesOfNoKnownKindAreRefused) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("notes.abc: error: neither a scene nor particles"),
                              HasSubstr(".toml .nff .npy"), HasSubstr(".xyz")));
   EXPECT_EQ(refused_run({"info", file}, 3).err, run.err);
+  EXPECT_THAT(refused_run({"scene", file}, 2).err,
+              AllOf(HasSubstr("notes.abc: error: particles are expected"), HasSubstr(".xyz")));
 }
 
 TEST_F(Particles, OptionsThatDoNotFitTheFileAreWrongUsage) {
