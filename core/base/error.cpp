@@ -22,7 +22,8 @@ std::string format_diagnostic(const Diagnostic& diagnostic) {
   if (!diagnostic.file.empty()) {
     text += printable(diagnostic.file) + ":";
     if (diagnostic.line > 0) {
-      text += std::to_string(diagnostic.line) + ":" + std::to_string(diagnostic.column) + ":";
+      text += std::to_string(diagnostic.line) + ":";
+      if (diagnostic.column > 0) text += std::to_string(diagnostic.column) + ":";
     }
     text += " ";
   }

@@ -26,7 +26,7 @@ Result<Json> info_of(const InfoCommand& command, const std::string& scene,
   const ReadingLimit::Reading reading(limit, scene);
   if (is_particle_input(scene, command.look)) return particle_info(scene, command.look, frame);
   if (!command.look.first.empty()) return not_particles(scene, command.look.first);
-  auto loaded = load_scene(scene, options);
+  auto loaded = load_known(scene, options);
   if (!loaded) return loaded.error();
   return scene_info(std::move(loaded).value(), scene);
 }

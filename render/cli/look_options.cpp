@@ -53,6 +53,8 @@ void add_file_options(CLI::App& app, LookOptions& look) {
   };
   add_parsed(app, "--input-format", look.format, parse_format, "one of " + list_names(formats),
              "NAME", "Format of the file (by its ending, else its content)");
+  add_parsed(app, "--columns", look.columns, parse_names, "names such as id,type,x,y,z", "NAMES",
+             "Names for the columns: id,type,x,y,z; - is one to skip (the file's)");
   app.add_flag("--water", look.water, "PDB and mmCIF: with the molecules of water");
 }
 

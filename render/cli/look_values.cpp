@@ -36,6 +36,13 @@ std::optional<std::string> parse_words(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
+std::optional<std::vector<std::string>> parse_names(const std::string& text) {
+  const std::vector<std::string> names = split(text, ',');
+  const bool any_empty =
+      std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
+  return any_empty ? std::nullopt : std::optional(names);
+}
+
 std::optional<std::string> parse_radius(const std::string& text) {
   const bool is_number = parse_number(text, -HUGE_VAL, HUGE_VAL).has_value();
   return text.empty() || (is_number && !parse_above_0(text)) ? std::nullopt : std::optional(text);

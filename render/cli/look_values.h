@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/math/vec.h"
 
@@ -13,6 +14,9 @@ std::optional<double> parse_above_0(const std::string& text);
 
 /// Any text but an empty one.
 std::optional<std::string> parse_words(const std::string& text);
+
+/// Names with commas between them, none of them empty.
+std::optional<std::vector<std::string>> parse_names(const std::string& text);
 
 /// A radius of particles: any text but an empty one and a number that is not above 0.
 std::optional<std::string> parse_radius(const std::string& text);

@@ -115,6 +115,7 @@ Result<Json> particle_info(const std::string& path, const LookOptions& look,
   // Once more, with all columns: a picture needs few of them.
   ParticleFileOptions file_options;
   file_options.format = facts.format;
+  file_options.columns = look.columns;
   file_options.water = look.water;
   auto file = ParticleFile::open(facts.file, file_options, options.parallel_for);
   if (!file) return file.error();

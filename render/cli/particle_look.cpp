@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 
 #include "render/cli/look_values.h"
+#include "render/cli/option_values.h"
 
 namespace boule::cli {
 namespace {
@@ -130,16 +130,16 @@ void add_line(std::string& text, const char* key, const std::string& value) {
   text += std::string(key) + " = " + value + "\n";
 }
 
+/// A list of strings.
+std::string list(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+  return "[" + list + "]";
+}
+
 /// A map of colours: a name, or a list of colours, which have commas between them.
 std::string map_text(const std::string& map) {
-  if (map.find('#') == std::string::npos) return quoted(map);
-  std::string list;
-  for (std::size_t begin = 0; begin <= map.size();) {
-    const std::size_t end = std::min(map.find(',', begin), map.size());
-    list += (list.empty() ? "" : ", ") + quoted(map.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return "[" + list + "]";
+  return map.find('#') == std::string::npos ? quoted(map) : list(split(map, ','));
 }
 
 /// The keys that say which colours particles have. The table of a map comes last: what follows a
@@ -162,6 +162,7 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   text += "\n[[particles]]\n";
   add_line(text, "file", quoted(file));
   if (!options.format.empty()) add_line(text, "format", quoted(options.format));
+  if (!options.columns.empty()) add_line(text, "columns", list(options.columns));
   if (options.frame) add_line(text, "frame", std::to_string(*options.frame));
   if (options.water) add_line(text, "water", "true");
   if (!options.radius.empty()) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/math/vec.h"
 #include "core/scene/names.h"
@@ -32,6 +33,7 @@ struct LookOptions {
   bool quick = false;                            ///< a sketch, in place of the look's light
   bool floor = false;                            ///< a plane below the particles
   std::string format{};                          ///< of the file; empty: as it seems to be
+  std::vector<std::string> columns{};            ///< names for the columns; empty: the file's own
   std::optional<int> frame{};                    ///< of the file; negative: from its end
   bool water = false;                            ///< PDB and mmCIF: with water
   std::string color{};                           ///< "element", "#rrggbb" or a column

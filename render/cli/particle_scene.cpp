@@ -37,6 +37,7 @@ const char* option_of(std::string_view key, const LookOptions& look) {
     bool given;
   };
   const Origin origins[] = {{".format", "--input-format", !look.format.empty()},
+                            {".columns", "--columns", !look.columns.empty()},
                             {".frame", "--frame", look.frame.has_value()},
                             {".radius", "--radius", !look.radius.empty()},
                             {".scale", "--scale", look.scale.has_value()},
@@ -68,15 +69,26 @@ Diagnostic explain(Diagnostic error, const std::string& shown_path, const std::s
   return Diagnostic::in_file(path, std::move(error.message));
 }
 
-}  // namespace
-
+/// True for the endings of scenes: .toml, .nff, .npy.
 bool is_scene_name(const std::string& path) {
   return has_ending(path, ".toml") || has_ending(path, ".nff") || has_ending(path, ".npy");
 }
 
+}  // namespace
+
+Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& options) {
+  auto loaded = load_scene(path, options);
+  if (loaded || is_scene_name(path)) return loaded;
+  Diagnostic error = loaded.error();
+  error.message =
+      "neither a scene nor particles by its name or content, expected .toml .nff .npy or " +
+      known_particle_endings();
+  return error;
+}
+
 bool is_particle_input(const std::string& path, const LookOptions& look) {
   if (!look.format.empty()) return true;
-  if (has_ending(path, ".npy")) return has_named_fields(path);
+  if (has_ending(path, ".npy")) return !look.first.empty() || has_named_fields(path);
   if (is_scene_name(path)) return false;
   return is_particle_name(path) || has_particle_content(path);
 }
@@ -87,12 +99,13 @@ std::optional<double> lowest_along(const Vec3d& direction, const LoadedScene& lo
     lowest = std::min(lowest, dot(vec_cast<double>(sphere.center), direction) -
                                   static_cast<double>(sphere.radius));
   }
-  if (lowest == infinity) return std::nullopt;
-  return lowest + dot(loaded.origin, direction);
+  return lowest == infinity ? std::nullopt : std::optional(lowest);
 }
 
-LookFloor floor_at(double lowest, const Vec3d& up) {
-  return {up * lowest + Vec3d{}, up};  // 0 where it would be -0, which TOML cannot tell from 0
+LookFloor floor_at(double lowest, const Vec3d& up, const Vec3d& origin) {
+  // Rounded before the origin is added: so it is exact when the origin is subtracted again.
+  const auto point = vec_cast<double>(vec_cast<float>(up * lowest));
+  return {point + origin + Vec3d{}, up};  // 0 where it would be -0, which TOML cannot tell from 0
 }
 
 void add_floor(const LookFloor& floor, LoadedScene& loaded) {
@@ -120,7 +133,7 @@ Result<ParticleScene> load_particle_scene(const std::string& path, const LookOpt
   const Vec3d up = normalize(vec_cast<double>(made.loaded.scene.fit.up.value_or(Vec3f{0, 1, 0})));
   const auto lowest = lowest_along(up, made.loaded);
   if (!lowest) return made;
-  made.floor = floor_at(*lowest, up);
+  made.floor = floor_at(*lowest, up, made.loaded.origin);
   made.text = look_scene(path, look, made.floor);
   add_floor(*made.floor, made.loaded);
   return made;

@@ -10,11 +10,13 @@
 namespace boule::cli {
 
 /// Whether a file is shown by a scene that is made for it: one of particles by the options, its
-/// name or its content. A .npy file is one if it has named fields.
+/// name or its content. A .npy file is one if it has named fields, or if an
+/// option of particles was given.
 bool is_particle_input(const std::string& path, const LookOptions& look);
 
-/// True for the endings of scenes: .toml, .nff, .npy.
-bool is_scene_name(const std::string& path);
+/// The scene of a file that is none of particles. The error for a name that is neither a scene's
+/// nor that of particles tells the endings of both.
+Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& options);
 
 /// The scene of a particle file.
 struct ParticleScene {
@@ -30,12 +32,12 @@ Result<ParticleScene> load_particle_scene(const std::string& path, const LookOpt
                                           const SceneFileOptions& options,
                                           const std::optional<LookFloor>& floor = {});
 
-/// How far along a direction, which has unit length, the spheres begin, in the coordinates of the
-/// file; none if there are no spheres.
+/// How far along a direction, which has unit length, the spheres begin, counted from the scene's
+/// origin; none if there are no spheres.
 std::optional<double> lowest_along(const Vec3d& direction, const LoadedScene& loaded);
 
-/// The floor that touches what is lowest.
-LookFloor floor_at(double lowest, const Vec3d& up);
+/// The floor at lowest_along(up), which touches what is lowest, in a scene with this origin.
+LookFloor floor_at(double lowest, const Vec3d& up, const Vec3d& origin);
 
 /// Puts the floor into a scene that has the text of one without it.
 void add_floor(const LookFloor& floor, LoadedScene& loaded);

@@ -7,13 +7,15 @@
 #include "render/cli/run_report.h"
 #include "render/cli/scene_loader.h"
 #include "render/frame/scheduler.h"
+#include "render/particle_file/particle_file.h"
 
 namespace boule::cli {
 
 ExitCode run(const SceneCommand& command) {
   const std::string& path = command.particles;
   if (!is_particle_input(path, command.look)) {
-    return report(not_particles(path, "FILE"), wrong_usage);
+    const std::string message = "particles are expected, and it is none by its name or content: ";
+    return report(Diagnostic::in_file(path, message + known_particle_endings()), wrong_usage);
   }
   Scheduler scheduler(0);
   SceneFileOptions options;

@@ -41,16 +41,6 @@ std::vector<Sphere> with_instances(const Scene& scene) {
   return spheres;
 }
 
-/// The result; the error for a name that is neither a scene's nor that of particles tells both.
-Result<LoadedScene> known_to(Result<LoadedScene> loaded, const std::string& path) {
-  if (loaded || is_scene_name(path)) return loaded;
-  Diagnostic error = loaded.error();
-  error.message =
-      "neither a scene nor particles by its name or content, expected .toml .nff .npy or " +
-      known_particle_endings();
-  return error;
-}
-
 }  // namespace
 
 SceneLoader::SceneLoader(const RenderCommand& command)
@@ -81,7 +71,7 @@ Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
   const std::string path = frame ? frame_name(path_, *frame) : path_;
   if (!is_particle_input(path, look_)) {
     if (!look_.first.empty()) return not_particles(path, look_.first);
-    return known_to(load_scene(path, options_), path);
+    return load_known(path, options_);
   }
   is_made_ = true;
   auto made = load_particle_scene(path_, look_, options_, floor_);
@@ -94,6 +84,7 @@ void SceneLoader::keep_choices(const LoadedScene& first) {
   for (const ParticleFacts& facts : first.particles) colors_.push_back(facts.colors);
   if (!frames_) return;
   options_.color_ranges = color_ranges_of(first.particles);
+  options_.kind_colors = kind_colors_of(first.particles);
   options_.origin = first.origin;
 }
 
@@ -123,7 +114,7 @@ void SceneLoader::fit_series(LoadedScene& first) {
     if (floor_) lowest = std::min(lowest, *lowest_along(up, other.value()));
   }
   if (floor_) {
-    floor_ = floor_at(lowest, up);
+    floor_ = floor_at(lowest, up, first.origin);
     first.scene.planes.clear();
     add_floor(*floor_, first);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/particle_file/element_guess.h"
 #include "render/particle_file/gemmi_call.h"
 
 #ifdef BOULE_HAS_GEMMI
@@ -60,6 +61,22 @@ std::vector<AtomPlace> atoms_in_order(const gemmi::Structure& structure, std::si
   return places;
 }
 
+std::string_view record_of(const std::string& records, std::size_t i) {
+  return std::string_view(records).substr(i * record_bytes, record_bytes);
+}
+
+bool has_element(std::string_view record) { return record.substr(76, 2) != "  "; }
+
+/// True for files whose names of atoms begin in column 13 whatever the element, as programs write
+/// them that leave the elements out, too. Elsewhere no single letter stands there.
+bool has_unaligned_names(const std::string& records) {
+  for (std::size_t i = 0; i * record_bytes < records.size(); ++i) {
+    const std::string_view record = record_of(records, i), name = record.substr(12, 4);
+    if (name[0] != ' ' && name.substr(1) == "   " && !has_element(record)) return true;
+  }
+  return false;
+}
+
 std::string_view one_letter(const char& letter, char none) {
   return letter == none ? std::string_view() : std::string_view(&letter, 1);
 }
@@ -73,12 +90,15 @@ Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns) {
     const std::vector<int> serials = take_serials(records.lines);
     const gemmi::Structure structure =
         gemmi::read_pdb_from_memory(records.lines.data(), records.lines.size(), "pdb");
+    const bool unaligned = has_unaligned_names(records.lines);
     const std::vector<AtomPlace> places = atoms_in_order(structure, serials.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto [chain, residue, atom] = places[i];
       if (atom == nullptr) return Diagnostic::of("gemmi does not understand an atom's record");
       columns.add({.position = records.numbers[i].position,
-                   .element = atom->element.name(),
+                   .element = unaligned && !has_element(record_of(records.lines, i))
+                                  ? element_of_atom(atom->name, residue->name)
+                                  : atom->element.name(),
                    .name = atom->name,
                    .residue = residue->name,
                    .chain = chain->name,

@@ -64,11 +64,9 @@ const AtomStyle* guess_style(const std::vector<std::string_view>& words, std::ui
   return nullptr;
 }
 
-}  // namespace
-
-Result<DataColumns> columns_of_atoms(const DataSections& sections, std::string_view first_row) {
-  const std::uint64_t line = sections.atom_rows.line;
-  const auto words = words_of(first_row.substr(0, first_row.find('#')));
+/// By the style behind "Atoms #", else by the first row.
+Result<DataColumns> columns_of_style(const DataSections& sections,
+                                     const std::vector<std::string_view>& words) {
   const std::string& name = sections.atom_rows.style;
   const AtomStyle* const style =
       name.empty() ? guess_style(words, sections.types) : find_style(name);
@@ -76,14 +74,26 @@ Result<DataColumns> columns_of_atoms(const DataSections& sections, std::string_v
     const std::string what = name.empty()
                                  ? "the style of its atoms is not told, as in Atoms # full"
                                  : "the style of its atoms, " + quote(name) + ", is unknown";
-    return error_at_line(line, what + "; name the columns (--columns id,type,x,y,z)", "Atoms");
+    return error_at_line(sections.atom_rows.line,
+                         what + "; name the columns (--columns id,type,x,y,z)", "Atoms");
   }
   DataColumns found{style->columns, {}};
-  if (has_images(words, found.names.size())) found.names.insert(found.names.end(), 3, "-");
   if (name.empty()) {
     found.note = "the style of its atoms is not told, taken as " + std::string(style->name) +
                  " by the first row";
   }
+  return found;
+}
+
+}  // namespace
+
+Result<DataColumns> columns_of_atoms(const DataSections& sections, std::string_view first_row,
+                                     const std::vector<std::string>& given) {
+  const auto words = words_of(first_row.substr(0, first_row.find('#')));
+  auto found = given.empty() ? columns_of_style(sections, words) : DataColumns{given, {}};
+  if (!found) return found;
+  std::vector<std::string>& names = found.value().names;
+  if (has_images(words, names.size())) names.insert(names.end(), 3, "-");
   return found;
 }
 

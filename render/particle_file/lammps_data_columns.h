@@ -15,8 +15,10 @@ struct DataColumns {
   std::string note;  ///< a sentence, if the style had to be guessed
 };
 
-/// By the style behind "Atoms #", else by what the first row looks like. Images of the box are
-/// skipped. An error for other styles than atomic, charge, bond, angle, molecular, full and sphere.
-Result<DataColumns> columns_of_atoms(const DataSections& sections, std::string_view first_row);
+/// Those that are `given`; else by the style behind "Atoms #", else by what the first row looks
+/// like. Images of the box behind them are skipped. An error for other styles than atomic, charge,
+/// bond, angle, molecular, full and sphere.
+Result<DataColumns> columns_of_atoms(const DataSections& sections, std::string_view first_row,
+                                     const std::vector<std::string>& given);
 
 }  // namespace boule

@@ -48,12 +48,9 @@ class LammpsDataReader : public ParticleReader {
   Status read_atoms(NamedColumns& columns, ParticleFrame& read, const ParallelFor& parallel_for) {
     const DataSection& atoms = sections_.atom_rows;
     const std::string_view first_row = TextLines(atoms.text).next();
-    DataColumns named{options_.columns, {}};
-    if (named.names.empty()) {
-      auto found = columns_of_atoms(sections_, first_row);
-      if (!found) return found.error();
-      named = std::move(found).value();
-    }
+    const auto found = columns_of_atoms(sections_, first_row, options_.columns);
+    if (!found) return found.error();
+    const DataColumns& named = found.value();
     if (!named.note.empty()) read.notes.push_back(named.note);
     const auto examples = words_of(first_row);
     for (std::size_t i = 0; i < named.names.size(); ++i) {

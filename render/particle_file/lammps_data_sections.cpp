@@ -57,6 +57,10 @@ class SectionFinder {
     while (!lines_.at_end()) {
       if (auto wrong = section()) return *wrong;
     }
+    if (!has_count_) {
+      return error_at_line(lines_.line(), "it has no line with the count of atoms, \"N atoms\"",
+                           "atoms");
+    }
     if (!found_.atom_rows.exists() && found_.atoms > 0) {
       return error_at_line(lines_.line(), "the file ends without a section Atoms", "Atoms");
     }

@@ -95,6 +95,14 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
                                  known_particle_endings());
 }
 
+/// An error about names for columns, if the format leaves nothing to be named.
+Status check_columns(const std::vector<std::string>& columns, std::string_view format) {
+  constexpr std::array fixed{"ply", "gro", "pdb", "mmcif"};
+  if (columns.empty() || std::count(fixed.begin(), fixed.end(), format) == 0) return std::nullopt;
+  return Diagnostic::about("columns",
+                           "a file of the format " + quote(format) + " names its columns itself");
+}
+
 Result<MappedText> open_bytes(const std::string& path) {
   const auto in_archive = npz_name(path);
   if (!in_archive) return MappedText::open(path);
@@ -148,6 +156,7 @@ Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleF
   if (!bytes) return bytes.error();
   const auto format = find_format(path, bytes.value().text(), options.format);
   if (!format) return in_file(format.error(), path);
+  if (auto wrong = check_columns(options.columns, format.value()->name)) return *wrong;
   auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
   if (!reader) return in_file(reader.error(), path);
   return ParticleFile(path, format.value()->name, std::move(reader).value());

@@ -15,7 +15,7 @@ namespace boule {
 
 /// A format of particle files: how it is known and what reads it.
 struct ParticleFormat {
-  std::string_view name;  ///< as --format takes it: "xyz"
+  std::string_view name;  ///< as --input-format takes it: "xyz"
   /// The endings of its files' names, without the dot and in lower case, without those of
   /// compression; empty entries at the end.
   std::array<std::string_view, 4> endings;

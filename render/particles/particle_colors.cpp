@@ -34,7 +34,8 @@ ColorRule default_rule(const ParticleFrame& frame) {
 /// The colours of rules for one frame.
 class Coloring {
  public:
-  explicit Coloring(const ColoredFrame& colored) : colored_(colored), frame_(colored.frame) {}
+  Coloring(const ColoredFrame& colored, const KnownKinds& known)
+      : colored_(colored), frame_(colored.frame), known_(known) {}
 
   Materials operator()(std::monostate) const {
     return ParticleMaterials{{MaterialRef(colored_.material)}};
@@ -50,7 +51,8 @@ class Coloring {
     const auto unknown = std::count_if(texts.begin(), texts.end(), [](const std::string& text) {
       return find_element(text) == nullptr;
     });
-    return of_groups(*frame_.species, species_colors(texts), static_cast<std::size_t>(unknown));
+    return of_groups(*frame_.species, species_colors(texts, known_),
+                     static_cast<std::size_t>(unknown));
   }
 
   Materials operator()(const ColorColumns& columns) const {
@@ -66,7 +68,7 @@ class Coloring {
     }
     if (has_hex_colors(*texts)) return of_hex_texts(*texts);
     if (frame_.species && texts == &*frame_.species) return (*this)(SpeciesColors{});
-    return of_groups(*texts, palette_colors(texts->texts.size()), texts->texts.size());
+    return of_groups(*texts, palette_colors(texts->texts, known_), texts->texts.size());
   }
 
   Materials operator()(const MappedColors& mapped) const {
@@ -125,6 +127,7 @@ class Coloring {
 
   ColoredFrame colored_;
   const ParticleFrame& frame_;
+  const KnownKinds& known_;
 };
 
 }  // namespace
@@ -140,7 +143,8 @@ Result<ParticleMaterials> make_materials(const ParticleFrame& frame, const Parti
                                              std::to_string(MaterialRef::max_colored) +
                                              " materials can be given colours");
   }
-  return std::visit(Coloring({frame, style.material, name_of, parallel_for}), rule);
+  return std::visit(Coloring({frame, style.material, name_of, parallel_for}, style.known_kinds),
+                    rule);
 }
 
 }  // namespace boule

@@ -10,6 +10,7 @@
 #include "core/math/srgb.h"
 #include "core/scene/names.h"
 #include "render/particles/color_map.h"
+#include "render/particles/color_meaning.h"
 
 namespace boule {
 
@@ -61,6 +62,8 @@ struct ParticleStyle {
   RadiusRule radius{};
   double scale = 1;  ///< the radii times that, > 0
   ColorRule color{};
+  /// Of a series: the colours that species, or other texts, have in its other frames.
+  std::vector<ParticleColors::Species> known_kinds{};
   /// The index of the spheres' material; below MaterialRef::max_colored, unless they keep its
   /// colour.
   std::uint32_t material = 0;

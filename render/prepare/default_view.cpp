@@ -33,27 +33,46 @@ Compass compass_of(const Vec3d& up) {
   return {right, up, cross(right, up)};
 }
 
-/// How long the spheres are together along an axis.
-double extent_along(const Vec3d& axis, const std::vector<Sphere>& spheres) {
+/// How long the spheres are together along an axis, and how far their centres are apart.
+struct Extent {
+  double spheres = 0, centers = 0;
+};
+
+Extent extent_along(const Vec3d& axis, const std::vector<Sphere>& spheres) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  double low = inf, high = -inf;
+  double low = inf, high = -inf, lowest_center = inf, highest_center = -inf;
   for (const Sphere& s : spheres) {
     const double along = dot(vec_cast<double>(s.center), axis);
     const auto radius = static_cast<double>(s.radius);
     low = std::min(low, along - radius);
     high = std::max(high, along + radius);
+    lowest_center = std::min(lowest_center, along);
+    highest_center = std::max(highest_center, along);
   }
-  return std::max(high - low, 0.0);
+  return {std::max(high - low, 0.0), std::max(highest_center - lowest_center, 0.0)};
+}
+
+/// True if spheres are a sheet, one sphere thick, as simulations in two dimensions are.
+bool is_sheet(const Extent& thick, const Extent& a, const Extent& b) {
+  constexpr double centers = 1e-3, thin = 0.25;
+  return thick.centers <= centers * thick.spheres &&
+         thick.spheres <= thin * std::min(a.spheres, b.spheres);
 }
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 1; }
 
-/// The direction from the spheres to the camera.
-Vec3d way_to_camera(Compass compass, const std::vector<Sphere>& spheres) {
+/// The direction from the spheres to the camera; a sheet is seen face on, unless it lies on a
+/// floor.
+Vec3d way_to_camera(Compass compass, const std::vector<Sphere>& spheres, bool has_floor) {
   // Tangents. They are those of 32 and 20 degrees, and of 50 for what is flat.
   constexpr double aside = 0.625, above = 0.371, above_flat = 1.19;
-  double wide = extent_along(compass.right, spheres), deep = extent_along(compass.front, spheres);
-  const double high = extent_along(compass.up, spheres);
+  const Extent x = extent_along(compass.right, spheres), y = extent_along(compass.up, spheres),
+               z = extent_along(compass.front, spheres);
+  if (is_sheet(y, x, z) && !has_floor) return compass.up;
+  if (is_sheet(z, x, y)) return compass.front;
+  if (is_sheet(x, y, z)) return compass.right;
+  double wide = x.spheres, deep = z.spheres;
+  const double high = y.spheres;
   // Of what is about as deep as wide, the front is the front.
   constexpr double clearly = 1.1;
   if (deep > wide * clearly) {
@@ -76,9 +95,10 @@ View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
                   const std::vector<Plane>& planes) {
   View view;
   view.up = fit.up ? unit(*fit.up) : up_of(planes);
-  view.direction =
-      fit.direction ? unit(*fit.direction) : way_to_camera(compass_of(view.up), spheres) * -1.0;
-  if (!fit.up && are_parallel(view.up, view.direction)) {
+  view.direction = fit.direction
+                       ? unit(*fit.direction)
+                       : way_to_camera(compass_of(view.up), spheres, !planes.empty()) * -1.0;
+  if (!(fit.up && fit.direction) && are_parallel(view.up, view.direction)) {
     // Seen from above or below, what is behind is upward, as on a map.
     view.up = compass_of(view.up).front * -1.0;
   }

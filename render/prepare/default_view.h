@@ -15,8 +15,9 @@ struct View {
 };
 
 /// The direction and the up of `fit`, or where it lacks them those that show the most of the
-/// spheres: across their longest side, slightly from above, and from higher up where they lie flat.
-/// Without an up, y is up, or the axis along which the first plane's normal lies.
+/// spheres: across their longest side, slightly from above, and from higher up where they lie flat;
+/// face on if they are a sheet, one sphere thick, then with what is behind upward if it is seen
+/// from above. Without an up, y is up, or the axis along which the first plane's normal lies.
 /// Precondition: fit's vectors are finite and not zero. A fit whose up lies along its direction
 /// gives such a View.
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,

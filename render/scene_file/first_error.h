@@ -41,6 +41,10 @@ class FirstError {
   void add_data_file(std::string path) { data_files_.push_back(std::move(path)); }
   [[nodiscard]] const std::vector<std::string>& data_files() const { return data_files_; }
 
+  /// Keeps a note for the user about what the file says.
+  void add_note(std::string note) { notes_.push_back(std::move(note)); }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
   /// The first error, or nothing so far.
   [[nodiscard]] const Status& status() const { return status_; }
 
@@ -49,6 +53,7 @@ class FirstError {
   std::optional<int> frame_;
   Status status_;
   std::vector<std::string> data_files_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace boule

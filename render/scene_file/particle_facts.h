@@ -31,14 +31,22 @@ struct ParticleFacts {
 /// The numbers that the ends of colour maps stand for, by ParticleFacts::table.
 using ColorRanges = std::map<std::string, std::array<double, 2>>;
 
-/// The ranges that were chosen: with them as SceneFileOptions::color_ranges, the other frames of a
-/// series have the colours of this one.
+/// The colours of species and other texts, by ParticleFacts::table.
+using KindColors = std::map<std::string, std::vector<ParticleColors::Species>>;
+
+/// The colours that were chosen: with them as SceneFileOptions::color_ranges and kind_colors, the
+/// other frames of a series have the colours of this one.
 inline ColorRanges color_ranges_of(const std::vector<ParticleFacts>& all) {
   ColorRanges ranges;
   for (const ParticleFacts& facts : all) {
     if (facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
   }
   return ranges;
+}
+inline KindColors kind_colors_of(const std::vector<ParticleFacts>& all) {
+  KindColors kinds;
+  for (const ParticleFacts& facts : all) kinds.emplace(facts.table, facts.colors.species);
+  return kinds;
 }
 
 }  // namespace boule

@@ -24,6 +24,8 @@ struct SceneFileOptions {
   std::optional<int> frame{};
   /// Of a series: what the ends of colour maps stand for where the scene file does not say it.
   ColorRanges color_ranges{};
+  /// Of a series: the colours that species and other texts have already.
+  KindColors kind_colors{};
   /// Of a series: the origin, where the scene file leaves it to be chosen.
   std::optional<Vec3d> origin{};
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads

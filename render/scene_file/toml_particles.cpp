@@ -58,6 +58,7 @@ class ParticleTable {
   std::optional<TomlParticles> read();
 
  private:
+  void keep_series_colors();
   void fix_color_range();
   std::optional<ParticleFrame> read_frame();
   std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
@@ -70,6 +71,13 @@ class ParticleTable {
   const SceneFileOptions& options_;
   ParticleFacts facts_;
 };
+
+/// Gives the particles the colours that they have in the rest of the series.
+void ParticleTable::keep_series_colors() {
+  fix_color_range();
+  const auto known = options_.kind_colors.find(table_.path());
+  if (known != options_.kind_colors.end()) keys_.style.known_kinds = known->second;
+}
 
 /// Gives colour maps the range that the series has for them. A column by itself is mapped if that
 /// is how the first frame had it.
@@ -87,7 +95,7 @@ void ParticleTable::fix_color_range() {
 }
 
 std::optional<TomlParticles> ParticleTable::read() {
-  fix_color_range();
+  keep_series_colors();
   keys_.file.wanted = columns_of(keys_.style);
   auto frame = read_frame();
   if (!frame) return std::nullopt;

@@ -78,6 +78,7 @@ Result<LoadedScene> TomlReader::read() {
   if (error_.status()) return *error_.status();
   std::vector<std::string> notes = reader.notes();
   loaded_.notes.insert(loaded_.notes.begin(), notes.begin(), notes.end());
+  loaded_.notes.insert(loaded_.notes.end(), error_.notes().begin(), error_.notes().end());
   loaded_.data_files = error_.data_files();
   loaded_.origin = origin_;
   return std::move(loaded_);

@@ -1,6 +1,8 @@
 #include "render/scene_file/toml_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <system_error>
@@ -27,6 +29,19 @@ const TomlValue* find_member(const TomlMembers& members, std::string_view key) {
   const auto found = std::find_if(members.begin(), members.end(),
                                   [&](const TomlMember& member) { return member.key == key; });
   return found == members.end() ? nullptr : &found->value;
+}
+
+/// Three numbers as codes of 8 bits, if they look like that: whole ones up to 255, one above 1.
+std::optional<SrgbColor> codes_like(const Vec3f& rgb) {
+  std::array<std::uint8_t, 3> codes{};
+  const std::array components{rgb.x, rgb.y, rgb.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(components[i] >= 0 && components[i] <= 255)) return std::nullopt;
+    codes[i] = static_cast<std::uint8_t>(components[i]);
+    if (static_cast<float>(codes[i]) != components[i]) return std::nullopt;
+  }
+  if (*std::max_element(codes.begin(), codes.end()) <= 1) return std::nullopt;
+  return SrgbColor{codes[0], codes[1], codes[2]};
 }
 
 }  // namespace
@@ -218,7 +233,6 @@ void TomlTable::read_point(std::string_view key, Vec3f& out) {
   out = {*x, *y, *z};
 }
 
-/// Three linear numbers, or "#rrggbb".
 void TomlTable::read(std::string_view key, Color& out) {
   const TomlValue* value = find(key);
   if (value == nullptr) return;
@@ -231,6 +245,11 @@ void TomlTable::read(std::string_view key, Color& out) {
   Vec3f rgb{out.r, out.g, out.b};
   read(key, rgb);
   out = {rgb.x, rgb.y, rgb.z};
+  const auto codes = key == "color" ? codes_like(rgb) : std::nullopt;
+  if (!codes) return;
+  error_->add_note(printable(path_of(key)) +
+                   ": colours are linear and 1 is white; codes up to 255 are " + "written \"" +
+                   hex_text(*codes) + "\"");
 }
 
 void TomlTable::read(std::string_view key, std::string& out) {

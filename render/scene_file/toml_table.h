@@ -54,6 +54,8 @@ class TomlTable {
   /// A point: three numbers, from which the origin is subtracted before they are rounded. That of a
   /// key that is absent, too: `out` holds its default.
   void read_point(std::string_view key, Vec3f& out);
+  /// Three linear numbers, or "#rrggbb". A "color" of three numbers that look like codes up to 255
+  /// gets a note.
   void read(std::string_view key, Color& out);
   void read(std::string_view key, std::string& out);
   /// Texts, as an array.

@@ -19,6 +19,7 @@ TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
       {Diagnostic::in_file("a.toml", "is wrong"), "a.toml: error: is wrong"},
       {{.message = "is wrong", .file = "a.toml", .line = 3, .column = 14},
        "a.toml:3:14: error: is wrong"},
+      {{.message = "is wrong", .file = "a.cif", .line = 3}, "a.cif:3: error: is wrong"},
       {{.message = "is wrong", .key = "camera.fov", .file = "a.toml", .line = 3, .column = 14},
        "a.toml:3:14: error: is wrong (key 'camera.fov')"}};
   for (const FormatCase& c : cases) EXPECT_EQ(format_diagnostic(c.diagnostic), c.text);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/render/cli/program.h"
+#include "tests/render/npy_files.h"
 
 namespace boule::test {
 namespace {
@@ -84,6 +85,9 @@ TEST_F(Particles, FilesOfNoKnownKindAreRefused) {
   const ProgramRun run = refused_run({"render", file, "-o", path("a.png")}, 3);
   EXPECT_THAT(run.err, AllOf(HasSubstr("notes.abc: error: neither a scene nor particles"),
                              HasSubstr(".toml .nff .npy"), HasSubstr(".xyz")));
+  EXPECT_EQ(refused_run({"info", file}, 3).err, run.err);
+  EXPECT_THAT(refused_run({"scene", file}, 2).err,
+              AllOf(HasSubstr("notes.abc: error: particles are expected"), HasSubstr(".xyz")));
 }
 
 TEST_F(Particles, OptionsThatDoNotFitTheFileAreWrongUsage) {
@@ -122,6 +126,31 @@ TEST_F(Particles, ErrorsOfTheFileAreAtTheirLine) {
               HasSubstr("error: its name, or an option, is not UTF-8"));
   const ProgramRun missing = refused_run({"render", path("no.xyz"), "-o", path("a.png")}, 3);
   EXPECT_THAT(missing.err, HasSubstr("no.xyz: error: "));
+}
+
+TEST_F(Particles, HaveColumnsThatTheCommandLineNames) {
+  const std::string file = write("sph.lmp",
+                                 "water\n\n2 atoms\n\nAtoms\n\n"
+                                 "1 1 1000 0 1 0.5 2 3 0 0 0\n2 1 990 0 1 1.5 2 3 0 0 0\n");
+  EXPECT_THAT(refused_run({"info", file}, 3).err, HasSubstr("(--columns id,type,x,y,z)"));
+  const std::string names = "id,type,rho,e,cv,x,y,z";
+  const ProgramRun told = boule_run({"info", file, "--json", "--columns", names});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const auto info = nlohmann::json::parse(told.out);
+  EXPECT_EQ(info["bounds"]["high"], nlohmann::json::parse("[1.5,2.0,3.0]"));
+  EXPECT_EQ(info["columns"][2]["name"], "rho");
+  render(file, "a.ppm", {"--columns", names, "--color", "rho"});
+  const ProgramRun wrong = refused_run({"info", file, "--columns", "id,type,rho,x,y"}, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no column of positions for z"));
+}
+
+TEST_F(Particles, OfPlainArraysAreShownByTheirOptions) {
+  // Centres alone: as a scene they lack radii.
+  const std::string file =
+      write("row.npy", npy_file(npy_dict("'<f8'", "(2, 3)"), std::string(48, '\0')));
+  EXPECT_THAT(refused_run({"render", file, "-o", path("a.ppm")}, 3).err, HasSubstr("radius"));
+  render(file, "a.ppm", {"--radius", "0.5"});
+  EXPECT_THAT(boule_run({"info", file, "--input-format", "npy"}).out, HasSubstr("particles: 2"));
 }
 
 TEST_F(Particles, AreDescribed) {
@@ -164,6 +193,16 @@ TEST_F(Particles, HaveALegend) {
   EXPECT_THAT(refused_run(with({"--legend", path("none/l.svg")}), 1).err, HasSubstr("l.svg"));
 }
 
+TEST_F(Particles, FarAwayHaveTheFloorThatTheyHaveAtZero) {
+  const std::vector<std::string> options = {"--look", "plain", "--floor", "--radius", "0.3"};
+  const std::string near = "2\n\nC 0.25 0.125 0.5\nO 1.75 2 0.375\n";
+  render(write("near.xyz", near), "near.ppm", options);
+  const std::string far =
+      "2\n\nC 1000000.25 1000000.125 1000000.5\nO 1000001.75 1000002 1000000.375\n";
+  render(write("far.xyz", far), "far.ppm", options);
+  EXPECT_TRUE(read("near.ppm") == read("far.ppm"));
+}
+
 TEST_F(Particles, OfASeriesHaveOneCamera) {
   const std::string file = growing(3);
   const std::vector<std::string> view = {"--quick", "--view", "-z", "--up", "y"};
@@ -191,6 +230,22 @@ TEST_F(Particles, OfASeriesHaveOneRangeOfColors) {
   // 1: its colours are those of the map's ends.
   render(file, "own.ppm", {"--quick", "--color", "heat", "--frame", "1"});
   EXPECT_FALSE(read("f1.ppm") == read("own.ppm"));
+}
+
+TEST_F(Particles, OfASeriesKeepTheirColors) {
+  // The kinds come in another order in each frame, and the last one has a new one.
+  const std::string file = write("kinds.xyz",
+                                 "2\n\nwall 0 0 0\nbead 3 0 0\n2\n\nbead 3 0 0\nwall 0 0 0\n"
+                                 "3\n\nfoam 9 9 9\nbead 3 0 0\nwall 0 0 0\n");
+  const std::vector<std::string> fixed = {"--quick", "--view", "-z", "--up", "y", "--radius", "1"};
+  std::vector<std::string> series = fixed;
+  series.insert(series.end(), {"--frames", "0-1"});
+  render(file, "f#.ppm", series);
+  EXPECT_TRUE(read("f0.ppm") == read("f1.ppm"));
+  series.insert(series.end(), {"--select", "species != 'foam'"});
+  series[series.size() - 3] = "0-2";
+  render(file, "g#.ppm", series);
+  EXPECT_TRUE(read("g0.ppm") == read("g2.ppm"));
 }
 
 TEST_F(Particles, OfASceneAreASeriesToo) {

@@ -40,6 +40,7 @@ TEST(LookOptions, AreKept) {
                                     "--up",           "0,1,0.5",
                                     "--frame",        "-2",
                                     "--input-format", "xyz",
+                                    "--columns",      "id,-,x,y,z",
                                     "--floor",        "--water"});
   EXPECT_EQ(look.look, Look::dark);
   EXPECT_EQ(look.color, "|v|");
@@ -52,6 +53,7 @@ TEST(LookOptions, AreKept) {
   EXPECT_EQ(look.up, (Vec3d{0, 1, 0.5}));
   EXPECT_EQ(look.frame, -2);
   EXPECT_EQ(look.format, "xyz");
+  EXPECT_EQ(look.columns, (std::vector<std::string>{"id", "-", "x", "y", "z"}));
   EXPECT_TRUE(look.floor);
   EXPECT_TRUE(look.water);
   EXPECT_FALSE(look.quick);
@@ -116,6 +118,7 @@ const Wrong wrong_looks[] = {
     {{"--up", "1,2"}, "--up: '1,2' is not understood"},
     {{"--frame", "1.5"}, "--frame: '1.5' is not understood"},
     {{"--input-format", "png"}, "--input-format: 'png' is not understood, expected one of 'npy'"},
+    {{"--columns", "x,,z"}, "--columns: 'x,,z' is not understood, expected names such as id,type"},
     {{"--quick", "--look", "dark"}, "excludes"},
     {{"--frame", "1", "--frames", "1-2"}, "excludes"},
 };

@@ -23,6 +23,7 @@ TEST(ParticleLook, SaysWhatTheOptionsSayAndNoMore) {
                                       "material = \"particles\"\n\n"));
   LookOptions look;
   look.format = "dump";
+  look.columns = {"x", "-", "z"};
   look.frame = -3;
   look.water = true;
   look.radius = "0.50";
@@ -33,6 +34,7 @@ TEST(ParticleLook, SaysWhatTheOptionsSayAndNoMore) {
   look.range = {{-1, 2.5}};
   EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
                                         "format = \"dump\"\n"
+                                        "columns = [\"x\", \"-\", \"z\"]\n"
                                         "frame = -3\n"
                                         "water = true\n"
                                         "radius = 0.50\n"

@@ -119,6 +119,8 @@ const std::string good_data = data_head + data_title + data_rows;
 
 std::vector<BrokenFile> broken_headers() {
   return {
+      {"NoDataAtAll", "# an input of LAMMPS\n\nunits lj\natom_style atomic\nrun 100\n",
+       "6:1: it has no line with the count of atoms, \"N atoms\" (atoms)"},
       {"NoAtoms", data_head, "10:1: the file ends without a section Atoms (Atoms)"},
       {"CountIsAWord", with(good_data, "2 atoms", "two atoms"),
        "10:1: the header has no count of atoms (atoms)"},

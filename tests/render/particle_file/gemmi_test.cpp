@@ -141,6 +141,18 @@ TEST_F(Pdb, ReadsSloppyLines) {
   EXPECT_FALSE(read.value().cell.has_value());
 }
 
+TEST_F(Pdb, GuessesElementsWhereNamesAreNotAligned) {
+  const auto species = [](const char* first) {
+    std::string file = record(first, "   1.000", "ATOM  ", "    1", "  1.00  0.00\n");
+    for (const char* atom : {"CA   TYR     1 ", "HE1  TYR     1 ", "OH   TYR     1 "}) {
+      file += record(atom, "   1.000", "ATOM  ", "    1", "  1.00  0.00\n");
+    }
+    return texts_of(*read_particles("a.pdb", file).value().species);
+  };
+  EXPECT_THAT(species("N    TYR     1 "), ElementsAre("N", "C", "H", "O"));
+  EXPECT_THAT(species(" N   TYR     1 "), ElementsAre("N", "Ca", "He", "X"));  // as gemmi has it
+}
+
 TEST_F(Pdb, NumbersAreTheNearestDoubles) {
   const auto read = read_particles(
       "a.pdb", record(alpha, " 1.1e-05", "ATOM  ", "    1", "  1e99 1e-30           C\n"));

@@ -157,6 +157,10 @@ TEST(LammpsData, RefusesUnknownStylesUnlessColumnsAreNamed) {
   const auto read = read_particles("a.lmp", text, options);
   ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
   EXPECT_THAT(numbers(read.value(), "volume"), ElementsAre(5, 5));
+  const auto with_images = read_particles(
+      "a.lmp", data_head + "Atoms # peri\n\n1 1 5 5 1 2 3 0 0 -1\n2 1 6 5 4 5 6 0 1 0\n", options);
+  ASSERT_TRUE(with_images.ok()) << format_diagnostic(with_images.error());
+  EXPECT_THAT(numbers(with_images.value(), "volume"), ElementsAre(5, 6));
 }
 
 }  // namespace

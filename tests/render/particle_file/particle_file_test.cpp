@@ -62,6 +62,13 @@ TEST(ParticleFile, FormatOverridesTheName) {
               HasSubstr("there is no format 'abc' of particle files, expected one of "));
 }
 
+TEST(ParticleFile, NamesForColumnsThatHaveOnesAreRefused) {
+  for (const char* name : {"a.gro", "a.pdb", "a.cif", "a.ply"}) {
+    EXPECT_THAT(particle_error(name, "", {.columns = {"x", "y", "z"}}),
+                HasSubstr("names its columns itself (columns)"));
+  }
+}
+
 TEST(ParticleFile, CountsFramesFromBothEnds) {
   const auto x = [](long frame) {
     const auto read = read_particles("run.xyz", three_frames, {}, frame);

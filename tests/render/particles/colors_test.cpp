@@ -85,6 +85,18 @@ TEST(Colors, OfManySpeciesRepeat) {
   EXPECT_THAT(notes_of(row_of(species)), Not(HasSubstr("palette")));
 }
 
+TEST(Colors, OfTypesGoByTheirNumbers) {
+  EXPECT_THAT(colors_of(row_of({"10", "2", "1"})), ElementsAre("#009e73", "#56b4e9", "#e69f00"));
+}
+
+TEST(Colors, OfKnownKindsStay) {
+  const ParticleFrame frame = row_of({"new", "bead", "C", "wall"});
+  const ParticleStyle style{.known_kinds = {{"C", {0x90, 0x90, 0x90}},
+                                            {"wall", {0xe6, 0x9f, 0x00}},
+                                            {"bead", {0x00, 0x9e, 0x73}}}};
+  EXPECT_THAT(colors_of(frame, style), ElementsAre("#56b4e9", "#009e73", "#909090", "#e69f00"));
+}
+
 TEST(Colors, AreThoseOfTexts) {
   ParticleFrame frame = row_of({"C", "C"});
   frame.texts = {text_column("color", {"#102030", "#FFffFF"})};

@@ -169,6 +169,33 @@ TEST(DefaultView, IsHigherUpWhereSpheresLieFlat) {
   EXPECT_LT(looked_along(cube).y, -0.2);
 }
 
+TEST(DefaultView, OfASheetIsFaceOn) {
+  const auto sheet = [](const Vec3f& a, const Vec3f& b, const Vec3f& bend) {
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 50; ++i) {
+      const auto u = static_cast<float>(i % 10), v = static_cast<float>(i / 10);
+      spheres.push_back({a * u + b * (2 * v) + bend * (u * u), 0.5F});
+    }
+    return spheres;
+  };
+  const Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, none{};
+  const CameraFit y_up{}, z_up{.up = z};
+  // As a map: x to the right and y upward.
+  const View map = default_view(z_up, sheet(x, y, none), {});
+  EXPECT_EQ(map.direction, (Vec3d{0, 0, -1}));
+  EXPECT_EQ(map.up, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(default_view(y_up, sheet(x, y, none), {}).direction, (Vec3d{0, 0, -1}));
+  EXPECT_EQ(default_view(y_up, sheet(x, z, none), {}).direction, (Vec3d{0, -1, 0}));
+  EXPECT_EQ(default_view(z_up, sheet(x, z, none), {}).direction, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(default_view(z_up, sheet(y, z, none), {}).direction, (Vec3d{-1, 0, 0}));
+  // Neither one that is bent, nor one on a floor, nor a row.
+  const std::vector<Plane> floor{{{0, 0, -0.5F}, z, 0}};
+  EXPECT_GT(default_view(z_up, sheet(x, y, z * 0.01F), {}).direction.y, 0.1);
+  EXPECT_EQ(default_view(z_up, sheet(x, y, none), floor).up, (Vec3d{0, 0, 1}));
+  EXPECT_LT(default_view(z_up, sheet(x, none, none), {}).direction.z, -0.1);
+  EXPECT_EQ(default_view(z_up, sheet(x, none, none), {}).up, (Vec3d{0, 0, 1}));
+}
+
 TEST(DefaultView, HasTheUpThatItIsGivenOrThatOfTheFloor) {
   const auto spheres = cloud(6, 20);
   EXPECT_EQ(default_view({}, spheres, {}).up, (Vec3d{0, 1, 0}));

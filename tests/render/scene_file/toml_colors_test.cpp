@@ -23,6 +23,20 @@ TEST(TomlColors, MayBeWrittenInHex) {
   EXPECT_EQ(scene.ambient, gray(1));
 }
 
+TEST(TomlColors, CodesThatAreTakenForLinearGetANote) {
+  const test::SceneFolder files;
+  const auto loaded = files.load("scene.toml",
+                                 "schema = 1\n[material.red]\ncolor = [255, 0, 16]\n"
+                                 "[material.lit]\ncolor = [1, 0, 1]\n"
+                                 "[material.bright]\ncolor = [1.5, 2, 3]\n"
+                                 "[material.brighter]\ncolor = [256, 0, 0]\n"
+                                 "[[light]]\nintensity = [20, 20, 20]\n");
+  ASSERT_TRUE(loaded.ok()) << format_diagnostic(loaded.error());
+  EXPECT_THAT(loaded.value().notes,
+              testing::ElementsAre("material.red.color: colours are linear and 1 is white; codes "
+                                   "up to 255 are written \"#ff0010\""));
+}
+
 TEST(TomlColors, AnObjectHasAColorOfItsOwn) {
   const Scene scene = load(
       "[material.shiny]\ntype = \"plastic\"\n"
