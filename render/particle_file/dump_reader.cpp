@@ -168,8 +168,10 @@ class DumpReader : public ParticleReader {
     if (auto wrong = columns.check_positions()) {
       return error_at_line(atoms.line - 1, wrong->message, wrong->key);
     }
-    const TextRows source{
-        .text = rows, .rows = static_cast<std::size_t>(atoms.rows), .first_line = atoms.line};
+    const TextRows source{.text = rows,
+                          .rows = static_cast<std::size_t>(atoms.rows),
+                          .first_line = atoms.line,
+                          .positive = options_.positive};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
     if (positions.any_scaled()) {
       if (auto wrong = check_scaled(positions, read, atoms.line - 1)) return *wrong;

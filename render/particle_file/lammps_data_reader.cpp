@@ -59,9 +59,9 @@ class LammpsDataReader : public ParticleReader {
     if (auto wrong = columns.check_positions()) {
       return error_at_line(atoms.line, wrong->message, wrong->key);
     }
-    if (auto wrong = read_text_rows(rows_of(atoms), columns.columns(), read, parallel_for)) {
-      return wrong;
-    }
+    TextRows rows = rows_of(atoms);
+    rows.positive = options_.positive;
+    if (auto wrong = read_text_rows(rows, columns.columns(), read, parallel_for)) return wrong;
     return sort_by_id(read, atoms.line, parallel_for);
   }
 

@@ -22,6 +22,9 @@ struct ParticleFileOptions {
   bool water = false;  ///< PDB and mmCIF: with water
   /// The columns to keep besides positions and species; none: all.
   std::optional<std::vector<std::string>> wanted{};
+  /// A column whose numbers must be above 0: the first that is not is an error with its place, in
+  /// formats of text rows (xyz, dump, data, table). Empty: none.
+  std::string positive{};
 };
 
 /// The names of all formats ("xyz", "dump", ...), and the list of their endings for messages.

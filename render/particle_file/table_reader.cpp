@@ -90,9 +90,11 @@ Status at_header(Status error, const TableHead& head) {
 
 class TableReader : public ParticleReader {
  public:
-  TableReader(MappedText bytes, std::optional<std::vector<std::string>> wanted, TableHead head,
-              std::size_t rows)
-      : bytes_(std::move(bytes)), wanted_(std::move(wanted)), head_(std::move(head)), rows_(rows) {}
+  TableReader(MappedText bytes, ParticleFileOptions options, TableHead head, std::size_t rows)
+      : bytes_(std::move(bytes)),
+        options_(std::move(options)),
+        head_(std::move(head)),
+        rows_(rows) {}
 
   [[nodiscard]] std::size_t frames() const override { return 1; }
 
@@ -111,14 +113,15 @@ class TableReader : public ParticleReader {
 
   Result<ParticleFrame> read(std::size_t, const ParallelFor& parallel_for) override {
     ParticleFrame frame;
-    NamedColumns columns(wanted_, frame);
+    NamedColumns columns(options_.wanted, frame);
     if (auto wrong = plan(columns)) return *wrong;
     const TextRows rows{.text = bytes_.text().substr(head_.begin),
                         .rows = rows_,
                         .first_line = head_.line,
                         .comments = head_.separator == 0,
                         .is_table = true,
-                        .separator = head_.separator};
+                        .separator = head_.separator,
+                        .positive = options_.positive};
     if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
     columns.finish();
     return frame;
@@ -126,7 +129,7 @@ class TableReader : public ParticleReader {
 
  private:
   MappedText bytes_;
-  std::optional<std::vector<std::string>> wanted_;
+  ParticleFileOptions options_;
   TableHead head_;
   std::size_t rows_;
 };
@@ -157,7 +160,7 @@ Result<std::unique_ptr<ParticleReader>> open_table(MappedText bytes,
   const std::uint64_t rows =
       count_table_rows(bytes.text().substr(head.value().begin), parallel_for);
   return std::unique_ptr<ParticleReader>(std::make_unique<TableReader>(
-      std::move(bytes), options.wanted, std::move(head).value(), static_cast<std::size_t>(rows)));
+      std::move(bytes), options, std::move(head).value(), static_cast<std::size_t>(rows)));
 }
 
 }  // namespace

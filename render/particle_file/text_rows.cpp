@@ -28,6 +28,7 @@ struct PlannedColumn {
   NumberTarget numbers;
   std::uint32_t* texts = nullptr;
   std::size_t interner = 0;
+  bool positive = false;
 };
 
 bool is_text(ColumnUse use) { return use == ColumnUse::species || use == ColumnUse::text; }
@@ -37,13 +38,15 @@ TextColumn& text_column(const TextRowColumn& column, ParticleFrame& frame) {
 }
 
 /// Makes room in `frame`; the plan's pointers go there.
-std::vector<PlannedColumn> plan(std::size_t rows, std::span<const TextRowColumn> columns,
+std::vector<PlannedColumn> plan(const TextRows& source, std::span<const TextRowColumn> columns,
                                 ParticleFrame& frame) {
+  const std::size_t rows = source.rows;
   std::vector<PlannedColumn> planned;
   std::size_t interners = 0;
   for (const TextRowColumn& column : columns) {
     PlannedColumn next;
     next.use = column.use;
+    next.positive = !source.positive.empty() && column.name == source.positive;
     if (column.use == ColumnUse::position) {
       frame.positions.resize(rows);
       Vec3d& first = frame.positions.front();
@@ -180,7 +183,9 @@ class PieceReader {
 
   bool read_column(std::size_t i) {
     const PlannedColumn& column = planned_[i];
-    if (column.use == ColumnUse::number || column.use == ColumnUse::position) return read_number(i);
+    if (column.use == ColumnUse::number || column.use == ColumnUse::position) {
+      return column.positive ? read_positive_number(i) : read_number(i);
+    }
     const Token read = token();
     if (column.use == ColumnUse::logical) {
       const auto value = logical_in(read.text);
@@ -212,6 +217,16 @@ class PieceReader {
     return true;
   }
 
+  bool read_positive_number(std::size_t i) {
+    const char* const begin = at_;
+    const std::string_view text = token().text;
+    if (!read_number(i)) return false;
+    const NumberTarget& target = planned_[i].numbers;
+    if (target.first[row_ * target.stride] > 0) return true;
+    at_ = begin;
+    return fail(i, "expected a number above 0, found " + quote(text));
+  }
+
   bool fail(std::size_t column, std::string message) {
     const std::string key = column < columns_.size() ? columns_[column].name : std::string();
     piece_.error = Diagnostic{.message = std::move(message),
@@ -239,7 +254,7 @@ Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> colum
                       ParticleFrame& frame, const ParallelFor& parallel_for) {
   if (rows.rows == 0) return std::nullopt;
   if (auto none = check_room(rows.rows, columns)) return none;
-  const std::vector<PlannedColumn> planned = plan(rows.rows, columns, frame);
+  const std::vector<PlannedColumn> planned = plan(rows, columns, frame);
   const auto interners = static_cast<std::size_t>(std::count_if(
       columns.begin(), columns.end(), [](const TextRowColumn& c) { return is_text(c.use); }));
   const RowLines lines = rows.is_table ? RowLines::table : RowLines::every;

@@ -46,6 +46,8 @@ struct TextRows {
   bool is_table = false;
   /// Of tables: what stands between columns, beside blanks around it; 0: blanks alone.
   char separator = 0;
+  std::string_view
+      positive{};  ///< the name of a column of numbers that must be above 0; empty: none
 };
 
 /// Reads rows into the columns of `frame`: makes room for all that `columns` names, refusing what

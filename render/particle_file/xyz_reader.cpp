@@ -131,8 +131,10 @@ class XyzReader : public ParticleReader {
       wrong->line = place_number(place.row_line - 1);
       return *wrong;
     }
-    const TextRows source{
-        .text = rows, .rows = static_cast<std::size_t>(place.count), .first_line = place.row_line};
+    const TextRows source{.text = rows,
+                          .rows = static_cast<std::size_t>(place.count),
+                          .first_line = place.row_line,
+                          .positive = options_.positive};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
     columns.finish();
     return read;

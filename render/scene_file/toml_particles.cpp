@@ -61,6 +61,7 @@ class ParticleTable {
   void keep_series_colors();
   void fix_color_range();
   std::optional<ParticleFrame> read_frame();
+  Status find_wrong_radius() const;
   std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
   std::optional<std::size_t> choose_frame(std::size_t frames);
   void report_file(const Diagnostic& error);
@@ -101,7 +102,8 @@ std::optional<TomlParticles> ParticleTable::read() {
   if (!frame) return std::nullopt;
   auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
   if (!made) {
-    report_key(made.error());
+    const Status place = made.error().key == "radius" ? find_wrong_radius() : std::nullopt;
+    place ? report_file(*place) : report_key(made.error());
     return std::nullopt;
   }
   TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
@@ -143,6 +145,23 @@ std::optional<ParticleFrame> ParticleTable::read_frame() {
             .time = frame.value().time,
             .particles = frame.value().size()};
   return std::move(frame).value();
+}
+
+/// Reads the file once more, to say in which line a radius is that cannot be used; none, if the
+/// format has no lines, or where a particle that is not shown may be the first such.
+Status ParticleTable::find_wrong_radius() const {
+  std::vector<std::string> columns{"radius", "diameter"};
+  if (const auto* rule = std::get_if<RadiusColumn>(&keys_.style.radius)) columns = {rule->name};
+  if (!keys_.style.select.empty()) return std::nullopt;
+  for (const std::string& column : columns) {
+    ParticleFileOptions options = keys_.file;
+    options.positive = column;
+    auto file = ParticleFile::open(keys_.path, options, options_.parallel_for);
+    if (!file) return std::nullopt;
+    const auto frame = file.value().read(static_cast<long>(facts_.frame), options_.parallel_for);
+    if (!frame && frame.error().line > 0) return frame.error();
+  }
+  return std::nullopt;
 }
 
 /// The frame that the keys or the series ask for, from 0.
