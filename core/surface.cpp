@@ -59,6 +59,15 @@ Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
   return from_surface({departure.org, vec_cast<float>(direction)}, departure);
 }
 
+Ray start_by_epsilon(Ray shadow_ray, const Vec3d& point, float epsilon) {
+  const double size = length(vec_cast<double>(shadow_ray.dir));
+  shadow_ray.org = vec_cast<double>(vec_cast<float>(point));
+  shadow_ray.tmin = static_cast<float>(double{epsilon} / size);
+  shadow_ray.source = no_primitive;
+  shadow_ray.inside = false;
+  return shadow_ray;
+}
+
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light) {
   const Departure departure = depart(surface, Side::viewer);
   return from_surface(segment(departure.org, light), departure);

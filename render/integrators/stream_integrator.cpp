@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/integrators/ray_record.h"
 #include "render/shading/background_radiance.h"
 #include "render/shading/lights.h"
 
@@ -14,6 +15,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       kernels_(kernels),
       settings_(settings),
       wavefront_(settings.stream_size),
+      illumination_(settings.shadow_epsilon),
       materials_(scene),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {
@@ -55,12 +57,15 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   const Query query{settings_.solver, Form::automatic,
                     first_hits ? camera.coherence : Coherence::none};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  if (settings_.record != nullptr)
+    settings_.record->begin(stream.rays->get(0), hit(0), stream.throughput[0]);
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
   for (const TargetedLight& light : lights_) add_light(light);
   add_more_light();
+  if (settings_.record != nullptr) settings_.record->finish(radiance_.front());
   for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
 }
 
@@ -86,13 +91,29 @@ void StreamIntegrator::add_light(const TargetedLight& light) {
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
   illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());
+  if (settings_.record != nullptr) record_shadow(light, rays, blocked);
+}
+
+/// The only shadow ray, with what blocks it, and what arrives along it.
+void StreamIntegrator::record_shadow(const TargetedLight& light, const RayStream& rays,
+                                     const std::uint8_t* blocked) {
+  const Query query{settings_.solver, Form::automatic, Coherence::none};
+  HitBuffer met(1);
+  if (blocked[0] != 0) kernels_.closest_hit(geometry_, rays, query, met.view());
+  Color arriving;
+  illumination_.add_unblocked(*light.light, surfaces_, blocked, &arriving);
+  const auto index = static_cast<std::size_t>(light.light - scene_.lights.data());
+  settings_.record->add_shadow(index, illumination_.shadow_ray(0),
+                               blocked[0] != 0 ? met.get(0) : Hit{}, arriving);
 }
 
 const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
                                                    Coherence coherence) {
   shadow_ += shadow_rays.size;
   blocked_.resize(std::bit_ceil(shadow_rays.size));
-  const Query query{settings_.solver, Form::automatic, coherence};
+  // By an epsilon each of them has an origin and an end of its own.
+  const Query query{settings_.solver, Form::automatic,
+                    settings_.shadow_epsilon ? Coherence::none : coherence};
   kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
   return blocked_.data();
 }

@@ -89,6 +89,8 @@ class StreamIntegrator : public Integrator {
   void trace_stream(const PathStream& stream, const CameraRays& camera);
   void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
+  void record_shadow(const TargetedLight& light, const RayStream& rays,
+                     const std::uint8_t* blocked);
   [[nodiscard]] bool cancelled() const;
 
   GeometryView geometry_;

@@ -29,7 +29,18 @@ RayStream Illumination::make_shadow_rays(const KernelTable& kernels, const Shado
                                       {rays, to_light_.view(), cosines_.data(), rays_.data()})
            : 0;
   rays.size = shadow_count_;
+  if (shadow_epsilon_) start_by_epsilon(light, surfaces);
   return rays;
+}
+
+void Illumination::start_by_epsilon(const ShadowTarget& light, const StreamSurfaces& surfaces) {
+  const Vec3d target{light.target[0], light.target[1], light.target[2]};
+  for (std::size_t k = 0; k < shadow_count_; ++k) {
+    const Vec3d point = surfaces.point(rays_[k]);
+    Ray ray = boule::start_by_epsilon(shadow_rays_.get(k), point, *shadow_epsilon_);
+    if (!light.directional) ray.dir = vec_cast<float>(target - ray.org);
+    shadow_rays_.set(k, ray);
+  }
 }
 
 template <class AnyLight>

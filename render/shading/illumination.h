@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/math/color.h"
@@ -17,6 +18,10 @@ namespace boule {
 /// makes the shadow rays, and add_unblocked() adds the light of those that are not blocked.
 class Illumination {
  public:
+  /// With the epsilon of IntegratorSettings::shadow_epsilon.
+  explicit Illumination(std::optional<float> shadow_epsilon = {})
+      : shadow_epsilon_(shadow_epsilon) {}
+
   /// Forgets all hits, and makes room for one per ray.
   void start(std::size_t rays);
 
@@ -32,6 +37,9 @@ class Illumination {
   RayStream make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
                              StreamSurfaces& surfaces);
 
+  /// One of the last shadow rays.
+  [[nodiscard]] Ray shadow_ray(std::size_t k) const { return shadow_rays_.get(k); }
+
   /// Adds the light to radiance[ray] for every shadow ray k with blocked[k] = 0, where the shadow
   /// ray belongs to ray `ray`. The light is that of the last shadow rays.
   void add_unblocked(const Light& light, const StreamSurfaces& surfaces,
@@ -41,7 +49,9 @@ class Illumination {
   template <class AnyLight>
   void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
                  Color* radiance) const;
+  void start_by_epsilon(const ShadowTarget& light, const StreamSurfaces& surfaces);
 
+  std::optional<float> shadow_epsilon_;
   std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;
   AlignedArray<std::uint8_t> lit_;              ///< by ray

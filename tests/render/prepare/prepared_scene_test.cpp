@@ -140,7 +140,7 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
     EXPECT_NEAR(u, rest, 1e-14);
   }
   EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 28 / 114.0, 1e-15);
-  EXPECT_TRUE(AreaLights(Scene{}).empty());
+  EXPECT_TRUE(AreaLights({}, {}, {}).empty());
 }
 
 TEST(Prepare, SaysThatItMadeACamera) {
