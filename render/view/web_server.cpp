@@ -85,6 +85,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
     timeouts.keep_alive_pings = true;
     socket_.set_option(timeouts);
     socket_.read_message_max(longest_message);
+    socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](const Error& error) {
       if (!error) self->begin();
     });
@@ -249,10 +250,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void send(Response response) {
-    response.set(http::field::content_security_policy,
+    response.set("Content-Security-Policy",
                  "default-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
                  "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
-    response.set(http::field::referrer_policy, "no-referrer");
+    response.set("Referrer-Policy", "no-referrer");
     response.set(http::field::cache_control, "no-store");
     response.set("X-Content-Type-Options", "nosniff");
     response.keep_alive(false);
