@@ -157,8 +157,7 @@ class Browser:
         self.driver.switch_to.active_element.send_keys(*keys)
 
     def complaints(self):
-        """What the console said, but that a connection was refused or lost."""
+        """The console's errors, but that a connection was refused or lost."""
+        expected = ("WebSocket connection", "ERR_CONNECTION_REFUSED", "status of 403", "favicon.ico")
         return [entry["message"] for entry in self.driver.get_log("browser")
-                if "WebSocket connection" not in entry["message"]
-                and "ERR_CONNECTION_REFUSED" not in entry["message"]
-                and "status of 403" not in entry["message"]]
+                if entry["level"] == "SEVERE" and not any(e in entry["message"] for e in expected)]

@@ -18,6 +18,7 @@ export class Gestures {
     this.crosshair = crosshair;
     this.frameStep = frameStep;
     this.pointers = new Map();
+    this.pinchStart = null;
     stage.addEventListener('pointerdown', (event) => this.down(event));
     stage.addEventListener('pointermove', (event) => this.moved(event));
     stage.addEventListener('pointerup', (event) => this.up(event, true));
@@ -43,10 +44,12 @@ export class Gestures {
       this.isClick = event.button === 0;
       this.start = [event.clientX, event.clientY];
       this.pans = event.button !== 0 || event.shiftKey;
-    } else {
-      this.isClick = false;
     }
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (this.pointers.size === 2) {
+      this.isClick = false;
+      this.pinchStart = {camera: structuredClone(this.session.camera), ...this.twoFingers()};
+    }
   }
 
   moved(event) {
@@ -58,9 +61,15 @@ export class Gestures {
       if (Math.hypot(now[0] - this.start[0], now[1] - this.start[1]) < still) return;
       this.isClick = false;
     }
-    if (this.pointers.size === 1) this.drag(now[0] - before[0], now[1] - before[1]);
-    if (this.pointers.size === 2) this.pinch(event.pointerId, now);
     this.pointers.set(event.pointerId, now);
+    if (this.pinchStart) this.pinch();
+    else this.drag(now[0] - before[0], now[1] - before[1]);
+  }
+
+  /** Where the middle of two fingers is, and how far they are apart. */
+  twoFingers() {
+    const [[ax, ay], [bx, by]] = [...this.pointers.values()];
+    return {middle: [(ax + bx) / 2, (ay + by) / 2], apart: Math.max(1, Math.hypot(ax - bx, ay - by))};
   }
 
   drag(x, y) {
@@ -70,19 +79,19 @@ export class Gestures {
     else this.session.move(orbit(camera, -x / width * Math.PI, y / width * Math.PI));
   }
 
-  pinch(id, now) {
+  // Counted from where the fingers began, so that steps leave no rest.
+  pinch() {
+    if (this.pointers.size !== 2) return;
     const {width, height} = this.view.getBoundingClientRect();
-    const before = this.pointers.get(id);
-    const [, other] = [...this.pointers].find(([one]) => one !== id);
-    const apart = (a) => Math.max(1, Math.hypot(a[0] - other[0], a[1] - other[1]));
-    const shift = [(now[0] - before[0]) / 2, (now[1] - before[1]) / 2];
-    const {camera} = this.session;
-    const panned = pan(camera, this.size, shift[0] / width, shift[1] / height);
-    this.session.move({...panned, ...dolly({...camera, ...panned}, apart(before) / apart(now))});
+    const {camera, middle, apart} = this.pinchStart;
+    const now = this.twoFingers();
+    const panned = pan(camera, this.size, (now.middle[0] - middle[0]) / width, (now.middle[1] - middle[1]) / height);
+    this.session.move({...panned, ...dolly({...camera, ...panned}, apart / now.apart)});
   }
 
   up(event, isComplete) {
     if (!this.pointers.delete(event.pointerId) || this.pointers.size > 0) return;
+    this.pinchStart = null;
     this.session.rest();
     if (!isComplete || !this.isClick) return;
     const box = this.view.getBoundingClientRect();

@@ -38,9 +38,10 @@ export class Session {
   take(state) {
     const isFirst = this.state === null || this.state.scene.path !== state.scene.path;
     this.state = state;
+    this.number = Math.max(this.number, state.number);  // the server may know a page before this one
     if (isFirst) {
-      this.startCamera = structuredClone(state.camera);
-      this.startSize = state.settings.size;
+      this.startCamera = structuredClone(state.start?.camera ?? state.camera);
+      this.startSize = state.start?.size ?? state.settings.size;
     }
     // A state from before our last camera has an old one.
     if (!this.camera || isFirst || state.number >= this.cameraNumber) {
