@@ -33,6 +33,7 @@ Status Mailbox::take(const ClientMessage& message) {
 Status Mailbox::apply(const CameraMessage& message) {
   auto camera = edited(wish_.camera, message.edit, origin_);
   if (!camera) return camera.error();
+  news_.camera_type |= camera.value().index() != wish_.camera.index();
   wish_.camera = std::move(camera).value();
   ++wish_.camera_revision;
   wish_.number = message.number;

@@ -29,6 +29,7 @@ struct Wish {
 /// What has happened since somebody looked.
 struct News {
   bool stop = false, connected = false, camera = false, settings = false, scene = false;
+  bool camera_type = false;  ///< the camera is of another kind: keys were chosen
   std::optional<PickMessage> pick;
   std::optional<SaveMessage> save;
   std::optional<TextsMessage> texts;

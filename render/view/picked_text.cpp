@@ -23,6 +23,13 @@ const char* kind_name(RayKind kind) {
   return kinds[static_cast<std::size_t>(kind)];
 }
 
+/// The name of what a primitive is made of.
+Json material_name(const PickedPixel& pixel, std::int32_t id) {
+  const std::size_t material = pixel.scene.material_ref(id).index();
+  const auto& names = pixel.loaded.scene.materials;
+  return material < names.size() ? Json(names[material].name) : Json();
+}
+
 Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   if (primary.hit.id == no_primitive) return nullptr;
   const PreparedScene& scene = pixel.scene;
@@ -30,12 +37,10 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   const Surface surface = find_surface(scene, primary.ray, primary.hit);
   const auto id = static_cast<std::size_t>(primary.hit.id);
   const bool is_sphere = id < scene.spheres.size();
-  const std::size_t material = scene.material_ref(primary.hit.id).index();
-  const auto& names = pixel.loaded.scene.materials;
   Json json = {
       {"primitive", id},
       {"kind", is_sphere ? "sphere" : "plane"},
-      {"material", material < names.size() ? Json(names[material].name) : Json()},
+      {"material", material_name(pixel, primary.hit.id)},
       {"t", number(primary.hit.t)},
       {"depth", number(dot(surface.point - scene.camera_view.eye, scene.camera_view.forward))},
       {"position", vector(surface.point + origin)},
@@ -48,7 +53,8 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   return json;
 }
 
-Json ray_json(const RecordedRay& ray, const Color& returned, const Vec3d& origin) {
+Json ray_json(const PickedPixel& pixel, const RecordedRay& ray, const Color& returned) {
+  const Vec3d& origin = pixel.loaded.origin;
   const bool met = ray.hit.id != no_primitive;
   const double size = length(vec_cast<double>(ray.ray.dir));
   Json json = {{"kind", kind_name(ray.kind)},
@@ -57,6 +63,7 @@ Json ray_json(const RecordedRay& ray, const Color& returned, const Vec3d& origin
                {"t", met ? number(ray.hit.t) : Json()},
                {"distance", met ? number(ray.hit.t * size) : Json()},
                {"primitive", met ? Json(ray.hit.id) : Json()},
+               {"material", met ? material_name(pixel, ray.hit.id) : Json()},
                {"weight", color(ray.weight)},
                {"throughput", color(ray.throughput)},
                {"own", color(ray.own)},
@@ -76,7 +83,7 @@ std::string picked_text(const PickedPixel& pixel) {
   const auto returned = pixel.record.returned();
   Json list = Json::array();
   for (std::size_t i = 0; i < rays.size(); ++i)
-    list.push_back(ray_json(rays[i], returned[i], pixel.loaded.origin));
+    list.push_back(ray_json(pixel, rays[i], returned[i]));
   const Color seen = rays.empty() ? Color{} : pixel.record.total();
   const Json json = {{"type", "picked"},
                      {"id", pixel.message.id},

@@ -7,6 +7,7 @@
 #include "core/math/geometry.h"
 #include "render/particles/color_map.h"
 #include "render/prepare/default_camera.h"
+#include "render/view/difference.h"
 #include "render/view/message_keys.h"
 
 namespace boule::view {
@@ -123,6 +124,26 @@ Json series_json(const ShownState& shown) {
           {"time", timed ? Json(*all.front().time) : Json()}};
 }
 
+/// What the colours of a difference mean.
+Json difference_json(Difference kind) {
+  if (kind == Difference::none) return nullptr;
+  const bool is_color = kind == Difference::color;
+  Json stops = Json::array(), labels = {"0"};
+  for (const SrgbColor color : false_colors) stops.push_back(hex_text(color));
+  long value = 1;
+  for (std::size_t i = 1; i < false_colors.size(); ++i) {
+    labels.push_back(std::to_string(value) + (i + 1 == false_colors.size() ? "+" : ""));
+    value *= is_color ? color_factor : ulp_factor;
+  }
+  Json json = {{"title", is_color ? "codes of 255 apart" : "floats between their t"},
+               {"stops", stops},
+               {"labels", labels},
+               {"other", nullptr}};
+  if (!is_color)
+    json["other"] = {{"color", hex_text(other_primitive)}, {"label", "another primitive"}};
+  return json;
+}
+
 Json choices_json() {
   Json cameras = Json::array();
   for (const std::string_view type : editable_cameras) cameras.push_back(type);
@@ -162,12 +183,14 @@ std::string state_text(const ShownState& shown) {
                   {"camera", camera_json(shown.wish.camera, shown.loaded.origin)},
                   {"bounds", bounds_json(shown.loaded)},
                   {"settings", settings_json(shown.wish.settings)},
+                  {"difference_colors", difference_json(shown.wish.settings.difference)},
                   {"particles", particles_json(shown)},
                   {"series", series_json(shown)},
                   {"choices", choices_json()}});
 }
 
-std::string statistics_text(std::uint32_t number, PaneStage& stage) {
+std::string statistics_text(std::uint32_t number, PaneStage& stage,
+                            const std::optional<DifferenceFigures>& difference) {
   Json panes = Json::array();
   for (std::size_t i = 0; i < stage.size(); ++i) {
     const LivePane& pane = stage.pane(i);
@@ -183,7 +206,10 @@ std::string statistics_text(std::uint32_t number, PaneStage& stage) {
                      {"scale", stage.shape().scale},
                      {"done", stage.shape().kind == StageKind::rest && pane.done()}});
   }
-  return text_of({{"type", "statistics"}, {"number", number}, {"panes", panes}});
+  Json figures;
+  if (difference) figures = {{"pixels", difference->pixels}, {"largest", difference->largest}};
+  return text_of(
+      {{"type", "statistics"}, {"number", number}, {"panes", panes}, {"difference", figures}});
 }
 
 std::string busy_text(const std::string& what) {

@@ -22,7 +22,13 @@ struct ShownState {
 };
 std::string state_text(const ShownState& shown);
 
-std::string statistics_text(std::uint32_t number, PaneStage& stage);
+/// How far two panes are apart.
+struct DifferenceFigures {
+  std::size_t pixels = 0;  ///< that differ
+  double largest = 0;      ///< in codes of 255, or floats
+};
+std::string statistics_text(std::uint32_t number, PaneStage& stage,
+                            const std::optional<DifferenceFigures>& difference);
 
 /// What is being done; empty: it is over.
 std::string busy_text(const std::string& what);

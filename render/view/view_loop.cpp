@@ -84,7 +84,7 @@ void ViewLoop::handle(const News& news) {
   if (news.scene) reload();
   if (news.camera || news.settings || news.scene) must_begin_ = true;
   if (must_begin_) failed_ = false;
-  if (news.connected || news.settings || news.scene) send_state();
+  if (news.connected || news.settings || news.scene || news.camera_type) send_state();
   if (news.connected) {
     dirty_ = true;
     finished_sent_ = false;
@@ -260,8 +260,9 @@ void ViewLoop::publish_pane(std::size_t index, bool finished) {
 
 void ViewLoop::publish_difference(bool finished) {
   const Difference kind = wish_.settings.difference;
+  difference_.reset();
   if (kind == Difference::none || stage_.size() < 2) return;
-  const auto make = [&]() -> Result<Image> {
+  const auto make = [&]() -> Result<DifferencePicture> {
     LivePane &a = stage_.pane(0), &b = stage_.pane(1);
     if (kind == Difference::color)
       return color_difference(a.picture(), b.picture(), wish_.settings.exposure);
@@ -270,11 +271,12 @@ void ViewLoop::publish_difference(bool finished) {
     if (!right) return right.error();
     return t_difference(left.value(), right.value(), a.options().width, a.options().height);
   };
-  const auto image = make();
-  if (!image) return;
+  const auto made = make();
+  if (!made) return;
+  const Image& image = made.value().image;
+  difference_ = DifferenceFigures{made.value().pixels, made.value().largest};
   const FrameHeader header = this->header(difference_pane);
-  if (!finished || !sender_.send_finished(image.value(), header, 0))
-    sender_.send(image.value(), header, 0);
+  if (!finished || !sender_.send_finished(image, header, 0)) sender_.send(image, header, 0);
 }
 
 void ViewLoop::report_statistics() {
@@ -283,7 +285,7 @@ void ViewLoop::report_statistics() {
   const bool last = stage_.done() && last_report_ < last_step_;
   if (!last && (!is_rendering() || now < last_report_ + time_between_reports)) return;
   last_report_ = now;
-  parts_.outbox.report("statistics", statistics_text(wish_.number, stage_));
+  parts_.outbox.report("statistics", statistics_text(wish_.number, stage_, difference_));
 }
 
 }  // namespace boule::view

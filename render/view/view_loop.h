@@ -14,6 +14,7 @@
 #include "render/view/picture_store.h"
 #include "render/view/save_job.h"
 #include "render/view/scene_source.h"
+#include "render/view/state_text.h"
 
 namespace boule::view {
 
@@ -74,11 +75,12 @@ class ViewLoop {
   std::vector<NumberRange> columns_;
   std::vector<std::string> notes_;
   std::optional<SaveJob> save_;
-  std::optional<PickMessage> late_pick_;  ///< waits until the panes show the whole picture
-  bool must_begin_ = false;               ///< the wish is not what is rendered
-  bool dirty_ = false;                    ///< there is more to see than was sent
-  bool failed_ = false;                   ///< it cannot be rendered
-  bool finished_sent_ = false;            ///< the pictures at rest
+  std::optional<PickMessage> late_pick_;         ///< waits until the panes show the whole picture
+  std::optional<DifferenceFigures> difference_;  ///< as it was sent last
+  bool must_begin_ = false;                      ///< the wish is not what is rendered
+  bool dirty_ = false;                           ///< there is more to see than was sent
+  bool failed_ = false;                          ///< it cannot be rendered
+  bool finished_sent_ = false;                   ///< the pictures at rest
   std::uint32_t sent_number_ = 0;
   std::optional<Clock::time_point> finished_since_;  ///< when the last pixel at rest was done
   Clock::time_point last_sent_{}, last_report_{}, last_step_{};
