@@ -22,12 +22,10 @@ def distance(a, b):
     return math.dist(a, b)
 
 
-def rendered(arguments, folder, name="rest.ppm"):
-    """The bytes RGB of a picture that `boule render` makes."""
-    subprocess.run([PROGRAM, "render", *arguments, "-o", name, "-q"], cwd=folder, check=True)
-    data = (pathlib.Path(folder) / name).read_bytes()
-    header = re.match(rb"P6\s+(\d+)\s+(\d+)\s+255\s", data)
-    return data[header.end():]
+def pixels_of(path):
+    """The bytes RGB of a PPM picture."""
+    data = path.read_bytes()
+    return data[re.match(rb"P6\s+\d+\s+\d+\s+255\s", data).end():]
 
 
 def scene_with(camera):
@@ -71,6 +69,19 @@ class Page(unittest.TestCase):
         self.assertNotEqual(before, after)
         self.assertNotEqual(old, self.browser.pixels())
         return before, after
+
+    def picture_of_command(self, expected):
+        """The bytes RGB of what the copied command line renders; it has these words."""
+        self.browser.find("#copy-command").click()
+        words = shlex.split(self.browser.wait(
+            "(text => text.startsWith('boule') && text)(document.querySelector('#copied-text').value)",
+            "the command line"))
+        at = words.index(expected[0]) if expected else 0
+        self.assertEqual(words[at:at + len(expected)], expected)
+        path = pathlib.Path(self.folder.name) / "command.ppm"
+        words[words.index("-o") + 1] = str(path)
+        subprocess.run([PROGRAM, *words[1:], "-q"], cwd=SCENES, check=True)
+        return pixels_of(path)
 
     def expect_orbit(self, before, after):
         self.assertEqual(before["look_at"], after["look_at"])
@@ -156,15 +167,12 @@ class Page(unittest.TestCase):
         self.assertIn("[camera]", toml)
         path = pathlib.Path(self.folder.name) / "copied.toml"
         path.write_text(scene_with(toml))
-        self.assertEqual(shown, rendered([path.name, "--size", SIZE, "--spp", "2"], path.parent))
+        picture = path.with_suffix(".ppm")
+        subprocess.run([PROGRAM, "render", path, "-o", picture, "--size", SIZE, "--spp", "2", "-q"],
+                       check=True)
+        self.assertEqual(shown, pixels_of(picture))
 
-        browser.find("#copy-command").click()
-        words = shlex.split(browser.wait(
-            "(text => text.startsWith('boule') && text)(document.querySelector('#copied-text').value)",
-            "the command line"))
-        words[words.index("-o") + 1] = str(path.parent / "command.ppm")
-        subprocess.run([PROGRAM, *words[1:], "-q"], cwd=SCENES, check=True)
-        self.assertTrue((path.parent / "command.ppm").read_bytes().endswith(shown))
+        self.assertEqual(shown, self.picture_of_command([]))
 
     def test_saves_the_picture(self):
         browser = self.browser
@@ -216,9 +224,8 @@ class Page(unittest.TestCase):
         self.assertNotEqual(a, b)
         for at in range(0, len(a), 3):
             self.assertEqual(a[at:at + 3] != b[at:at + 3], any(difference[at:at + 3]), at)
-        self.assertEqual(b, rendered(
-            [str(SCENES / "first_light.toml"), "--size", SIZE, "--spp", "2",
-             "--shadow-epsilon", "none"], self.folder.name))
+        browser.choose("#share-pane", "1")
+        self.assertEqual(b, self.picture_of_command(["--shadow-epsilon", "none"]))
 
     def test_a_pixel_shows_its_rays(self):
         browser = self.browser

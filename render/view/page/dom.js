@@ -72,7 +72,7 @@ export function short(number, digits = 4) {
 export const grouped = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
 
 /** "1 sphere", "12 spheres". */
-export const counted = (count, noun) => `${grouped(count)} ${noun}${count === 1 ? '' : 's'}`;
+export const counted = (count, noun, nouns = `${noun}s`) => `${grouped(count)} ${count === 1 ? noun : nouns}`;
 
 /** A sentence: begins with a capital, ends with a full stop. */
 export function sentence(text) {

@@ -1,6 +1,6 @@
 // The pictures: one or two panes and their difference, as large as there is room.
 
-import {make, makeSvg, short} from './dom.js';
+import {counted, grouped, make, makeSvg, short} from './dom.js';
 import {paneText} from './words.js';
 
 const names = ['A', 'B'];
@@ -84,9 +84,7 @@ export class Panes {
     const {panes, difference} = state.settings;
     const isDifference = index >= panes.length;
     const name = isDifference ? 'Difference' : panes.length > 1 ? names[index] : '';
-    const text = isDifference ?
-        (difference === 'ulp' ? 'of A and B: t in ulp' : 'of A and B: colours') :
-        paneText(panes[index]);
+    const text = isDifference ? state.difference_colors?.title ?? difference : paneText(panes[index]);
     const brief = isDifference ? '' : paneText(panes[index], panes[1 - index]);
     pane.isDifference = isDifference;
     // On a phone two panes show beside each other only how they differ.
@@ -98,27 +96,32 @@ export class Panes {
     pane.element.classList.toggle('difference', isDifference);
     if (isDifference) pane.figures.textContent = '';
     pane.legend.replaceChildren();
-    if (isDifference) drawDifferenceLegend(pane.legend, difference, state.difference_colors);
+    if (isDifference) drawDifferenceLegend(pane.legend, state.difference_colors);
   }
 
   showStatistics({panes, difference}) {
     panes.forEach((figures, index) => {
       const pane = this.panes[index];
       if (!pane || pane.isDifference) return;
-      const parts = [`${short(figures.spp, 3)} of ${this.session.state.settings.spp} samples`];
+      const {spp} = this.session.state.settings;
+      const parts = [`${short(figures.spp, 3)} of ${spp} samples`, counted(figures.passes, 'pass', 'passes')];
       if (figures.mrays_per_s > 0) parts.push(`${short(figures.mrays_per_s, 3)} Mray/s`);
       parts.push(`${short(figures.seconds, 2)} s`);
       if (figures.scale > 1) parts.push(`1 : ${figures.scale}`);
       pane.figures.textContent = parts.join(' · ');
-      pane.figures.title = `${figures.passes} passes, ${figures.samples} samples`;
       pane.bar.style.setProperty('--share', figures.share);
       pane.element.dataset.done = figures.done;
     });
     if (this.panes[0].caption.offsetHeight !== this.captionHeight) this.layOut();
     const last = this.panes.at(-1);
-    if (difference && last?.isDifference) {
-      last.figures.textContent = `${difference.pixels} pixels differ`;
-    }
+    if (last?.isDifference) last.figures.textContent = difference ? this.differenceText(difference) : '';
+  }
+
+  differenceText({pixels, largest}) {
+    if (pixels === 0) return 'no pixel differs';
+    const unit = this.session.state.settings.difference === 'ulp' ? 'ulp' : 'of 255';
+    const most = largest > 0 ? `, by at most ${short(largest, 6)} ${unit}` : '';
+    return `${grouped(pixels)} ${pixels === 1 ? 'pixel differs' : 'pixels differ'}${most}`;
   }
 
   /** Shows a frame where it belongs. */
@@ -157,11 +160,13 @@ export class Panes {
   }
 }
 
-function drawDifferenceLegend(element, kind, colors) {
+function drawDifferenceLegend(element, colors) {
   if (!colors) return;
-  for (let i = 0; i < colors.stops.length; i += 1) {
+  const steps = colors.stops.map((color, index) => ({color, label: colors.labels[index]}));
+  if (colors.other) steps.push(colors.other);
+  for (const {color, label} of steps) {
     const swatch = make('span', {className: 'swatch', 'aria-hidden': 'true'});
-    swatch.style.setProperty('--color', colors.stops[i]);
-    element.append(make('span', {className: 'difference-step'}, swatch, colors.labels[i]));
+    swatch.style.setProperty('--color', color);
+    element.append(make('span', {className: 'difference-step'}, swatch, label));
   }
 }

@@ -38,7 +38,7 @@ export class Particles {
 
   showLook(look, columns, colors, choices) {
     const names = [...new Set([...choices.colors, ...columns.map(({name}) => name), look.color])];
-    const texts = {element: 'element or type', '': 'as the file says'};
+    const texts = {element: 'element or type', '': 'default'};
     fillSelect(byId('color'), names.map((name) => [name, texts[name] ?? name]), look.color);
     const maps = choices.maps.includes(look.map) ? choices.maps : [...choices.maps, look.map];
     fillSelect(byId('map'), maps.map((map) => [map, texts[map] ?? map]), look.map);

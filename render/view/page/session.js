@@ -26,13 +26,21 @@ export class Session {
   /** Takes a message of the server. */
   receive(message) {
     if (message.type === 'state') return this.take(message);
-    const waiting = this.waiting.get(message.id);
-    if (waiting && (message.type === waiting.type || message.type === 'error')) {
-      this.waiting.delete(message.id);
-      if (message.type === 'error') waiting.reject(new Error(message.text));
-      else waiting.resolve(message);
+    if (!this.answer(message)) this.tell(message.type, message);
+  }
+
+  /** Hands an answer, or an error, to who asked; whether somebody did. */
+  answer(message) {
+    const isError = message.type === 'error';
+    for (const [id, {type, resolve, reject}] of this.waiting) {
+      const isOurs = message.id === id || (isError && message.about === 'save' && type === 'saved');
+      if (!isOurs || (!isError && message.type !== type)) continue;
+      this.waiting.delete(id);
+      if (isError) reject(new Error(message.text));
+      else resolve(message);
+      return true;
     }
-    this.tell(message.type, message);
+    return false;
   }
 
   take(state) {
@@ -104,6 +112,8 @@ export class Session {
     this.flush();
     this.id += 1;
     const id = this.id;
+    // The server answers the newest question of a kind.
+    for (const [old, {type}] of this.waiting) if (type === answer) this.waiting.delete(old);
     return new Promise((resolve, reject) => {
       this.waiting.set(id, {type: answer, resolve, reject});
       this.connection.send({...message, id});
