@@ -59,9 +59,13 @@ Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
   return from_surface({departure.org, vec_cast<float>(direction)}, departure);
 }
 
-Ray start_by_epsilon(Ray shadow_ray, const Vec3d& point, float epsilon) {
+Vec3f float_point(const Ray& ray, const Hit& hit) {
+  return vec_cast<float>(ray.org) + ray.dir * static_cast<float>(hit.t);
+}
+
+Ray start_by_epsilon(Ray shadow_ray, const Vec3f& point, float epsilon) {
   const double size = length(vec_cast<double>(shadow_ray.dir));
-  shadow_ray.org = vec_cast<double>(vec_cast<float>(point));
+  shadow_ray.org = vec_cast<double>(point);
   shadow_ray.tmin = static_cast<float>(double{epsilon} / size);
   shadow_ray.source = no_primitive;
   shadow_ray.inside = false;

@@ -15,7 +15,6 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       kernels_(kernels),
       settings_(settings),
       wavefront_(settings.stream_size),
-      illumination_(settings.shadow_epsilon),
       materials_(scene),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {
@@ -57,6 +56,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   const Query query{settings_.solver, Form::automatic,
                     first_hits ? camera.coherence : Coherence::none};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
     settings_.record->begin(stream.rays->get(0), hit(0), stream.throughput[0]);
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
@@ -67,6 +67,18 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   add_more_light();
   if (settings_.record != nullptr) settings_.record->finish(radiance_.front());
   for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
+}
+
+/// The points of the stream's hits as floats have them, for shadow rays that start by an epsilon.
+void StreamIntegrator::find_float_points(const PathStream& stream) {
+  if (float_points_.size() < hits_.size()) float_points_.resize(hits_.size());
+  for (std::size_t k = 0; k < hits_.size(); ++k)
+    float_points_[k] = float_point(stream.rays->get(k), hit(k));
+}
+
+std::optional<Illumination::Epsilon> StreamIntegrator::epsilon() const {
+  if (!settings_.shadow_epsilon) return std::nullopt;
+  return Illumination::Epsilon{*settings_.shadow_epsilon, float_points_.data()};
 }
 
 void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
@@ -87,7 +99,8 @@ void StreamIntegrator::find_surfaces(const Block& block) {
 
 /// Adds the direct light of one light, which takes one stream of shadow rays.
 void StreamIntegrator::add_light(const TargetedLight& light) {
-  const RayStream rays = illumination_.make_shadow_rays(kernels_, light.target, surfaces_);
+  const RayStream rays =
+      illumination_.make_shadow_rays(kernels_, light.target, surfaces_, epsilon());
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
   illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());

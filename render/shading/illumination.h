@@ -18,10 +18,6 @@ namespace boule {
 /// makes the shadow rays, and add_unblocked() adds the light of those that are not blocked.
 class Illumination {
  public:
-  /// With the epsilon of IntegratorSettings::shadow_epsilon.
-  explicit Illumination(std::optional<float> shadow_epsilon = {})
-      : shadow_epsilon_(shadow_epsilon) {}
-
   /// Forgets all hits, and makes room for one per ray.
   void start(std::size_t rays);
 
@@ -32,10 +28,16 @@ class Illumination {
     any_ = true;
   }
 
+  /// By the lecture's epsilon: how long it is, and the points as floats have them, by ray.
+  struct Epsilon {
+    float length;
+    const Vec3f* points;
+  };
+
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
-  /// call. All points are found in `surfaces`.
+  /// call. All points are found in `surfaces`. With an epsilon they start by it.
   RayStream make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
-                             StreamSurfaces& surfaces);
+                             StreamSurfaces& surfaces, const std::optional<Epsilon>& epsilon = {});
 
   /// One of the last shadow rays.
   [[nodiscard]] Ray shadow_ray(std::size_t k) const { return shadow_rays_.get(k); }
@@ -49,9 +51,8 @@ class Illumination {
   template <class AnyLight>
   void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
                  Color* radiance) const;
-  void start_by_epsilon(const ShadowTarget& light, const StreamSurfaces& surfaces);
+  void start_by(const Epsilon& epsilon, const ShadowTarget& light);
 
-  std::optional<float> shadow_epsilon_;
   std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;
   AlignedArray<std::uint8_t> lit_;              ///< by ray

@@ -39,7 +39,8 @@ std::string camera_keys(const Camera& camera, const Vec3d& origin);
 std::string shortest(float number);
 std::string shortest(double number);
 
-/// A coordinate of the file. The float that is read back from it is the same.
+/// A coordinate of the file. The float that is read back from it is the same, unless the origin is
+/// so far away that the file's doubles are coarser there than the float.
 double file_coordinate(float coordinate, double origin);
 
 }  // namespace boule::view

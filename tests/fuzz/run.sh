@@ -6,7 +6,7 @@ set -euo pipefail
 source="$1" build="$2" seconds="$3"
 shift 3
 names=("$@")
-((${#names[@]} > 0)) || names=(toml nff npy lens particles options rays)
+((${#names[@]} > 0)) || names=(toml nff npy lens particles options view rays)
 
 command -v clang++ >/dev/null || { echo "clang++ is missing"; exit 77; }
 echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' |

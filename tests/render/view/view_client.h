@@ -22,7 +22,7 @@ struct ServerPlace {
 
 /// What a connection says of itself; what is empty is as a browser on the server's own page has it.
 struct Introduction {
-  std::optional<std::string> token, host, origin;
+  std::optional<std::string> token{}, host{}, origin{};
 };
 
 /// A client of boule view's WebSocket, which waits for what it asks for. What takes longer than a

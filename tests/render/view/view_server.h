@@ -49,10 +49,13 @@ class RunningServer {
   explicit RunningServer(const Scene& scene, std::optional<double> idle_seconds = {})
       : source_(scene) {
     const std::string token = "0123456789abcdef0123456789abcdef";
-    session_ = std::move(view::ViewSession::open(source_, source_.load({}, 0).value(),
-                                                 {settings_of(scene), {}, token},
-                                                 [this] { server_.notify(); }))
-                   .value();
+    view::SessionSettings session;
+    session.view = settings_of(scene);
+    session.token = token;
+    session_ =
+        std::move(view::ViewSession::open(source_, source_.load({}, 0).value(), session, [this] {
+          server_.notify();
+        })).value();
     settings_.token = token;
     settings_.idle_seconds = idle_seconds;
     settings_.stop = [this] { return stop_.load(); };
