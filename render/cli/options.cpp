@@ -269,9 +269,8 @@ Command help_on(const CLI::App& app, const std::string& name) {
   return unknown_command(app, name);
 }
 
-}  // namespace
-
-Command parse_command_line(int argc, const char* const* argv) {
+/// What can be told of each command.
+struct Commands {
   RenderCommand render;
   ViewCommand view;
   SceneCommand scene;
@@ -279,31 +278,54 @@ Command parse_command_line(int argc, const char* const* argv) {
   InfoCommand info;
   IsaCommand isa;
   std::string help_topic;
+};
+
+void add_commands(CLI::App& app, Commands& commands) {
+  const auto add = [&app](const char* name, const char* what) -> CLI::App& {
+    CLI::App* const command = app.add_subcommand(name, what);
+    command->group("Commands");
+    return *command;
+  };
+  add_render(add("render", "Render a scene to a picture"), commands.render);
+  add_view(add("view", "Show a scene in a browser"), commands.view);
+  add_scene_text(add("scene", "Write the scene that shows a particle file"), commands.scene);
+  add_trace(add("trace", "Trace the rays of a file to hits"), commands.trace);
+  add_info(add("info", "Tell what a scene holds"), commands.info);
+  add("isa", "List the instruction sets")
+      .add_flag("--json", commands.isa.json, "As JSON, for programs");
+  add("help", "Tell the options of a command")
+      .add_option("COMMAND", commands.help_topic, "One of these commands")
+      ->type_name("");
+  add("version", "Tell the version");
+}
+
+/// The command that was chosen, or what is wrong with it.
+Command chosen_command(const CLI::App& app, Commands& commands, const std::string& version) {
+  const auto is_chosen = [&app](const char* name) { return app.got_subcommand(name); };
+  const auto checked = [&app](const char* name, auto& command, LookOptions& look) -> Command {
+    if (auto bad = check_look_options(*app.get_subcommand(name), look)) return *bad;
+    return command;
+  };
+  if (is_chosen("help")) return help_on(app, commands.help_topic);
+  if (is_chosen("version")) return TextCommand{version + "\n"};
+  if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
+  if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
+  if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
+  if (is_chosen("trace")) return commands.trace;
+  if (is_chosen("info")) return checked("info", commands.info, commands.info.look);
+  return commands.isa;
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  Commands commands;
   const std::string version = "boule " BOULE_VERSION;
   CLI::App app(description, "boule");
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  const auto add_command = [&app](const char* name, const char* what) {
-    CLI::App* const command = app.add_subcommand(name, what);
-    command->group("Commands");
-    return command;
-  };
-  CLI::App* const render_app = add_command("render", "Render a scene to a picture");
-  add_render(*render_app, render);
-  CLI::App* const view_app = add_command("view", "Show a scene in a browser");
-  add_view(*view_app, view);
-  CLI::App* const scene_app = add_command("scene", "Write the scene that shows a particle file");
-  add_scene_text(*scene_app, scene);
-  CLI::App* const trace_app = add_command("trace", "Trace the rays of a file to hits");
-  add_trace(*trace_app, trace);
-  CLI::App* const info_app = add_command("info", "Tell what a scene holds");
-  add_info(*info_app, info);
-  CLI::App* const isa_app = add_command("isa", "List the instruction sets");
-  isa_app->add_flag("--json", isa.json, "As JSON, for programs");
-  CLI::App* const help_app = add_command("help", "Tell the options of a command");
-  help_app->add_option("COMMAND", help_topic, "One of these commands")->type_name("");
-  CLI::App* const version_app = add_command("version", "Tell the version");
+  add_commands(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -313,21 +335,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return explain_usage(app, error);
   }
-  if (help_app->parsed()) return help_on(app, help_topic);
-  if (version_app->parsed()) return TextCommand{version + "\n"};
-  const auto checked = [](const CLI::App& chosen, auto& command) -> Command {
-    if (auto bad = check_look_options(chosen, command.look)) return *bad;
-    return command;
-  };
-  if (render_app->parsed()) return checked(*render_app, render);
-  if (view_app->parsed()) {
-    if (auto bad = check_look_options(*view_app, view.render.look)) return *bad;
-    return view;
-  }
-  if (scene_app->parsed()) return checked(*scene_app, scene);
-  if (trace_app->parsed()) return trace;
-  if (info_app->parsed()) return checked(*info_app, info);
-  return isa;
+  return chosen_command(app, commands, version);
 }
 
 }  // namespace boule::cli

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/math/geometry.h"
+#include "core/scene/instances.h"
 #include "render/particles/color_map.h"
 #include "render/prepare/default_camera.h"
 #include "render/view/difference.h"
@@ -54,7 +55,9 @@ Json camera_json(const Camera& camera, const Vec3d& origin) {
 }
 
 Json bounds_json(const LoadedScene& loaded) {
-  const SphereBounds box = bounds_of(loaded.scene.spheres);
+  std::vector<Sphere> spheres = loaded.scene.spheres;
+  visit_shown(loaded.scene, [&spheres](const Sphere& sphere) { spheres.push_back(sphere); });
+  const SphereBounds box = bounds_of(spheres);
   if (!(box.low.x <= box.high.x)) return {{"center", {0, 0, 0}}, {"radius", 1}};
   const Vec3d center = (box.low + box.high) * 0.5 + loaded.origin;
   return {{"center", {center.x, center.y, center.z}}, {"radius", length(box.high - box.low) / 2}};
@@ -181,6 +184,9 @@ std::string state_text(const ShownState& shown) {
                     {"lights", scene.lights.size()},
                     {"notes", shown.notes}}},
                   {"camera", camera_json(shown.wish.camera, shown.loaded.origin)},
+                  {"start",
+                   {{"camera", camera_json(shown.start.camera, shown.loaded.origin)},
+                    {"size", {shown.start.settings.width, shown.start.settings.height}}}},
                   {"bounds", bounds_json(shown.loaded)},
                   {"settings", settings_json(shown.wish.settings)},
                   {"difference_colors", difference_json(shown.wish.settings.difference)},

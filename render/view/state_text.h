@@ -19,6 +19,7 @@ struct ShownState {
   const LoadedScene& loaded;
   const std::vector<NumberRange>& columns;
   const std::vector<std::string>& notes;
+  const Wish& start;  ///< what the scene and the command line ask for
 };
 std::string state_text(const ShownState& shown);
 

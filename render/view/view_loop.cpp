@@ -38,7 +38,7 @@ Status ViewLoop::open(LoadedScene loaded, Wish& first) {
   notes_ = stage_.loaded().notes;
   columns_ = parts_.source.columns();
   parts_.mailbox.set_origin(stage_.loaded().origin);
-  wish_ = shown_wish_ = first;
+  wish_ = shown_wish_ = start_ = first;
   must_begin_ = true;
   return std::nullopt;
 }
@@ -123,7 +123,7 @@ void ViewLoop::reload() {
 
 void ViewLoop::send_state() {
   parts_.outbox.add_text(
-      state_text({wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_}));
+      state_text({wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_, start_}));
 }
 
 void ViewLoop::fail(const std::string& about, const Diagnostic& error) {

@@ -72,6 +72,7 @@ class ViewLoop {
   PictureSender sender_;
   Wish wish_;        ///< the newest
   Wish shown_wish_;  ///< whose scene was read
+  Wish start_;       ///< the first one
   std::vector<NumberRange> columns_;
   std::vector<std::string> notes_;
   std::optional<SaveJob> save_;
