@@ -269,6 +269,25 @@ class Page(unittest.TestCase):
         self.assertIn("token", self.browser.find("body").text)
         self.assertEqual(self.browser.driver.find_elements("css selector", "canvas"), [])
 
+    def test_a_second_page_takes_over(self):
+        browser = self.browser
+        driver = browser.driver
+        first = driver.current_window_handle
+        driver.switch_to.new_window("tab")
+        try:
+            browser.open(self.server.url)
+            driver.switch_to.window(first)
+            browser.wait("document.body.dataset.link === 'taken'", "that it was taken over")
+            browser.find("#link button").click()
+            browser.wait("document.body.dataset.link === 'open'", "that it was taken back")
+            browser.rest()
+            driver.switch_to.window(driver.window_handles[1])
+            browser.wait("document.body.dataset.link === 'taken'", "that it was taken over")
+        finally:
+            driver.switch_to.window(driver.window_handles[1])
+            driver.close()
+            driver.switch_to.window(first)
+
     def test_it_says_when_the_server_goes_away_and_comes_back(self):
         browser = self.browser
         server = hands.Server(PROGRAM, ["first_light.toml", "--size", "64x36"], SCENES)

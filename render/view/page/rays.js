@@ -1,6 +1,6 @@
 // A pixel that was picked: what it hit, and Whitted's recursion as an indented list.
 
-import {byId, make, sentence, short} from './dom.js';
+import {byId, counted, make, short} from './dom.js';
 
 const kinds = {
   primary: 'Primary ray', reflection: 'Reflection', refraction: 'Refraction', shadow: 'Shadow ray',
@@ -99,9 +99,9 @@ export class Rays {
       if (ray.parent !== null) this.children[ray.parent].push(index);
     });
     const roots = rays.map((ray, index) => index).filter((index) => rays[index].parent === null);
-    const secondary = rays.filter(({kind}) => kind !== 'shadow').length;
-    const count = make('p', {className: 'hint', textContent:
-      sentence(`${rays.length} rays, ${rays.length - secondary} of them to lights`)});
+    const shadows = rays.filter(({kind}) => kind === 'shadow').length;
+    const ofThem = shadows > 0 ? `, ${shadows} of them to lights` : '';
+    const count = make('p', {className: 'hint', textContent: `${counted(rays.length, 'ray')}${ofThem}.`});
     byId('ray-tree').replaceChildren(count, this.makeList(roots));
   }
 

@@ -15,7 +15,7 @@ const beside = {
   order: ['frameless', 'rows'],
   solver: ['fast', 'robust'],
   method: ['path', 'whitted'],
-  shadow_epsilon: [1e-3, null],
+  shadow_epsilon: ['none', null],
 };
 const first = {shadow_epsilon: null, solver: 'robust', order: 'rows'};
 

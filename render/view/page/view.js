@@ -77,7 +77,7 @@ function showScene({scene, version}) {
   document.title = `${name} – boule view`;
   const facts = [counted(scene.spheres, 'sphere')];
   if (scene.planes) facts.push(counted(scene.planes, 'plane'));
-  facts.push(counted(scene.lights, 'light'));
+  if (scene.lights) facts.push(counted(scene.lights, 'light'));
   byId('scene-facts').textContent = facts.join(' · ');
   byId('version').textContent = `boule ${version}`;
   byId('notes-section').hidden = scene.notes.length === 0;
