@@ -35,6 +35,7 @@ for (const e of shown) {
   } else if (ownText || e.matches('input, textarea')) {
     if (style.display !== 'inline' && e.scrollWidth > e.clientWidth + 1)
       found.push('cut: ' + (e.textContent || e.value));
+    if (e.tagName === 'TEXTAREA' && e.scrollHeight > e.clientHeight + 1) found.push('cut: ' + e.value);
     for (const box of e.getClientRects())
       if (box.left < -0.5 || box.right > innerWidth + 0.5) found.push('outside: ' + (e.textContent || e.id));
   }

@@ -44,6 +44,8 @@ export class FrameReader {
       const bitmap = await createImageBitmap(picture, {colorSpaceConversion: 'none'});
       this.show(header, bitmap);
       bitmap.close();
+    } catch (error) {
+      console.error('a frame could not be shown', error);  // the next one may be
     } finally {
       this.connection.send({type: 'ack', frame: header.frame});
     }

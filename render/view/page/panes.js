@@ -63,7 +63,7 @@ export class Panes {
     this.panes = [];
     session.on('state', (state) => this.update(state));
     session.on('statistics', (message) => this.showStatistics(message));
-    new ResizeObserver(() => this.layOut()).observe(stage.parentElement);
+    new ResizeObserver(() => this.layOut()).observe(stage);
     window.addEventListener('resize', () => this.layOut());
   }
 
@@ -91,7 +91,7 @@ export class Panes {
     const words = brief ? [make('span', {className: 'wide', textContent: text}),
                            make('span', {className: 'narrow', textContent: brief})] : [text];
     pane.title.replaceChildren(...(name ? [make('b', {textContent: name}), ' '] : []), ...words);
-    pane.view.setAttribute('aria-label', `Picture ${name}: ${text}. Arrow keys orbit.`);
+    pane.view.setAttribute('aria-label', `${['Picture', name].filter(Boolean).join(' ')}: ${text}. Arrow keys orbit.`);
     pane.view.setAttribute('aria-describedby', 'rays-hint');
     pane.element.classList.toggle('difference', isDifference);
     if (isDifference) pane.figures.textContent = '';
@@ -127,8 +127,11 @@ export class Panes {
   /** Shows a frame where it belongs. */
   show(header, bitmap) {
     const pane = header.pane === 2 ? this.panes.find((one) => one.isDifference) : this.panes[header.pane];
-    if (pane && pane.isDifference === (header.pane === 2)) {
-      pane.show(header, bitmap, this.session.state.settings.size);
+    const {size} = this.session.state.settings;
+    // A frame from before the size was changed is of no use.
+    const fits = size.every((side, axis) => Math.ceil(side / header.scale) === [header.width, header.height][axis]);
+    if (pane && fits && pane.isDifference === (header.pane === 2)) {
+      pane.show(header, bitmap, size);
       this.session.tell('shown', header);
     }
   }

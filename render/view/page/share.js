@@ -11,6 +11,7 @@ export class Share {
     byId('copy-command').addEventListener('click', () => this.copy('command', 'Command line'));
     byId('save').addEventListener('click', () => this.save());
     byId('stop-saving').addEventListener('click', () => session.connection.send({type: 'stop_saving'}));
+    window.addEventListener('resize', () => fitHeight(byId('copied-text')));
     session.on('saving', ({share}) => { byId('saving-share').value = share; });
     session.on('state', ({settings, choices}) => {
       byId('share-pane-row').hidden = settings.panes.length < 2;
@@ -34,8 +35,8 @@ export class Share {
     if (!texts[what]) return this.session.tell('problem', 'This camera has no command line; its TOML has all of it.');
     const area = byId('copied-text');
     area.value = texts[what];
-    area.rows = Math.min(12, Math.max(3, texts[what].split('\n').length));
     byId('copied').hidden = false;
+    fitHeight(area);
     const isCopied = await toClipboard(area);
     byId('copied-label').textContent = `${label}${isCopied ? ', copied' : ': copy it from here'}`;
   }
@@ -57,6 +58,12 @@ export class Share {
     byId('save').disabled = false;
     byId('saving').hidden = true;
   }
+}
+
+// All lines of the text show, wrapped as they are.
+function fitHeight(area) {
+  area.style.height = 'auto';
+  area.style.height = `${area.scrollHeight + area.offsetHeight - area.clientHeight}px`;
 }
 
 // Only pages of this machine, or by https, may use the clipboard; the old way is left to the others.

@@ -50,11 +50,7 @@ export class Timeline {
   }
 
   show(series) {
-    const form = byId('timeline');
-    if (form.hidden !== (series === null)) {
-      form.hidden = series === null;
-      this.session.tell('resized', null);
-    }
+    byId('timeline').hidden = series === null;
     if (series === null) return;
     const slider = byId('frame');
     Object.assign(slider, {min: series.first, max: series.last, step: series.step});
