@@ -22,7 +22,7 @@ Result<float> Renderer::record_pixel(int x, int y, RayRecord& record) const {
   settings.cancel = &record.full();
   Whitted integrator(*scene_, setup_->kernels, settings);
   Color radiance;
-  if (!integrator.trace({rays, Coherence::none, nullptr}, &radiance))
+  if (!integrator.trace({rays, scene_->coherence, nullptr}, &radiance))
     return Diagnostic::of("the recursion has more than " + std::to_string(RayRecord::most_rays) +
                           " rays here");
   return weight;

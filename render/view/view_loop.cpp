@@ -274,6 +274,7 @@ void ViewLoop::publish_difference(bool finished) {
   const auto made = make();
   if (!made) return;
   const Image& image = made.value().image;
+  report_due_ = finished;
   difference_ = DifferenceFigures{made.value().pixels, made.value().largest};
   const FrameHeader header = this->header(difference_pane);
   if (!finished || !sender_.send_finished(image, header, 0)) sender_.send(image, header, 0);
@@ -282,9 +283,10 @@ void ViewLoop::publish_difference(bool finished) {
 void ViewLoop::report_statistics() {
   const auto now = Clock::now();
   if (!stage_.started() || failed_) return;
-  const bool last = stage_.done() && last_report_ < last_step_;
+  const bool last = (stage_.done() && last_report_ < last_step_) || report_due_;
   if (!last && (!is_rendering() || now < last_report_ + time_between_reports)) return;
   last_report_ = now;
+  report_due_ = false;
   parts_.outbox.report("statistics", statistics_text(wish_.number, stage_, difference_));
 }
 

@@ -82,6 +82,7 @@ class ViewLoop {
   bool dirty_ = false;                           ///< there is more to see than was sent
   bool failed_ = false;                          ///< it cannot be rendered
   bool finished_sent_ = false;                   ///< the pictures at rest
+  bool report_due_ = false;                      ///< the statistics have changed since
   std::uint32_t sent_number_ = 0;
   std::optional<Clock::time_point> finished_since_;  ///< when the last pixel at rest was done
   Clock::time_point last_sent_{}, last_report_{}, last_step_{};

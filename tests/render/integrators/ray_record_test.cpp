@@ -29,7 +29,7 @@ void expect_sums(const Scene& scene, const RenderOptions& options) {
       rays += record.rays().size();
     }
   }
-  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(wrong, 0) << name_of(options.solver) << options.shadow_epsilon.has_value();
   EXPECT_GT(rays, picture.pixels.size());
 }
 

@@ -35,8 +35,6 @@ struct ViewClient::Socket {
   asio::io_context io;
   websocket::stream<beast::tcp_stream> stream{io};
   beast::flat_buffer buffer;
-  int status = 0;
-
   /// Runs one operation to its end, or to the end of patience.
   template <class Start>
   bool wait(const Start& start) {
@@ -63,17 +61,12 @@ ViewClient::ViewClient(const ServerPlace& place, const Introduction& introductio
   stream.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
     if (!origin.empty()) request.set(beast::http::field::origin, origin);
   }));
-  websocket::response_type response;
-  stream.handshake(response, host, "/socket?token=" + introduction.token.value_or(place.token),
-                   error);
-  socket_->status = static_cast<int>(response.result_int());
+  stream.handshake(host, "/socket?token=" + introduction.token.value_or(place.token), error);
   stream.auto_fragment(false);
   stream.read_message_max(std::size_t{64} << 20);
 }
 
 ViewClient::~ViewClient() = default;
-
-int ViewClient::status() const { return socket_->status; }
 
 void ViewClient::send_text(const std::string& text) {
   beast::error_code ignored;
@@ -129,7 +122,7 @@ int ViewClient::close_code() const { return socket_->stream.reason().code; }
 
 void ViewClient::drop() { beast::get_lowest_layer(socket_->stream).close(); }
 
-std::string http_answer(const ServerPlace& place, const std::string& request) {
+std::string http_answer(const ServerPlace& place, const std::string& request, std::size_t most) {
   asio::io_context io;
   tcp::socket socket(io);
   beast::error_code error;
@@ -138,11 +131,24 @@ std::string http_answer(const ServerPlace& place, const std::string& request) {
   asio::write(socket, asio::buffer(request), error);
   std::string answer;
   char part[4096];
-  while (!error) {
+  while (!error && answer.size() < most) {
     const std::size_t size = socket.read_some(asio::buffer(part), error);
     answer.append(part, size);
   }
   return answer;
+}
+
+int asked_status(const ServerPlace& place, const Introduction& introduction) {
+  const std::string host = introduction.host.value_or(place.authority());
+  const std::string origin = introduction.origin.value_or("http://" + place.authority());
+  std::string request =
+      "GET /socket?token=" + introduction.token.value_or(place.token) +
+      " HTTP/1.1\r\nHost: " + host +
+      "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n";
+  if (!origin.empty()) request += "Origin: " + origin + "\r\n";
+  const std::string answer = http_answer(place, request + "\r\n", 12);
+  return answer.size() < 12 ? 0 : std::stoi(answer.substr(9, 3));
 }
 
 }  // namespace boule::test

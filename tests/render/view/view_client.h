@@ -36,9 +36,6 @@ class ViewClient {
   ViewClient(const ViewClient&) = delete;
   ViewClient& operator=(const ViewClient&) = delete;
 
-  /// The HTTP status of the answer: 101 if there is a session now; 0 without an answer.
-  [[nodiscard]] int status() const;
-
   void send(const Json& message) { send_text(message.dump()); }
   void send_text(const std::string& text);
   void send_binary(const std::string& bytes);
@@ -66,7 +63,11 @@ class ViewClient {
   std::unique_ptr<Socket> socket_;
 };
 
-/// The answer to one HTTP request, as it is; empty without one.
-std::string http_answer(const ServerPlace& place, const std::string& request);
+/// The HTTP status of the answer to a client that asks for a session; 0 without an answer.
+int asked_status(const ServerPlace& place, const Introduction& introduction = {});
+
+/// The answer to one HTTP request, as it is, or its beginning; empty without one.
+std::string http_answer(const ServerPlace& place, const std::string& request,
+                        std::size_t most = std::string::npos);
 
 }  // namespace boule::test
