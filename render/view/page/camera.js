@@ -12,6 +12,7 @@ export const length = (a) => Math.hypot(...a);
 export const unit = (a) => scaled(a, 1 / length(a));
 
 const radians = (degrees) => degrees * Math.PI / 180;
+const narrowest = 1e-4;  // degrees of a long lens
 const nearestPole = radians(1);  // between the view and `up`
 
 /** The frame of a camera: `ahead`, `right`, `above`, and the distance to what it looks at. */
@@ -71,15 +72,18 @@ export function dolly(camera, factor) {
   return length(subtract(eye, camera.look_at)) > 0 ? {eye} : {};
 }
 
-/** The limits of `fov` in degrees. */
-export const fovLimits = (camera) => camera.type === 'fisheye' ? [10, 360] : [1, 170];
+/** Sensible limits of `fov` in degrees; what the camera has is among them. */
+export function fovLimits({type, fov}) {
+  const [low, high] = type === 'fisheye' ? [10, 360] : [1, 170];
+  return [Math.min(low, fov), Math.max(high, fov)];
+}
 
 /** Sees more (factor above 1) or less. */
 export function widen(camera, factor) {
   if (camera.type === 'orthographic') return {height: camera.height * factor};
   if (camera.fov === undefined) return {};
-  const [low, high] = fovLimits(camera);
-  return {fov: Math.max(low, Math.min(high, camera.fov * factor))};
+  const [, high] = fovLimits(camera);
+  return {fov: Math.max(narrowest, Math.min(high, camera.fov * factor))};
 }
 
 /** Shows all of a sphere around the scene, from the direction it is seen from. */

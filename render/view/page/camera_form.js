@@ -1,8 +1,11 @@
 // The fields of the camera.
 
-import {byId, fillSelect, onNumber, short, showValue} from './dom.js';
+import {byId, fillSelect, onNumber, showValue} from './dom.js';
 import {fovLimits, frameOf} from './camera.js';
-import {cameraName} from './words.js';
+import {cameraName, plain} from './words.js';
+
+// A number for a field, where it may be edited.
+const editable = (number, digits = 6) => plain(Number(number.toPrecision(digits)));
 
 export class CameraForm {
   constructor(session, gestures) {
@@ -43,10 +46,10 @@ export class CameraForm {
     }
     byId('camera-type').value = camera.type;
     if (camera.fov !== undefined) this.showFov(camera);
-    if (camera.height !== undefined) showValue(byId('height'), short(camera.height, 6));
-    if (camera.aperture !== undefined) showValue(byId('aperture'), short(camera.aperture, 6));
+    if (camera.height !== undefined) showValue(byId('height'), editable(camera.height));
+    if (camera.aperture !== undefined) showValue(byId('aperture'), editable(camera.aperture));
     const hasFocus = camera.focus !== undefined;
-    if (hasFocus) showValue(byId('focus'), camera.focus === null ? '' : short(camera.focus, 6));
+    if (hasFocus) showValue(byId('focus'), camera.focus === null ? '' : editable(camera.focus));
     byId('click-focus').disabled = !hasFocus;
     byId('focus-hint').hidden = hasFocus;
     if (!hasFocus && byId('click-focus').checked) {
@@ -60,7 +63,7 @@ export class CameraForm {
     slider.min = Math.log(low);
     slider.max = Math.log(high);
     if (document.activeElement !== slider) slider.value = Math.log(camera.fov);
-    slider.setAttribute('aria-valuetext', `${short(camera.fov, 4)} degrees`);
-    showValue(byId('fov-number'), short(camera.fov, 4));
+    slider.setAttribute('aria-valuetext', `${editable(camera.fov, 4)} degrees`);
+    showValue(byId('fov-number'), editable(camera.fov, 4));
   }
 }

@@ -123,6 +123,7 @@ function crossAt([x, y], size) {
   const arm = size[0] / 50;
   const gap = arm / 4;
   const [cx, cy] = [x + 0.5, y + 0.5];
-  const d = `M${cx - arm} ${cy}H${cx - gap}M${cx + gap} ${cy}H${cx + arm}M${cx} ${cy - arm}V${cy - gap}M${cx} ${cy + gap}V${cy + arm}`;
+  const across = `M${cx - arm} ${cy}H${cx - gap}M${cx + gap} ${cy}H${cx + arm}`;
+  const d = `${across}M${cx} ${cy - arm}V${cy - gap}M${cx} ${cy + gap}V${cy + arm}`;
   return [makeSvg('path', {d, class: 'halo cross'}), makeSvg('path', {d, class: 'line cross'})];
 }
