@@ -101,9 +101,13 @@ Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const 
 Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) {
   auto options = look_with(look);
   if (!options) return options.error();
+  const ColorRanges before = options_.color_ranges;
   if (last_look_ && !(*last_look_ == look)) options_.color_ranges.clear();
   auto loaded = read(options.value(), frame);
-  if (!loaded) return loaded;
+  if (!loaded) {
+    options_.color_ranges = before;
+    return loaded;
+  }
   if (!options_.origin) options_.origin = loaded.value().origin;
   if (options_.color_ranges.empty())
     options_.color_ranges = color_ranges_of(loaded.value().particles);

@@ -224,10 +224,12 @@ std::string busy_text(const std::string& what) {
 
 std::string error_text(const std::string& about, const Diagnostic& error,
                        std::optional<std::uint32_t> id) {
+  // An option of the command line has the name of the key.
+  const std::string key = error.key.starts_with("--") ? error.key.substr(2) : error.key;
   Json json = {{"type", "error"},
                {"about", about},
                {"text", printable(error.message, 1000)},
-               {"key", error.key.empty() ? Json() : Json(printable(error.key, 200))}};
+               {"key", key.empty() ? Json() : Json(printable(key, 200))}};
   if (id) json["id"] = *id;
   return text_of(json);
 }
