@@ -140,7 +140,12 @@ class Page(unittest.TestCase):
             [(-20, 0), (-20, 20), (-20, 40)], [(20, 0), (20, 20), (20, 40)])))
 
     def test_the_keyboard_reaches_everything_and_leaves_it(self):
-        browser = self.browser
+        for width, height in ((1280, 800), (390, 844)):
+            with self.subTest(width=width):
+                self.browser.resize(width, height)
+                self.check_keyboard(self.browser)
+
+    def check_keyboard(self, browser):
         expected = browser.script("""
             document.querySelector('.view').focus();
             const reach = 'a[href], button, input, select, summary, textarea, [tabindex="0"]';
@@ -155,6 +160,11 @@ class Page(unittest.TestCase):
                 const {outlineStyle, outlineWidth} = getComputedStyle(document.activeElement);
                 return outlineStyle !== 'none' && outlineWidth !== '0px'""")
             self.assertTrue(outline, focused.get_attribute("outerHTML"))
+            covered = browser.script("""
+                const {left, top, width, height} = document.activeElement.getBoundingClientRect();
+                const there = document.elementFromPoint(left + width / 2, top + height / 2);
+                return !document.activeElement.contains(there) && !there?.contains(document.activeElement)""")
+            self.assertFalse(covered, focused.get_attribute("outerHTML"))
             focused.send_keys(Keys.TAB)
         self.assertEqual(browser.driver.switch_to.active_element.tag_name, "body")
 

@@ -64,6 +64,11 @@ export class Panes {
     session.on('state', (state) => this.update(state));
     session.on('statistics', (message) => this.showStatistics(message));
     new ResizeObserver(() => this.layOut()).observe(stage);
+    // On a phone the pictures stay at the top: what has the focus must not be below them.
+    new ResizeObserver(([area]) => {
+      const height = area.borderBoxSize[0].blockSize;
+      document.documentElement.style.setProperty('--covered', `${height}px`);
+    }).observe(stage.parentElement);
     window.addEventListener('resize', () => this.layOut());
   }
 
