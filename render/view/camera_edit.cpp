@@ -164,7 +164,7 @@ class FieldTexts {
 };
 
 /// A number as TOML reads it: with a point or an exponent.
-std::string with_point(std::string text) {
+std::string with_point(const std::string& text) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 

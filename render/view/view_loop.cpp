@@ -198,11 +198,10 @@ void ViewLoop::render() {
   const auto pixels = allowance();
   if (!pixels) return;
   const bool moving = stage_.shape().kind == StageKind::moving;
-  const double seconds = moving && stage_.shape().scale >= 1 && wish_.settings.pace == 0
-                             ? longest_moving_step
-                             : step_seconds;
-  if (stage_.step({seconds, *pixels})) {
-    must_begin_ = true;  // it was overtaken
+  const double seconds = moving && wish_.settings.pace == 0 ? longest_moving_step : step_seconds;
+  if (const auto bad = stage_.step({seconds, *pixels})) {
+    if (!parts_.mailbox.overtaken()) return fail("scene", *bad);
+    must_begin_ = true;
     return;
   }
   dirty_ = true;

@@ -197,7 +197,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const Request& request = parser_.get();
     const std::string_view host = view_of(request[http::field::host]);
     const Target target = read_target(view_of(request.target()));
-    if (!is_own_host(host)) return refuse(http::status::misdirected_request, "not this host");
+    if (!is_own_host(host))
+      return refuse(http::status::misdirected_request,
+                    "open the page by this machine's number, or as localhost");
     const bool allowed = same_secret(target.token, hub_.settings->token);
     if (websocket::is_upgrade(request) && target.path == "/socket") {
       const auto origin = request.find(http::field::origin);
