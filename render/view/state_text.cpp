@@ -54,15 +54,6 @@ Json camera_json(const Camera& camera, const Vec3d& origin) {
   return json;
 }
 
-Json bounds_json(const LoadedScene& loaded) {
-  std::vector<Sphere> spheres = loaded.scene.spheres;
-  visit_shown(loaded.scene, [&spheres](const Sphere& sphere) { spheres.push_back(sphere); });
-  const SphereBounds box = bounds_of(spheres);
-  if (!(box.low.x <= box.high.x)) return {{"center", {0, 0, 0}}, {"radius", 1}};
-  const Vec3d center = (box.low + box.high) * 0.5 + loaded.origin;
-  return {{"center", {center.x, center.y, center.z}}, {"radius", length(box.high - box.low) / 2}};
-}
-
 Json settings_json(const ViewSettings& settings) {
   Json panes = Json::array();
   for (const PaneSettings& pane : settings.panes) {
@@ -171,28 +162,44 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
+SceneFigures figures_of(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  std::vector<Sphere> spheres = scene.spheres;
+  SceneFigures figures{.planes = scene.planes.size(), .center = {}};
+  visit_shown(scene, [&](const Sphere& sphere) { spheres.push_back(sphere); });
+  visit_shown(scene, [&](const Plane&) { ++figures.planes; });
+  figures.spheres = spheres.size();
+  const SphereBounds box = bounds_of(spheres);
+  if (!(box.low.x <= box.high.x)) return figures;
+  figures.center = (box.low + box.high) * 0.5 + loaded.origin;
+  figures.radius = length(box.high - box.low) / 2;
+  return figures;
+}
+
 std::string state_text(const ShownState& shown) {
   const Scene& scene = shown.loaded.scene;
-  return text_of({{"type", "state"},
-                  {"number", shown.wish.number},
-                  {"version", BOULE_VERSION},
-                  {"scene",
-                   {{"path", shown.facts.path},
-                    {"kind", shown.facts.kind},
-                    {"spheres", scene.spheres.size()},
-                    {"planes", scene.planes.size()},
-                    {"lights", scene.lights.size()},
-                    {"notes", shown.notes}}},
-                  {"camera", camera_json(shown.wish.camera, shown.loaded.origin)},
-                  {"start",
-                   {{"camera", camera_json(shown.start.camera, shown.loaded.origin)},
-                    {"size", {shown.start.settings.width, shown.start.settings.height}}}},
-                  {"bounds", bounds_json(shown.loaded)},
-                  {"settings", settings_json(shown.wish.settings)},
-                  {"difference_colors", difference_json(shown.wish.settings.difference)},
-                  {"particles", particles_json(shown)},
-                  {"series", series_json(shown)},
-                  {"choices", choices_json()}});
+  const Vec3d& center = shown.figures.center;
+  return text_of(
+      {{"type", "state"},
+       {"number", shown.wish.number},
+       {"version", BOULE_VERSION},
+       {"scene",
+        {{"path", shown.facts.path},
+         {"kind", shown.facts.kind},
+         {"spheres", shown.figures.spheres},
+         {"planes", shown.figures.planes},
+         {"lights", scene.lights.size()},
+         {"notes", shown.notes}}},
+       {"camera", camera_json(shown.wish.camera, shown.loaded.origin)},
+       {"start",
+        {{"camera", camera_json(shown.start.camera, shown.loaded.origin)},
+         {"size", {shown.start.settings.width, shown.start.settings.height}}}},
+       {"bounds", {{"center", {center.x, center.y, center.z}}, {"radius", shown.figures.radius}}},
+       {"settings", settings_json(shown.wish.settings)},
+       {"difference_colors", difference_json(shown.wish.settings.difference)},
+       {"particles", particles_json(shown)},
+       {"series", series_json(shown)},
+       {"choices", choices_json()}});
 }
 
 std::string statistics_text(std::uint32_t number, PaneStage& stage,

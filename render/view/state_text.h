@@ -12,6 +12,14 @@
 /// The server's messages as JSON: docs/view_protocol.md.
 namespace boule::view {
 
+/// What is in a scene, that of its instances among it, and a sphere around its spheres.
+struct SceneFigures {
+  std::size_t spheres = 0, planes = 0;
+  Vec3d center;
+  double radius = 1;
+};
+SceneFigures figures_of(const LoadedScene& loaded);
+
 /// What a state tells.
 struct ShownState {
   const Wish& wish;
@@ -19,6 +27,7 @@ struct ShownState {
   const LoadedScene& loaded;
   const std::vector<NumberRange>& columns;
   const std::vector<std::string>& notes;
+  const SceneFigures& figures;
   const Wish& start;  ///< what the scene and the command line ask for
 };
 std::string state_text(const ShownState& shown);

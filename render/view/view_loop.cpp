@@ -36,6 +36,7 @@ Status ViewLoop::open(LoadedScene loaded, Wish& first) {
   if (!camera) return camera.error();
   first.camera = std::move(camera).value();
   notes_ = stage_.loaded().notes;
+  figures_ = figures_of(stage_.loaded());
   columns_ = parts_.source.columns();
   parts_.mailbox.set_origin(stage_.loaded().origin);
   wish_ = shown_wish_ = start_ = first;
@@ -116,14 +117,15 @@ void ViewLoop::reload() {
   }
   stage_.set_scene(std::move(loaded).value());
   notes_ = stage_.loaded().notes;
+  figures_ = figures_of(stage_.loaded());
   columns_ = parts_.source.columns();
   parts_.mailbox.set_origin(stage_.loaded().origin);
   shown_wish_ = wish_;
 }
 
 void ViewLoop::send_state() {
-  parts_.outbox.add_text(
-      state_text({wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_, start_}));
+  parts_.outbox.add_text(state_text(
+      {wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_, figures_, start_}));
 }
 
 void ViewLoop::fail(const std::string& about, const Diagnostic& error) {

@@ -73,6 +73,7 @@ class ViewLoop {
   Wish wish_;        ///< the newest
   Wish shown_wish_;  ///< whose scene was read
   Wish start_;       ///< the first one
+  SceneFigures figures_;
   std::vector<NumberRange> columns_;
   std::vector<std::string> notes_;
   std::optional<SaveJob> save_;
