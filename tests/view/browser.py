@@ -24,11 +24,11 @@ def need_browser():
 
 
 class Server:
-    """`boule view` with these arguments, until close()."""
+    """`boule view` with these arguments, until close(), or for minutes if that never comes."""
 
     def __init__(self, program, arguments, folder):
         self.process = subprocess.Popen(
-            [program, "view", *arguments], cwd=folder, stdout=subprocess.PIPE, text=True)
+            [program, "view", *arguments, "--idle", "5m"], cwd=folder, stdout=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()
         if not self.url.startswith("http://"):
             raise RuntimeError(f"boule view printed no address but: {self.url!r}")
@@ -49,8 +49,8 @@ class Browser:
     def __init__(self):
         options = webdriver.ChromeOptions()
         options.binary_location = "/usr/bin/chromium"
-        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
-                         "--no-first-run", "--disable-background-networking",
+        for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
+                         "--disable-quic", "--no-first-run", "--disable-background-networking",
                          "--disable-component-update", "--disable-sync", "--hide-scrollbars"):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
