@@ -11,7 +11,6 @@ namespace boule::view {
 namespace {
 
 constexpr StepLimit save_step{.seconds = 0.05};
-constexpr std::chrono::milliseconds time_between_reports{250};
 
 /// A word of a command line, in quotes where a shell needs them.
 std::string word(const std::string& text) {
