@@ -5,10 +5,12 @@ set -euo pipefail
 # openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
 readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev
-  gemmi-dev tao-pegtl-dev)
+  gemmi-dev tao-pegtl-dev libboost-dev libturbojpeg0-dev)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
-readonly test_packages=(binutils clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev libgtest-dev
-  lammps-examples libmpfr-dev librapidcheck-dev pkg-config python3-ase python3-gemmi qemu-user)
+# chromium-driver, python3-selenium: the pages, driven in a browser.
+readonly test_packages=(binutils chromium-driver clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev
+  libgtest-dev lammps-examples libmpfr-dev librapidcheck-dev pkg-config python3-ase python3-gemmi
+  python3-selenium qemu-user)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
 usage() {

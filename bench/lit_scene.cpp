@@ -15,11 +15,6 @@ namespace {
 
 const KernelTable& kernels() { return *select_kernels("auto").value(); }
 
-/// o + t d with every operation in float.
-Vec3f float_point(const Ray& ray, const Hit& hit) {
-  return vec_cast<float>(ray.org) + ray.dir * static_cast<float>(hit.t);
-}
-
 bool faces_light(const SeenPoint& point) { return point.hit && point.cosine > 0; }
 
 }  // namespace

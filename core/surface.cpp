@@ -59,6 +59,19 @@ Ray leave(const Surface& surface, Side side, const Vec3d& direction) {
   return from_surface({departure.org, vec_cast<float>(direction)}, departure);
 }
 
+Vec3f float_point(const Ray& ray, const Hit& hit) {
+  return vec_cast<float>(ray.org) + ray.dir * static_cast<float>(hit.t);
+}
+
+Ray start_by_epsilon(Ray shadow_ray, const Vec3f& point, float epsilon) {
+  const double size = length(vec_cast<double>(shadow_ray.dir));
+  shadow_ray.org = vec_cast<double>(point);
+  shadow_ray.tmin = static_cast<float>(double{epsilon} / size);
+  shadow_ray.source = no_primitive;
+  shadow_ray.inside = false;
+  return shadow_ray;
+}
+
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light) {
   const Departure departure = depart(surface, Side::viewer);
   return from_surface(segment(departure.org, light), departure);

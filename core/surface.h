@@ -58,4 +58,13 @@ Ray leave(const Surface& surface, Side side, const Vec3d& direction);
 /// A ray from the surface's viewer side that ends just before `light`.
 Ray shadow_ray_to(const Surface& surface, const Vec3d& light);
 
+/// A shadow ray as the lecture starts it (lecture "Shadow acne"), to be compared with the others:
+/// at a point that floats have found, from `epsilon` units of length on, 0 or more, and without
+/// knowing which primitive it leaves. Its direction and its end stay.
+Ray start_by_epsilon(Ray shadow_ray, const Vec3f& point, float epsilon);
+
+/// The point of a hit as a renderer finds it that computes in float: org + t dir, every operation
+/// rounded.
+Vec3f float_point(const Ray& ray, const Hit& hit);
+
 }  // namespace boule

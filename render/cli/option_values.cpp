@@ -1,6 +1,7 @@
 #include "render/cli/option_values.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/scene/scene.h"
 
@@ -112,6 +113,11 @@ std::optional<StatsTarget> parse_stats(const std::string& text) {
   if (text == "json") return StatsTarget{StatsForm::json, "-"};
   if (!text.starts_with(json_to) || text == json_to) return std::nullopt;
   return StatsTarget{StatsForm::json, text.substr(json_to.size())};
+}
+
+std::optional<float> parse_shadow_epsilon(const std::string& text) {
+  if (text == "none") return 0.0F;
+  return parse_number(text, 0.0F, std::numeric_limits<float>::max());
 }
 
 }  // namespace boule::cli

@@ -43,6 +43,9 @@ std::optional<BackgroundChoice> parse_background(const std::string& text);
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);
 
+/// "none", which is 0, or a finite length of 0 or more.
+std::optional<float> parse_shadow_epsilon(const std::string& text);
+
 /// "text", "json" or "json:FILE", FILE not empty.
 std::optional<StatsTarget> parse_stats(const std::string& text);
 

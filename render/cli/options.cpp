@@ -11,6 +11,7 @@
 #include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
 #include "render/cli/usage.h"
+#include "render/cli/view_options.h"
 
 namespace boule::cli {
 namespace {
@@ -45,13 +46,21 @@ void add_load_limit(CLI::App& app, std::optional<double>& seconds) {
                "Give up when reading the scene and data files takes longer (no limit)");
 }
 
-/// Options that change the picture.
-void add_picture_options(CLI::App& app, RenderCommand& command) {
-  start_group(app, "Picture");
+void add_size(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--size", command.size, parse_size,
              "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", "WxH",
              "Pixels of the picture");
   add_whole(app, "--spp", command.spp, rule::samples.low, rule::samples.high, "Samples per pixel");
+}
+
+void add_order(CLI::App& app, RenderCommand& command, const std::string& help) {
+  add_choice(app, "--order", command.order, choices<PixelOrder>(), help);
+}
+
+/// Options that change the picture.
+void add_picture_options(CLI::App& app, RenderCommand& command) {
+  start_group(app, "Picture");
+  add_size(app, command);
   add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_parsed(app, "--background", command.background, parse_background,
@@ -74,11 +83,25 @@ void add_picture_options(CLI::App& app, RenderCommand& command) {
              "What an NFF polygon becomes (plane)");
 }
 
+void add_camera(CLI::App& app, RenderCommand& command) {
+  add_parsed(app, "--camera", command.camera, parse_words, "keys of a scene's [camera]", "KEYS",
+             "Another camera: keys of [camera], such as \"eye = [0, 1, 9], look_at = [0, 1, 0]\"");
+}
+
+void add_shadow_epsilon(CLI::App& app, RenderCommand& command) {
+  add_parsed(app, "--shadow-epsilon", command.shadow_epsilon, parse_shadow_epsilon,
+             "none, or a length of 0 or more", "X|none",
+             "For teaching: shadow rays start X from a surface, as in lectures, or with no remedy "
+             "against false shadows at all (Boule's own way, which needs no epsilon)");
+}
+
 void add_light_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Camera and light");
+  add_camera(app, command);
   add_choice(app, "--method", command.method, choices<Method>(), "How light is followed");
   add_whole(app, "--max-depth", command.max_depth, rule::bounces.low, rule::bounces.high,
             "Bounces after the first hit");
+  add_shadow_epsilon(app, command);
   const auto parse_stops = [](const std::string& text) {
     return parse_number(text, -100.0F, 100.0F);
   };
@@ -99,14 +122,15 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
   add_load_limit(app, command.load_limit);
   app.add_flag("--partial", command.partial,
                "Stopped by --time-limit or the first signal: write the picture as far as it is");
-  add_choice(app, "--order", command.order,
-             std::array{Choice{"rows", PixelOrder::rows}, Choice{"tiles", PixelOrder::tiles},
-                        Choice{"progressive", PixelOrder::progressive},
-                        Choice{"frameless", PixelOrder::frameless}},
-             "Order of the pixels; never shows in a finished picture (tiles; with --partial: "
-             "progressive)");
+  add_order(app, command,
+            "Order of the pixels; never shows in a finished picture (tiles; with --partial: "
+            "progressive)");
   add_whole(app, "--tile", command.tile, 1, max_tile,
             "Side of a tile in pixels (16 to 256, as fits)");
+}
+
+void add_threads(CLI::App& app, RunOptions& command) {
+  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
 }
 
 void add_compression(CLI::App& app, Compression& compression) {
@@ -139,7 +163,7 @@ void add_machine_options(CLI::App& app, RunOptions& command) {
   app.add_option("--isa", command.isa, "Instruction set; boule isa lists them (auto)")
       ->type_name("NAME");
   add_choice(app, "--solver", command.solver, choices<Solver>(), "How hits are found (robust)");
-  add_whole(app, "-t,--threads", command.threads, 0U, 1024U, "Threads, 0: all (0)");
+  add_threads(app, command);
 }
 
 void add_legend(CLI::App& app, std::string& legend) {
@@ -162,6 +186,27 @@ void add_render(CLI::App& app, RenderCommand& command) {
   add_legend(app, command.legend);
   add_compression(app, command.compression);
   add_report_options(app, command);
+  add_machine_options(app, command);
+}
+
+void add_view(CLI::App& app, ViewCommand& view) {
+  RenderCommand& command = view.render;
+  add_scene(app, command.scene);
+  add_view_options(app, view);
+  start_group(app, "Picture");
+  add_size(app, command);
+  add_order(app, command, "Order of the pixels at the beginning (progressive)");
+  add_camera(app, command);
+  add_whole(app, "--max-depth", command.max_depth, 0, view::max_view_depth,
+            "Bounces after the first hit");
+  add_choice(app, "--method", command.method, choices<Method>(), "How light is followed");
+  add_shadow_epsilon(app, command);
+  add_look_options(app, command.look);
+  start_group(app, "Reading");
+  add_frames(app, command.frames,
+             "A series: #### in the names of scene and data is the frame's number");
+  app.get_option("--frame")->excludes("--frames");
+  add_load_limit(app, command.load_limit);
   add_machine_options(app, command);
 }
 
@@ -224,38 +269,63 @@ Command help_on(const CLI::App& app, const std::string& name) {
   return unknown_command(app, name);
 }
 
-}  // namespace
-
-Command parse_command_line(int argc, const char* const* argv) {
+/// What can be told of each command.
+struct Commands {
   RenderCommand render;
+  ViewCommand view;
   SceneCommand scene;
   TraceCommand trace;
   InfoCommand info;
   IsaCommand isa;
   std::string help_topic;
+};
+
+void add_commands(CLI::App& app, Commands& commands) {
+  const auto add = [&app](const char* name, const char* what) -> CLI::App& {
+    CLI::App* const command = app.add_subcommand(name, what);
+    command->group("Commands");
+    return *command;
+  };
+  add_render(add("render", "Render a scene to a picture"), commands.render);
+  add_view(add("view", "Show a scene in a browser"), commands.view);
+  add_scene_text(add("scene", "Write the scene that shows a particle file"), commands.scene);
+  add_trace(add("trace", "Trace the rays of a file to hits"), commands.trace);
+  add_info(add("info", "Tell what a scene holds"), commands.info);
+  add("isa", "List the instruction sets")
+      .add_flag("--json", commands.isa.json, "As JSON, for programs");
+  add("help", "Tell the options of a command")
+      .add_option("COMMAND", commands.help_topic, "One of these commands")
+      ->type_name("");
+  add("version", "Tell the version");
+}
+
+/// The command that was chosen, or what is wrong with it.
+Command chosen_command(const CLI::App& app, Commands& commands, const std::string& version) {
+  const auto is_chosen = [&app](const char* name) { return app.got_subcommand(name); };
+  const auto checked = [&app](const char* name, auto& command, LookOptions& look) -> Command {
+    if (auto bad = check_look_options(*app.get_subcommand(name), look)) return *bad;
+    return command;
+  };
+  if (is_chosen("help")) return help_on(app, commands.help_topic);
+  if (is_chosen("version")) return TextCommand{version + "\n"};
+  if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
+  if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
+  if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
+  if (is_chosen("trace")) return commands.trace;
+  if (is_chosen("info")) return checked("info", commands.info, commands.info.look);
+  return commands.isa;
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  Commands commands;
   const std::string version = "boule " BOULE_VERSION;
   CLI::App app(description, "boule");
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  const auto add_command = [&app](const char* name, const char* what) {
-    CLI::App* const command = app.add_subcommand(name, what);
-    command->group("Commands");
-    return command;
-  };
-  CLI::App* const render_app = add_command("render", "Render a scene to a picture");
-  add_render(*render_app, render);
-  CLI::App* const scene_app = add_command("scene", "Write the scene that shows a particle file");
-  add_scene_text(*scene_app, scene);
-  CLI::App* const trace_app = add_command("trace", "Trace the rays of a file to hits");
-  add_trace(*trace_app, trace);
-  CLI::App* const info_app = add_command("info", "Tell what a scene holds");
-  add_info(*info_app, info);
-  CLI::App* const isa_app = add_command("isa", "List the instruction sets");
-  isa_app->add_flag("--json", isa.json, "As JSON, for programs");
-  CLI::App* const help_app = add_command("help", "Tell the options of a command");
-  help_app->add_option("COMMAND", help_topic, "One of these commands")->type_name("");
-  CLI::App* const version_app = add_command("version", "Tell the version");
+  add_commands(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -265,17 +335,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return explain_usage(app, error);
   }
-  if (help_app->parsed()) return help_on(app, help_topic);
-  if (version_app->parsed()) return TextCommand{version + "\n"};
-  const auto checked = [](const CLI::App& chosen, auto& command) -> Command {
-    if (auto bad = check_look_options(chosen, command.look)) return *bad;
-    return command;
-  };
-  if (render_app->parsed()) return checked(*render_app, render);
-  if (scene_app->parsed()) return checked(*scene_app, scene);
-  if (trace_app->parsed()) return trace;
-  if (info_app->parsed()) return checked(*info_app, info);
-  return isa;
+  return chosen_command(app, commands, version);
 }
 
 }  // namespace boule::cli

@@ -16,16 +16,9 @@
 #include "render/image/encode_image.h"
 #include "render/image/write_image.h"
 #include "render/renderer/aov_channels.h"
+#include "render/renderer/run_statistics.h"
 #include "render/scene_file/scene_file.h"
 #include "simd/abi/isa.h"
-
-namespace boule {
-
-/// As --solver and statistics name them.
-template <>
-inline constexpr std::array<std::string_view, 3> names<Solver>{"fast", "robust", "reference"};
-
-}  // namespace boule
 
 namespace boule::cli {
 
@@ -84,6 +77,8 @@ struct RenderCommand : RunOptions {
   std::optional<float> outline;  ///< pixels
   std::optional<Method> method;
   std::optional<int> max_depth;
+  std::string camera;                   ///< keys of [camera]; empty: the scene's
+  std::optional<float> shadow_epsilon;  ///< as RenderOptions
   std::optional<PixelRect> crop;
   AovSelection aovs;
   std::uint64_t seed = 0;
@@ -105,6 +100,15 @@ struct SceneCommand {
   std::string particles;             ///< a particle file
   std::optional<double> load_limit;  ///< seconds of reading
   LookOptions look;
+};
+
+/// `boule view`: `render` has the options that both have; it writes nothing.
+struct ViewCommand {
+  RenderCommand render;
+  std::string address = "127.0.0.1";
+  int port = 0;  ///< 0: one that is free
+  bool open = false;
+  std::optional<double> idle;  ///< seconds
 };
 
 /// `boule trace`.
@@ -138,8 +142,8 @@ struct UsageError {
   std::string help = "boule --help";
 };
 
-using Command = std::variant<RenderCommand, SceneCommand, TraceCommand, InfoCommand, IsaCommand,
-                             TextCommand, UsageError>;
+using Command = std::variant<RenderCommand, ViewCommand, SceneCommand, TraceCommand, InfoCommand,
+                             IsaCommand, TextCommand, UsageError>;
 
 /// Parses the command line.
 Command parse_command_line(int argc, const char* const* argv);

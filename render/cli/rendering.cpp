@@ -8,6 +8,7 @@
 #include <new>
 #include <system_error>
 
+#include "render/cli/camera_option.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/legend.h"
 #include "render/cli/messages.h"
@@ -124,6 +125,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.filter = command.filter.value_or(options.filter);
   options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
+  options.shadow_epsilon = command.shadow_epsilon;
   options.outline = command.outline.value_or(options.outline);
   options.crop = command.crop;
   options.aovs = command.aovs;
@@ -195,6 +197,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));
   choose_background(command_, scene);
+  if (auto bad = use_camera(command_, loaded.value())) return refuse(*bad, command_, wrong_usage);
   scene_hash_ = scene_hash(scene);
 
   RenderOptions options = combine(scene, command_);

@@ -1,7 +1,6 @@
 #include "render/frame/live_passes.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace boule {
 namespace {
@@ -12,7 +11,7 @@ constexpr std::uint32_t random_slices = 16;
 std::size_t first_passes(PixelOrder order) {
   switch (order) {
     case PixelOrder::progressive:
-      return static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(coarsest_spacing)));
+      return LivePasses::coarse_passes;
     case PixelOrder::frameless:
       return random_slices;
     case PixelOrder::rows:
@@ -55,6 +54,10 @@ LivePass LivePasses::operator[](std::size_t i) const {
     pass.share = static_cast<double>(i + 1) / random_slices / spp_;
   }
   return pass;
+}
+
+std::size_t LivePasses::interchangeable() const {
+  return order_ == PixelOrder::frameless ? random_slices : 1;
 }
 
 }  // namespace boule

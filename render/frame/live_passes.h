@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -53,12 +54,20 @@ inline constexpr int coarsest_spacing = 16;
 /// - rows, tiles: all samples in one pass.
 class LivePasses {
  public:
+  /// Order progressive: how many passes there are until every pixel has its first sample.
+  static constexpr std::size_t coarse_passes =
+      std::bit_width(static_cast<unsigned>(coarsest_spacing));
+
   /// For a picture of the pixels in `rect` with `spp` samples each; below 1 counts as 1.
   LivePasses(PixelOrder order, const PixelRect& rect, int spp);
 
   [[nodiscard]] std::size_t size() const;
   /// Pass i. Precondition: i < size().
   [[nodiscard]] LivePass operator[](std::size_t i) const;
+
+  /// How many passes at the beginning may come in any order: each gives other pixels their first
+  /// sample.
+  [[nodiscard]] std::size_t interchangeable() const;
 
  private:
   PixelOrder order_;

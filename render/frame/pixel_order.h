@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "core/scene/names.h"
 #include "render/frame/pixel_rect.h"
 
 namespace boule {
@@ -15,6 +18,9 @@ namespace boule {
 /// - progressive: every 2^k-th block of every 2^k-th row, then those between, down to k = 0.
 /// - frameless: shuffled.
 enum class PixelOrder { rows, tiles, progressive, frameless };
+template <>
+inline constexpr std::array<std::string_view, 4> names<PixelOrder>{"rows", "tiles", "progressive",
+                                                                   "frameless"};
 
 inline constexpr int max_tile = 1024;  ///< pixels
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/math/color.h"
 #include "core/math/sample_id.h"
@@ -11,6 +12,8 @@
 #include "simd/stream/stream_buffer.h"
 
 namespace boule {
+
+class RayRecord;
 
 /// How many rays were traced, by kind.
 struct RayCounts {
@@ -40,6 +43,11 @@ struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
   std::uint64_t seed = 0;  ///< of the random numbers of paths
+  /// None: shadow rays know which surface they leave. Else they start by the lecture's epsilon, 0
+  /// or more: start_by_epsilon(). For teaching.
+  std::optional<float> shadow_epsilon{};
+  /// Whitted only: keeps the rays of one camera ray; null: nobody asks. Then stream_size is 1.
+  RayRecord* record = nullptr;
   LightSampling light_sampling = LightSampling::both;
   std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true

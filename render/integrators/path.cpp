@@ -201,7 +201,10 @@ void Path::add_shadow_ray(const PathStream& stream, const Point& point, const Ra
   const double density = point.lobes.density(cosine, light.direction);
   const double weight = weight_of_light(light.density, density, ends(stream));
   const Color reflected = point.lobes.reflected(cosine, light.direction);
-  shadow_rays_.set(sampled_lights_.size(), ray);
+  const auto epsilon = this->epsilon();
+  shadow_rays_.set(
+      sampled_lights_.size(),
+      epsilon ? start_by_epsilon(ray, epsilon->points[point.ray], epsilon->length) : ray);
   sampled_lights_.push_back(
       {point.ray, multiply(reflected, light.radiance, weight / (elementary::pi * light.density))});
 }

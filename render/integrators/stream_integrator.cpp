@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/integrators/ray_record.h"
 #include "render/shading/background_radiance.h"
 #include "render/shading/lights.h"
 
@@ -55,13 +56,29 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   const Query query{settings_.solver, Form::automatic,
                     first_hits ? camera.coherence : Coherence::none};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  if (settings_.shadow_epsilon) find_float_points(stream);
+  if (settings_.record != nullptr)
+    settings_.record->begin(stream.rays->get(0), hit(0), stream.throughput[0]);
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
   for (const TargetedLight& light : lights_) add_light(light);
   add_more_light();
+  if (settings_.record != nullptr) settings_.record->finish(radiance_.front());
   for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
+}
+
+/// The points of the stream's hits as floats have them, for shadow rays that start by an epsilon.
+void StreamIntegrator::find_float_points(const PathStream& stream) {
+  if (float_points_.size() < hits_.size()) float_points_.resize(hits_.size());
+  for (std::size_t k = 0; k < hits_.size(); ++k)
+    float_points_[k] = float_point(stream.rays->get(k), hit(k));
+}
+
+std::optional<Illumination::Epsilon> StreamIntegrator::epsilon() const {
+  if (!settings_.shadow_epsilon) return std::nullopt;
+  return Illumination::Epsilon{*settings_.shadow_epsilon, float_points_.data()};
 }
 
 void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
@@ -82,17 +99,34 @@ void StreamIntegrator::find_surfaces(const Block& block) {
 
 /// Adds the direct light of one light, which takes one stream of shadow rays.
 void StreamIntegrator::add_light(const TargetedLight& light) {
-  const RayStream rays = illumination_.make_shadow_rays(kernels_, light.target, surfaces_);
+  const RayStream rays =
+      illumination_.make_shadow_rays(kernels_, light.target, surfaces_, epsilon());
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
   illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());
+  if (settings_.record != nullptr) record_shadow(light, rays, blocked);
+}
+
+/// The only shadow ray, with what blocks it, and what arrives along it.
+void StreamIntegrator::record_shadow(const TargetedLight& light, const RayStream& rays,
+                                     const std::uint8_t* blocked) {
+  const Query query{settings_.solver, Form::automatic, Coherence::none};
+  HitBuffer met(1);
+  if (blocked[0] != 0) kernels_.closest_hit(geometry_, rays, query, met.view());
+  Color arriving;
+  illumination_.add_unblocked(*light.light, surfaces_, blocked, &arriving);
+  const auto index = static_cast<std::size_t>(light.light - scene_.lights.data());
+  settings_.record->add_shadow(index, illumination_.shadow_ray(0),
+                               blocked[0] != 0 ? met.get(0) : Hit{}, arriving);
 }
 
 const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
                                                    Coherence coherence) {
   shadow_ += shadow_rays.size;
   blocked_.resize(std::bit_ceil(shadow_rays.size));
-  const Query query{settings_.solver, Form::automatic, coherence};
+  // By an epsilon each of them has an origin and an end of its own.
+  const Query query{settings_.solver, Form::automatic,
+                    settings_.shadow_epsilon ? Coherence::none : coherence};
   kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
   return blocked_.data();
 }

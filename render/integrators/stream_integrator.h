@@ -67,6 +67,8 @@ class StreamIntegrator : public Integrator {
   [[nodiscard]] Color& radiance(std::size_t ray) { return radiance_[ray]; }
   /// What a ray of the stream sees of the background: the camera's own rays see the backdrop.
   [[nodiscard]] Color seen_background(const PathStream& stream, std::size_t ray) const;
+  /// How shadow rays start by the lecture's epsilon; none: by themselves.
+  [[nodiscard]] std::optional<Illumination::Epsilon> epsilon() const;
   [[nodiscard]] bool ends(const PathStream& stream) const {
     return stream.depth == settings_.max_depth;
   }
@@ -87,8 +89,11 @@ class StreamIntegrator : public Integrator {
   };
 
   void trace_stream(const PathStream& stream, const CameraRays& camera);
+  void find_float_points(const PathStream& stream);
   void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
+  void record_shadow(const TargetedLight& light, const RayStream& rays,
+                     const std::uint8_t* blocked);
   [[nodiscard]] bool cancelled() const;
 
   GeometryView geometry_;
@@ -97,7 +102,8 @@ class StreamIntegrator : public Integrator {
 
   // Working memory of one stream.
   HitBuffer hits_;
-  std::vector<Color> radiance_;  ///< by ray
+  std::vector<Color> radiance_;      ///< by ray
+  std::vector<Vec3f> float_points_;  ///< by ray, where shadow rays start by an epsilon
   AlignedArray<std::uint8_t> blocked_;
 };
 

@@ -41,11 +41,20 @@ void Whitted::shade(const Block& block) {
 void Whitted::spawn_rays(const ScatteringHit& hit, const Surface& surface) {
   const Scatter weights = scatter(*hit.material, surface);
   if (!is_black(weights.reflection)) {
-    wavefront_.spawn(hit.ray, leave(surface, Side::viewer, surface.mirrored), weights.reflection);
+    spawn(hit.ray, leave(surface, Side::viewer, surface.mirrored), weights.reflection,
+          RayKind::reflection);
   }
   if (!is_black(weights.refraction)) {
-    wavefront_.spawn(hit.ray, leave(surface, Side::beyond, weights.refracted), weights.refraction);
+    spawn(hit.ray, leave(surface, Side::beyond, weights.refracted), weights.refraction,
+          RayKind::refraction);
   }
+}
+
+void Whitted::spawn(std::size_t parent, const Ray& ray, const Color& weight, RayKind kind) {
+  const std::uint64_t before = wavefront_.spawned();
+  wavefront_.spawn(parent, ray, weight);
+  if (settings_.record != nullptr && wavefront_.spawned() != before)
+    settings_.record->expect(kind, weight);
 }
 
 }  // namespace boule

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+
+#include "render/integrators/ray_record.h"
 #include "render/integrators/stream_integrator.h"
 
 namespace boule {
@@ -15,6 +18,7 @@ class Whitted final : public StreamIntegrator {
  private:
   void shade(const Block& block) override;
   void spawn_rays(const ScatteringHit& hit, const Surface& surface);
+  void spawn(std::size_t parent, const Ray& ray, const Color& weight, RayKind kind);
 };
 
 }  // namespace boule

@@ -18,19 +18,20 @@ AreaLight area_light(const Vec3f& center, float radius, const Color& radiance) {
 
 }  // namespace
 
-AreaLights::AreaLights(const Scene& scene) {
+AreaLights::AreaLights(const std::vector<Light>& lights, const std::vector<Sphere>& spheres,
+                       const std::vector<Material>& materials) {
   const auto add = [this](const AreaLight& light) {
     if (is_black(light.radiance)) return;
     lights_.push_back(light);
     power_ += power_of(light);
   };
-  for (const Light& light : scene.lights) {
+  for (const Light& light : lights) {
     const auto* sphere = std::get_if<SphereLight>(&light);
     if (sphere) add(area_light(sphere->center, sphere->radius, sphere->radiance));
   }
   sphere_lights_ = lights_.size();
-  for (const Sphere& sphere : scene.spheres) {
-    const Material& material = scene.materials[sphere.material.index()].material;
+  for (const Sphere& sphere : spheres) {
+    const Material& material = materials[sphere.material.index()];
     if (!std::holds_alternative<Emissive>(material)) continue;
     const auto emissive = std::get<Emissive>(
         sphere.material.has_color() ? recolored(material, linear_of(sphere.material.color()))

@@ -22,8 +22,9 @@ struct AreaLight {
 class AreaLights {
  public:
   AreaLights() = default;
-  /// Precondition: the scene is valid.
-  explicit AreaLights(const Scene& scene);
+  /// Preconditions: they are those of a valid scene, and each sphere's material is among these.
+  AreaLights(const std::vector<Light>& lights, const std::vector<Sphere>& spheres,
+             const std::vector<Material>& materials);
 
   [[nodiscard]] bool empty() const { return lights_.empty(); }
 

@@ -66,40 +66,55 @@ Status add_camera(Scene& scene, int width, int height, std::vector<std::string>&
   return std::nullopt;
 }
 
-void add_light(Scene& scene, Method method, std::vector<std::string>& notes) {
-  if (!lacks_light(scene, method)) return;
-  notes.emplace_back(light_note(scene, method));
-  scene.lights = default_lights(*scene.camera);
-}
-
 EnvironmentLight environment_light(const Scene& scene, Method method) {
   const auto* image = std::get_if<EnvironmentBackground>(&scene.background);
   return image && method == Method::path ? EnvironmentLight(*image) : EnvironmentLight();
 }
 
+Status check_size(int width, int height) {
+  if (auto bad = check_range("image.size", width, rule::image_side)) return bad;
+  return check_range("image.size", height, rule::image_side);
+}
+
 }  // namespace
+
+Status reframe(PreparedScene& scene, const Camera& camera, int width, int height) {
+  const FloatEnvironment floats;
+  if (auto bad = check_size(width, height)) return bad;
+  if (const auto problem = find_problem(camera))
+    return Diagnostic::about("camera." + problem->field, problem->message);
+  std::vector<Light> lights = scene.lit_by_default ? default_lights(camera) : scene.own_lights;
+  if (auto bad = place_lights(lights, camera)) return bad;
+  LensOptics lens = build_lens(camera, width, height);
+  Camera own = camera;
+  if (scene.method == Method::path)
+    scene.area_lights = AreaLights(lights, scene.spheres, scene.plain_materials);
+  scene.lights = std::move(lights);
+  scene.camera = std::move(own);
+  scene.lens = std::move(lens);
+  // The view points to numbers in `distortion` and `lens`, which stay where they are when these
+  // move.
+  scene.camera_view =
+      build_camera(scene.camera, width, height,
+                   scene.distortion.st.empty() ? nullptr : &scene.distortion, &scene.lens);
+  scene.coherence = primary_coherence(scene.camera_view.kind);
+  scene.central_coherence = central_coherence(scene.camera_view.kind);
+  return std::nullopt;
+}
 
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
   const FloatEnvironment floats;
-  if (auto bad = check_range("image.size", width, rule::image_side)) return *bad;
-  if (auto bad = check_range("image.size", height, rule::image_side)) return *bad;
+  if (auto bad = check_size(width, height)) return *bad;
   if (auto bad = validate(scene)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;
   if (auto bad = add_camera(scene, width, height, notes)) return *bad;
-  if (auto bad = place_lights(scene.lights, *scene.camera)) return *bad;
-  add_light(scene, method, notes);
+  const bool lit_by_default = lacks_light(scene, method);
+  if (lit_by_default) notes.emplace_back(light_note(scene, method));
   EnvironmentLight environment = environment_light(scene, method);
-  AreaLights area_lights = method == Method::path ? AreaLights(scene) : AreaLights();
-  DistortionMap distortion = std::move(scene.distortion).value_or(DistortionMap{});
-  LensOptics lens = build_lens(*scene.camera, width, height);
   const bool own_colors = has_own_colors(scene);
-  // The view points to numbers in `distortion` and `lens`, which stay where they are when these
-  // move.
-  const CameraView view = build_camera(*scene.camera, width, height,
-                                       distortion.st.empty() ? nullptr : &distortion, &lens);
-  return PreparedScene{
+  PreparedScene prepared{
       .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
       .spheres = std::move(scene.spheres),  // only now: the geometry has read them
       .planes = std::move(scene.planes),
@@ -108,18 +123,15 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
       .has_own_colors = own_colors,
       .method = method,
       .ambient = scene.ambient,
-      .lights = std::move(scene.lights),
-      .area_lights = std::move(area_lights),
+      .own_lights = std::move(scene.lights),
+      .lit_by_default = lit_by_default,
       .background = std::move(scene.background),
       .backdrop = scene.backdrop,
       .environment = std::move(environment),
-      .camera = std::move(*scene.camera),
-      .distortion = std::move(distortion),
-      .lens = std::move(lens),
-      .camera_view = view,
-      .coherence = primary_coherence(view.kind),
-      .central_coherence = central_coherence(view.kind),
+      .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
       .notes = std::move(notes)};
+  if (auto bad = reframe(prepared, *scene.camera, width, height)) return *bad;
+  return prepared;
 }
 
 }  // namespace boule

@@ -29,17 +29,19 @@ struct PreparedScene {
   bool has_own_colors = false;            ///< some primitive has a colour of its own
   Method method = Method::whitted;        ///< for which the materials are flattened
   Color ambient;
-  std::vector<Light> lights;  ///< in file order
-  AreaLights area_lights;     ///< for path tracing
+  std::vector<Light> own_lights;  ///< as the scene has them, not placed by its camera yet
+  bool lit_by_default = false;    ///< it has none, and gets default_lights()
+  std::vector<Light> lights{};    ///< in file order, placed
+  AreaLights area_lights{};       ///< for path tracing
   Background background;
   std::optional<Color> backdrop;   ///< what camera rays see instead
   EnvironmentLight environment;    ///< the background's image as a light, for path tracing
-  Camera camera;                   ///< the scene's, or the default one
+  Camera camera{};                 ///< the scene's, or the default one
   DistortionMap distortion;        ///< owns what camera_view.distortion points to
-  LensOptics lens;                 ///< owns what camera_view.lens points to
-  CameraView camera_view;          ///< the camera as the kernels read it
-  Coherence coherence;             ///< what primary rays have in common
-  Coherence central_coherence;     ///< what those through the centre of the lens have in common
+  LensOptics lens{};               ///< owns what camera_view.lens points to
+  CameraView camera_view{};        ///< the camera as the kernels read it
+  Coherence coherence{};           ///< what primary rays have in common
+  Coherence central_coherence{};   ///< what those through the centre of the lens have in common
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
   /// What the primitive with this id is made of. Precondition of this and of material_of(): there
@@ -76,5 +78,11 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);
+
+/// Gives a prepared scene another camera, for a picture of this size: what depends on them is made
+/// anew, and the scene is as if it had been prepared so. `notes` stay. An error as of prepare(),
+/// and then the scene is unchanged. Throws std::bad_alloc. Precondition: nobody reads the scene
+/// meanwhile.
+Status reframe(PreparedScene& scene, const Camera& camera, int width, int height);
 
 }  // namespace boule

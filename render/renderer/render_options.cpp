@@ -64,6 +64,9 @@ Status validate(const RenderOptions& options) {
   if (auto bad = check_range("image.spp", options.spp, rule::samples)) return bad;
   if (auto bad = check_range("render.max_depth", options.max_depth, rule::bounces)) return bad;
   if (auto bad = check_range("tile", options.tile, {.low = 0, .high = max_tile})) return bad;
+  if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
+    return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
+  }
   if (!rule::outline.allows(double{options.outline})) {
     return Diagnostic::about("image.outline", "must be " + describe(rule::outline));
   }

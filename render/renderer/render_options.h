@@ -18,7 +18,7 @@
 namespace boule {
 
 /// How a scene is rendered. The picture depends on the options from `width` to `crop` only, and on
-/// `solver` only where that is fast.
+/// `solver` only where that is fast, or where there is a `shadow_epsilon`.
 struct RenderOptions {
   int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
   int height = 720;  ///< likewise
@@ -31,6 +31,9 @@ struct RenderOptions {
   /// pixel's samples that hit something.
   bool transparent = false;
   Solver solver = Solver::robust;
+  /// For teaching: shadow rays start by the lecture's epsilon, in units of length, 0 (no remedy
+  /// against false shadows) or more; none: they know which surface they leave.
+  std::optional<float> shadow_epsilon{};
   float outline = 0;              ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: none
   std::optional<PixelRect> crop;  ///< the pixels of the frame to render; all if there is none
   AovSelection aovs;              ///< which AOVs render_aovs() finds

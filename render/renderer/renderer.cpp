@@ -21,9 +21,10 @@ Diagnostic moved_away() { return Diagnostic::of("the renderer was moved away"); 
 
 }  // namespace
 
-Renderer::Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels)
+Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
+                   const KernelTable& kernels)
     : options_(options),
-      scene_(std::make_unique<const PreparedScene>(std::move(scene))),
+      scene_(std::move(scene)),
       setup_(std::make_unique<const BlockSetup>(
           BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
                      block_pixels(options.tile), fitting_stream_size(scene_->spheres.size()),
@@ -47,19 +48,31 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
   return guard_preparation([&]() -> Result<Renderer> {
     if (auto bad = check_scene_memory(scene)) return *bad;
     if (auto bad = validate(options)) return *bad;
-    const auto kernels = kernels_for(options.isa, options.solver);
-    if (!kernels) return kernels.error();
+    if (const auto kernels = kernels_for(options.isa, options.solver); !kernels)
+      return kernels.error();
     Scheduler scheduler(options.threads);
     Result<PreparedScene> prepared =
         prepare(std::forward<AnyScene>(scene), options.width, options.height,
                 scheduler.parallel_for(), options.method);
     if (!prepared) return prepared.error();
     if (options.transparent) prepared.value().backdrop = Color{};
-    RenderOptions fitted = options;
-    fitted.tile = fitting_tile(options, scheduler.workers(), prepared.value().spheres.size());
-    Renderer renderer(fitted, std::move(prepared).value(), *kernels.value());
-    renderer.prepare_seconds_ = watch.seconds();
+    auto renderer =
+        create(std::make_shared<const PreparedScene>(std::move(prepared).value()), options);
+    if (renderer) renderer.value().prepare_seconds_ = watch.seconds();
     return renderer;
+  });
+}
+
+Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
+                                  const RenderOptions& options) {
+  return guard_preparation([&]() -> Result<Renderer> {
+    if (auto bad = validate(options)) return *bad;
+    const auto kernels = kernels_for(options.isa, options.solver);
+    if (!kernels) return kernels.error();
+    RenderOptions fitted = options;
+    fitted.tile =
+        fitting_tile(options, Scheduler(options.threads).workers(), scene->spheres.size());
+    return Renderer(fitted, std::move(scene), *kernels.value());
   });
 }
 
@@ -121,6 +134,11 @@ Status Renderer::render_live(Film& film) {
   return std::nullopt;
 }
 
+BlockWorker& Renderer::worker(unsigned index) {
+  if (!workers_[index]) workers_[index] = make_worker();
+  return *workers_[index];
+}
+
 /// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span) {
   const Stopwatch watch;
@@ -131,8 +149,7 @@ Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan&
     if (options_.progress) options_.progress(live.read());
   };
   const auto body = [&](unsigned worker, std::size_t block) {
-    if (!workers_[worker]) workers_[worker] = make_worker();
-    BlockWorker& mine = *workers_[worker];
+    BlockWorker& mine = this->worker(worker);
     const std::uint64_t before = mine.counts().total();
     live.begin_block();
     if (!task(mine, blocks_[block])) return live.drop_block();
@@ -210,13 +227,19 @@ Status Renderer::run_extra(const BlockOrder& blocks, const Make& make, const Tas
   return status;
 }
 
-std::unique_ptr<BlockWorker> Renderer::make_worker() const {
+IntegratorSettings Renderer::integrator_settings() const {
   IntegratorSettings settings;
   settings.solver = options_.solver;
   settings.max_depth = options_.max_depth;
   settings.stream_size = setup_->stream_size;
   settings.cancel = options_.cancel;
   settings.seed = options_.seed;
+  settings.shadow_epsilon = options_.shadow_epsilon;
+  return settings;
+}
+
+std::unique_ptr<BlockWorker> Renderer::make_worker() const {
+  const IntegratorSettings settings = integrator_settings();
   std::unique_ptr<Integrator> integrator;
   if (options_.method == Method::path) {
     integrator = std::make_unique<Path>(*scene_, setup_->kernels, settings);

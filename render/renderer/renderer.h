@@ -8,10 +8,13 @@
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "render/frame/film.h"
+#include "render/frame/live_passes.h"
 #include "render/frame/scheduler.h"
 #include "render/image/image.h"
 #include "render/integrators/integrator.h"
+#include "render/integrators/ray_record.h"
 #include "render/renderer/block_worker.h"
+#include "render/renderer/live_position.h"
 #include "render/renderer/outline.h"
 #include "render/renderer/render_options.h"
 #include "render/renderer/run_statistics.h"
@@ -38,6 +41,11 @@ class Renderer {
   /// The same without a copy of the spheres and planes.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
+  /// Of a scene that was prepared for `options`: their size, method and transparency. Several
+  /// renderers can share it. Precondition, not checked: that it was.
+  static Result<Renderer> create(std::shared_ptr<const PreparedScene> scene,
+                                 const RenderOptions& options);
+
   /// Renders the whole picture, or its crop, in one pass. The picture is the same as that of a film
   /// after render_pass(), without the memory of a film.
   Result<Image> render();
@@ -53,10 +61,27 @@ class Renderer {
   /// can be shown all the same.
   Status render_live(Film& film);
 
+  /// render_live() in steps: goes on with `position` and moves it on, and ends after about `limit`.
+  /// options.update is not called. An error if it was cancelled; then the film has whole samples,
+  /// but it can only begin anew.
+  Status render_step(Film& film, LivePosition& position, const StepLimit& limit);
+  [[nodiscard]] bool done(const LivePosition& position) const;
+  /// Where to begin with an empty film, so that the pixels that have waited longest come first.
+  [[nodiscard]] LivePosition restarted(const LivePosition& position) const;
+  /// The share of all samples that are done.
+  [[nodiscard]] double share_done(const LivePosition& position) const;
+
   /// The AOVs that options.aovs selects, as extra channels for write_image(). They are those of the
   /// rays through the pixels' centres, without a filter. These rays count as primary rays. An error
   /// if it was cancelled.
   Result<std::vector<ImageChannel>> render_aovs();
+
+  /// The rays of the recursion through the centre of pixel (x, y), and of the lens: Whitted's,
+  /// whatever the method. Returns the weight that the camera gives the sample: the picture with one
+  /// sample has the record's total times it. 0: there is no ray, and nothing is recorded. An error
+  /// if there are too many rays. Preconditions: the pixel lies in the frame; the scene was prepared
+  /// for Method::whitted.
+  Result<float> record_pixel(int x, int y, RayRecord& record) const;
 
   /// The lines that options.outline asks for. render() draws them itself; onto a picture of a film
   /// they are drawn by Outline::draw(). Their rays count as primary rays. An error if it was
@@ -75,13 +100,18 @@ class Renderer {
  private:
   template <class AnyScene>
   static Result<Renderer> create_from(AnyScene&& scene, const RenderOptions& options);
-  Renderer(const RenderOptions& options, PreparedScene scene, const KernelTable& kernels);
+  Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
+           const KernelTable& kernels);
   std::unique_ptr<BlockWorker> make_worker() const;
+  [[nodiscard]] IntegratorSettings integrator_settings() const;
   [[nodiscard]] RayCounts count_rays() const;
   [[nodiscard]] SampleFaults count_faults() const;
   /// Renders a block. False if it was cancelled.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
+  BlockWorker& worker(unsigned index);
   Status check_film(const Film& film) const;
+  Status run_slice(Film& film, const LivePass& pass, LivePosition& position,
+                   const BlockRange& range);
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
   Status find_aovs(AovChannels& channels);
   Status find_lines(Outline& outline);
@@ -89,7 +119,7 @@ class Renderer {
   Status run_extra(const BlockOrder& blocks, const Make& make, const Task& task);
 
   RenderOptions options_;
-  std::unique_ptr<const PreparedScene> scene_;  ///< on the heap, because workers refer to it
+  std::shared_ptr<const PreparedScene> scene_;  ///< on the heap, because workers refer to it
   std::unique_ptr<const BlockSetup> setup_;     ///< likewise
   BlockOrder blocks_;
   Scheduler scheduler_;

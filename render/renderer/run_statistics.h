@@ -1,10 +1,16 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
+#include "core/scene/names.h"
 #include "simd/abi/isa.h"
 
 namespace boule {
+
+/// As options and statistics name them.
+template <>
+inline constexpr std::array<std::string_view, 3> names<Solver>{"fast", "robust", "reference"};
 
 /// What ran, and how long its preparation took.
 struct RunStatistics {

@@ -22,14 +22,25 @@ void Illumination::start(std::size_t rays) {
 }
 
 RayStream Illumination::make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
-                                         StreamSurfaces& surfaces) {
+                                         StreamSurfaces& surfaces,
+                                         const std::optional<Epsilon>& epsilon) {
   RayStream rays = shadow_rays_.view();
   shadow_count_ =
       any_ ? kernels.make_shadow_rays(light, surfaces.lit(lit_.data(), size_),
                                       {rays, to_light_.view(), cosines_.data(), rays_.data()})
            : 0;
   rays.size = shadow_count_;
+  if (epsilon) start_by(*epsilon, light);
   return rays;
+}
+
+void Illumination::start_by(const Epsilon& epsilon, const ShadowTarget& light) {
+  const Vec3d target{light.target[0], light.target[1], light.target[2]};
+  for (std::size_t k = 0; k < shadow_count_; ++k) {
+    Ray ray = start_by_epsilon(shadow_rays_.get(k), epsilon.points[rays_[k]], epsilon.length);
+    if (!light.directional) ray.dir = vec_cast<float>(target - ray.org);
+    shadow_rays_.set(k, ray);
+  }
 }
 
 template <class AnyLight>

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/math/color.h"
@@ -27,10 +28,19 @@ class Illumination {
     any_ = true;
   }
 
+  /// By the lecture's epsilon: how long it is, and the points as floats have them, by ray.
+  struct Epsilon {
+    float length;
+    const Vec3f* points;
+  };
+
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
-  /// call. All points are found in `surfaces`.
+  /// call. All points are found in `surfaces`. With an epsilon they start by it.
   RayStream make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
-                             StreamSurfaces& surfaces);
+                             StreamSurfaces& surfaces, const std::optional<Epsilon>& epsilon = {});
+
+  /// One of the last shadow rays.
+  [[nodiscard]] Ray shadow_ray(std::size_t k) const { return shadow_rays_.get(k); }
 
   /// Adds the light to radiance[ray] for every shadow ray k with blocked[k] = 0, where the shadow
   /// ray belongs to ray `ray`. The light is that of the last shadow rays.
@@ -41,6 +51,7 @@ class Illumination {
   template <class AnyLight>
   void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
                  Color* radiance) const;
+  void start_by(const Epsilon& epsilon, const ShadowTarget& light);
 
   std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;

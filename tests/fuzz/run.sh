@@ -7,10 +7,10 @@ set -euo pipefail
 source="$1" build="$2" effort="$3"
 shift 3
 names=("$@")
-((${#names[@]} > 0)) || names=(toml nff npy lens particles options rays)
+((${#names[@]} > 0)) || names=(toml nff npy lens particles options view rays)
 
 declare -A daily_inputs=([toml]=3000 [nff]=6000 [npy]=8000 [lens]=2000 [particles]=6000 [options]=500
-  [rays]=500 [picture]=1000)
+  [rays]=500 [view]=4000 [picture]=1000)
 
 command -v clang++ >/dev/null || { echo "clang++ is missing"; exit 77; }
 echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' |

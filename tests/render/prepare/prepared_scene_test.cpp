@@ -125,7 +125,9 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
   const auto lamp = add_material(scene, Emissive{gray(1)});
   const auto dark = add_material(scene, Emissive{gray(0)});
   scene.spheres = {{{4, 5, 6}, 2, lamp}, {{7, 8, 9}, 5, dark}, {{7, 8, 9}, 1, lamp}};
-  const AreaLights lights(scene);  // powers 4, 12 and 3
+  std::vector<Material> materials;
+  for (const NamedMaterial& named : scene.materials) materials.push_back(named.material);
+  const AreaLights lights(scene.lights, scene.spheres, materials);  // powers 4, 12 and 3
   EXPECT_EQ(lights.sphere_light_count(), 1u);
   // By power in 19ths for one half, evenly in 3rds for the other.
   for (const auto& [at, share, x, rest] : {std::tuple{0.0, 31.0, 1.0, 0.0},
@@ -140,7 +142,7 @@ TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
     EXPECT_NEAR(u, rest, 1e-14);
   }
   EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 28 / 114.0, 1e-15);
-  EXPECT_TRUE(AreaLights(Scene{}).empty());
+  EXPECT_TRUE(AreaLights({}, {}, {}).empty());
 }
 
 TEST(Prepare, SaysThatItMadeACamera) {

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/math/color.h"
+#include "core/math/ray.h"
+
+namespace boule {
+
+/// What a ray of Whitted's recursion is for.
+enum class RayKind { primary, reflection, refraction, shadow };
+
+/// One ray of the recursion, as a teacher draws it on the board.
+struct RecordedRay {
+  RayKind kind = RayKind::primary;
+  int parent = -1;  ///< an earlier ray's index; -1: none
+  int depth = 0;    ///< bounces before it
+  Ray ray;
+  Hit hit;           ///< of a shadow ray: what is in its way
+  Color weight;      ///< in the light that its parent returns
+  Color throughput;  ///< in the sample
+  Color own;         ///< what it found by itself; of a shadow ray: the light that it lets through
+  std::size_t light = 0;  ///< of a shadow ray: which light it goes to
+};
+
+/// The rays of one sample, in the order of the recursion: parents before children, shadow rays
+/// behind the ray whose hit they leave. An integrator keeps it for one camera ray with streams of
+/// one ray each (IntegratorSettings::record).
+class RayRecord {
+ public:
+  static constexpr std::size_t most_rays = 4096;
+
+  /// Forgets everything.
+  void start();
+  /// The next ray of the recursion begins, which is what the last calls of expect() have told.
+  void begin(const Ray& ray, const Hit& hit, const Color& throughput);
+  /// A shadow ray of the current ray to one of the lights.
+  void add_shadow(std::size_t light, const Ray& ray, const Hit& hit, const Color& arriving);
+  /// The current ray sends on a ray.
+  void expect(RayKind kind, const Color& weight);
+  /// What the current ray found by itself.
+  void finish(const Color& own);
+
+  [[nodiscard]] const std::vector<RecordedRay>& rays() const { return rays_; }
+
+  /// True once there are more rays than anybody reads: it keeps no more, and IntegratorSettings
+  /// cancels by it.
+  [[nodiscard]] const std::atomic<bool>& full() const { return full_; }
+
+  /// The radiance of the sample: summed per depth, and then over the depths, in float, as the
+  /// renderer does.
+  [[nodiscard]] Color total() const;
+  /// What each ray returns to its parent: `own` and the weighted light of its children, in their
+  /// order. Of a shadow ray: `own`.
+  [[nodiscard]] std::vector<Color> returned() const;
+
+ private:
+  struct Expected {
+    RayKind kind;
+    int parent;
+    Color weight;
+  };
+
+  std::vector<RecordedRay> rays_;
+  std::vector<Expected> waiting_;   ///< a stack
+  std::vector<Expected> children_;  ///< of the current ray, in order
+  std::size_t current_ = 0;
+  std::atomic<bool> full_{false};
+};
+
+}  // namespace boule

@@ -1,0 +1,31 @@
+#include "core/base/float_environment.h"
+#include "render/integrators/whitted.h"
+#include "render/renderer/renderer.h"
+
+/// The recursion of one pixel, for those who ask what its colour is made of.
+namespace boule {
+
+Result<float> Renderer::record_pixel(int x, int y, RayRecord& record) const {
+  const FloatEnvironment environment;
+  const CameraView& camera = scene_->camera_view;
+  SampleBuffer samples;
+  samples.resize(1, camera);  // sets its place on a lens to the centre
+  samples.set(0, x + 0.5, y + 0.5);
+  RayBuffer rays(1);
+  setup_->kernels.primary_rays(camera, samples.view(), rays.view());
+  record.start();
+  const float weight = camera.weighs ? samples.weight(0) : 1;
+  if (weight == 0) return weight;
+  IntegratorSettings settings = integrator_settings();
+  settings.stream_size = 1;
+  settings.record = &record;
+  settings.cancel = &record.full();
+  Whitted integrator(*scene_, setup_->kernels, settings);
+  Color radiance;
+  if (!integrator.trace({rays, scene_->coherence, nullptr}, &radiance))
+    return Diagnostic::of("the recursion has more than " + std::to_string(RayRecord::most_rays) +
+                          " rays here");
+  return weight;
+}
+
+}  // namespace boule

@@ -1,0 +1,11 @@
+#include "render/view/jpeg.h"
+
+/// In place of jpeg.cpp where there is no libjpeg-turbo.
+namespace boule::view {
+
+bool has_jpeg() { return false; }
+JpegEncoder::JpegEncoder() = default;
+JpegEncoder::~JpegEncoder() = default;
+std::string JpegEncoder::encode(const Image&, float, int) { return {}; }
+
+}  // namespace boule::view

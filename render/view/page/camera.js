@@ -1,0 +1,132 @@
+// Cameras as the protocol has them: what moves them, and where they show a point. Vectors are arrays
+// of three numbers; nothing here changes its arguments.
+
+export const add = (a, b) => a.map((x, i) => x + b[i]);
+export const subtract = (a, b) => a.map((x, i) => x - b[i]);
+export const scaled = (a, s) => a.map((x) => x * s);
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [
+  a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0],
+];
+export const length = (a) => Math.hypot(...a);
+export const unit = (a) => scaled(a, 1 / length(a));
+
+const radians = (degrees) => degrees * Math.PI / 180;
+const narrowest = 1e-4;  // degrees of a long lens
+const nearestPole = radians(1);  // between the view and `up`
+
+/** The frame of a camera: `ahead`, `right`, `above`, and the distance to what it looks at. */
+export function frameOf(camera) {
+  const view = subtract(camera.look_at, camera.eye);
+  const distance = length(view);
+  const ahead = scaled(view, 1 / distance);
+  const right = unit(cross(ahead, camera.up));
+  return {ahead, right, above: cross(right, ahead), distance};
+}
+
+function rotated(vector, axis, angle) {
+  const c = Math.cos(angle);
+  const s = Math.sin(angle);
+  return add(add(scaled(vector, c), scaled(cross(axis, vector), s)),
+             scaled(axis, dot(axis, vector) * (1 - c)));
+}
+
+/** Goes around what it looks at: `yaw` to the right and `pitch` upward, in radians. */
+export function orbit(camera, yaw, pitch) {
+  const up = unit(camera.up);
+  const {ahead, right, distance} = frameOf(camera);
+  const polar = Math.acos(Math.max(-1, Math.min(1, -dot(ahead, up))));  // of the eye, from `up`
+  const wanted = Math.max(nearestPole, Math.min(Math.PI - nearestPole, polar - pitch));
+  let back = scaled(ahead, -distance);
+  back = rotated(back, right, wanted - polar);
+  back = rotated(back, up, yaw);
+  return {eye: add(camera.look_at, back)};
+}
+
+/** Half of the picture's width and height, at distance 1 or, for an orthographic camera, as it is. */
+export function halfExtent(camera, [width, height]) {
+  if (camera.type === 'orthographic') {
+    return [camera.height / 2 * width / height, camera.height / 2];
+  }
+  const half = radians((camera.fov ?? 40) / 2);
+  const reach = camera.type === 'fisheye' ? half : Math.tan(half);
+  const axis = camera.fov_axis ?? 'x';
+  const spansHeight = axis === 'y' || (axis === 'max' && height > width);
+  return spansHeight ? [reach * width / height, reach] : [reach, reach * height / width];
+}
+
+/** Moves across the view, by shares of the picture's width and height: what is looked at follows. */
+export function pan(camera, size, shareX, shareY) {
+  const {right, above, distance} = frameOf(camera);
+  const [x, y] = halfExtent(camera, size);
+  const depth = camera.type === 'orthographic' ? 1 : distance;
+  const step = add(scaled(right, -2 * shareX * x * depth), scaled(above, 2 * shareY * y * depth));
+  return {eye: add(camera.eye, step), look_at: add(camera.look_at, step)};
+}
+
+/** Comes nearer: the distance is multiplied by `factor`; an orthographic camera's height is. */
+export function dolly(camera, factor) {
+  if (camera.type === 'orthographic') return {height: camera.height * factor};
+  const back = scaled(subtract(camera.eye, camera.look_at), factor);
+  const eye = add(camera.look_at, back);
+  return length(subtract(eye, camera.look_at)) > 0 ? {eye} : {};
+}
+
+/** Sensible limits of `fov` in degrees; what the camera has is among them. */
+export function fovLimits({type, fov}) {
+  const [low, high] = type === 'fisheye' ? [10, 360] : [1, 170];
+  return [Math.min(low, fov), Math.max(high, fov)];
+}
+
+/** Sees more (factor above 1) or less. */
+export function widen(camera, factor) {
+  if (camera.type === 'orthographic') return {height: camera.height * factor};
+  if (camera.fov === undefined) return {};
+  const [, high] = fovLimits(camera);
+  return {fov: Math.max(narrowest, Math.min(high, camera.fov * factor))};
+}
+
+/** Shows all of a sphere around the scene, from the direction it is seen from. */
+export function fit(camera, {center, radius}, size) {
+  const {ahead} = frameOf(camera);
+  const margin = 1.05;
+  const [x, y] = halfExtent(camera, size);
+  let distance = length(subtract(camera.eye, camera.look_at));
+  const changes = {look_at: center};
+  if (camera.type === 'orthographic') {
+    changes.height = 2 * radius * margin * Math.max(1, y / x);
+    distance = Math.max(distance, 2 * radius);
+  } else if (camera.type === 'fisheye') {
+    distance = radius * margin / Math.sin(Math.min(Math.PI / 2, x, y));
+  } else {
+    distance = radius * margin / Math.sin(Math.atan(Math.min(x, y)));
+  }
+  if (camera.focus) changes.focus = null;
+  return {...changes, eye: subtract(center, scaled(ahead, distance))};
+}
+
+/** Where a point is in the camera's frame: to the right, upward, ahead. */
+export function inFrame(camera, point) {
+  const {right, above, ahead} = frameOf(camera);
+  const from = subtract(point, camera.eye);
+  return [dot(from, right), dot(from, above), dot(from, ahead)];
+}
+
+/** The pixel, with fractions, that shows a point of the camera's frame, or null where none does.
+ * A lens' rays are not followed: null. */
+export function pixelOf(camera, [x, y, z], size) {
+  const [halfX, halfY] = halfExtent(camera, size);
+  let film;
+  if (camera.type === 'orthographic') {
+    film = [x / halfX, y / halfY];
+  } else if (camera.type === 'fisheye') {
+    const across = Math.hypot(x, y);
+    const angle = Math.atan2(across, z);
+    film = across === 0 ? [0, 0] : [x / across * angle / halfX, y / across * angle / halfY];
+  } else if (camera.type === 'lens' || !(z > 0)) {
+    return null;
+  } else {
+    film = [x / z / halfX, y / z / halfY];
+  }
+  return [(film[0] + 1) / 2 * size[0], (1 - film[1]) / 2 * size[1]];
+}

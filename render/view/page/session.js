@@ -1,0 +1,122 @@
+// What the page knows of the server: its state, the camera, and what was asked for.
+
+export class Session {
+  constructor() {
+    this.state = null;
+    this.camera = null;
+    this.number = 0;        // the last number that was sent
+    this.cameraNumber = 0;  // the last one of a camera
+    this.startCamera = null;
+    this.startSize = null;
+    this.listeners = new Map();
+    this.waiting = new Map();  // id -> what to do with the answer
+    this.id = 0;
+    this.pending = null;  // a camera that waits for the next picture of the screen
+  }
+
+  on(event, listener) {
+    if (!this.listeners.has(event)) this.listeners.set(event, []);
+    this.listeners.get(event).push(listener);
+  }
+
+  tell(event, value) {
+    for (const listener of this.listeners.get(event) ?? []) listener(value);
+  }
+
+  /** Takes a message of the server. */
+  receive(message) {
+    if (message.type === 'state') return this.take(message);
+    if (!this.answer(message)) this.tell(message.type, message);
+  }
+
+  /** Hands an answer, or an error, to who asked; whether somebody did. */
+  answer(message) {
+    const isError = message.type === 'error';
+    for (const [id, {type, resolve, reject}] of this.waiting) {
+      const isOurs = message.id === id || (isError && message.about === 'save' && type === 'saved');
+      if (!isOurs || (!isError && message.type !== type)) continue;
+      this.waiting.delete(id);
+      if (isError) reject(new Error(message.text));
+      else resolve(message);
+      return true;
+    }
+    return false;
+  }
+
+  take(state) {
+    const isFirst = this.state === null || this.state.scene.path !== state.scene.path;
+    this.state = state;
+    this.number = Math.max(this.number, state.number);  // the server may know a page before this one
+    if (isFirst) {
+      this.startCamera = structuredClone(state.start?.camera ?? state.camera);
+      this.startSize = state.start?.size ?? state.settings.size;
+    }
+    // A state from before our last camera has an old one.
+    if (!this.camera || isFirst || state.number >= this.cameraNumber) {
+      this.camera = structuredClone(state.camera);
+      this.tell('camera', this.camera);
+    }
+    this.tell('state', state);
+  }
+
+  /** A connection began: the numbers count from what the server shows. */
+  restart() {
+    this.camera = null;
+    this.pending = null;
+    this.number = 0;
+    this.cameraNumber = 0;
+    for (const {reject} of this.waiting.values()) reject(new Error('the connection was lost'));
+    this.waiting.clear();
+  }
+
+  /** Sends a message with the next number, which it returns. */
+  sendNumbered(message) {
+    this.number += 1;
+    this.connection.send({...message, number: this.number});
+    return this.number;
+  }
+
+  /** Changes keys of the camera. Many changes between two pictures of the screen are one message. */
+  move(changes, moving = true) {
+    if (!this.camera) return;
+    Object.assign(this.camera, changes);
+    const isWaiting = this.pending !== null;
+    this.pending = {...this.pending, ...changes};
+    this.isMoving = moving;
+    this.tell('camera', this.camera);
+    if (!isWaiting) requestAnimationFrame(() => this.flush());
+  }
+
+  /** Nothing moves any more: the picture may come to rest. */
+  rest() {
+    if (!this.camera || (!this.isMoving && !this.pending)) return;
+    this.isMoving = false;
+    this.flush(true);
+  }
+
+  flush(even = false) {
+    if (!this.pending && !even) return;
+    const camera = this.pending ?? {eye: this.camera.eye};
+    this.pending = null;
+    this.cameraNumber = this.sendNumbered({type: 'camera', camera, moving: this.isMoving});
+  }
+
+  /** Changes settings as the state has them. */
+  change(settings) {
+    this.flush();
+    return this.sendNumbered({type: 'settings', ...settings});
+  }
+
+  /** Sends a message that is answered by one of the type `answer`: a promise of it. */
+  ask(message, answer) {
+    this.flush();
+    this.id += 1;
+    const id = this.id;
+    // The server answers the newest question of a kind.
+    for (const [old, {type}] of this.waiting) if (type === answer) this.waiting.delete(old);
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, {type: answer, resolve, reject});
+      this.connection.send({...message, id});
+    });
+  }
+}

@@ -1,0 +1,102 @@
+// Puts the parts of the page together.
+
+import {CameraForm} from './camera_form.js';
+import {Connection} from './connection.js';
+import {byId, counted, make, sentence, short} from './dom.js';
+import {FrameReader} from './frames.js';
+import {Gestures} from './gestures.js';
+import {Overlay} from './overlay.js';
+import {Panes} from './panes.js';
+import {Particles} from './particles.js';
+import {Rays} from './rays.js';
+import {Session} from './session.js';
+import {Settings} from './settings.js';
+import {Share} from './share.js';
+import {Timeline} from './timeline.js';
+
+const links = {
+  connecting: 'Connecting …',
+  open: 'Connected',
+  away: 'The server is away. Trying again …',
+  refused: 'The server asks for another token. Open the address that it printed.',
+  taken: 'This view was opened elsewhere.',
+};
+
+const session = new Session();
+const panes = new Panes(byId('stage'), session);
+const overlay = new Overlay(session, panes);
+const rays = new Rays(session, overlay);
+const timeline = new Timeline(session);
+const gestures = new Gestures(byId('stage'), session, {
+  click: (pane, x, y) => clicked(pane.isDifference ? 0 : pane.index, x, y),
+  crosshair: overlay,
+  frameStep: (count) => timeline.step(count),
+});
+new Settings(session, panes);
+new CameraForm(session, gestures);
+new Particles(session);
+new Share(session);
+
+async function clicked(pane, x, y) {
+  const mode = document.querySelector('#click-mode input:checked').value;
+  if (mode === 'rays') return rays.pick(pane, x, y);
+  let hit;
+  try {
+    ({hit} = await session.ask({type: 'pick', pane, x, y}, 'picked'));
+  } catch (error) {
+    return showProblem(error.message);
+  }
+  if (!hit) return showProblem('Nothing is there.');
+  if (mode === 'turn') session.move({look_at: hit.position}, false);
+  else session.move({focus: hit.depth}, false);
+}
+
+function showLink(kind) {
+  const link = byId('link');
+  link.dataset.kind = kind;
+  link.replaceChildren(links[kind]);
+  if (kind === 'taken') {
+    const back = make('button', {type: 'button', textContent: 'Take it back'});
+    back.addEventListener('click', () => session.connection.connect());
+    link.append(' ', back);
+  }
+  document.body.dataset.link = kind;
+  if (kind === 'connecting') session.restart();
+}
+
+function showProblem(text) {
+  const close = make('button', {type: 'button', textContent: 'Close'});
+  close.addEventListener('click', () => byId('problem').replaceChildren());
+  byId('problem').replaceChildren(make('p', {textContent: sentence(text)}), close);
+}
+
+function showScene({scene, version}) {
+  const name = scene.path.split(/[\\/]/).pop();
+  byId('scene-name').textContent = name;
+  byId('scene-name').title = scene.path;
+  document.title = `${name} – boule view`;
+  const facts = [counted(scene.spheres, 'sphere')];
+  if (scene.planes) facts.push(counted(scene.planes, 'plane'));
+  if (scene.lights) facts.push(counted(scene.lights, 'light'));
+  byId('scene-facts').textContent = facts.join(' · ');
+  byId('version').textContent = `boule ${version}`;
+  byId('notes-section').hidden = scene.notes.length === 0;
+  byId('notes').replaceChildren(...scene.notes.map((note) => make('li', {textContent: sentence(note)})));
+}
+
+session.on('state', showScene);
+session.on('problem', showProblem);
+session.on('hide', () => rays.hide());
+session.on('error', ({text, key}) => showProblem(key && !text.includes(key) ? `${key}: ${text}` : text));
+session.on('busy', ({text}) => { byId('busy').textContent = text === null ? '' : sentence(text); });
+
+const token = new URLSearchParams(location.search).get('token') ?? '';
+let reader;
+session.connection = new Connection(token, {
+  status: showLink,
+  text: (message) => session.receive(message),
+  binary: (buffer) => reader.take(buffer),
+});
+reader = new FrameReader(session.connection, (header, bitmap) => panes.show(header, bitmap));
+// For scripts and tests: what the page knows.
+window.bouleView = {session, panes, short};

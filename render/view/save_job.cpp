@@ -1,0 +1,27 @@
+#include "render/view/save_job.h"
+
+#include <utility>
+
+#include "render/frame/scheduler.h"
+
+namespace boule::view {
+
+Result<SaveJob> SaveJob::create(std::uint32_t id, Scene scene, const RenderOptions& options) {
+  Scheduler scheduler(options.threads);
+  auto prepared = prepare(std::move(scene), options.width, options.height, scheduler.parallel_for(),
+                          options.method);
+  if (!prepared) return prepared.error();
+  if (options.transparent) prepared.value().backdrop = Color{};
+  SaveJob job(id);
+  if (auto bad = job.pane_->start(
+          std::make_shared<const PreparedScene>(std::move(prepared).value()), options))
+    return *bad;
+  return job;
+}
+
+Result<Image> SaveJob::picture() {
+  if (auto bad = pane_->find_outline()) return *bad;
+  return pane_->picture();
+}
+
+}  // namespace boule::view
