@@ -84,8 +84,9 @@ ImageFileOptions file_options(const PictureParts& parts, float exposure) {
   return options;
 }
 
-void save(const Picture& picture, const std::string& path, float exposure,
+void save(const Picture& picture, const py::object& name, float exposure,
           const std::string& compression) {
+  const auto path = py::cast<std::string>(py::module_::import("os").attr("fspath")(name));
   ImageFileOptions options = file_options(*picture.parts, exposure);
   options.compression = choose<Compression>(compression, "compression", compression_names);
   options.date_time = take(cli::source_date());
@@ -139,22 +140,72 @@ std::string text_of(const Picture& picture) {
                      parts.spp, unfinished);
 }
 
+/// The extra channels by AOV: H x W, or H x W x 3, which is a copy.
+py::dict aovs_of(const py::object& picture) {
+  const py::dict channels = channels_of(picture);
+  py::dict aovs;
+  for (const AovName& aov : aov_names) {
+    AovSelection one;
+    one.*aov.wanted = true;
+    py::list found;
+    for (const std::string& name : AovChannels::names(one)) {
+      if (channels.contains(name)) found.append(channels[py::str(name)]);
+    }
+    if (found.empty()) continue;
+    const py::str key{std::string(aov.name)};
+    if (found.size() == 1) {
+      aovs[key] = found[0];
+    } else {
+      aovs[key] = py::module_::import("numpy").attr("stack")(found, py::arg("axis") = -1);
+    }
+  }
+  return aovs;
+}
+
+constexpr const char* description =
+    "A picture that was rendered: linear RGB in float32. It does not change.\n\n"
+    "np.asarray(picture) is H x W x 3, row 0 on top, in place and read-only. With alpha\n"
+    "(background=\"transparent\") colours are premultiplied. Notebooks show it.";
+
 }  // namespace
 
 void bind_picture(py::module_& module) {
-  py::class_<Picture>(module, "Picture", py::buffer_protocol())
-      .def_buffer(&buffer_of)
-      .def_property_readonly("width", [](const Picture& p) { return p.parts->image.width; })
-      .def_property_readonly("height", [](const Picture& p) { return p.parts->image.height; })
-      .def_property_readonly("finished", [](const Picture& p) { return !p.parts->partial; })
-      .def_property_readonly("share", &share_of)
-      .def_property_readonly("alpha", &alpha_of)
-      .def_property_readonly("channels", &channels_of)
-      .def_property_readonly("stats", &stats_of)
-      .def_property_readonly("notes", [](const Picture& p) { return p.parts->notes; })
-      .def("to_srgb", &srgb_of, py::arg("exposure"))
-      .def("save", &save, py::arg("path"), py::arg("exposure"), py::arg("compression"))
-      .def("png", &png_of, py::arg("exposure"))
+  py::class_<Picture> picture(module, "Picture", py::buffer_protocol(), description);
+  picture.attr("__module__") = "boule";
+  picture.def_buffer(&buffer_of)
+      .def_property_readonly(
+          "width", [](const Picture& p) { return p.parts->image.width; }, "In pixels.")
+      .def_property_readonly(
+          "height", [](const Picture& p) { return p.parts->image.height; }, "In pixels.")
+      .def_property_readonly(
+          "finished", [](const Picture& p) { return !p.parts->partial; },
+          "Whether it has all its samples.")
+      .def_property_readonly("share", &share_of, "Of its samples that it has, 0 to 1.")
+      .def_property_readonly(
+          "alpha", &alpha_of,
+          "H x W, float32, 0 to 1, how much of each pixel objects cover; or None.")
+      .def_property_readonly("channels", &channels_of,
+                             "The extra channels by their names in EXR files (Z, N.X, ...): each "
+                             "H x W, float32 or uint32, in place.")
+      .def_property_readonly("aovs", &aovs_of,
+                             "The extra channels by AOV: depth, id and z are H x W, in place; "
+                             "normal, position and albedo H x W x 3, copied.")
+      .def_property_readonly("stats", &stats_of, "What it has cost: times in seconds, rays, ...")
+      .def_property_readonly(
+          "notes", [](const Picture& p) { return p.parts->notes; },
+          "What was decided for the user, a sentence each.")
+      .def("to_srgb", &srgb_of, py::kw_only(), py::arg("exposure") = 0.0F,
+           "H x W x 3 of uint8 (x 4, straight, with alpha): codes of the sRGB curve. Colours are "
+           "multiplied by 2^exposure and clamped before.")
+      .def(
+          "save", &save, py::arg("path"), py::kw_only(), py::arg("exposure") = 0.0F,
+          py::arg("compression") = "zip",
+          "Write a file in the format of its extension, as `boule render` does: .exr (linear, with "
+          "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure). It "
+          "appears under its name when it is complete. compression, of .exr: none, rle or zip. "
+          "Raises Error.")
+      .def(
+          "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, "For notebooks.")
       .def("__repr__", &text_of);
 }
 

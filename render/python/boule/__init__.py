@@ -17,7 +17,7 @@ from ._core import Error as Error
 from ._core import Picture as Picture
 from ._core import isa as isa
 from ._core import version as __version__
-from .objects import (
+from ._objects import (
     ConstantBackground,
     DirectionalLight,
     Distortion,
@@ -44,10 +44,10 @@ from .objects import (
     SphereLight,
     ThinLens,
 )
-from .rendering import Interrupted, render
-from .scene import Group, Scene, Spheres
-from .sources import frames, from_ase, from_particles, load
-from .tracing import Hits, Tracer
+from ._rendering import Interrupted, render
+from ._scene import Group, Scene, Spheres
+from ._sources import frames, from_ase, from_particles, load
+from ._tracing import Hits, Tracer
 
 __all__ = [
     "ConstantBackground",

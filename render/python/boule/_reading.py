@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from . import objects
-from .scene import Group, Spheres
+from . import _objects as objects
+from ._scene import Group, Spheres
 
 _CLASSES = {
     kind: {cls._type: cls for cls in vars(objects).values() if getattr(cls, "_kind", "") == kind}

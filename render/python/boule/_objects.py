@@ -94,7 +94,7 @@ class Table:
     def __eq__(self, other):
         return type(self) is type(other) and self._keys == other._keys
 
-    __hash__ = None  # it can change
+    __hash__ = None  # type: ignore[assignment]  # it can change
 
     def __getstate__(self):
         return self._keys

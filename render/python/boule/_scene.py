@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import _core
-from .objects import (
+from ._objects import (
     ConstantBackground,
     Distortion,
     Fit,
@@ -282,7 +282,7 @@ class Scene(_Objects):
     @classmethod
     def _of(cls, values):
         """A scene that was read."""
-        from .reading import scene_of
+        from ._reading import scene_of
 
         return scene_of(cls, values)
 

@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
-from .scene import Scene
+from ._scene import Scene
 
 if TYPE_CHECKING:
     import numpy as np

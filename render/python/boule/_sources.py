@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 
 from . import _core
-from .objects import error
-from .scene import Scene
+from ._objects import error
+from ._scene import Scene
 
 
 def look_keys(
@@ -17,6 +18,27 @@ def look_keys(
     return dict(locals())
 
 
+def with_look(*names):
+    """Shows the arguments of look_keys() as the function's own, for help() and type checkers."""
+    look = inspect.signature(look_keys).parameters
+    shown = [look[name] for name in names or look]
+
+    def decorate(function):
+        own = inspect.signature(function)
+        kept = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
+        function.__signature__ = own.replace(parameters=kept + shown)
+        return function
+
+    return decorate
+
+
+# What is said of particles in memory: not how a file is read.
+_OF_MEMORY = (
+    "look", "quick", "floor", "color", "map", "range", "radius", "scale", "select", "view", "up",
+)  # fmt: skip
+
+
+@with_look()
 def load(source, *, frame=None, polygons="plane", **look):
     """Reads a scene: .toml, .nff, .npy, or a file of particles, for which a scene is made.
 
@@ -32,6 +54,7 @@ def load(source, *, frame=None, polygons="plane", **look):
     return Scene._of(_core.read(os.fspath(source), keys))
 
 
+@with_look()
 def frames(source, frames=None, *, polygons="plane", **look):
     """The scenes of a series, one after the other: frames of a file of particles, or of files whose
     names have #### for the number of the frame.
@@ -64,6 +87,7 @@ def particles(positions, *, species=None, columns=None, cell=None, periodic=(), 
     )
 
 
+@with_look(*_OF_MEMORY)
 def from_particles(
     positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0, **look
 ):
@@ -80,6 +104,7 @@ def from_particles(
     return Scene._of(_core.show_particles(data, look_keys(**look)))
 
 
+@with_look(*_OF_MEMORY)
 def from_ase(atoms, **look):
     """The scene that shows atoms of ASE: anything with get_positions(), get_atomic_numbers() and
     cell. look: as for load(); the arrays of the atoms are columns ("tags", "momenta_x", ...)."""

@@ -6,7 +6,7 @@ import contextlib
 import sys
 import warnings
 
-from .objects import error
+from ._objects import error
 
 
 class _Bar:
@@ -47,7 +47,7 @@ def _open_bar():
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # it warns where widgets are missing
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import]
     except ImportError:
         return _Bar()
     return _Tqdm(tqdm)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 
 from . import _core
-from .objects import error
-from .progress import reporter
-from .scene import Scene
-from .sources import look_keys
+from ._objects import error
+from ._progress import reporter
+from ._scene import Scene
+from ._sources import look_keys, with_look
 
 
 class Interrupted(KeyboardInterrupt):
@@ -19,6 +19,7 @@ class Interrupted(KeyboardInterrupt):
         self.picture = picture
 
 
+@with_look()
 def render(
     scene, *, size=None, spp=None, filter=None, background=None, outline=None, seed=0, crop=None,
     aov=None, method=None, max_depth=None, time_limit=None, partial=False, order=None, tile=None,
