@@ -40,6 +40,16 @@ py::buffer_info buffer_of(const Picture& picture) {
           true};
 }
 
+/// For numpy: the pixels in place, or in another type.
+py::object array_of(const py::object& picture, const py::object& dtype) {
+  const Image& image = py::cast<const Picture&>(picture).parts->image;
+  const py::ssize_t row = number_size * 3 * image.width;
+  const py::array view = view_of<float>(&image.pixels.front().r, {image.height, image.width, 3},
+                                        {row, 3 * number_size, number_size}, picture);
+  if (dtype.is_none()) return view;
+  return view.attr("astype")(dtype, py::arg("copy") = false);
+}
+
 py::object alpha_of(const py::object& picture) {
   const Image& image = py::cast<const Picture&>(picture).parts->image;
   if (image.alpha.empty()) return py::none();
@@ -90,7 +100,8 @@ void save(const Picture& picture, const py::object& name, float exposure,
   ImageFileOptions options = file_options(*picture.parts, exposure);
   options.compression = choose<Compression>(compression, "compression", compression_names);
   options.date_time = take(cli::source_date());
-  options.channels = picture.parts->channels;
+  const ImageFormat* const format = find_image_format(path);
+  if (format != nullptr && format->channels) options.channels = picture.parts->channels;
   check(interruptible([parts = picture.parts, path, options](Call& call) {
     ImageFileOptions mine = options;
     mine.stop = [&call] { return call.cancel.load(); };
@@ -204,6 +215,7 @@ void bind_picture(py::module_& module) {
           "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure). It "
           "appears under its name when it is complete. compression, of .exr: none, rle or zip. "
           "Raises Error.")
+      .def("__array__", &array_of, py::arg("dtype") = py::none())
       .def(
           "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, "For notebooks.")
       .def("__repr__", &text_of);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
 
+#include "core/math/geometry.h"
 #include "core/scene/number_text.h"
 #include "render/file/float32.h"
 #include "render/memory/available_memory.h"
@@ -52,23 +54,27 @@ void widen(SphereExtent& extent, const SphereExtent& by) {
   extent.radius = std::min(extent.radius, by.radius);
 }
 
-/// The box of the centres. NaN spreads to nothing: such rows are refused when they are rounded.
+bool is_sphere(const Vec3d& center, double radius) {
+  return is_finite(center) && std::isfinite(radius) && radius > 0;
+}
+
+/// The box of the centres of those rows that are spheres; others are refused when they are rounded.
 SphereExtent extent_of(const SphereInput& input, const ParallelFor& parallel_for) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const SphereExtent nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   std::mutex mutex;
-  SphereExtent all;
-  if (input.centers.rows() == 0) return all;
-  const Vec3d first = center_at(input.centers, 0);
-  all.low = all.high = first;
+  SphereExtent all = nothing;
   each_chunk(input.centers.rows(), parallel_for, [&](std::size_t begin, std::size_t end) {
-    SphereExtent mine{first, first};
+    SphereExtent mine = nothing;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3d center = center_at(input.centers, i);
-      widen(mine, {center, center, input.radii.at(i)});
+      const double radius = input.radii.at(i);
+      if (is_sphere(center, radius)) widen(mine, {center, center, radius});
     }
     const std::lock_guard lock(mutex);
     widen(all, mine);
   });
-  return all;
+  return std::isinf(all.radius) ? SphereExtent{} : all;
 }
 
 /// Why a row is no sphere.

@@ -91,3 +91,8 @@ __all__ = [
     "load",
     "render",
 ]
+
+for _name in __all__:  # as they are known to those who use them
+    if hasattr(globals()[_name], "__module__"):
+        globals()[_name].__module__ = "boule"
+del _name

@@ -67,7 +67,7 @@ class Table:
             if set(keys) != {"file"}:
                 raise error("file", "missing key 'file', or 'st'")
             return keys
-        plain = _core.check(cls._kind, cls._table_of(keys, _short_name))
+        plain = _core.check(cls._kind, _at_rest(cls._table_of(keys, _short_name)))
         return {name: _kept(name, value, plain) for name, value in keys.items()}
 
     @classmethod
@@ -105,6 +105,18 @@ class Table:
     def __repr__(self):
         keys = ", ".join(f"{name}={value!r}" for name, value in self._keys.items())
         return f"{type(self).__name__}({keys})"
+
+
+def _at_rest(table):
+    """A camera's table as its keys begin; those are checked frame by frame with the scene."""
+    moves = table.pop("key", None)
+    if moves is None:
+        return table
+    if not isinstance(moves, (list, tuple)) or not all(isinstance(one, dict) for one in moves):
+        raise error("key", "expected a list of dictionaries, each with 'frame'")
+    for one in reversed(moves):
+        table.update({name: value for name, value in one.items() if name != "frame"})
+    return table
 
 
 def _short_name(kind, value):
