@@ -25,13 +25,14 @@ int Arguments::whole_of(const py::object& object, const char* name, const WholeR
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
   if (!index) {
     PyErr_Clear();
-    raise(name, "expected a whole number, got " + type_name(object));
+    throw_error(name, "expected a whole number, got " + type_name(object));
   }
   int overflow = 0;
   const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
   const bool fits = overflow == 0 && number >= rule.low && number <= rule.high;
   if (!fits)
-    raise(name, "must be " + describe(rule) + ", is " + std::string(py::str(index)).substr(0, 40));
+    throw_error(name,
+                "must be " + describe(rule) + ", is " + std::string(py::str(index)).substr(0, 40));
   return static_cast<int>(number);
 }
 
@@ -47,12 +48,12 @@ std::optional<std::uint64_t> Arguments::any_whole(const char* name) const {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object->ptr()));
   if (!index) {
     PyErr_Clear();
-    raise(name, "expected a whole number, got " + type_name(*object));
+    throw_error(name, "expected a whole number, got " + type_name(*object));
   }
   const std::uint64_t number = PyLong_AsUnsignedLongLong(index.ptr());
   if (PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
-  raise(name, "must be from 0 to 18446744073709551615");
+  throw_error(name, "must be from 0 to 18446744073709551615");
 }
 
 std::optional<double> Arguments::number(const char* name, const NumberRule& rule) const {
@@ -61,28 +62,29 @@ std::optional<double> Arguments::number(const char* name, const NumberRule& rule
   const double number = PyFloat_AsDouble(object->ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
-    raise(name, "expected a number, got " + type_name(*object));
+    throw_error(name, "expected a number, got " + type_name(*object));
   }
   if (!rule.allows(number))
-    raise(name, "must be " + describe(rule) + ", is " + number_text(number));
+    throw_error(name, "must be " + describe(rule) + ", is " + number_text(number));
   return number;
 }
 
 std::optional<std::string> Arguments::text(const char* name) const {
   const auto object = find(name);
   if (!object) return std::nullopt;
-  if (!py::isinstance<py::str>(*object)) raise(name, "expected text, got " + type_name(*object));
+  if (!py::isinstance<py::str>(*object))
+    throw_error(name, "expected text, got " + type_name(*object));
   py::ssize_t size = 0;
   const char* const bytes = PyUnicode_AsUTF8AndSize(object->ptr(), &size);
   if (bytes != nullptr) return std::string(bytes, static_cast<std::size_t>(size));
   PyErr_Clear();
-  raise(name, "is text that is not UTF-8");
+  throw_error(name, "is text that is not UTF-8");
 }
 
 bool Arguments::flag(const char* name) const {
   const auto object = find(name);
   if (!object) return false;
-  if (!py::isinstance<py::bool_>(*object)) raise(name, "expected True or False");
+  if (!py::isinstance<py::bool_>(*object)) throw_error(name, "expected True or False");
   return py::cast<bool>(*object);
 }
 

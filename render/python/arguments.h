@@ -35,7 +35,7 @@ class Arguments {
     const std::string expected = "expected " + std::to_string(n) + " whole numbers";
     if (!pybind11::isinstance<pybind11::sequence>(*object) || pybind11::len(*object) != n ||
         pybind11::isinstance<pybind11::str>(*object)) {
-      raise(name, expected);
+      throw_error(name, expected);
     }
     for (std::size_t i = 0; i < n; ++i) {
       numbers[i] = whole_of((*object)[pybind11::int_(i)], name, rule);

@@ -25,7 +25,7 @@ std::string shape_text(const Numbers::Shape& shape) {
 [[noreturn]] void refuse(const std::string& name, const Numbers::Shape& shape,
                          const std::string& got) {
   const std::string types = shape.takes_bytes ? "float32, float64 or uint8" : "float32 or float64";
-  raise(name, "expected " + types + " of shape " + shape_text(shape) + ", got " + got);
+  throw_error(name, "expected " + types + " of shape " + shape_text(shape) + ", got " + got);
 }
 
 /// True for numbers in memory as the machine has them, of a type that is read in place.
@@ -102,7 +102,7 @@ void Numbers::point_to(const py::array& array, const std::string& name, const Sh
   column_.ray_step = step(0);
   if (has_rows) column_.component_step = step(1);
   if (shape.rows && rows_ != *shape.rows) refuse(name, shape, describe(array));
-  if (rows_ > most_rows) raise(name, "has more than " + std::to_string(most_rows) + " rows");
+  if (rows_ > most_rows) throw_error(name, "has more than " + std::to_string(most_rows) + " rows");
 }
 
 }  // namespace boule::python

@@ -19,8 +19,8 @@ Enum choose(const std::string& name, const char* argument,
     if (name == known[i]) return static_cast<Enum>(i);
   }
   const std::vector<std::string_view> all(known.begin(), known.end());
-  raise(argument,
-        "unknown name " + quote(name) + ", expected " + list_names(all) + did_you_mean(name, all));
+  throw_error(argument, "unknown name " + quote(name) + ", expected " + list_names(all) +
+                            did_you_mean(name, all));
 }
 
 template <class Enum>

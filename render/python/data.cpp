@@ -30,9 +30,9 @@ Data picture_of(const py::object& argument, const std::string& name, int compone
   const bool is_small = is_picture && array.shape(0) <= max_image_side &&
                         array.shape(1) <= max_image_side && array.size() > 0;
   if (!is_small) {
-    raise(name, "expected float32 or float64 of shape (H, W, " + std::to_string(components) +
-                    "), sides from 1 to " + std::to_string(max_image_side) + ", got " +
-                    describe(array));
+    throw_error(name, "expected float32 or float64 of shape (H, W, " + std::to_string(components) +
+                          "), sides from 1 to " + std::to_string(max_image_side) + ", got " +
+                          describe(array));
   }
   const auto rows = static_cast<std::size_t>(array.shape(0) * array.shape(1));
   const py::object flat = array.attr("reshape")(rows, components);
@@ -66,7 +66,8 @@ std::vector<double> column_of(const py::object& argument, const std::string& nam
   for (std::size_t i = 0; i < rows; ++i) {
     values[i] = numbers.at(i);
     if (std::isfinite(values[i])) continue;
-    raise(name, "row " + std::to_string(i) + ": must be finite, is " + number_text(values[i]));
+    throw_error(name,
+                "row " + std::to_string(i) + ": must be finite, is " + number_text(values[i]));
   }
   return values;
 }
@@ -78,7 +79,7 @@ TextColumn texts_of(const py::object& argument, const std::string& name, std::si
   const py::object values =
       py::hasattr(argument, "tolist") ? py::object(argument.attr("tolist")()) : argument;
   for (const py::handle value : values) {
-    std::string text = py::str(value);
+    std::string text = to_text(py::str(value), name);
     if (py::isinstance<py::int_>(value)) {
       const auto elements = all_elements();
       const auto number = py::cast<long long>(value);
@@ -94,9 +95,9 @@ TextColumn texts_of(const py::object& argument, const std::string& name, std::si
     if (column.indices.size() > rows) break;
   }
   if (column.indices.size() != rows) {
-    raise(name,
-          "expected " + std::to_string(rows) + " texts, one for each particle, got " +
-              (column.indices.size() > rows ? "more" : std::to_string(column.indices.size())));
+    throw_error(
+        name, "expected " + std::to_string(rows) + " texts, one for each particle, got " +
+                  (column.indices.size() > rows ? "more" : std::to_string(column.indices.size())));
   }
   return column;
 }
@@ -116,7 +117,7 @@ ParticleCell cell_of(const py::object& cell, const std::vector<bool>& periodic) 
     *edges[i] = {numbers.at(i, 0), numbers.at(i, 1), numbers.at(i, 2)};
     made.periodic[i] = periodic.size() == 3 && periodic[i];
   }
-  if (!is_finite(made)) raise("cell", "must be finite");
+  if (!is_finite(made)) throw_error("cell", "must be finite");
   return made;
 }
 
@@ -131,11 +132,11 @@ Data particles_of(const py::object& positions, const py::object& species, const 
     frame.positions[i] = {points.at(i, 0), points.at(i, 1), points.at(i, 2)};
     const Vec3d& p = frame.positions[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    raise("positions", "row " + std::to_string(i) + ": must be finite");
+    throw_error("positions", "row " + std::to_string(i) + ": must be finite");
   }
   if (!species.is_none()) frame.species = texts_of(species, "species", points.rows());
   for (const auto& [key, values] : columns) {
-    const std::string name = py::str(key);
+    const std::string name = to_text(py::str(key), "columns");
     const auto object = py::reinterpret_borrow<py::object>(values);
     if (holds_numbers(object)) {
       frame.numbers.push_back({name, column_of(object, name, points.rows())});
@@ -151,7 +152,7 @@ Data particles_of(const py::object& positions, const py::object& species, const 
 py::dict sphere_views(const py::object& data) {
   const auto* held =
       std::get_if<std::shared_ptr<const SphereArrays>>(&py::cast<const Data&>(data).held);
-  if (held == nullptr) raise("spheres", "expected spheres");
+  if (held == nullptr) throw_error("spheres", "expected spheres");
   const SphereArrays& arrays = **held;
   const auto count = static_cast<py::ssize_t>(arrays.spheres.size());
   constexpr auto step = static_cast<py::ssize_t>(sizeof(Sphere));
@@ -175,7 +176,7 @@ py::dict sphere_views(const py::object& data) {
 /// None.
 py::object sphere_colors(const Data& data) {
   const auto* held = std::get_if<std::shared_ptr<const SphereArrays>>(&data.held);
-  if (held == nullptr) raise("spheres", "expected spheres");
+  if (held == nullptr) throw_error("spheres", "expected spheres");
   if (!(*held)->has_colors) return py::none();
   const std::vector<Sphere>& spheres = (*held)->spheres;
   auto colors = empty_array<std::uint8_t>({static_cast<py::ssize_t>(spheres.size()), 3});

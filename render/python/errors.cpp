@@ -53,7 +53,7 @@ void bind_errors(py::module_& module) {
   module.attr("Error") = error_type;
 }
 
-void raise(const Diagnostic& error) {
+void throw_error(const Diagnostic& error) {
   Diagnostic shown = error;
   shown.key = argument_name(shown.key);
   // Text that nobody wrote has no lines.
@@ -73,8 +73,8 @@ void raise(const Diagnostic& error) {
   throw py::error_already_set();
 }
 
-void raise(const std::string& key, const std::string& message) {
-  raise(Diagnostic::about(key, message));
+void throw_error(const std::string& key, const std::string& message) {
+  throw_error(Diagnostic::about(key, message));
 }
 
 }  // namespace boule::python

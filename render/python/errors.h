@@ -14,20 +14,20 @@ void bind_errors(pybind11::module_& module);
 /// Throws a Diagnostic as Python's exception: MemoryError if it is about memory, else Error. An
 /// option of the command line ("--color") is named as the argument that it is ("color"). Needs the
 /// GIL, as all functions here.
-[[noreturn]] void raise(const Diagnostic& error);
+[[noreturn]] void throw_error(const Diagnostic& error);
 
 /// Throws an Error about an argument: "KEY: MESSAGE".
-[[noreturn]] void raise(const std::string& key, const std::string& message);
+[[noreturn]] void throw_error(const std::string& key, const std::string& message);
 
 /// The value, or the exception of its Diagnostic.
 template <class T>
 T take(Result<T> result) {
-  if (!result) raise(result.error());
+  if (!result) throw_error(result.error());
   return std::move(result).value();
 }
 
 inline void check(const Status& status) {
-  if (status) raise(*status);
+  if (status) throw_error(*status);
 }
 
 }  // namespace boule::python

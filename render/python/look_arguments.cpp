@@ -39,13 +39,13 @@ class LookKeys {
     if (!value) return;
     const std::string text = text_of(*value, key);
     const auto parsed = parse(text);
-    if (!parsed) raise(key, quote(text) + " is not understood, expected " + expected);
+    if (!parsed) throw_error(key, quote(text) + " is not understood, expected " + expected);
     target = *parsed;
   }
   void read(const char* key, bool& target) {
     const auto value = find(key);
     if (!value) return;
-    if (!py::isinstance<py::bool_>(*value)) raise(key, "expected True or False");
+    if (!py::isinstance<py::bool_>(*value)) throw_error(key, "expected True or False");
     target = py::cast<bool>(*value);
     if (target) note(key);
   }
@@ -56,7 +56,7 @@ class LookKeys {
     try {
       target = py::cast<int>(*value);
     } catch (const py::cast_error&) {
-      raise(key, quote(text) + " is not understood, expected a whole number");
+      throw_error(key, quote(text) + " is not understood, expected a whole number");
     }
   }
 
@@ -85,7 +85,7 @@ cli::LookOptions look_of(const py::dict& keys) {
   all.read("look", name, parse_words, "the name of a look");
   if (!name.empty()) look.look = choose<Look>(name, "look");
   all.read("quick", look.quick);
-  if (look.quick && !name.empty()) raise("quick", "cannot stand beside 'look'");
+  if (look.quick && !name.empty()) throw_error("quick", "cannot stand beside 'look'");
   all.read("floor", look.floor);
   all.read("input_format", look.format, parse_words, "the name of a format");
   all.read("water", look.water);
@@ -98,8 +98,8 @@ cli::LookOptions look_of(const py::dict& keys) {
   const char* const directions = "x, -x, y, -y, z, -z or three numbers";
   all.read("view", look.view, parse_direction, directions);
   all.read("up", look.up, parse_direction, directions);
-  if (!look.map.empty() && !has_color_map(look)) raise("map", "needs 'color' to be a column");
-  if (look.range && !has_color_map(look)) raise("range", "needs 'color' to be a column");
+  if (!look.map.empty() && !has_color_map(look)) throw_error("map", "needs 'color' to be a column");
+  if (look.range && !has_color_map(look)) throw_error("range", "needs 'color' to be a column");
   return look;
 }
 

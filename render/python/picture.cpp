@@ -85,7 +85,7 @@ py::array srgb_of(const Picture& picture, float exposure) {
 }
 
 ImageFileOptions file_options(const PictureParts& parts, float exposure) {
-  if (!(exposure >= -100 && exposure <= 100)) raise("exposure", "must be from -100 to 100");
+  if (!(exposure >= -100 && exposure <= 100)) throw_error("exposure", "must be from -100 to 100");
   ImageFileOptions options;
   options.exposure_stops = exposure;
   options.crop = parts.crop;
@@ -96,7 +96,8 @@ ImageFileOptions file_options(const PictureParts& parts, float exposure) {
 
 void save(const Picture& picture, const py::object& name, float exposure,
           const std::string& compression) {
-  const auto path = py::cast<std::string>(py::module_::import("os").attr("fspath")(name));
+  const auto path =
+      py::cast<std::string>(py::module_::import("boule._objects").attr("path_of")(name, "path"));
   ImageFileOptions options = file_options(*picture.parts, exposure);
   options.compression = choose<Compression>(compression, "compression", compression_names);
   options.date_time = take(cli::source_date());

@@ -50,7 +50,7 @@ AovSelection aovs_of(const Arguments& given) {
   if (py::isinstance<py::str>(*object)) {
     names = *given.text("aov");
   } else {
-    if (!py::isinstance<py::sequence>(*object)) raise("aov", "expected names");
+    if (!py::isinstance<py::sequence>(*object)) throw_error("aov", "expected names");
     for (const py::handle name : *object) {
       names += (names.empty() ? "" : ",") + std::string(py::str(name));
     }
@@ -58,8 +58,8 @@ AovSelection aovs_of(const Arguments& given) {
   }
   const auto aovs = cli::parse_aovs(names);
   if (!aovs) {
-    raise("aov", quote(names) + " is not understood, expected some of " + cli::list_aovs() +
-                     ", each once");
+    throw_error("aov", quote(names) + " is not understood, expected some of " + cli::list_aovs() +
+                           ", each once");
   }
   return *aovs;
 }
@@ -69,8 +69,9 @@ std::optional<cli::BackgroundChoice> background_of(const Arguments& given) {
   if (!text) return std::nullopt;
   const auto choice = cli::parse_background(*text);
   if (!choice) {
-    raise("background",
-          quote(*text) + " is not understood, expected a colour such as #ffffff, or transparent");
+    throw_error(
+        "background",
+        quote(*text) + " is not understood, expected a colour such as #ffffff, or transparent");
   }
   return choice;
 }
@@ -244,7 +245,7 @@ py::tuple render(const py::object& source, const py::dict& keys, const py::dict&
   const CallEnd end = run_call(
       call, [run, call, status] { *status = run->work(*call); }, waiting, raised);
   if (end == CallEnd::left) return py::make_tuple(py::none(), value_of(raised));
-  if (end == CallEnd::done && *status) raise(**status);
+  if (end == CallEnd::done && *status) throw_error(**status);
   py::object picture = py::none();
   if (run->picture()) picture = py::cast(Picture{run->picture()});
   if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture, "time");

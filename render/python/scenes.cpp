@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "render/cli/particle_scene.h"
 #include "render/cli/scene_loader.h"
+#include "render/python/arguments.h"
 #include "render/python/choices.h"
 #include "render/python/errors.h"
 #include "render/python/scene_values.h"
@@ -22,23 +24,16 @@ namespace {
 
 constexpr std::array<std::string_view, 3> polygon_names{"plane", "skip", "error"};
 
-std::optional<int> whole_number(const py::dict& keys, const char* key) {
-  if (!keys.contains(key) || keys[key].is_none()) return std::nullopt;
-  try {
-    return py::cast<int>(keys[key]);
-  } catch (const py::cast_error&) {
-    raise(key, "expected a whole number");
-  }
-}
+constexpr WholeRule any_frame{.low = std::numeric_limits<int>::min(),
+                              .high = std::numeric_limits<int>::max()};
 
 /// What `boule render` would be told.
 cli::RenderCommand command_of(const std::string& path, const py::dict& keys) {
   cli::RenderCommand command;
   command.scene = path;
   command.look = look_of(keys);
-  if (keys.contains("polygons") && !keys["polygons"].is_none()) {
-    command.polygons = choose<PolygonPolicy>(py::cast<std::string>(py::str(keys["polygons"])),
-                                             "polygons", polygon_names);
+  if (const auto polygons = Arguments(keys).text("polygons")) {
+    command.polygons = choose<PolygonPolicy>(*polygons, "polygons", polygon_names);
   }
   return command;
 }
@@ -90,7 +85,7 @@ py::dict read_scene(const py::object& source, const py::dict& keys) {
 /// The scene that shows particles in memory.
 py::dict show_particles(const Data& data, const py::dict& keys) {
   const auto* const file = std::get_if<std::shared_ptr<ParticleFile>>(&data.held);
-  if (file == nullptr) raise("particles", "expected particles");
+  if (file == nullptr) throw_error("particles", "expected particles");
   const cli::LookOptions look = look_of(keys);
   auto made = take(interruptible([look, file = *file](Call& call) {
     const std::string name = "particles in memory";
@@ -113,7 +108,7 @@ py::dict show_particles(const Data& data, const py::dict& keys) {
 SceneRequest::SceneRequest(const py::object& source, const py::dict& keys) {
   if (!py::isinstance<py::dict>(source)) {
     cli::RenderCommand command = command_of(py::cast<std::string>(source), keys);
-    const std::optional<int> frame = whole_number(keys, "frame");
+    const std::optional<int> frame = Arguments(keys).whole("frame", any_frame);
     const bool of_file =
         !has_frame_slot(command.scene) && cli::is_particle_input(command.scene, command.look);
     (of_file ? command.look.frame : frame_) = frame;
@@ -123,9 +118,9 @@ SceneRequest::SceneRequest(const py::object& source, const py::dict& keys) {
   for (const auto& [key, value] : keys) {
     if (value.is_none() || value.is(py::bool_(false))) continue;
     if (py::cast<std::string>(py::str(key)) == "frame") continue;
-    raise(py::str(key), "is of files, and the scene is none");
+    throw_error(py::str(key), "is of files, and the scene is none");
   }
-  frame_ = whole_number(keys, "frame");
+  frame_ = Arguments(keys).whole("frame", any_frame);
   Tree tree;
   TreeBuilder builder;
   tree.members = builder.members(py::reinterpret_borrow<py::dict>(source), "");

@@ -190,9 +190,9 @@ ColorMapKeys read_map(const py::object& map, const py::object& range) {
 
 void refuse_together(const py::object& colors, const py::object& scalar, const py::object& map,
                      const py::object& range) {
-  if (!colors.is_none() && !scalar.is_none()) raise("scalar", "cannot stand beside 'colors'");
+  if (!colors.is_none() && !scalar.is_none()) throw_error("scalar", "cannot stand beside 'colors'");
   if (scalar.is_none() && !(map.is_none() && range.is_none())) {
-    raise(map.is_none() ? "range" : "map", "goes with 'scalar', which is missing");
+    throw_error(map.is_none() ? "range" : "map", "goes with 'scalar', which is missing");
   }
 }
 

@@ -86,7 +86,7 @@ void read_table(const std::string& kind, TomlTable& table) {
     read_color_map(table);
     return table.finish();
   }
-  raise("kind", "there is no kind " + quote(kind));
+  throw_error("kind", "there is no kind " + quote(kind));
 }
 
 /// Whether a field's value stands in a file.

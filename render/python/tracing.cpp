@@ -126,7 +126,8 @@ py::tuple closest(const TracerHandle& tracer, const py::object& org, const py::o
   auto normal = empty_array<float>({count, 3});
   const HitColumns hits{t.mutable_data(), id.mutable_data(), normal.mutable_data()};
   const auto kept = keep(py::make_tuple(t, id, normal));
-  trace(tracer, rays, [rays, hits, kept](Tracer& one) { return one.closest(rays->columns, hits); });
+  trace(tracer, rays,
+        [rays, hits, kept](Tracer& one) { return one.closest_of_columns(rays->columns, hits); });
   return py::make_tuple(t, id, normal);
 }
 
@@ -138,7 +139,7 @@ py::array any(const TracerHandle& tracer, const py::object& org, const py::objec
   auto* const bytes = reinterpret_cast<std::uint8_t*>(met.mutable_data());
   const auto kept = keep(met);
   trace(tracer, rays, [rays, bytes, kept](Tracer& one) {
-    return one.any(rays->columns, {bytes, rays->columns.size});
+    return one.any_of_columns(rays->columns, {bytes, rays->columns.size});
   });
   return met;
 }

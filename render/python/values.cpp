@@ -25,17 +25,9 @@ std::string inner_path(const std::string& path, const std::string& key) {
 std::int64_t to_integer(const py::handle& object, const std::string& path) {
   int overflow = 0;
   const long long number = PyLong_AsLongLongAndOverflow(object.ptr(), &overflow);
-  if (overflow != 0) raise(path, "is too large a number");
+  if (overflow != 0) throw_error(path, "is too large a number");
   if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
   return number;
-}
-
-std::string to_text(const py::handle& object, const std::string& path) {
-  py::ssize_t size = 0;
-  const char* const bytes = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
-  if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
-  PyErr_Clear();
-  raise(path, "is text that is not UTF-8");
 }
 
 struct Depth {
@@ -50,13 +42,22 @@ struct Depth {
 
 }  // namespace
 
+std::string to_text(const py::handle& object, const std::string& path) {
+  py::ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
+  if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw_error(path, "is text that is not UTF-8");
+}
+
 TomlMembers TreeBuilder::members(const py::dict& table, const std::string& path) {
   const Depth depth(depth_);
-  if (depth_ > deepest) raise(path, "is nested too deep");
+  if (depth_ > deepest) throw_error(path, "is nested too deep");
   TomlMembers members;
   for (const auto& [key, object] : table) {
     if (object.is_none()) continue;
-    if (!py::isinstance<py::str>(key)) raise(path, "keys must be text, got " + type_name(key));
+    if (!py::isinstance<py::str>(key))
+      throw_error(path, "keys must be text, got " + type_name(key));
     std::string name = to_text(key, path);
     if (name.empty()) {
       add_in_order(object, path, members);
@@ -72,7 +73,7 @@ TomlMembers TreeBuilder::members(const py::dict& table, const std::string& path)
 void TreeBuilder::add_in_order(const py::handle& pairs, const std::string& path,
                                TomlMembers& members) {
   for (const py::handle pair : pairs) {
-    if (!py::isinstance<py::tuple>(pair) || py::len(pair) != 2) raise(path, "expected pairs");
+    if (!py::isinstance<py::tuple>(pair) || py::len(pair) != 2) throw_error(path, "expected pairs");
     const auto both = py::reinterpret_borrow<py::tuple>(pair);
     const std::string key = to_text(both[0], path);
     auto known = std::find_if(members.begin(), members.end(),
@@ -89,9 +90,10 @@ void TreeBuilder::add_in_order(const py::handle& pairs, const std::string& path,
 
 TomlArray TreeBuilder::elements(const py::handle& sequence, const std::string& path) {
   const Depth depth(depth_);
-  if (depth_ > deepest) raise(path, "is nested too deep");
+  if (depth_ > deepest) throw_error(path, "is nested too deep");
   const auto size = static_cast<py::ssize_t>(py::len(sequence));
-  if (size > longest) raise(path, "has " + std::to_string(size) + " elements, too many for a key");
+  if (size > longest)
+    throw_error(path, "has " + std::to_string(size) + " elements, too many for a key");
   TomlArray elements;
   for (const py::handle element : sequence) elements.push_back(value(element, path));
   return elements;
@@ -100,7 +102,8 @@ TomlArray TreeBuilder::elements(const py::handle& sequence, const std::string& p
 /// An array or a number of numpy.
 TomlValue TreeBuilder::of_array(const py::handle& array, const std::string& path) {
   const auto size = py::cast<py::ssize_t>(array.attr("size"));
-  if (size > longest) raise(path, "has " + std::to_string(size) + " elements, too many for a key");
+  if (size > longest)
+    throw_error(path, "has " + std::to_string(size) + " elements, too many for a key");
   return value(py::object(array.attr("tolist")()), path);
 }
 
@@ -119,10 +122,11 @@ TomlValue TreeBuilder::value(const py::handle& object, const std::string& path) 
   }
   if (py::hasattr(object, "tolist") && py::hasattr(object, "size")) {
     const Depth depth(depth_);
-    if (depth_ > deepest) raise(path, "is nested too deep");
+    if (depth_ > deepest) throw_error(path, "is nested too deep");
     return of_array(object, path);
   }
-  raise(path, "expected a number, text, a sequence or a dictionary, got " + type_name(object));
+  throw_error(path,
+              "expected a number, text, a sequence or a dictionary, got " + type_name(object));
 }
 
 std::string TreeBuilder::add(const Data& data) {

@@ -45,6 +45,9 @@ class TreeBuilder {
   int depth_ = 0;
 };
 
+/// Text as UTF-8; an Error about `path` if it cannot be.
+std::string to_text(const pybind11::handle& object, const std::string& path);
+
 /// A value of a tree for Python: arrays become tuples, tables dictionaries.
 pybind11::object to_python(const TomlValue& value);
 pybind11::dict to_python(const TomlMembers& members);

@@ -143,7 +143,7 @@ Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
   return run(rays.size(), met.size(), std::cref(load), std::cref(body));
 }
 
-Status Tracer::closest(const RayColumns& rays, const HitColumns& hits) {
+Status Tracer::closest_of_columns(const RayColumns& rays, const HitColumns& hits) {
   const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
     worker.load(rays, first, count);
   };
@@ -163,7 +163,7 @@ Status Tracer::closest(const RayColumns& rays, const HitColumns& hits) {
   return run(rays.size, rays.size, std::cref(load), std::cref(body));
 }
 
-Status Tracer::any(const RayColumns& rays, std::span<std::uint8_t> met) {
+Status Tracer::any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met) {
   const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
     worker.load(rays, first, count);
   };

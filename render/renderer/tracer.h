@@ -65,8 +65,8 @@ class Tracer {
 
   /// The same for rays and hits in columns, which are read and written where they are. The numbers
   /// of rays must not change meanwhile.
-  Status closest(const RayColumns& rays, const HitColumns& hits);
-  Status any(const RayColumns& rays, std::span<std::uint8_t> met);
+  Status closest_of_columns(const RayColumns& rays, const HitColumns& hits);
+  Status any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met);
 
   [[nodiscard]] TraceStatistics statistics() const;
 

@@ -35,7 +35,10 @@ BEGIN {
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
-  layer("^render/cli/", narrow "|^render/", any)
+  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|cli)/", any)
+  # Of the program, what says how files are shown and written; nothing that owns the terminal or the
+  # process.
+  layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
   layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
@@ -49,6 +52,7 @@ BEGIN {
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")
   owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")

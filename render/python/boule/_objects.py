@@ -9,6 +9,7 @@ list of fields that the library has.
 from __future__ import annotations
 
 import inspect
+import os
 
 from . import _core
 
@@ -43,6 +44,17 @@ def error(key, message):
     made = _core.Error(f"{message} (key '{key}')")
     made.key = key
     return made
+
+
+def path_of(name, key="source"):
+    """The bytes of a file's name, which need not be text."""
+    try:
+        path = os.fsencode(name)
+    except UnicodeEncodeError:
+        raise error(key, "is no name of a file") from None
+    if b"\0" in path:
+        raise error(key, "is no name of a file: it has a NUL")
+    return path
 
 
 class Table:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from . import _core
-from ._objects import error
+from ._objects import error, path_of
 from ._progress import reporter
 from ._scene import Scene
 from ._sources import look_keys, with_look
@@ -47,7 +47,7 @@ def render(
     if isinstance(scene, Scene):
         source = scene._tree()
     elif isinstance(scene, (str, os.PathLike)):
-        source = os.fspath(scene)
+        source = path_of(scene)
     else:
         raise _core.Error(
             f"expected a Scene or the name of a scene file, got {type(scene).__name__}"

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import inspect
-import os
 
 from . import _core
-from ._objects import error
+from ._objects import error, path_of
 from ._scene import Scene
 
 
@@ -51,7 +50,7 @@ def load(source, *, frame=None, polygons="plane", **look):
     Raises boule.Error with file, line, column and key.
     """
     keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
-    return Scene._of(_core.read(os.fspath(source), keys))
+    return Scene._of(_core.read(path_of(source), keys))
 
 
 @with_look()
@@ -64,7 +63,7 @@ def frames(source, frames=None, *, polygons="plane", **look):
     What is left to be chosen is chosen once for all of them, as `boule render --frames` does it: the
     camera is fitted to all frames, colour maps have the range of the first.
     """
-    path = os.fspath(source)
+    path = path_of(source)
     keys = {**look_keys(**look), "polygons": polygons}
     if frames is None:
         frames = range(_core.count_frames(path, keys))
@@ -82,8 +81,10 @@ def _frames(series, frames):
 
 def particles(positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0):
     """Particles in memory, as a file of particles would hold them."""
+    if columns is not None and not isinstance(columns, dict):
+        raise error("columns", f"expected a dictionary, got {type(columns).__name__}")
     return _core.particles(
-        positions, species, dict(columns or {}), cell, [bool(one) for one in periodic], angstrom
+        positions, species, columns or {}, cell, [bool(one) for one in periodic], angstrom
     )
 
 

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
+from ._objects import error, path_of
 from ._scene import Scene
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class Tracer:
         self, source, radii=None, *, origin="auto", solver="robust", threads=0, isa="auto"
     ):
         if radii is None and isinstance(source, (str, os.PathLike)):
-            source = os.fspath(source)
+            source = path_of(source)
         elif radii is None and isinstance(source, Scene):
             source = source._tree()
         elif radii is None:
@@ -50,9 +51,11 @@ class Tracer:
                 f"expected centers and radii, a Scene or the name of a scene file, got one "
                 f"{type(source).__name__}"
             )
-        self._tracer = _core.Tracer(
-            source, radii, None if origin == "auto" else origin, solver, threads, isa
-        )
+        if isinstance(origin, str):
+            if origin != "auto":
+                raise error("origin", f'expected "auto" or a point, got {origin!r}')
+            origin = None
+        self._tracer = _core.Tracer(source, radii, origin, solver, threads, isa)
 
     def closest(self, org, dir, tmin=0.0, tmax=float("inf")):
         """The nearest hits with tmin < t <= tmax, of equally near ones that with the lowest id.

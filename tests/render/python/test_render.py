@@ -30,7 +30,7 @@ def test_files_are_the_programs_byte_for_byte(tmp_path, scenes):
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
-@pytest.mark.parametrize("name", ["first_light", "lens", "thin_lens", "daylight", "far_away"])
+@pytest.mark.parametrize("name", ["first_light", "depth_of_field", "double_gauss", "distorted", "far_away", "lecture", "daylight"])
 def test_a_scene_that_was_loaded_gives_the_files_picture(scenes, name, tmp_path):
     path = scenes / f"{name}.toml"
     if not path.exists():

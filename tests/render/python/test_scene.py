@@ -338,7 +338,7 @@ def test_groups_that_contain_themselves(ball):
     group = ball.add_group("a")
     group.add_instance("a")
     ball.add_instance("a")
-    with pytest.raises(boule.Error, match="contains itself"):
+    with pytest.raises(boule.Error, match="makes a cycle"):
         boule.render(ball)
     deep = []
     deep.append(deep)
