@@ -37,21 +37,6 @@ bool is_readable(const py::array& array, bool takes_bytes) {
   return is_native && (is_float || (takes_bytes && type.kind() == 'u' && type.itemsize() == 1));
 }
 
-/// What the argument is as an array; an exception of numpy's becomes the refusal.
-py::array to_array(const py::object& argument, const std::string& name,
-                   const Numbers::Shape& shape) {
-  if (py::isinstance<py::str>(argument) || py::isinstance<py::bytes>(argument) ||
-      py::isinstance<py::dict>(argument) || argument.is_none()) {
-    refuse(name, shape, py::str(py::type::of(argument).attr("__name__")));
-  }
-  try {
-    return py::array::ensure(py::module_::import("numpy").attr("asarray")(argument));
-  } catch (py::error_already_set& error) {
-    if (error.matches(PyExc_MemoryError) || error.matches(PyExc_KeyboardInterrupt)) throw;
-    refuse(name, shape, "what numpy makes no array of: " + std::string(py::str(error.value())));
-  }
-}
-
 /// Floats of whatever numbers these are; others are refused.
 py::array to_floats(const py::array& array, const std::string& name, const Numbers::Shape& shape) {
   if (is_readable(array, shape.takes_bytes)) return array;
@@ -62,13 +47,26 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 }  // namespace
 
+py::array to_array(const py::object& argument, const std::string& name) {
+  try {
+    return py::array::ensure(py::module_::import("numpy").attr("asarray")(argument));
+  } catch (py::error_already_set& error) {
+    if (error.matches(PyExc_MemoryError) || error.matches(PyExc_KeyboardInterrupt)) throw;
+    throw_error(name, "numpy makes no array of it: " + std::string(py::str(error.value())));
+  }
+}
+
 std::string describe(const py::array& array) {
   return std::string(py::str(array.dtype())) + " of shape " +
          std::string(py::str(array.attr("shape")));
 }
 
 Numbers::Numbers(const py::object& argument, const std::string& name, const Shape& shape) {
-  const py::array given = to_array(argument, name, shape);
+  if (py::isinstance<py::str>(argument) || py::isinstance<py::bytes>(argument) ||
+      py::isinstance<py::dict>(argument) || argument.is_none()) {
+    refuse(name, shape, py::str(py::type::of(argument).attr("__name__")));
+  }
+  const py::array given = to_array(argument, name);
   point_to(given, name, shape);  // first: what is too large is not converted
   const py::array numbers = to_floats(given, name, shape);
   if (!numbers.is(given)) point_to(numbers, name, shape);

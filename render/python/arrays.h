@@ -56,6 +56,9 @@ class Numbers {
   bool is_one_ = false;
 };
 
+/// The argument as an array of whatever numpy makes of it; an Error if that is none.
+pybind11::array to_array(const pybind11::object& argument, const std::string& name);
+
 /// "float32 of shape (5, 3)".
 std::string describe(const pybind11::array& array);
 

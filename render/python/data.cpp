@@ -24,8 +24,7 @@ namespace {
 
 /// A picture of H x W pixels with so many numbers each, of which the first three count.
 Data picture_of(const py::object& argument, const std::string& name, int components) {
-  const py::object given = py::module_::import("numpy").attr("asarray")(argument);
-  const auto array = py::array::ensure(given);
+  const py::array array = to_array(argument, name);
   const bool is_picture = array.ndim() == 3 && array.shape(2) == components;
   const bool is_small = is_picture && array.shape(0) <= max_image_side &&
                         array.shape(1) <= max_image_side && array.size() > 0;
@@ -72,41 +71,56 @@ std::vector<double> column_of(const py::object& argument, const std::string& nam
   return values;
 }
 
+/// The symbol of an element by its atomic number, or the number as text.
+std::string symbol_of(const py::handle& value, const std::string& name) {
+  const auto elements = all_elements();
+  int overflow = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(value.ptr(), &overflow);
+  const bool is_element =
+      overflow == 0 && number >= 1 && number <= static_cast<long long>(elements.size());
+  if (!is_element) return to_text(py::str(value), name);
+  return std::string(elements[static_cast<std::size_t>(number) - 1].symbol);
+}
+
+/// As many texts as there are particles, as something that can be gone through.
+py::object sequence_of(const py::object& argument, const std::string& name, std::size_t rows) {
+  const bool is_array = py::hasattr(argument, "tolist") && py::hasattr(argument, "shape");
+  // First: what is too large is not copied.
+  const bool fits = is_array ? py::make_tuple(rows).equal(argument.attr("shape"))
+                             : py::isinstance<py::sequence>(argument) &&
+                                   !py::isinstance<py::str>(argument) && py::len(argument) == rows;
+  if (!fits) {
+    throw_error(name, "expected " + std::to_string(rows) + " texts, one for each particle");
+  }
+  return is_array ? py::object(argument.attr("tolist")()) : argument;
+}
+
 /// Texts of each particle. Whole numbers are atomic numbers where they are species.
 TextColumn texts_of(const py::object& argument, const std::string& name, std::size_t rows) {
   TextColumn column{name, {}, {}};
   std::map<std::string, std::uint32_t> known;
-  const py::object values =
-      py::hasattr(argument, "tolist") ? py::object(argument.attr("tolist")()) : argument;
-  for (const py::handle value : values) {
-    std::string text = to_text(py::str(value), name);
-    if (py::isinstance<py::int_>(value)) {
-      const auto elements = all_elements();
-      const auto number = py::cast<long long>(value);
-      const bool is_element = number >= 1 && number <= static_cast<long long>(elements.size());
-      if (is_element && name == "species") {
-        text = elements[static_cast<std::size_t>(number) - 1].symbol;
-      }
-    }
+  const bool are_species = name == "species";
+  for (const py::handle value : sequence_of(argument, name, rows)) {
+    const bool is_number = are_species && py::isinstance<py::int_>(value);
+    const std::string text = is_number ? symbol_of(value, name) : to_text(py::str(value), name);
     const auto [place, is_new] =
         known.emplace(text, static_cast<std::uint32_t>(column.texts.size()));
     if (is_new) column.texts.push_back(text);
     column.indices.push_back(place->second);
-    if (column.indices.size() > rows) break;
   }
-  if (column.indices.size() != rows) {
-    throw_error(
-        name, "expected " + std::to_string(rows) + " texts, one for each particle, got " +
-                  (column.indices.size() > rows ? "more" : std::to_string(column.indices.size())));
-  }
+  if (column.indices.size() != rows) throw_error(name, "has changed while it was read");
   return column;
 }
 
 /// True for numbers, which become a column of numbers.
 bool holds_numbers(const py::object& argument) {
-  const py::object array = py::module_::import("numpy").attr("asarray")(argument);
-  const auto kind = py::cast<std::string>(array.attr("dtype").attr("kind"));
-  return kind == "f" || kind == "i" || kind == "u" || kind == "b";
+  if (!py::hasattr(argument, "dtype")) {
+    if (!py::isinstance<py::sequence>(argument) || py::len(argument) == 0) return true;
+    const py::object first = argument[py::int_(0)];
+    return py::isinstance<py::float_>(first) || py::isinstance<py::int_>(first);
+  }
+  const auto kind = py::cast<std::string>(py::str(argument.attr("dtype").attr("kind")));
+  return kind == "f" || kind == "i" || kind == "u";
 }
 
 ParticleCell cell_of(const py::object& cell, const std::vector<bool>& periodic) {

@@ -38,7 +38,7 @@ struct RayColumns {
   std::size_t size = 0;
   RayNumbers org, dir;    ///< three components each
   RayNumbers tmin, tmax;  ///< one component
-  Vec3d zero{};             ///< subtracted from the origins
+  Vec3d zero{};           ///< subtracted from the origins
 };
 
 /// Where hits go: `size` numbers each, three of each normal.

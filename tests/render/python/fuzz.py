@@ -7,6 +7,7 @@ types, shapes, strides and values, sizes 0 and huge among them; huge ones are vi
 import collections
 import faulthandler
 import random
+import resource
 import sys
 import tempfile
 import threading
@@ -20,6 +21,8 @@ except ImportError:
 import boule
 
 faulthandler.enable()
+# What takes too much memory shall fail, not the machine.
+resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
 PROMISED = (boule.Error, MemoryError, TypeError, AttributeError)
 DTYPES = ["f4", "f8", "f2", "i1", "i4", "i8", "u1", "u8", ">f4", ">f8", "c8", "?", "O", "U3", "M8[s]",
