@@ -1,5 +1,6 @@
 """Builds the Python package by CMake: pip install . --no-build-isolation (docs/python.md)."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -23,7 +24,8 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve() / "cmake"
         subprocess.run(
             ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DBOULE_PYTHON=ON",
-             "-DBOULE_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}"],
+             "-DBOULE_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+             *os.environ.get("CMAKE_ARGS", "").split()],
             check=True,
         )  # fmt: skip
         subprocess.run(
