@@ -3,7 +3,7 @@
 # without the tree where it was built.
 set -euo pipefail
 root="$1" work="$2" python="$3"
-"$python" -c 'import pip, setuptools, wheel, numpy' || exit 77
+"$python" -c 'import setuptools, pip, wheel, numpy' || exit 77
 
 rm -rf "$work"
 mkdir -p "$work/source"
