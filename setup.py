@@ -29,7 +29,8 @@ class CMakeBuild(build_ext):
             check=True,
         )  # fmt: skip
         subprocess.run(
-            ["cmake", "--build", build, "--target", "boule_python", "--parallel"], check=True
+            ["cmake", "--build", build, "--target", "boule_python",
+             "--parallel", str(os.cpu_count() or 1)], check=True
         )
         target = pathlib.Path(self.build_lib) / "boule"
         if self.inplace:
