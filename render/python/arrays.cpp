@@ -14,7 +14,7 @@ constexpr std::size_t most_rows = 2147483647;
 
 std::string shape_text(const Numbers::Shape& shape) {
   const std::string rows = shape.rows ? std::to_string(*shape.rows) : "N";
-  const std::string many = shape.columns == 1
+  std::string many = shape.columns == 1
                                ? "(" + rows + ",)"
                                : "(" + rows + ", " + std::to_string(shape.columns) + ")";
   if (!shape.takes_one) return many;

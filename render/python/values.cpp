@@ -130,7 +130,7 @@ TomlValue TreeBuilder::value(const py::handle& object, const std::string& path) 
 }
 
 std::string TreeBuilder::add(const Data& data) {
-  const std::string name = "array " + std::to_string(next_place().line);
+  std::string name = "array " + std::to_string(next_place().line);
   if (const auto* spheres = std::get_if<0>(&data.held)) data_.spheres.emplace(name, *spheres);
   if (const auto* particles = std::get_if<1>(&data.held)) data_.particles.emplace(name, *particles);
   if (const auto* picture = std::get_if<2>(&data.held)) data_.pictures.emplace(name, *picture);

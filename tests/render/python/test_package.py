@@ -127,3 +127,36 @@ def test_the_notebook_runs(tmp_path):
         if "image/png" in output.get("data", {})
     ]
     assert len(shown) >= 3
+
+
+ENDLESS = """
+import numpy as np, boule
+scene = boule.Scene(background=boule.GradientBackground())
+scene.add_spheres(np.random.default_rng(0).uniform(-5, 5, (5000, 3)), 0.2)
+begun = []
+boule.render(scene, size=(160, 120), spp=1_000_000, method="path", partial=True,
+             progress=lambda share: begun or begun.append(print("begun", flush=True)))
+"""
+
+
+def test_a_kernel_that_is_interrupted_shows_what_there_is(tmp_path):
+    manager = pytest.importorskip("jupyter_client.manager")
+    pytest.importorskip("ipykernel")
+    kernel, client = manager.start_new_kernel(
+        kernel_name="python3", env={**os.environ, "HOME": str(tmp_path)}
+    )
+    try:
+        client.execute(ENDLESS)
+        shown = None
+        while shown is None:
+            message = client.get_iopub_msg(timeout=120)
+            content = message["content"]
+            assert message["msg_type"] != "error", content
+            if message["msg_type"] == "stream" and "begun" in content["text"]:
+                kernel.interrupt_kernel()
+            if message["msg_type"] == "execute_result":
+                shown = content["data"]
+        assert "unfinished" in shown["text/plain"] and len(shown["image/png"]) > 1000
+    finally:
+        client.stop_channels()
+        kernel.shutdown_kernel(now=True)
