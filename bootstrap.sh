@@ -11,13 +11,19 @@ readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev o
 readonly test_packages=(binutils chromium-driver clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev
   libgtest-dev lammps-examples libmpfr-dev librapidcheck-dev pkg-config python3-ase python3-gemmi
   python3-selenium qemu-user)
+# For the package boule, and what its tests hold it against.
+readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
+readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
+  python3-nbclient python3-pytest)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
 usage() {
   cat <<'TEXT'
-usage: ./bootstrap.sh render|test|report
+usage: ./bootstrap.sh render|test|python|report
   render  install what is missing, build a release, render scenes/first_light.toml to first_light.png
   test    install what is missing, build the tests in build/test and run them
+  python  install what is missing, build the Python package in build/python, run its tests, say how to
+          import it
   report  install what is missing, build the benchmarks in build/bench, measure speed against error
           (about 10 minutes), write report.html and what the README shows of it
 TEXT
@@ -56,12 +62,26 @@ render() {
 }
 
 run_tests() {
-  install_missing "${build_packages[@]}" "${test_packages[@]}"
+  install_missing "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}" \
+    "${python_test_packages[@]}"
   # As users run it, and a warning is an error.
-  cmake --preset release -G Ninja -B build/test -DBOULE_TESTS=ON -DBOULE_WERROR=ON
+  cmake --preset release -G Ninja -B build/test -DBOULE_TESTS=ON -DBOULE_PYTHON=ON -DBOULE_WERROR=ON
   cmake --build build/test
   # Without the long runs: ctest --test-dir build/test -L long -V
   exec ctest --test-dir build/test -LE long -j2 --output-on-failure
+}
+
+# Builds no test program: the package's tests are Python.
+python() {
+  install_missing "${build_packages[@]}" "${python_packages[@]}" "${python_test_packages[@]}"
+  cmake --preset release -G Ninja -B build/python -DBOULE_PYTHON=ON -DBOULE_TESTS=OFF
+  cmake --build build/python
+  local tests
+  for tests in tests/render/python/test_*.py; do
+    PYTHONPATH="$PWD/build/python" BOULE_PROGRAM="$PWD/build/python/bin/boule" PYTHONDONTWRITEBYTECODE=1 \
+      /usr/bin/python3 tests/render/python/run_pytest.py "$tests"
+  done
+  echo "bootstrap: import it by  PYTHONPATH=$PWD/build/python /usr/bin/python3 -c 'import boule'"
 }
 
 report() {
@@ -79,6 +99,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 case "$1" in
   render) render ;;
   test) run_tests ;;
+  python) python ;;
   report) report ;;
   -h | --help | help) usage ;;
   *) usage >&2; exit 2 ;;

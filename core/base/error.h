@@ -19,9 +19,15 @@ struct Diagnostic {
   std::string file{};   ///< file it was read from, or empty
   int line = 0;
   int column = 0;
+  bool of_memory = false;  ///< there is too little memory
 
   /// About nothing that has a key or stands in a file.
   static Diagnostic of(std::string message) { return {.message = std::move(message)}; }
+
+  /// About memory that is missing.
+  static Diagnostic out_of_memory(std::string message) {
+    return {.message = std::move(message), .of_memory = true};
+  }
 
   /// About a key, or an option of the command line.
   static Diagnostic about(std::string key, std::string message) {

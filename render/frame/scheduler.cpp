@@ -4,6 +4,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 
 #include "core/base/float_environment.h"
 #include "render/threads/threads.h"
@@ -55,7 +56,7 @@ Diagnostic describe(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory");
+    return Diagnostic::out_of_memory("out of memory");
   } catch (const std::exception& exception) {
     return Diagnostic::of(exception.what());
   } catch (...) {
@@ -87,10 +88,11 @@ Status Scheduler::run(std::size_t count, const Body& body, const std::atomic<boo
   return std::nullopt;
 }
 
-ParallelFor Scheduler::parallel_for() {
-  return [this](std::size_t count, const std::function<void(std::size_t)>& body) {
+ParallelFor Scheduler::parallel_for(const std::atomic<bool>* cancel) {
+  return [this, cancel](std::size_t count, const std::function<void(std::size_t)>& body) {
     const auto indexed = [&body](unsigned, std::size_t index) { body(index); };
-    if (const auto error = run_all(count, indexed, nullptr)) std::rethrow_exception(error);
+    if (const auto error = run_all(count, indexed, cancel)) std::rethrow_exception(error);
+    if (cancel != nullptr && *cancel) throw std::runtime_error("it was cancelled");
   };
 }
 

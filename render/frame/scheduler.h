@@ -34,8 +34,8 @@ class Scheduler {
   Status run(std::size_t count, const Body& body, const std::atomic<bool>* cancel = nullptr);
 
   /// This scheduler as a ParallelFor, which is valid as long as the scheduler. Exceptions reach the
-  /// caller.
-  ParallelFor parallel_for();
+  /// caller. If `*cancel` becomes true, a loop stops and throws std::runtime_error.
+  ParallelFor parallel_for(const std::atomic<bool>* cancel = nullptr);
 
  private:
   std::exception_ptr run_all(std::size_t count, const Body& body, const std::atomic<bool>* cancel);

@@ -94,8 +94,11 @@ Status check_memory(std::uint64_t bytes, const std::string& who, const std::stri
   if (bytes <= available) return std::nullopt;
   constexpr std::uint64_t mebibyte = 1024 * 1024;
   const std::uint64_t needed = bytes / mebibyte + (bytes % mebibyte != 0 ? 1 : 0);
-  return Diagnostic::about(key, who + " " + std::to_string(needed) + " MiB of memory, there are " +
-                                    std::to_string(available / mebibyte));
+  Diagnostic error =
+      Diagnostic::about(key, who + " " + std::to_string(needed) + " MiB of memory, there are " +
+                                 std::to_string(available / mebibyte));
+  error.of_memory = true;
+  return error;
 }
 
 }  // namespace boule

@@ -116,6 +116,18 @@ Diagnostic in_file(Diagnostic error, const std::string& path) {
   return error;
 }
 
+/// A frame that is in memory already.
+class FrameInMemory final : public ParticleReader {
+ public:
+  explicit FrameInMemory(ParticleFrame frame) : frame_(std::move(frame)) {}
+
+  [[nodiscard]] std::size_t frames() const override { return 1; }
+  Result<ParticleFrame> read(std::size_t, const ParallelFor&) override { return frame_; }
+
+ private:
+  ParticleFrame frame_;
+};
+
 }  // namespace
 
 std::vector<std::string_view> particle_formats() {
@@ -148,6 +160,10 @@ bool has_particle_content(const std::string& path) {
 ParticleFile::ParticleFile(std::string path, std::string_view format,
                            std::unique_ptr<ParticleReader> reader)
     : path_(std::move(path)), format_(format), reader_(std::move(reader)) {}
+
+ParticleFile ParticleFile::of(ParticleFrame frame) {
+  return {"", "memory", std::make_unique<FrameInMemory>(std::move(frame))};
+}
 
 Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleFileOptions& options,
                                         const ParallelFor& parallel_for) {

@@ -62,6 +62,9 @@ class ParticleFile {
   static Result<ParticleFile> open(const std::string& path, const ParticleFileOptions& options = {},
                                    const ParallelFor& parallel_for = serial_for);
 
+  /// One frame in memory as if it were a file; reading it copies it.
+  static ParticleFile of(ParticleFrame frame);
+
   [[nodiscard]] std::size_t frames() const { return reader_->frames(); }
 
   /// A frame, from 0; negative numbers count from the end, -1 is the last. An error if there is no

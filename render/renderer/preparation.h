@@ -25,7 +25,7 @@ auto guard_preparation(const Prepare& prepare) -> decltype(prepare()) {
   try {
     return prepare();
   } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory while preparing the scene");
+    return Diagnostic::out_of_memory("out of memory while preparing the scene");
   } catch (...) {  // an exception of a callback that is copied
     return *diagnose([] { throw; });
   }

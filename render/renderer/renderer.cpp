@@ -92,7 +92,7 @@ Result<Image> Renderer::render() {
     lines.value().draw(image);
     return image;
   } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory for the picture");
+    return Diagnostic::out_of_memory("out of memory for the picture");
   }
 }
 
@@ -174,7 +174,7 @@ Result<std::vector<ImageChannel>> Renderer::render_aovs() {
     if (status) return *status;
     return channels.release();
   } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory for the AOVs");
+    return Diagnostic::out_of_memory("out of memory for the AOVs");
   }
 }
 
@@ -195,7 +195,7 @@ Result<Outline> Renderer::render_outline() {
     if (status) return *status;
     return outline;
   } catch (const std::bad_alloc&) {
-    return Diagnostic::of("out of memory for the outline");
+    return Diagnostic::out_of_memory("out of memory for the outline");
   }
 }
 

@@ -1,6 +1,7 @@
 #include "render/renderer/tracer.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -18,6 +19,32 @@ namespace {
 /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
 constexpr std::size_t block_size = 1024;
 
+/// The nearest float of a finite number or infinity, which numbers that are too large become.
+float to_float(double x) {
+  constexpr double too_large = 0x1.ffffffp127;  // halfway from the largest float to 2^128
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (x >= too_large) return infinity;
+  return x <= -too_large ? -infinity : static_cast<float>(x);
+}
+
+Vec3d vector_at(const RayNumbers& column, std::size_t ray) {
+  return {column.at(ray, 0), column.at(ray, 1), column.at(ray, 2)};
+}
+
+Ray ray_at(const RayColumns& rays, std::size_t k) {
+  const Vec3d dir = vector_at(rays.dir, k);
+  Ray ray{vector_at(rays.org, k) - rays.zero, {to_float(dir.x), to_float(dir.y), to_float(dir.z)}};
+  ray.tmin = to_float(rays.tmin.at(k));
+  ray.tmax = to_float(rays.tmax.at(k));
+  return ray;
+}
+
+Status wrong_room(std::size_t rays, std::size_t results) {
+  if (results == rays) return std::nullopt;
+  return Diagnostic::of("there are " + std::to_string(rays) + " rays, but room for " +
+                        std::to_string(results) + " results");
+}
+
 }  // namespace
 
 /// One thread's streams, kept from block to block.
@@ -29,6 +56,10 @@ struct Tracer::Worker {
   void load(std::span<const Ray> block) {
     rays.resize(block.size());
     for (std::size_t k = 0; k < block.size(); ++k) rays.set(k, block[k]);
+  }
+  void load(const RayColumns& columns, std::size_t first, std::size_t count) {
+    rays.resize(count);
+    for (std::size_t k = 0; k < count; ++k) rays.set(k, ray_at(columns, first + k));
   }
 };
 
@@ -70,69 +101,110 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
   });
 }
 
+void Tracer::find_closest(Worker& worker) {
+  worker.hits.resize(worker.rays.size());
+  kernels_->closest_hit(geometry_.view(), worker.rays.view(), {options_.solver},
+                        worker.hits.view());
+}
+
+void Tracer::find_any(Worker& worker) {
+  worker.met.resize(worker.rays.size());
+  kernels_->any_hit(geometry_.view(), worker.rays.view(), {options_.solver}, worker.met.data());
+}
+
+/// 0 for a miss.
+Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
+  if (hit.id == no_primitive) return {};
+  return vec_cast<float>(find_surface(spheres_, planes_, ray, hit).normal);
+}
+
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
-  const GeometryView geometry = geometry_.view();
+  const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
+    worker.load(rays.subspan(first, count));
+  };
   const auto body = [&](Worker& worker, std::size_t first) {
-    const std::size_t count = worker.rays.size();
-    worker.hits.resize(count);
-    kernels_->closest_hit(geometry, worker.rays.view(), {options_.solver}, worker.hits.view());
-    for (std::size_t k = 0; k < count; ++k) {
+    find_closest(worker);
+    for (std::size_t k = 0; k < worker.rays.size(); ++k) {
       const Hit hit = worker.hits.get(k);
-      TracedHit& result = hits[first + k];
-      result = {hit.t, hit.id, {}};
-      if (hit.id == no_primitive) continue;
-      const Surface surface = find_surface(spheres_, planes_, rays[first + k], hit);
-      result.normal = vec_cast<float>(surface.normal);
+      hits[first + k] = {hit.t, hit.id, normal_of(rays[first + k], hit)};
     }
   };
-  return run(rays, hits.size(), std::cref(body));
+  return run(rays.size(), hits.size(), std::cref(load), std::cref(body));
 }
 
 Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
-  const GeometryView geometry = geometry_.view();
-  const auto body = [&](Worker& worker, std::size_t first) {
-    const std::size_t count = worker.rays.size();
-    worker.met.resize(count);
-    kernels_->any_hit(geometry, worker.rays.view(), {options_.solver}, worker.met.data());
-    std::copy_n(worker.met.data(), count, met.data() + first);
+  const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
+    worker.load(rays.subspan(first, count));
   };
-  return run(rays, met.size(), std::cref(body));
+  const auto body = [&](Worker& worker, std::size_t first) {
+    find_any(worker);
+    std::copy_n(worker.met.data(), worker.rays.size(), met.data() + first);
+  };
+  return run(rays.size(), met.size(), std::cref(load), std::cref(body));
+}
+
+Status Tracer::closest_of_columns(const RayColumns& rays, const HitColumns& hits) {
+  const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
+    worker.load(rays, first, count);
+  };
+  const auto body = [&](Worker& worker, std::size_t first) {
+    find_closest(worker);
+    for (std::size_t k = 0; k < worker.rays.size(); ++k) {
+      const Hit hit = worker.hits.get(k);
+      const Vec3f normal = normal_of(worker.rays.get(k), hit);
+      hits.t[first + k] = hit.t;
+      hits.id[first + k] = hit.id;
+      float* const components = hits.normal + 3 * (first + k);
+      components[0] = normal.x;
+      components[1] = normal.y;
+      components[2] = normal.z;
+    }
+  };
+  return run(rays.size, rays.size, std::cref(load), std::cref(body));
+}
+
+Status Tracer::any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met) {
+  const auto load = [&](Worker& worker, std::size_t first, std::size_t count) {
+    worker.load(rays, first, count);
+  };
+  const auto body = [&](Worker& worker, std::size_t first) {
+    find_any(worker);
+    std::copy_n(worker.met.data(), worker.rays.size(), met.data() + first);
+  };
+  return run(rays.size, met.size(), std::cref(load), std::cref(body));
 }
 
 /// Closures are passed by reference, here and above: a copy takes memory, and can throw.
-Status Tracer::run(std::span<const Ray> rays, std::size_t results, const Body& body) {
+Status Tracer::run(std::size_t rays, std::size_t results, const Load& load, const Body& body) {
   if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
-  if (results != rays.size()) {
-    return Diagnostic::of("there are " + std::to_string(rays.size()) + " rays, but room for " +
-                          std::to_string(results) + " results");
-  }
+  if (auto bad = wrong_room(rays, results)) return bad;
   const FloatEnvironment environment;
   const Stopwatch watch;
-  Status status = run_blocks(rays, body);
+  Status status = run_blocks(rays, load, body);
   trace_seconds_ += watch.seconds();
   return status;
 }
 
 /// Calls `body` for each block of the rays, loaded into the worker's stream.
-Status Tracer::run_blocks(std::span<const Ray> rays, const Body& body) {
+Status Tracer::run_blocks(std::size_t rays, const Load& load, const Body& body) {
   std::atomic<std::size_t> done{0};
   const auto report = [&](double share) {
     if (options_.progress) options_.progress({share, done});
   };
   const auto work = [&](unsigned index, std::size_t block) {
     const std::size_t first = block * block_size;
-    const auto part = rays.subspan(first, std::min(block_size, rays.size() - first));
+    const std::size_t count = std::min(block_size, rays - first);
     Worker& mine = worker(index);
-    mine.load(part);
+    load(mine, first, count);
     body(mine, first);
-    done += part.size();
-    if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays.size()));
+    done += count;
+    if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays));
   };
-  const std::size_t blocks = rays.size() / block_size + (rays.size() % block_size != 0 ? 1 : 0);
+  const std::size_t blocks = rays / block_size + (rays % block_size != 0 ? 1 : 0);
   Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
   if (status) return status;
-  if (done != rays.size()) return Diagnostic::of("tracing was cancelled");
+  if (done != rays) return Diagnostic::of("tracing was cancelled");
   const auto end = [&] { report(1); };
   return diagnose(std::cref(end));
 }

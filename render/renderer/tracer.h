@@ -15,6 +15,7 @@
 #include "render/frame/progress.h"
 #include "render/frame/scheduler.h"
 #include "render/frame/traced_hit.h"
+#include "render/renderer/ray_columns.h"
 #include "render/renderer/run_statistics.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/geometry/geometry.h"
@@ -62,6 +63,11 @@ class Tracer {
   /// closest() and takes less time. Errors are as for closest().
   Status any(std::span<const Ray> rays, std::span<std::uint8_t> met);
 
+  /// The same for rays and hits in columns, which are read and written where they are. The numbers
+  /// of rays must not change meanwhile.
+  Status closest_of_columns(const RayColumns& rays, const HitColumns& hits);
+  Status any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met);
+
   [[nodiscard]] TraceStatistics statistics() const;
 
  private:
@@ -71,8 +77,13 @@ class Tracer {
   template <class AnyScene>
   static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
   Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels);
-  Status run(std::span<const Ray> rays, std::size_t results, const Body& body);
-  Status run_blocks(std::span<const Ray> rays, const Body& body);
+  /// Fills a worker's stream with `count` rays from `first` on.
+  using Load = std::function<void(Worker& worker, std::size_t first, std::size_t count)>;
+  void find_closest(Worker& worker);
+  void find_any(Worker& worker);
+  [[nodiscard]] Vec3f normal_of(const Ray& ray, const Hit& hit) const;
+  Status run(std::size_t rays, std::size_t results, const Load& load, const Body& body);
+  Status run_blocks(std::size_t rays, const Load& load, const Body& body);
   Worker& worker(unsigned index);
 
   TraceOptions options_;

@@ -10,13 +10,17 @@
 
 namespace boule {
 
+struct SceneData;
+
 /// Keeps the first error reported about one file; later ones are its consequences and dropped. A
 /// reader reports an error and goes on, so that its code reads as the list of what it reads.
 class FirstError {
  public:
-  /// `frame` is the frame of a series that the file is read for.
-  explicit FirstError(std::string file, std::optional<int> frame = {})
-      : file_(std::move(file)), frame_(frame) {}
+  /// `frame` is the frame of a series that the file is read for; `data` are what the file may name
+  /// besides files, or null.
+  explicit FirstError(std::string file, std::optional<int> frame = {},
+                      const SceneData* data = nullptr)
+      : file_(std::move(file)), frame_(frame), data_(data) {}
 
   /// Reports an error in the file's text.
   void report(TextPlace place, std::string key, std::string message) {
@@ -36,6 +40,7 @@ class FirstError {
   /// The file the errors are about.
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] std::optional<int> frame() const { return frame_; }
+  [[nodiscard]] const SceneData* data() const { return data_; }
 
   /// Keeps the path of a data file that the file names.
   void add_data_file(std::string path) { data_files_.push_back(std::move(path)); }
@@ -51,6 +56,7 @@ class FirstError {
  private:
   std::string file_;
   std::optional<int> frame_;
+  const SceneData* data_;
   Status status_;
   std::vector<std::string> data_files_;
   std::vector<std::string> notes_;

@@ -4,6 +4,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "core/base/ascii.h"
 #include "core/base/float_environment.h"
@@ -12,6 +13,7 @@
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/particle_file_cache.h"
+#include "render/scene_file/scene_tree.h"
 #include "render/scene_file/toml_reader.h"
 
 namespace boule {
@@ -61,7 +63,8 @@ template <class Read>
 Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions& options,
                                  const Read& read) {
   const FloatEnvironment environment;
-  const auto too_large = Diagnostic::in_file(path, "needs more memory than there is");
+  Diagnostic too_large = Diagnostic::in_file(path, "needs more memory than there is");
+  too_large.of_memory = true;
   try {
     Result<LoadedScene> loaded = read();
     if (options.particle_files != nullptr) options.particle_files->close_unused();
@@ -87,6 +90,13 @@ Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& 
 Result<LoadedScene> load_scene_text(const std::string& toml, const std::string& shown_path,
                                     const SceneFileOptions& options) {
   return load_checked(shown_path, options, [&] { return read_toml(toml, shown_path, options); });
+}
+
+Result<LoadedScene> load_scene_tree(TomlMembers root, const std::string& shown_path,
+                                    const SceneFileOptions& options) {
+  return load_checked(shown_path, options, [&] {
+    return read_toml_tree({{}, std::move(root)}, shown_path, options);
+  });
 }
 
 }  // namespace boule

@@ -13,6 +13,7 @@
 namespace boule {
 
 class ParticleFileCache;
+struct SceneData;
 
 /// What an NFF polygon becomes: its infinite plane, nothing, or an error.
 enum class PolygonPolicy { plane, skip, error };
@@ -31,6 +32,7 @@ struct SceneFileOptions {
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads
   /// at a time.
   ParticleFileCache* particle_files = nullptr;
+  const SceneData* data = nullptr;  ///< what is taken from memory where a file is named; null: none
   /// Runs the loops over particles.
   ParallelFor parallel_for = serial_for;
 };

@@ -8,6 +8,7 @@
 #include "core/scene/problem_finder.h"
 #include "render/scene_file/lens_file.h"
 #include "render/scene_file/picture_file.h"
+#include "render/scene_file/scene_data.h"
 #include "render/scene_file/toml_fields.h"
 
 namespace boule {
@@ -89,6 +90,14 @@ void stop_down(TomlTable& table, float f_number, LensCamera& camera) {
   surface.aperture = static_cast<float>(stop_diameter(camera.surfaces, *stop, double{f_number}));
 }
 
+Result<std::vector<LensSurface>> read_surfaces(TomlTable& table, const std::string& name) {
+  const SceneData* const data = table.data();
+  if (const auto* known = find_data(data != nullptr ? &data->lenses : nullptr, name)) {
+    return *known;
+  }
+  return read_lens(table.file_path(name));
+}
+
 void read_keys(TomlTable& table, LensCamera& camera) {
   std::string name;
   float f_number = 1;
@@ -100,7 +109,7 @@ void read_keys(TomlTable& table, LensCamera& camera) {
   table.finish({"eye", "look_at", "file"});
   require_positive(table, "f_number", f_number);
   if (!table.ok()) return;
-  auto surfaces = read_lens(table.file_path(name));
+  auto surfaces = read_surfaces(table, name);
   if (!surfaces) {
     const Diagnostic& error = surfaces.error();
     const std::string line = error.line > 0 ? "line " + std::to_string(error.line) + ": " : "";
@@ -123,7 +132,7 @@ DistortionMap read_map(TomlTable table) {
   table.read_file_name("file", name);
   table.finish({"file"});
   if (!table.ok()) return {};
-  const auto image = read_picture(table.file_path(name), PictureContent::numbers);
+  const auto image = read_picture(table, name, PictureContent::numbers);
   if (!image) {
     table.report("file", quote(name) + ": " + image.error().message);
     return {};

@@ -24,7 +24,7 @@ void read_keys(TomlTable& table, EnvironmentBackground& background) {
   read_fields(table, background);
   table.finish({"file"});
   if (!table.ok()) return;
-  auto image = read_picture(table.file_path(name), PictureContent::colors);
+  auto image = read_picture(table, name, PictureContent::colors);
   if (!image) {
     return table.report("file", quote(name) + ": " + image.error().message);
   }

@@ -12,11 +12,20 @@
 #include "render/file/sphere_room.h"
 #include "render/memory/scene_memory.h"
 #include "render/scene_file/npy_reader.h"
+#include "render/scene_file/scene_data.h"
 #include "render/scene_file/toml_color_map.h"
 #include "render/scene_file/toml_entities.h"
 
 namespace boule {
 namespace {
+
+/// The spheres in memory that a table [[spheres]] names, or null.
+const SphereArrays* find_arrays(TomlTable& table) {
+  std::string name;
+  if (table.data() == nullptr || !table.has_text("file")) return nullptr;
+  table.read("file", name);
+  return find_data(&table.data()->spheres, name);
+}
 
 /// The number that `ids` has for the name under `key` of a table; an unknown name is reported.
 std::uint32_t find_id(TomlTable& table, const char* key,
@@ -42,7 +51,12 @@ ObjectTables object_tables(TomlTable& table) {
   constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto source = static_cast<ObjectTables::Source>(i);
-    for (TomlTable& one : table.tables(keys[i])) all.push_back({std::move(one), source});
+    for (TomlTable& one : table.tables(keys[i])) {
+      const SphereArrays* const arrays =
+          source == ObjectTables::Source::spheres ? find_arrays(one) : nullptr;
+      all.push_back({std::move(one), source});
+      if (arrays != nullptr && !arrays->centers.empty()) all.back().exact = arrays->extent;
+    }
   }
   // Ids follow the order in the file, of all of them together.
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -70,7 +84,7 @@ T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_
 
 void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
                                std::vector<Sphere>& spheres) {
-  for (auto& [table, source, particles] : tables) {
+  for (auto& [table, source, particles, exact] : tables) {
     switch (source) {
       case ObjectTables::Source::sphere:
         read_sphere(table, spheres);
@@ -86,7 +100,7 @@ void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
 }
 
 void TomlObjects::load_particles(ObjectTables& tables) {
-  for (auto& [table, source, particles] : tables.spheres) {
+  for (auto& [table, source, particles, exact] : tables.spheres) {
     if (source != ObjectTables::Source::particles) continue;
     const std::uint32_t material = colorable_material_of(table, "material");
     particles = read_particles(table, material, options_);
@@ -113,7 +127,42 @@ void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
   spheres.push_back(read_checked<Sphere>(table));
 }
 
+/// Appends spheres in memory, whose materials are those of the scene that have their names.
+void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
+                             std::vector<Sphere>& spheres) {
+  std::vector<std::uint32_t> ids;
+  for (const std::string& name : arrays.materials) {
+    const auto found = material_ids_.find(name);
+    if (found == material_ids_.end()) {
+      return table.report("material", "unknown material " + quote(name));
+    }
+    ids.push_back(found->second);
+  }
+  const MaterialRef common = ids.empty() ? colored_material_of(table) : MaterialRef();
+  if (ids.empty()) ids.push_back(common.index());
+  table.finish({"file"});
+  const std::uint32_t last = *std::max_element(ids.begin(), ids.end());
+  if (arrays.has_colors && last >= MaterialRef::max_colored) {
+    return table.report("material", "is not one of the first " +
+                                        std::to_string(MaterialRef::max_colored) +
+                                        " of the scene: those can be given colours");
+  }
+  if (error_.status()) return;
+  const std::size_t before = spheres.size();
+  if (auto bad = arrays.append_to(spheres, table.origin(), options_.parallel_for)) {
+    return table.report("file", bad->message);
+  }
+  for (Sphere& sphere : std::span(spheres).subspan(before)) {
+    MaterialRef& ref = sphere.material;
+    const std::uint32_t id = ids[std::min<std::size_t>(ref.index(), ids.size() - 1)];
+    ref = ref.has_color()      ? MaterialRef::colored(id, ref.color())
+          : common.has_color() ? common
+                               : MaterialRef(id);
+  }
+}
+
 void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
+  if (const SphereArrays* arrays = find_arrays(table)) return add_arrays(table, *arrays, spheres);
   std::string name;
   NpySpheres request;
   table.read_file_name("file", name);

@@ -13,11 +13,14 @@
 #include "render/scene_file/particle_facts.h"
 #include "render/scene_file/scene_file.h"
 #include "render/scene_file/toml_fields.h"
+#include "render/scene_file/toml_origin.h"
 #include "render/scene_file/toml_particles.h"
 #include "render/scene_file/toml_sphere_colors.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
+
+struct SphereArrays;
 
 /// The tables of the objects of a scene or a group, in the order of the file.
 struct ObjectTables {
@@ -27,6 +30,7 @@ struct ObjectTables {
     TomlTable table;
     Source source;
     std::optional<TomlParticles> particles{};  ///< once they are read
+    std::optional<SphereExtent> exact{};       ///< of spheres in memory with double precision
   };
   std::vector<Spheres> spheres;
   std::vector<TomlTable> planes;
@@ -72,6 +76,7 @@ class TomlObjects final : private TomlNames {
   void read_spheres(std::vector<ObjectTables::Spheres>& tables, std::vector<Sphere>& spheres);
   void read_sphere(TomlTable& table, std::vector<Sphere>& spheres);
   void read_bulk(TomlTable& table, std::vector<Sphere>& spheres);
+  void add_arrays(TomlTable& table, const SphereArrays& arrays, std::vector<Sphere>& spheres);
   void color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
                   std::span<Sphere> spheres);
   void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,

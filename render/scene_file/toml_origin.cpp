@@ -24,11 +24,8 @@ double largest_component(const Vec3d& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-/// The box around the centres of all particles, and the smallest of their radii.
-struct Extent {
-  Vec3d low, high;
-  double radius = std::numeric_limits<double>::infinity();
-
+/// The box around the centres of all spheres, and the smallest of their radii.
+struct Extent : SphereExtent {
   [[nodiscard]] Vec3d middle() const { return low * 0.5 + high * 0.5; }
   [[nodiscard]] double half_width() const { return largest_component(high * 0.5 - low * 0.5); }
   /// The largest component of a centre that is counted from `origin`.
@@ -37,26 +34,18 @@ struct Extent {
   }
 };
 
-std::optional<Extent> extent_of(const ParticleLists& particles) {
+std::optional<Extent> extent_of(const ExactSpheres& spheres) {
   std::optional<Extent> all;
-  for (const ParticleSpheres* spheres : particles) {
-    if (spheres->size() == 0) continue;
-    const auto& [low, high] = spheres->center_bounds();
-    if (!all) all = Extent{low, high};
-    all->low = {std::min(all->low.x, low.x), std::min(all->low.y, low.y),
-                std::min(all->low.z, low.z)};
-    all->high = {std::max(all->high.x, high.x), std::max(all->high.y, high.y),
-                 std::max(all->high.z, high.z)};
-    all->radius = std::min(all->radius, spheres->smallest_radius());
+  for (const SphereExtent& one : spheres.extents) {
+    if (std::isinf(one.radius)) continue;
+    if (!all) all = Extent{one};
+    all->low = {std::min(all->low.x, one.low.x), std::min(all->low.y, one.low.y),
+                std::min(all->low.z, one.low.z)};
+    all->high = {std::max(all->high.x, one.high.x), std::max(all->high.y, one.high.y),
+                 std::max(all->high.z, one.high.z)};
+    all->radius = std::min(all->radius, one.radius);
   }
   return all;
-}
-
-/// The middle of the cell, if all particles share one; it stays where it is in all frames.
-std::optional<Vec3d> cell_middle(const ParticleLists& particles) {
-  if (particles.size() != 1 || !particles.front()->cell()) return std::nullopt;
-  const ParticleCell& cell = *particles.front()->cell();
-  return cell.origin + (cell.a + cell.b + cell.c) * 0.5;
 }
 
 Vec3d to_multiple(const Vec3d& point, double step) {
@@ -96,11 +85,11 @@ std::string point_text(const Vec3d& point) {
 
 }  // namespace
 
-Vec3d choose_origin(const ParticleLists& particles) {
-  const auto extent = extent_of(particles);
+Vec3d choose_origin(const ExactSpheres& spheres) {
+  const auto extent = extent_of(spheres);
   if (!extent) return {};
   if (is_near_enough({}, *extent)) return {};
-  const Vec3d middle = cell_middle(particles).value_or(extent->middle());
+  const Vec3d middle = spheres.cell_middle.value_or(extent->middle());
   for (const Vec3d& from : {middle, extent->middle()}) {
     if (const auto origin = short_point(from, *extent)) return *origin;
   }
@@ -111,8 +100,7 @@ Vec3d choose_origin(const ParticleLists& particles) {
   return {};
 }
 
-Vec3d read_origin(TomlTable& root, const ParticleLists& particles,
-                  std::vector<std::string>& notes) {
+Vec3d read_origin(TomlTable& root, const ExactSpheres& spheres, std::vector<std::string>& notes) {
   std::string text = "auto";
   Vec3d origin;
   if (!root.has("origin") || root.has_text("origin")) {
@@ -120,7 +108,7 @@ Vec3d read_origin(TomlTable& root, const ParticleLists& particles,
     if (text != "auto") {
       root.report("origin", "expected \"auto\" or a point [x, y, z], got " + quote(text));
     }
-    origin = choose_origin(particles);
+    origin = choose_origin(spheres);
     if (origin == Vec3d{}) return origin;
     notes.push_back("points are counted from " + point_text(origin) +
                     ": so far from 0, rounding to float would move the particles visibly "

@@ -9,6 +9,7 @@
 #include "render/particle_file/particle_file.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/particle_file_cache.h"
+#include "render/scene_file/scene_data.h"
 #include "render/scene_file/toml_particle_style.h"
 
 namespace boule {
@@ -119,6 +120,10 @@ std::optional<TomlParticles> ParticleTable::read() {
 }
 
 std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& file) {
+  if (options_.data != nullptr) {
+    const auto found = options_.data->particles.find(keys_.name);
+    if (found != options_.data->particles.end()) return found->second;
+  }
   ParticleFileCache own;
   ParticleFileCache& cache = options_.particle_files != nullptr ? *options_.particle_files : own;
   auto opened = cache.open(keys_.path, file, options_.parallel_for);

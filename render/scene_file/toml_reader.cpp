@@ -13,6 +13,15 @@
 namespace boule {
 namespace {
 
+void add_extent(const ParticleSpheres& particles, ExactSpheres& spheres) {
+  const auto& [low, high] = particles.center_bounds();
+  SphereExtent extent{low, high};
+  if (particles.size() != 0) extent.radius = particles.smallest_radius();
+  spheres.extents.push_back(extent);
+  const auto& cell = particles.cell();
+  if (cell) spheres.cell_middle = cell->origin + (cell->a + cell->b + cell->c) * 0.5;
+}
+
 /// Turns the root table into a Scene: settings first, then materials, then the objects, which refer
 /// to them.
 class TomlReader {
@@ -22,7 +31,7 @@ class TomlReader {
              const CameraMotion* motion)
       : options_(options),
         motion_(motion),
-        error_(path, options.frame),
+        error_(path, options.frame, options.data),
         root_(std::get<TomlMembers>(root.data), root.place, "", error_) {
     root_.set_origin(&origin_);
   }
@@ -91,11 +100,13 @@ void TomlReader::choose_origin(const ObjectTables& objects) {
     origin_ = *options_.origin;
     return;
   }
-  ParticleLists particles;
+  ExactSpheres spheres;
   for (const auto& table : objects.spheres) {
-    if (table.particles) particles.push_back(&table.particles->spheres);
+    if (table.particles) add_extent(table.particles->spheres, spheres);
+    if (table.exact) spheres.extents.push_back(*table.exact);
   }
-  origin_ = read_origin(root_, particles, loaded_.notes);
+  if (spheres.extents.size() != 1) spheres.cell_middle.reset();
+  origin_ = read_origin(root_, spheres, loaded_.notes);
 }
 
 void TomlReader::check_schema() {
@@ -146,11 +157,15 @@ Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
                               const SceneFileOptions& options) {
   auto root = parse_toml(text, path);
   if (!root) return root.error();
+  return read_toml_tree(std::move(root).value(), path, options);
+}
+
+Result<LoadedScene> read_toml_tree(TomlValue root, const std::string& path,
+                                   const SceneFileOptions& options) {
   FirstError error(path);
-  const auto motion =
-      apply_camera_keys(std::get<TomlMembers>(root.value().data), options.frame, error);
+  const auto motion = apply_camera_keys(std::get<TomlMembers>(root.data), options.frame, error);
   if (error.status()) return *error.status();
-  return TomlReader(root.value(), path, options, motion ? &*motion : nullptr).read();
+  return TomlReader(root, path, options, motion ? &*motion : nullptr).read();
 }
 
 }  // namespace boule

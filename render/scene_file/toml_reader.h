@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "render/scene_file/scene_file.h"
+#include "render/scene_file/toml_document.h"
 
 namespace boule {
 
@@ -11,5 +12,9 @@ namespace boule {
 /// its folder. The scene has passed validate().
 Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
                               const SceneFileOptions& options = {});
+
+/// The same for text that was parsed. Precondition: the value is a table.
+Result<LoadedScene> read_toml_tree(TomlValue root, const std::string& path,
+                                   const SceneFileOptions& options);
 
 }  // namespace boule

@@ -91,6 +91,8 @@ class TomlTable {
   /// Reports an error of another file.
   void report(const Diagnostic& error) { error_->report(error); }
 
+  /// What the file may name besides files, or null.
+  [[nodiscard]] const SceneData* data() const { return error_->data(); }
   /// True if nothing was reported about the file so far.
   [[nodiscard]] bool ok() const { return !error_->status(); }
   /// The path of a file name in this table, which is relative to the scene file. It becomes one of

@@ -73,6 +73,20 @@ Threads::~Threads() {
   for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
 }
 
+bool start_detached(std::function<void()> run) {
+  const auto enter_run = [](void* start) -> void* {
+    (*std::unique_ptr<std::function<void()>>(static_cast<std::function<void()>*>(start)))();
+    return nullptr;
+  };
+  const Attributes attributes;
+  auto start = std::make_unique<std::function<void()>>(std::move(run));
+  pthread_t thread{};
+  if (pthread_create(&thread, attributes.get(), enter_run, start.get()) != 0) return false;
+  static_cast<void>(start.release());  // the thread deletes it
+  pthread_detach(thread);
+  return true;
+}
+
 bool can_start_threads(std::size_t count) {
   std::atomic<bool> counted{false};
   const Threads threads(count, [&counted](std::size_t) { counted.wait(false); });

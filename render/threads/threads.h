@@ -31,6 +31,10 @@ class Threads {
   std::vector<pthread_t> threads_;
 };
 
+/// Runs a function on a thread of its own that nobody waits for, with the same stack. False,
+/// without a call, if no thread can be had. The function must not throw.
+bool start_detached(std::function<void()> run);
+
 /// Tries whether so many threads can run at once beside the caller's. For libraries that start
 /// threads of their own and fail badly without them.
 bool can_start_threads(std::size_t count);

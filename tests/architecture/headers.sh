@@ -19,6 +19,10 @@ for argument in "$@"; do
   fi
 done
 
+# Headers of the Python package are compiled where Python's own are known.
+has_python=
+[[ "${base[*]}" != *-isystem*python* ]] || has_python=yes
+
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 compilations=0
@@ -54,6 +58,7 @@ while read -r header; do
       add "$header" "${isas[0]}"
       add "$header" "${isas[-1]}"
       ;;
+    render/python/*) [[ -z "$has_python" ]] || compiled_first "$header" || add "$header" "" ;;
     *) compiled_first "$header" || add "$header" "" ;;
   esac
 done < <(find core simd render tests bench -name '*.h' | LC_ALL=C sort)

@@ -37,7 +37,10 @@ BEGIN {
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/view/",
         narrow "|^render/(memory|threads|particles|scene_file|image|frame|prepare|shading|integrators|renderer|view)/", any)
-  layer("^render/cli/", narrow "|^render/", any)
+  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|cli)/", any)
+  # Of the program, what says how files are shown and written; nothing that owns the terminal or the
+  # process.
+  layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
   layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
@@ -53,6 +56,7 @@ BEGIN {
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <boost/", "^render/view/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/view/jpeg\\.cpp$", "libjpeg-turbo")
+  owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")
   owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")

@@ -45,6 +45,11 @@ accepted() {
 }
 
 # Upward and sideways.
+refused render/cli/a.cpp '#include "render/python/call.h"' 'may not include'
+refused render/python/a.cpp '#include "render/cli/interrupt.h"' 'may not include'
+refused render/python/a.cpp '#include "render/integrators/path.h"' 'may not include'
+accepted render/python/a.cpp '#include "render/cli/scene_loader.h"'
+refused render/renderer/a.cpp '#include <pybind11/pybind11.h>' 'Python has another owner'
 refused core/a.h '#include "simd/abi/isa.h"' 'may not include simd/abi/isa.h'
 refused core/a.h '#include <fmt/format.h>' 'may not include <fmt/format.h>'
 refused core/a.h '#include <unistd.h>' 'may not include <unistd.h>'

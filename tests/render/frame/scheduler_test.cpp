@@ -107,6 +107,21 @@ TEST(Scheduler, ParallelForPassesExceptionsOn) {
   EXPECT_THROW(parallel_for(10, [](std::size_t) { throw std::bad_alloc(); }), std::bad_alloc);
 }
 
+TEST(Scheduler, ParallelForThatIsCancelledStopsAndThrows) {
+  Scheduler scheduler(2);
+  std::atomic<bool> cancel{false};
+  const ParallelFor parallel_for = scheduler.parallel_for(&cancel);
+  std::atomic<int> calls{0};
+  parallel_for(100, [&](std::size_t) { ++calls; });
+  EXPECT_EQ(calls, 100);
+  const auto body = [&](std::size_t index) {
+    if (index == 10) cancel = true;
+    if (index == far_too_many) throw std::bad_alloc();
+  };
+  EXPECT_THROW(parallel_for(endless, body), std::runtime_error);
+  EXPECT_THROW(parallel_for(1, [](std::size_t) {}), std::runtime_error);
+}
+
 TEST(Scheduler, EveryWorkerHasTheDefaultFloatEnvironmentAndTheCallersReturns) {
   Scheduler scheduler(3);
   std::atomic<int> wrong{0};

@@ -1,0 +1,91 @@
+#include "render/python/arguments.h"
+
+#include <limits>
+
+#include "core/scene/number_text.h"
+#include "render/python/errors.h"
+
+namespace py = pybind11;
+
+namespace boule::python {
+namespace {
+
+std::string type_name(const py::object& object) {
+  return py::str(py::type::of(object).attr("__name__"));
+}
+
+}  // namespace
+
+std::optional<py::object> Arguments::find(const char* name) const {
+  if (!given_.contains(name) || given_[name].is_none()) return std::nullopt;
+  return py::object(given_[name]);
+}
+
+int Arguments::whole_of(const py::object& object, const char* name, const WholeRule& rule) {
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
+  if (!index) {
+    PyErr_Clear();
+    throw_error(name, "expected a whole number, got " + type_name(object));
+  }
+  int overflow = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+  const bool fits = overflow == 0 && number >= rule.low && number <= rule.high;
+  if (!fits)
+    throw_error(name,
+                "must be " + describe(rule) + ", is " + std::string(py::str(index)).substr(0, 40));
+  return static_cast<int>(number);
+}
+
+std::optional<int> Arguments::whole(const char* name, const WholeRule& rule) const {
+  const auto object = find(name);
+  if (!object) return std::nullopt;
+  return whole_of(*object, name, rule);
+}
+
+std::optional<std::uint64_t> Arguments::any_whole(const char* name) const {
+  const auto object = find(name);
+  if (!object) return std::nullopt;
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object->ptr()));
+  if (!index) {
+    PyErr_Clear();
+    throw_error(name, "expected a whole number, got " + type_name(*object));
+  }
+  const std::uint64_t number = PyLong_AsUnsignedLongLong(index.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  throw_error(name, "must be from 0 to 18446744073709551615");
+}
+
+std::optional<double> Arguments::number(const char* name, const NumberRule& rule) const {
+  const auto object = find(name);
+  if (!object) return std::nullopt;
+  const double number = PyFloat_AsDouble(object->ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    throw_error(name, "expected a number, got " + type_name(*object));
+  }
+  if (!rule.allows(number))
+    throw_error(name, "must be " + describe(rule) + ", is " + number_text(number));
+  return number;
+}
+
+std::optional<std::string> Arguments::text(const char* name) const {
+  const auto object = find(name);
+  if (!object) return std::nullopt;
+  if (!py::isinstance<py::str>(*object))
+    throw_error(name, "expected text, got " + type_name(*object));
+  py::ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(object->ptr(), &size);
+  if (bytes != nullptr) return std::string(bytes, static_cast<std::size_t>(size));
+  PyErr_Clear();
+  throw_error(name, "is text that is not UTF-8");
+}
+
+bool Arguments::flag(const char* name) const {
+  const auto object = find(name);
+  if (!object) return false;
+  if (!py::isinstance<py::bool_>(*object)) throw_error(name, "expected True or False");
+  return py::cast<bool>(*object);
+}
+
+}  // namespace boule::python

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/scene/rule.h"
+#include "render/python/choices.h"
+
+namespace boule::python {
+
+/// The arguments of a call by their names. What is None counts as not given; everything that is
+/// wrong is an Error with the argument's name as its key.
+class Arguments {
+ public:
+  explicit Arguments(const pybind11::dict& given) : given_(given) {}
+
+  [[nodiscard]] std::optional<pybind11::object> find(const char* name) const;
+  [[nodiscard]] std::optional<int> whole(const char* name, const WholeRule& rule) const;
+  [[nodiscard]] std::optional<std::uint64_t> any_whole(const char* name) const;
+  [[nodiscard]] std::optional<double> number(const char* name, const NumberRule& rule) const;
+  [[nodiscard]] std::optional<std::string> text(const char* name) const;
+  [[nodiscard]] bool flag(const char* name) const;
+
+  /// So many whole numbers.
+  template <std::size_t n>
+  [[nodiscard]] std::optional<std::array<int, n>> wholes(const char* name,
+                                                         const WholeRule& rule) const {
+    const auto object = find(name);
+    if (!object) return std::nullopt;
+    std::array<int, n> numbers{};
+    const std::string expected = "expected " + std::to_string(n) + " whole numbers";
+    if (!pybind11::isinstance<pybind11::sequence>(*object) || pybind11::len(*object) != n ||
+        pybind11::isinstance<pybind11::str>(*object)) {
+      throw_error(name, expected);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      numbers[i] = whole_of((*object)[pybind11::int_(i)], name, rule);
+    }
+    return numbers;
+  }
+
+  template <class Enum>
+  [[nodiscard]] std::optional<Enum> choice(const char* name) const {
+    const auto chosen = text(name);
+    if (!chosen) return std::nullopt;
+    return choose<Enum>(*chosen, name);
+  }
+
+ private:
+  static int whole_of(const pybind11::object& object, const char* name, const WholeRule& rule);
+
+  const pybind11::dict& given_;
+};
+
+}  // namespace boule::python

@@ -1,0 +1,98 @@
+"""Boule renders scenes of spheres and planes: exact hits, the same bits on every machine.
+
+    import boule
+    hits = boule.Tracer(centers, radii).closest(org, dir)
+    picture = boule.render("scene.toml", size=(640, 480), spp=16)
+    scene = boule.Scene()
+    scene.add_spheres(centers, radii, colors=rgb, material=boule.Plastic())
+    boule.render(scene).save("spheres.png")
+
+Lengths are in the units of the scene, angles in degrees, colours linear RGB or "#rrggbb". What is
+wrong raises boule.Error, a ValueError with file, line, column and key; too little memory is a
+MemoryError. All functions may be called by any thread, and give way to other threads of Python.
+Ctrl-C ends every call within a tenth of a second.
+"""
+
+from ._core import Error as Error
+from ._core import Picture as Picture
+from ._core import isa as isa
+from ._core import version as __version__
+from ._objects import (
+    ConstantBackground,
+    DirectionalLight,
+    Distortion,
+    Emissive,
+    EnvironmentBackground,
+    Fisheye,
+    Fit,
+    Glass,
+    GradientBackground,
+    ImageSettings,
+    Instance,
+    Lens,
+    Matte,
+    Metal,
+    Orthographic,
+    Particles,
+    Phong,
+    Pinhole,
+    Plane,
+    Plastic,
+    PointLight,
+    RenderSettings,
+    Sphere,
+    SphereLight,
+    ThinLens,
+)
+from ._rendering import Interrupted, render
+from ._scene import Group, Scene, Spheres
+from ._sources import frames, from_ase, from_particles, load
+from ._tracing import Hits, Tracer
+
+__all__ = [
+    "ConstantBackground",
+    "DirectionalLight",
+    "Distortion",
+    "Emissive",
+    "EnvironmentBackground",
+    "Error",
+    "Fisheye",
+    "Fit",
+    "Glass",
+    "GradientBackground",
+    "Group",
+    "Hits",
+    "ImageSettings",
+    "Instance",
+    "Interrupted",
+    "Lens",
+    "Matte",
+    "Metal",
+    "Orthographic",
+    "Particles",
+    "Phong",
+    "Picture",
+    "Pinhole",
+    "Plane",
+    "Plastic",
+    "PointLight",
+    "RenderSettings",
+    "Scene",
+    "Sphere",
+    "SphereLight",
+    "Spheres",
+    "ThinLens",
+    "Tracer",
+    "__version__",
+    "frames",
+    "from_ase",
+    "from_particles",
+    "isa",
+    "load",
+    "render",
+]
+
+for _name in __all__:  # as they are known to those who use them
+    if hasattr(globals()[_name], "__module__"):
+        globals()[_name].__module__ = "boule"
+del _name

@@ -1,0 +1,711 @@
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+_Color = Union[str, Sequence[float], NDArray[Any]]
+_Vector = Union[Sequence[float], NDArray[Any]]
+_Path = Union[str, os.PathLike[str]]
+_FovAxis = Literal["x", "y", "max"]
+_Key = Mapping[str, Any]
+_Method = Literal["whitted", "path"]
+_Filter = Literal["box", "tent"]
+_Solver = Literal["fast", "robust", "reference"]
+_Frame = Literal["scene", "camera"]
+_Order = Literal["rows", "tiles", "progressive", "frameless"]
+_Polygons = Literal["plane", "skip", "error"]
+_Look = Literal["paper", "plain", "dark"]
+
+def isa() -> str: ...
+
+class Error(ValueError):
+    file: str | None
+    line: int | None
+    column: int | None
+    key: str | None
+
+class Interrupted(KeyboardInterrupt):
+    picture: Picture | None
+    def __init__(self, picture: Picture | None = ...) -> None: ...
+
+class Matte:
+    color: _Color
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+    ) -> None: ...
+
+class Plastic:
+    color: _Color
+    specular: float
+    shininess: float
+    reflect: float
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+        specular: float = ...,
+        shininess: float = ...,
+        reflect: float = ...,
+    ) -> None: ...
+
+class Metal:
+    color: _Color
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+    ) -> None: ...
+
+class Glass:
+    color: _Color
+    ior: float
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+        ior: float = ...,
+    ) -> None: ...
+
+class Emissive:
+    radiance: _Color
+    def __init__(
+        self,
+        *,
+        radiance: _Color = ...,
+    ) -> None: ...
+
+class Phong:
+    color: _Color
+    ka: float
+    kd: float
+    ks: float
+    shininess: float
+    transmission: float
+    ior: float
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+        ka: float = ...,
+        kd: float = ...,
+        ks: float = ...,
+        shininess: float = ...,
+        transmission: float = ...,
+        ior: float = ...,
+    ) -> None: ...
+
+class Pinhole:
+    eye: _Vector
+    look_at: _Vector
+    up: _Vector
+    fov: float
+    fov_axis: _FovAxis
+    distortion: Distortion | None
+    key: Sequence[_Key] | None
+    def __init__(
+        self,
+        *,
+        eye: _Vector = ...,
+        look_at: _Vector = ...,
+        up: _Vector = ...,
+        fov: float = ...,
+        fov_axis: _FovAxis = ...,
+        distortion: Distortion | None = ...,
+        key: Sequence[_Key] | None = ...,
+    ) -> None: ...
+
+class Orthographic:
+    eye: _Vector
+    look_at: _Vector
+    up: _Vector
+    height: float
+    distortion: Distortion | None
+    key: Sequence[_Key] | None
+    def __init__(
+        self,
+        *,
+        eye: _Vector = ...,
+        look_at: _Vector = ...,
+        up: _Vector = ...,
+        height: float = ...,
+        distortion: Distortion | None = ...,
+        key: Sequence[_Key] | None = ...,
+    ) -> None: ...
+
+class Fisheye:
+    eye: _Vector
+    look_at: _Vector
+    up: _Vector
+    fov: float
+    fov_axis: _FovAxis
+    distortion: Distortion | None
+    key: Sequence[_Key] | None
+    def __init__(
+        self,
+        *,
+        eye: _Vector = ...,
+        look_at: _Vector = ...,
+        up: _Vector = ...,
+        fov: float = ...,
+        fov_axis: _FovAxis = ...,
+        distortion: Distortion | None = ...,
+        key: Sequence[_Key] | None = ...,
+    ) -> None: ...
+
+class ThinLens:
+    eye: _Vector
+    look_at: _Vector
+    up: _Vector
+    fov: float
+    fov_axis: _FovAxis
+    aperture: float
+    focus: float | _Vector | None
+    f_number: float | None
+    focal_length: float | None
+    distortion: Distortion | None
+    key: Sequence[_Key] | None
+    def __init__(
+        self,
+        *,
+        eye: _Vector = ...,
+        look_at: _Vector = ...,
+        up: _Vector = ...,
+        fov: float = ...,
+        fov_axis: _FovAxis = ...,
+        aperture: float = ...,
+        focus: float | _Vector | None = ...,
+        f_number: float | None = ...,
+        focal_length: float | None = ...,
+        distortion: Distortion | None = ...,
+        key: Sequence[_Key] | None = ...,
+    ) -> None: ...
+
+class Lens:
+    eye: _Vector
+    look_at: _Vector
+    up: _Vector
+    file: _Path | None
+    film_width: float
+    scale: float
+    focus: float | _Vector | None
+    f_number: float | None
+    distortion: Distortion | None
+    key: Sequence[_Key] | None
+    def __init__(
+        self,
+        *,
+        eye: _Vector = ...,
+        look_at: _Vector = ...,
+        up: _Vector = ...,
+        file: _Path | None = ...,
+        film_width: float = ...,
+        scale: float = ...,
+        focus: float | _Vector | None = ...,
+        surfaces: ArrayLike | None = ...,
+        f_number: float | None = ...,
+        distortion: Distortion | None = ...,
+        key: Sequence[_Key] | None = ...,
+    ) -> None: ...
+
+class Fit:
+    type: Literal["pinhole", "orthographic"]
+    direction: _Vector | None
+    up: _Vector | None
+    fov: float
+    fov_axis: _FovAxis | None
+    margin: float
+    distortion: Distortion | None
+    def __init__(
+        self,
+        *,
+        type: Literal["pinhole", "orthographic"] = ...,
+        direction: _Vector | None = ...,
+        up: _Vector | None = ...,
+        fov: float = ...,
+        fov_axis: _FovAxis | None = ...,
+        margin: float = ...,
+        distortion: Distortion | None = ...,
+    ) -> None: ...
+
+class Distortion:
+    file: _Path | None
+    def __init__(
+        self,
+        *,
+        file: _Path | None = ...,
+        st: ArrayLike | None = ...,
+    ) -> None: ...
+
+class ConstantBackground:
+    color: _Color
+    def __init__(
+        self,
+        *,
+        color: _Color = ...,
+    ) -> None: ...
+
+class GradientBackground:
+    bottom: _Color
+    top: _Color
+    up: _Vector
+    def __init__(
+        self,
+        *,
+        bottom: _Color = ...,
+        top: _Color = ...,
+        up: _Vector = ...,
+    ) -> None: ...
+
+class EnvironmentBackground:
+    file: _Path | None
+    rotation: float
+    def __init__(
+        self,
+        *,
+        file: _Path | None = ...,
+        rotation: float = ...,
+        pixels: ArrayLike | None = ...,
+    ) -> None: ...
+
+class PointLight:
+    position: _Vector
+    intensity: _Color
+    falloff: Literal["none", "inverse_square"]
+    relative_to: _Frame
+    def __init__(
+        self,
+        *,
+        position: _Vector = ...,
+        intensity: _Color = ...,
+        falloff: Literal["none", "inverse_square"] = ...,
+        relative_to: _Frame = ...,
+    ) -> None: ...
+
+class DirectionalLight:
+    direction: _Vector
+    intensity: _Color
+    relative_to: _Frame
+    def __init__(
+        self,
+        *,
+        direction: _Vector = ...,
+        intensity: _Color = ...,
+        relative_to: _Frame = ...,
+    ) -> None: ...
+
+class SphereLight:
+    center: _Vector
+    radius: float
+    radiance: _Color
+    relative_to: _Frame
+    color: _Color | None
+    def __init__(
+        self,
+        *,
+        center: _Vector = ...,
+        radius: float = ...,
+        radiance: _Color = ...,
+        relative_to: _Frame = ...,
+        color: _Color | None = ...,
+    ) -> None: ...
+
+class ImageSettings:
+    size: Sequence[int]
+    spp: int
+    filter: _Filter
+    transparent: bool
+    outline: float
+    def __init__(
+        self,
+        *,
+        size: Sequence[int] = ...,
+        spp: int = ...,
+        filter: _Filter = ...,
+        transparent: bool = ...,
+        outline: float = ...,
+    ) -> None: ...
+
+class RenderSettings:
+    method: _Method
+    max_depth: int
+    def __init__(
+        self,
+        *,
+        method: _Method = ...,
+        max_depth: int = ...,
+    ) -> None: ...
+
+class Sphere:
+    center: _Vector
+    radius: float
+    material: _Material | str | None
+    color: _Color | None
+    def __init__(
+        self,
+        *,
+        center: _Vector = ...,
+        radius: float = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> None: ...
+
+class Plane:
+    point: _Vector
+    normal: _Vector
+    material: _Material | str | None
+    color: _Color | None
+    def __init__(
+        self,
+        *,
+        point: _Vector = ...,
+        normal: _Vector = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> None: ...
+
+class Instance:
+    group: Group | str | None
+    translate: _Vector
+    rotate: _Vector
+    scale: float
+    material: _Material | str | None
+    def __init__(
+        self,
+        *,
+        group: Group | str | None = ...,
+        translate: _Vector = ...,
+        rotate: _Vector = ...,
+        scale: float = ...,
+        material: _Material | str | None = ...,
+    ) -> None: ...
+
+class Particles:
+    file: _Path | None
+    frame: int | None
+    format: str | None
+    columns: Sequence[str] | None
+    water: bool | None
+    radius: float | str | None
+    scale: float | None
+    color: _Color | _Key | None
+    select: str | None
+    wrap: bool | None
+    replicate: Sequence[int] | None
+    material: _Material | str | None
+    def __init__(
+        self,
+        *,
+        file: _Path | None = ...,
+        frame: int | None = ...,
+        format: str | None = ...,
+        columns: Sequence[str] | None = ...,
+        water: bool | None = ...,
+        radius: float | str | None = ...,
+        scale: float | None = ...,
+        color: _Color | _Key | None = ...,
+        select: str | None = ...,
+        wrap: bool | None = ...,
+        replicate: Sequence[int] | None = ...,
+        material: _Material | str | None = ...,
+    ) -> None: ...
+
+_Material = Union[Matte, Plastic, Metal, Glass, Emissive, Phong]
+_Camera = Union[Pinhole, Orthographic, Fisheye, ThinLens, Lens, Fit]
+_Background = Union[ConstantBackground, GradientBackground, EnvironmentBackground]
+_Light = Union[PointLight, DirectionalLight, SphereLight]
+_Map = Union[str, Sequence[str]]
+
+class Spheres:
+    range: list[float] | None
+    color: _Color | None
+    material: _Material | str | None
+    def __init__(
+        self,
+        centers: ArrayLike,
+        radii: ArrayLike,
+        *,
+        colors: ArrayLike | None = ...,
+        color_space: Literal["srgb", "linear"] = ...,
+        scalar: ArrayLike | None = ...,
+        map: _Map | None = ...,
+        range: Sequence[float] | None = ...,
+        color: _Color | None = ...,
+        material: _Material | str | None = ...,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def centers(self) -> NDArray[Any]: ...
+    @property
+    def radii(self) -> NDArray[np.float32]: ...
+    @property
+    def colors(self) -> NDArray[np.uint8] | None: ...
+
+class _Objects:
+    spheres: list[Sphere | Spheres | Particles]
+    planes: list[Plane]
+    instances: list[Instance]
+    def add_spheres(
+        self,
+        centers: ArrayLike,
+        radii: ArrayLike,
+        *,
+        colors: ArrayLike | None = ...,
+        color_space: Literal["srgb", "linear"] = ...,
+        scalar: ArrayLike | None = ...,
+        map: _Map | None = ...,
+        range: Sequence[float] | None = ...,
+        color: _Color | None = ...,
+        material: _Material | str | None = ...,
+    ) -> Spheres: ...
+    def add_sphere(
+        self,
+        *,
+        center: _Vector = ...,
+        radius: float = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> Sphere: ...
+    def add_particles(
+        self,
+        file: _Path,
+        *,
+        frame: int | None = ...,
+        format: str | None = ...,
+        columns: Sequence[str] | None = ...,
+        water: bool | None = ...,
+        radius: float | str | None = ...,
+        scale: float | None = ...,
+        color: _Color | _Key | None = ...,
+        select: str | None = ...,
+        wrap: bool | None = ...,
+        replicate: Sequence[int] | None = ...,
+        material: _Material | str | None = ...,
+    ) -> Particles: ...
+    def add_plane(
+        self,
+        *,
+        point: _Vector = ...,
+        normal: _Vector = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> Plane: ...
+    def add_instance(
+        self,
+        group: Group | str,
+        *,
+        translate: _Vector = ...,
+        rotate: _Vector = ...,
+        scale: float = ...,
+        material: _Material | str | None = ...,
+    ) -> Instance: ...
+
+class Group(_Objects):
+    name: str
+    def __init__(self, name: str = ...) -> None: ...
+
+class Scene(_Objects):
+    image: ImageSettings
+    render: RenderSettings
+    camera: _Camera | None
+    background: _Background
+    ambient: _Color
+    backdrop: _Color | None
+    materials: dict[str, _Material]
+    lights: list[_Light]
+    groups: dict[str, Group]
+    origin: str | _Vector
+    notes: list[str]
+    warnings: list[str]
+    legend: str
+    def __init__(
+        self,
+        *,
+        image: ImageSettings | None = ...,
+        render: RenderSettings | None = ...,
+        camera: _Camera | None = ...,
+        background: _Background | None = ...,
+        ambient: _Color = ...,
+        backdrop: _Color | None = ...,
+        materials: Mapping[str, _Material] | None = ...,
+        lights: Sequence[_Light] | None = ...,
+        spheres: Sequence[Sphere | Spheres | Particles] | None = ...,
+        planes: Sequence[Plane] | None = ...,
+        groups: Mapping[str, Group] | None = ...,
+        instances: Sequence[Instance] | None = ...,
+        origin: str | _Vector = ...,
+    ) -> None: ...
+    def add_group(self, name: str) -> Group: ...
+
+class Hits(NamedTuple):
+    t: NDArray[np.float64]
+    id: NDArray[np.int32]
+    normal: NDArray[np.float32]
+
+class Tracer:
+    def __init__(
+        self,
+        source: ArrayLike | Scene | _Path,
+        radii: ArrayLike | None = ...,
+        *,
+        origin: str | _Vector = ...,
+        solver: _Solver = ...,
+        threads: int = ...,
+        isa: str = ...,
+    ) -> None: ...
+    def closest(
+        self, org: ArrayLike, dir: ArrayLike, tmin: ArrayLike = ..., tmax: ArrayLike = ...
+    ) -> Hits: ...
+    def any(
+        self, org: ArrayLike, dir: ArrayLike, tmin: ArrayLike = ..., tmax: ArrayLike = ...
+    ) -> NDArray[np.bool_]: ...
+    @property
+    def stats(self) -> dict[str, Any]: ...
+
+class Picture:
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def share(self) -> float: ...
+    @property
+    def alpha(self) -> NDArray[np.float32] | None: ...
+    @property
+    def channels(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def aovs(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def stats(self) -> dict[str, Any]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def to_srgb(self, *, exposure: float = ...) -> NDArray[np.uint8]: ...
+    def save(
+        self,
+        path: _Path,
+        *,
+        exposure: float = ...,
+        compression: Literal["none", "rle", "zip"] = ...,
+    ) -> None: ...
+    def __array__(self, dtype: Any = ...) -> NDArray[Any]: ...
+    def _repr_png_(self) -> bytes: ...
+
+def load(
+    source: _Path,
+    *,
+    frame: int | None = ...,
+    polygons: _Polygons = ...,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    water: bool = ...,
+    color: str | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    radius: float | str | None = ...,
+    scale: float | None = ...,
+    select: str | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+) -> Scene: ...
+def frames(
+    source: _Path,
+    frames: range | None = ...,
+    *,
+    polygons: _Polygons = ...,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    water: bool = ...,
+    color: str | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    radius: float | str | None = ...,
+    scale: float | None = ...,
+    select: str | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+) -> Iterator[Scene]: ...
+def from_particles(
+    positions: ArrayLike,
+    *,
+    species: Sequence[str] | Sequence[int] | NDArray[Any] | None = ...,
+    columns: Mapping[str, Sequence[float] | Sequence[str] | NDArray[Any]] | None = ...,
+    cell: ArrayLike | None = ...,
+    periodic: Sequence[bool] = ...,
+    angstrom: float = ...,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    color: str | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    radius: float | str | None = ...,
+    scale: float | None = ...,
+    select: str | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+) -> Scene: ...
+def from_ase(
+    atoms: Any,
+    *,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    color: str | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    radius: float | str | None = ...,
+    scale: float | None = ...,
+    select: str | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+) -> Scene: ...
+def render(
+    scene: Scene | _Path,
+    *,
+    size: Sequence[int] | None = ...,
+    spp: int | None = ...,
+    filter: _Filter | None = ...,
+    background: str | None = ...,
+    outline: float | None = ...,
+    seed: int = ...,
+    crop: Sequence[int] | None = ...,
+    aov: str | Sequence[str] | None = ...,
+    method: _Method | None = ...,
+    max_depth: int | None = ...,
+    time_limit: float | None = ...,
+    partial: bool = ...,
+    order: _Order | None = ...,
+    tile: int | None = ...,
+    solver: _Solver = ...,
+    threads: int = ...,
+    isa: str = ...,
+    progress: bool | Callable[[float], object] = ...,
+    frame: int | None = ...,
+    polygons: _Polygons | None = ...,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    water: bool = ...,
+    color: str | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    radius: float | str | None = ...,
+    scale: float | None = ...,
+    select: str | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+) -> Picture: ...

@@ -1,0 +1,331 @@
+"""What a scene is made of, by the keys of scene files.
+
+Every class here has the keys of one table of a scene file (docs/scene_format.md) as its keyword
+arguments and attributes, with the same defaults. Values are checked as they are set, by the reader
+of scene files: what it refuses is a boule.Error. The classes and their arguments come from the one
+list of fields that the library has.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+
+from . import _core
+
+_FIELDS = _core.fields()
+# Keys that stand for a field in another way, or that the table has besides its fields.
+_MORE = {
+    "pinhole": ("distortion", "key"),
+    "orthographic": ("distortion", "key"),
+    "fisheye": ("distortion", "key"),
+    "thin_lens": ("f_number", "focal_length", "distortion", "key"),
+    "lens": ("surfaces", "f_number", "distortion", "key"),
+    "environment": ("pixels",),
+    "distortion": ("st",),
+    "fit": ("distortion",),
+    "sphere": ("color",),
+    "plane": ("color",),
+    "particles": (
+        "file", "frame", "format", "columns", "water", "radius", "scale", "color", "select",
+        "wrap", "replicate", "material",
+    ),
+}  # fmt: skip
+# Arrays that take the place of a file, and what makes data of them.
+_ARRAYS = {
+    "pixels": lambda value: _core.picture(value, "pixels", 3),
+    "st": lambda value: _core.picture(value, "st", 2),
+    "surfaces": _core.lens,
+}
+
+
+def error(key, message):
+    """A boule.Error about a key."""
+    made = _core.Error(f"{message} (key '{key}')")
+    made.key = key
+    return made
+
+
+def path_of(name, key="source"):
+    """The bytes of a file's name, which need not be text."""
+    try:
+        path = os.fsencode(name)
+    except UnicodeEncodeError:
+        raise error(key, "is no name of a file") from None
+    if b"\0" in path:
+        raise error(key, "is no name of a file: it has a NUL")
+    return path
+
+
+class Table:
+    """A table of a scene file. Each key is an attribute; None stands for one that is not given."""
+
+    _kind = ""
+    _type = ""
+    _defaults: dict = {}
+
+    def __init__(self, **keys):
+        object.__setattr__(self, "_keys", self._checked(keys))
+
+    @classmethod
+    def _checked(cls, keys):
+        """The keys with plain values, if the reader of scene files takes them."""
+        keys = {name: value for name, value in keys.items() if value is not None}
+        for name in [name for name in keys if name in _ARRAYS and name in cls._defaults]:
+            if "file" in keys:
+                raise error(name, "cannot stand beside 'file'")
+            keys["file"] = _ARRAYS[name](keys.pop(name))
+        if cls._kind == "distortion":
+            if set(keys) != {"file"}:
+                raise error("file", "missing key 'file', or 'st'")
+            return keys
+        plain = _core.check(cls._kind, _at_rest(cls._table_of(keys, _short_name)))
+        return {name: _kept(name, value, plain) for name, value in keys.items()}
+
+    @classmethod
+    def _table_of(cls, keys, names):
+        """The keys as a scene file has them. `names` gives materials and groups their names."""
+        table = {} if cls._type == "" else {"type": cls._type}
+        for name, value in keys.items():
+            if isinstance(value, Table) and name == "distortion":
+                value = dict(value._keys)
+            elif name in ("material", "group") and not isinstance(value, str):
+                value = names(name, value)
+            table[name] = value
+        return table
+
+    def _table(self, names):
+        return self._table_of(self._keys, names)
+
+    def __setattr__(self, name, value):
+        if name not in self._defaults:
+            self._checked({**self._keys, name: value})
+            raise AttributeError(f"{type(self).__name__} has no key {name!r}")
+        object.__setattr__(self, "_keys", self._checked({**self._keys, name: value}))
+
+    def __eq__(self, other):
+        return type(self) is type(other) and self._keys == other._keys
+
+    __hash__ = None  # type: ignore[assignment]  # it can change
+
+    def __getstate__(self):
+        return self._keys
+
+    def __setstate__(self, keys):
+        object.__setattr__(self, "_keys", keys)
+
+    def __repr__(self):
+        keys = ", ".join(f"{name}={value!r}" for name, value in self._keys.items())
+        return f"{type(self).__name__}({keys})"
+
+
+def _at_rest(table):
+    """A camera's table as its keys begin; those are checked frame by frame with the scene."""
+    moves = table.pop("key", None)
+    if moves is None:
+        return table
+    if not isinstance(moves, (list, tuple)) or not all(isinstance(one, dict) for one in moves):
+        raise error("key", "expected a list of dictionaries, each with 'frame'")
+    for one in reversed(moves):
+        table.update({name: value for name, value in one.items() if name != "frame"})
+    return table
+
+
+def _short_name(kind, value):
+    """A name for what is checked without its scene."""
+    if isinstance(value, Table) and value._kind == "material":
+        return "a material"
+    name = getattr(value, "name", None)
+    if kind == "group" and isinstance(name, str):
+        return name
+    raise error(kind, f"expected a name or a {kind}, got {type(value).__name__}")
+
+
+def _kept(name, value, plain):
+    """What a table keeps of a value: objects as they are, all others as plain values."""
+    is_object = isinstance(value, (Table, _core.Data)) or name in ("material", "group")
+    return value if is_object else plain.get(name, value)
+
+
+def _property(name, default):
+    def get(self):
+        return self._keys.get(name, default)
+
+    def set(self, value):
+        self.__setattr__(name, value)
+
+    return property(get, set, doc=f"default: {default!r}")
+
+
+def _defaults_of(kind, type_name):
+    defaults = {}
+    for name, default, of_file in _FIELDS.get(kind, {}).get(type_name, ()):
+        if name == "size" and of_file:
+            continue  # that of the file
+        defaults[name] = default
+    for name in _MORE.get(type_name, ()):
+        defaults.setdefault(name, None)
+    return defaults
+
+
+def _fill(cls, kind, type_name, type_key):
+    """Gives a class its keys."""
+    defaults = _defaults_of(kind, type_name)
+    cls._kind = "camera" if kind == "fit" else kind
+    cls._type = type_name if type_key else ""
+    cls._defaults = defaults
+    for name, default in defaults.items():
+        if name in _ARRAYS:
+            continue
+        setattr(cls, name, _property(name, default))
+    parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)] + [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default)
+        for name, default in defaults.items()
+    ]
+
+    def __init__(self, **keys):
+        Table.__init__(self, **keys)
+
+    __init__.__signature__ = inspect.Signature(parameters)
+    cls.__init__ = __init__
+    shown = ", ".join(f"{name}={default!r}" for name, default in defaults.items())
+    cls.__doc__ = f"{inspect.cleandoc(cls.__doc__ or '')}\n\nKeys and their defaults: {shown}"
+    cls.__module__ = "boule"
+    return cls
+
+
+def _of(kind, type_name, type_key=True):
+    return lambda cls: _fill(cls, kind, type_name, type_key)
+
+
+@_of("material", "matte")
+class Matte(Table):
+    """Ideally diffuse."""
+
+
+@_of("material", "plastic")
+class Plastic(Table):
+    """Diffuse with a white highlight and, where reflect > 0, a mirror image."""
+
+
+@_of("material", "metal")
+class Metal(Table):
+    """A coloured mirror."""
+
+
+@_of("material", "glass")
+class Glass(Table):
+    """Mirrors and refracts; color tints each crossing, ior is the index of refraction."""
+
+
+@_of("material", "emissive")
+class Emissive(Table):
+    """Radiates on both sides, reflects nothing."""
+
+
+@_of("material", "phong")
+class Phong(Table):
+    """Whitted's model as it stands: ka, kd, ks, shininess, transmission, ior."""
+
+
+@_of("camera", "pinhole")
+class Pinhole(Table):
+    """All rays from the eye. eye and look_at are required; fov in degrees, above 0, below 180."""
+
+
+@_of("camera", "orthographic")
+class Orthographic(Table):
+    """All rays along the view; height of the picture in world units, above 0."""
+
+
+@_of("camera", "fisheye")
+class Fisheye(Table):
+    """All rays from the eye, equidistant in angle; fov in degrees, up to 360."""
+
+
+@_of("camera", "thin_lens")
+class ThinLens(Table):
+    """A pinhole opened to a disc: aperture is its radius in world units (or f_number with
+    focal_length); focus is the distance that is sharp, or a point that is."""
+
+
+@_of("camera", "lens")
+class Lens(Table):
+    """A lens of real elements: file names its prescription, or surfaces has it, N x 4: radius,
+    thickness, index, aperture."""
+
+
+@_of("fit", "fit", type_key=False)
+class Fit(Table):
+    """A camera that is fitted to the spheres: the tightest picture in which all of them lie."""
+
+    @classmethod
+    def _table_of(cls, keys, names):
+        return {"fit": True, **super()._table_of(keys, names)}
+
+
+@_of("distortion", "distortion", type_key=False)
+class Distortion(Table):
+    """An ST map, by which a camera's picture is bent: file names a picture, or st has the numbers,
+    H x W x 2 of float32 or float64."""
+
+
+@_of("background", "constant")
+class ConstantBackground(Table):
+    """One colour in all directions."""
+
+
+@_of("background", "gradient")
+class GradientBackground(Table):
+    """From bottom to top, with the mean of both at the horizon."""
+
+
+@_of("background", "environment")
+class EnvironmentBackground(Table):
+    """A latitude-longitude picture of everything around: file names it, or pixels has it,
+    H x W x 3, linear; its top row is up (+y). rotation in degrees to the right."""
+
+
+@_of("light", "point")
+class PointLight(Table):
+    """Light from a point in all directions."""
+
+
+@_of("light", "directional")
+class DirectionalLight(Table):
+    """Light from infinitely far away; direction is the way it travels."""
+
+
+@_of("light", "sphere")
+class SphereLight(Table):
+    """A sphere that radiates alike in all directions. It is no object: rays pass through it."""
+
+
+@_of("image", "image", type_key=False)
+class ImageSettings(Table):
+    """The picture that a scene asks for: size in pixels (width, height), samples per pixel."""
+
+
+@_of("render", "render", type_key=False)
+class RenderSettings(Table):
+    """How a scene asks to be rendered: method "whitted" or "path", max_depth bounces."""
+
+
+@_of("sphere", "sphere", type_key=False)
+class Sphere(Table):
+    """One sphere. material is a material or the name of one; color replaces its colour."""
+
+
+@_of("plane", "plane", type_key=False)
+class Plane(Table):
+    """An infinite plane through point; normal points to its outside."""
+
+
+@_of("instance", "instance", type_key=False)
+class Instance(Table):
+    """A copy of a group, which is scaled, then rotated (degrees about x, y, z), then moved."""
+
+
+@_of("particles", "particles", type_key=False)
+class Particles(Table):
+    """The particles of a file, as [[particles]] of a scene file reads them."""

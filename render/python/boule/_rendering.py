@@ -1,0 +1,75 @@
+"""Scenes to pictures."""
+
+from __future__ import annotations
+
+import os
+
+from . import _core
+from ._objects import error, path_of
+from ._progress import reporter
+from ._scene import Scene
+from ._sources import look_keys, with_look
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during render(). picture is what there is: a Picture that is not finished, or None."""
+
+    def __init__(self, picture=None):
+        super().__init__("rendering was interrupted")
+        self.picture = picture
+
+
+@with_look()
+def render(
+    scene, *, size=None, spp=None, filter=None, background=None, outline=None, seed=0, crop=None,
+    aov=None, method=None, max_depth=None, time_limit=None, partial=False, order=None, tile=None,
+    solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None, **look,
+):  # fmt: skip
+    """Renders a scene to a Picture. What is not given comes from the scene.
+
+    scene: a Scene, or the name of a file that load() would read; then frame, polygons and look are
+        as there.
+    size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
+    background: what shows where nothing is: "#rrggbb" or "transparent". outline: in pixels.
+    seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
+    aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
+        albedo, z).
+    method: "whitted" or "path". max_depth: bounces after the first hit.
+    time_limit: seconds of rendering. partial: when the time limit or Ctrl-C comes, return the
+        unfinished picture (Picture.finished is False) in place of an exception.
+    order: "rows", "tiles", "progressive" (with partial) or "frameless"; never shows in a finished
+        picture. tile: its side in pixels. solver, threads, isa: as for Tracer.
+    progress: True shows a bar (tqdm's if it is installed); or a function, called with the share
+        that is done, 0 to 1.
+
+    Raises Interrupted, a KeyboardInterrupt, after Ctrl-C; its picture is what there is.
+    """
+    if isinstance(scene, Scene):
+        source = scene._tree()
+    elif isinstance(scene, (str, os.PathLike)):
+        source = path_of(scene)
+    else:
+        raise _core.Error(
+            f"expected a Scene or the name of a scene file, got {type(scene).__name__}"
+        )
+    keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
+    options = {
+        "size": size, "spp": spp, "filter": filter, "background": background, "outline": outline,
+        "seed": seed, "crop": crop, "aov": aov, "method": method, "max_depth": max_depth,
+        "time_limit": time_limit, "partial": partial, "order": order, "tile": tile,
+        "solver": solver, "threads": threads, "isa": isa,
+    }  # fmt: skip
+    with reporter(progress) as tick:
+        picture, stopped = _core.render(source, keys, options, tick)
+    if stopped is None or (partial and picture is not None and _is_stop(stopped)):
+        return picture
+    if isinstance(stopped, KeyboardInterrupt):
+        raise Interrupted(picture) from None
+    if isinstance(stopped, BaseException):
+        raise stopped
+    end = "before the first sample" if partial else "first; partial=True gives what there is"
+    raise error("time_limit", f"the time limit of {time_limit} s came {end}")
+
+
+def _is_stop(stopped):
+    return stopped == "time" or isinstance(stopped, KeyboardInterrupt)

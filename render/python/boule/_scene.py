@@ -1,0 +1,292 @@
+"""Scenes that are made in memory."""
+
+from __future__ import annotations
+
+from . import _core
+from ._objects import (
+    ConstantBackground,
+    Distortion,
+    Fit,
+    ImageSettings,
+    Instance,
+    Particles,
+    Plane,
+    RenderSettings,
+    Sphere,
+    Table,
+    error,
+)
+
+
+class Spheres:
+    """Many spheres in arrays, which are read once: later changes to the arrays change nothing.
+
+    centers: N x 3, float32 or float64. Those of float64 are kept as they are, 24 bytes each, and
+        rounded once, after the origin of the scene is subtracted.
+    radii: N, or one number for all, above 0.
+    colors: N x 3, uint8 or floats from 0 to 1: codes of the sRGB curve (color_space="srgb") or
+        linear values ("linear").
+    scalar: N numbers, which map makes colours of: the name of a map, or colours "#rrggbb"; range
+        says what its ends stand for (the 1st to the 99th percentile).
+    color: one colour for all, "#rrggbb" or three linear numbers from 0 to 1.
+    material: a material, or the name of one in Scene.materials.
+    """
+
+    def __init__(
+        self, centers, radii, *, colors=None, color_space="srgb", scalar=None, map=None,
+        range=None, color=None, material=None,
+    ):  # fmt: skip
+        if color is not None and not (colors is None and scalar is None):
+            raise error("color", "cannot stand beside 'colors' or 'scalar'")
+        Sphere(color=color)  # checks it
+        self._data, chosen = _core.spheres(
+            centers, radii, colors, color_space, scalar, map, range
+        )
+        self.range = chosen
+        self.color = color
+        self.material = material
+
+    @classmethod
+    def _of(cls, data):
+        """Those of a scene that was read."""
+        self = cls.__new__(cls)
+        self._data = data
+        self.range = self.color = self.material = None
+        return self
+
+    def __len__(self):
+        return len(self.radii)
+
+    @property
+    def centers(self):
+        """N x 3, read-only; a view unless the scene that they were read with has an origin."""
+        views = _core.sphere_views(self._data)
+        if views["base"] == (0, 0, 0) or views["centers"].dtype == "float64":
+            return views["centers"]
+        return views["centers"] + views["base"]
+
+    @property
+    def radii(self):
+        """N, float32, a read-only view."""
+        return _core.sphere_views(self._data)["radii"]
+
+    @property
+    def colors(self):
+        """The colours that they have of their own: N x 3 of uint8, or None."""
+        return _core.sphere_colors(self._data)
+
+    def __repr__(self):
+        return f"<boule.Spheres, {len(self)} of them>"
+
+    def _table(self, names):
+        table = {"file": self._data, "color": self.color}
+        if self.material is not None:
+            table["material"] = names("material", self.material)
+        return table
+
+
+class _Objects:
+    """What a scene and a group have in common. spheres, planes and instances are lists."""
+
+    def add_spheres(
+        self, centers, radii, *, colors=None, color_space="srgb", scalar=None, map=None,
+        range=None, color=None, material=None,
+    ):  # fmt: skip
+        """Adds spheres in arrays: see Spheres, which it returns."""
+        spheres = Spheres(
+            centers, radii, colors=colors, color_space=color_space, scalar=scalar, map=map,
+            range=range, color=color, material=material,
+        )  # fmt: skip
+        self.spheres.append(spheres)
+        return spheres
+
+    def add_sphere(self, **keys):
+        """Adds one sphere: see Sphere, which it returns."""
+        self.spheres.append(Sphere(**keys))
+        return self.spheres[-1]
+
+    def add_particles(self, file, **keys):
+        """Adds the particles of a file: see Particles, which it returns."""
+        self.spheres.append(Particles(file=file, **keys))
+        return self.spheres[-1]
+
+    def add_plane(self, **keys):
+        """Adds a plane: see Plane, which it returns."""
+        self.planes.append(Plane(**keys))
+        return self.planes[-1]
+
+    def add_instance(self, group, **keys):
+        """Adds an instance of a group, which is a Group or the name of one."""
+        self.instances.append(Instance(group=group, **keys))
+        return self.instances[-1]
+
+    def _object_tables(self, names):
+        """The lists of objects as scene files have them."""
+        tables = {}
+        kinds = {Sphere: "sphere", Spheres: "spheres", Particles: "particles"}
+        order = []
+        for place, one in enumerate(self.spheres):
+            kind = kinds.get(type(one))
+            if kind is None:
+                raise error(f"spheres[{place}]", f"expected spheres, got {type(one).__name__}")
+            order.append((kind, one._table(names)))
+        tables[""] = order
+        for key, kind in (("plane", Plane), ("instance", Instance)):
+            tables[key] = [_table(one, kind, f"{key}[{i}]", names)
+                           for i, one in enumerate(getattr(self, key + "s"))]  # fmt: skip
+        return tables
+
+
+class Group(_Objects):
+    """Objects with coordinates of their own, which instances show."""
+
+    def __init__(self, name=""):
+        self.name = name
+        self.spheres = []
+        self.planes = []
+        self.instances = []
+
+    def __repr__(self):
+        return f"<boule.Group {self.name!r}>"
+
+
+def _table(value, kind, key, names):
+    if not isinstance(value, kind):
+        raise error(key, f"expected a {kind.__name__}, got {type(value).__name__}")
+    return value._table(names)
+
+
+def _kind_table(value, kind, key):
+    """The table of what a scene has one of."""
+    if not isinstance(value, Table) or value._kind != kind:
+        raise error(key, f"expected a {kind}, got {type(value).__name__}")
+    return value._table(None)
+
+
+class _Names:
+    """Gives the materials and groups of a scene their names. Those that objects have without being
+    in Scene.materials or Scene.groups are added to what is rendered, not to the scene."""
+
+    def __init__(self, scene):
+        self.materials = dict(scene.materials)
+        self.groups = dict(scene.groups)
+
+    def __call__(self, kind, value):
+        known = self.materials if kind == "material" else self.groups
+        if isinstance(value, str):
+            return value
+        for name, one in known.items():
+            if one is value:
+                return name
+        is_right = (
+            isinstance(value, Group)
+            if kind == "group"
+            else isinstance(value, Table) and value._kind == "material"
+        )
+        if not is_right:
+            raise error(kind, f"expected a {kind} or its name, got {type(value).__name__}")
+        name = value.name if kind == "group" else type(value).__name__.lower()
+        number = 1
+        free = name
+        while free in known:
+            number += 1
+            free = f"{name} {number}"
+        known[free] = value
+        return free
+
+
+class Scene(_Objects):
+    """A scene, as values: what scene files say, by the same names and with the same defaults.
+
+    image, render: ImageSettings and RenderSettings.
+    camera: Pinhole, Orthographic, Fisheye, ThinLens, Lens; Fit or None: fitted to the spheres.
+    background: ConstantBackground, GradientBackground or EnvironmentBackground.
+    ambient: light on every surface from everywhere (method "whitted").
+    backdrop: what the camera sees where nothing is, in place of the background; or None.
+    materials: a dictionary of materials by name.
+    lights: a list of PointLight, DirectionalLight, SphereLight.
+    spheres: a list of Sphere, Spheres and Particles; ids count them in this order.
+    planes, instances: lists of Plane and Instance. groups: a dictionary of Group by name.
+    origin: a point that is subtracted from all points before they are rounded, or "auto".
+    notes, warnings: what was told when the scene was read. legend: what its colours mean, as SVG.
+    """
+
+    def __init__(
+        self, *, image=None, render=None, camera=None, background=None, ambient=(0.0, 0.0, 0.0),
+        backdrop=None, materials=None, lights=None, spheres=None, planes=None, groups=None,
+        instances=None, origin="auto",
+    ):  # fmt: skip
+        self.image = ImageSettings() if image is None else image
+        self.render = RenderSettings() if render is None else render
+        self.camera = camera
+        self.background = ConstantBackground() if background is None else background
+        self.ambient = ambient
+        self.backdrop = backdrop
+        self.materials = dict(materials or {})
+        self.lights = list(lights or [])
+        self.spheres = list(spheres or [])
+        self.planes = list(planes or [])
+        self.groups = dict(groups or {})
+        self.instances = list(instances or [])
+        self.origin = origin
+        self.notes = []
+        self.warnings = []
+        self.legend = ""
+
+    def __repr__(self):
+        return (
+            f"<boule.Scene: {len(self.spheres)} entries of spheres, {len(self.planes)} planes, "
+            f"{len(self.lights)} lights>"
+        )
+
+    def add_group(self, name):
+        """Adds a group without objects, and returns it."""
+        if name in self.groups:
+            raise error("group", f"there is a group {name!r} already")
+        self.groups[name] = Group(name)
+        return self.groups[name]
+
+    def _tree(self):
+        """The scene as its file would have it."""
+        names = _Names(self)
+        tree = {"schema": 1, "origin": self.origin}
+        tree["image"] = _kind_table(self.image, "image", "image")
+        tree["render"] = _kind_table(self.render, "render", "render")
+        if self.camera is not None:
+            tree["camera"] = _kind_table(self.camera, "camera", "camera")
+        background = dict(_kind_table(self.background, "background", "background"))
+        background["ambient"] = self.ambient
+        background["backdrop"] = self.backdrop
+        tree["background"] = background
+        tree["light"] = [
+            _kind_table(light, "light", f"light[{i}]") for i, light in enumerate(self.lights)
+        ]
+        objects = self._object_tables(names)
+        groups = {}
+        done = 0
+        while done < len(names.groups):  # instances in groups may bring groups along
+            name = list(names.groups)[done]
+            group = names.groups[name]
+            if not isinstance(group, Group):
+                raise error(f"group.{name}", f"expected a Group, got {type(group).__name__}")
+            groups[name] = group._object_tables(names)
+            done += 1
+        tree["material"] = {
+            name: _kind_table(material, "material", f"material.{name}")
+            for name, material in names.materials.items()
+        }
+        tree["group"] = {name: _in_order(tables) for name, tables in groups.items()}
+        tree.update(_in_order(objects))
+        return tree
+
+    @classmethod
+    def _of(cls, values):
+        """A scene that was read."""
+        from ._reading import scene_of
+
+        return scene_of(cls, values)
+
+
+def _in_order(tables):
+    """Objects with their places: see _core.read."""
+    return {"": tables[""], **{key: rows for key, rows in tables.items() if key and rows}}

@@ -1,0 +1,134 @@
+"""Scenes from files, from trajectories and from arrays of particles."""
+
+from __future__ import annotations
+
+import inspect
+
+from . import _core
+from ._objects import error, path_of
+from ._scene import Scene
+
+
+def look_keys(
+    *, look=None, quick=False, floor=False, input_format=None, water=False, color=None, map=None,
+    range=None, radius=None, scale=None, select=None, view=None, up=None,
+):  # fmt: skip
+    """The arguments that say how particles are shown, as a dictionary."""
+    return dict(locals())
+
+
+def with_look(*names):
+    """Shows the arguments of look_keys() as the function's own, for help() and type checkers."""
+    look = inspect.signature(look_keys).parameters
+    shown = [look[name] for name in names or look]
+
+    def decorate(function):
+        own = inspect.signature(function)
+        kept = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
+        function.__signature__ = own.replace(parameters=kept + shown)
+        return function
+
+    return decorate
+
+
+# What is said of particles in memory: not how a file is read.
+_OF_MEMORY = (
+    "look", "quick", "floor", "color", "map", "range", "radius", "scale", "select", "view", "up",
+)  # fmt: skip
+
+
+@with_look()
+def load(source, *, frame=None, polygons="plane", **look):
+    """Reads a scene: .toml, .nff, .npy, or a file of particles, for which a scene is made.
+
+    source: the name of the file.
+    frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
+    polygons: what those of NFF become: "plane", "skip" or "error".
+    look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
+        quick, floor, input_format, water, color, map, range, radius, scale, select, view, up.
+
+    Raises boule.Error with file, line, column and key.
+    """
+    keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
+    return Scene._of(_core.read(path_of(source), keys))
+
+
+@with_look()
+def frames(source, frames=None, *, polygons="plane", **look):
+    """The scenes of a series, one after the other: frames of a file of particles, or of files whose
+    names have #### for the number of the frame.
+
+    frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
+
+    What is left to be chosen is chosen once for all of them, as `boule render --frames` does it: the
+    camera is fitted to all frames, colour maps have the range of the first.
+    """
+    path = path_of(source)
+    keys = {**look_keys(**look), "polygons": polygons}
+    if frames is None:
+        frames = range(_core.count_frames(path, keys))
+    if not isinstance(frames, range) or len(frames) == 0 or frames.step < 1:
+        raise error("frames", f"expected a range of frames, counting up, got {frames!r}")
+    if frames.start < 0 or frames[-1] > 2**31 - 1:
+        raise error("frames", f"must be from 0 to {2**31 - 1}")
+    return _frames(_core.Series(path, frames[0], frames[-1], frames.step, keys), frames)
+
+
+def _frames(series, frames):
+    for frame in frames:
+        yield Scene._of(series.read(frame))
+
+
+def particles(positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0):
+    """Particles in memory, as a file of particles would hold them."""
+    if columns is not None and not isinstance(columns, dict):
+        raise error("columns", f"expected a dictionary, got {type(columns).__name__}")
+    return _core.particles(
+        positions, species, columns or {}, cell, [bool(one) for one in periodic], angstrom
+    )
+
+
+@with_look(*_OF_MEMORY)
+def from_particles(
+    positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0, **look
+):
+    """The scene that shows particles, as `boule render` shows a file of them.
+
+    positions: N x 3. species: N symbols or atomic numbers. columns: a dictionary of N numbers or
+    texts by name, which color, radius and select may name. cell: 3 x 3, its edges; periodic: along
+    which of them. angstrom: how many one unit of length has (10 for nm). look: as for load().
+    """
+    data = particles(
+        positions, species=species, columns=columns, cell=cell, periodic=periodic,
+        angstrom=angstrom,
+    )  # fmt: skip
+    return Scene._of(_core.show_particles(data, look_keys(**look)))
+
+
+@with_look(*_OF_MEMORY)
+def from_ase(atoms, **look):
+    """The scene that shows atoms of ASE: anything with get_positions(), get_atomic_numbers() and
+    cell. look: as for load(); the arrays of the atoms are columns ("tags", "momenta_x", ...)."""
+    columns = {}
+    count = len(atoms.get_atomic_numbers())
+    for name, values in getattr(atoms, "arrays", {}).items():
+        if name in ("positions", "numbers"):
+            continue
+        if values.shape == (count,):
+            columns[name] = values
+        elif values.shape == (count, 3):
+            columns.update({f"{name}_{axis}": values[:, i] for i, axis in enumerate("xyz")})
+    edges = [[float(x) for x in edge] for edge in atoms.cell]
+    return from_particles(
+        atoms.get_positions(),
+        species=atoms.get_atomic_numbers(),
+        columns=columns,
+        cell=edges if _volume(edges) != 0 else None,
+        periodic=[bool(one) for one in getattr(atoms, "pbc", ())],
+        **look,
+    )
+
+
+def _volume(edges):
+    (a, b, c), (d, e, f), (g, h, i) = edges
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)

@@ -1,0 +1,7 @@
+# Python and pybind11. Debian's own Python is preferred: it finds Debian's numpy and pybind11. Another
+# one is chosen by -DPython_EXECUTABLE=... .
+if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 REQUIRED)

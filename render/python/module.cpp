@@ -1,0 +1,46 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
+
+#include "render/cli/option_values.h"
+#include "render/particle_file/particle_file.h"
+#include "render/python/call.h"
+#include "render/python/data.h"
+#include "render/python/errors.h"
+#include "render/python/picture.h"
+#include "render/python/rendering.h"
+#include "render/python/scenes.h"
+#include "render/python/sphere_arrays.h"
+#include "render/python/tables.h"
+#include "render/python/tracing.h"
+#include "simd/dispatch/dispatch.h"
+
+namespace py = pybind11;
+
+namespace boule::python {
+namespace {
+
+/// The instruction set that runs where none is asked for.
+std::string isa() { return std::string(isa_name(take(select_kernels("auto"))->isa)); }
+
+}  // namespace
+}  // namespace boule::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace boule::python;
+  module.doc() = "The compiled part of boule. Use boule itself.";
+  module.attr("version") = BOULE_VERSION;
+  bind_errors(module);
+  bind_tables(module);
+  bind_scenes(module);
+  bind_data(module);
+  bind_sphere_arrays(module);
+  bind_tracing(module);
+  bind_picture(module);
+  bind_rendering(module);
+  module.def("isa", &isa);
+  module.def("wait_for_left_calls", &wait_for_left_calls);
+  py::module_::import("atexit").attr("register")(module.attr("wait_for_left_calls"));
+}

@@ -1,0 +1,262 @@
+#include "render/python/rendering.h"
+
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/math/srgb.h"
+#include "render/cli/option_values.h"
+#include "render/frame/partial_picture.h"
+#include "render/python/arguments.h"
+#include "render/python/call.h"
+#include "render/python/picture.h"
+#include "render/python/scenes.h"
+#include "render/renderer/scene_hash.h"
+
+namespace py = pybind11;
+
+namespace boule::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the arguments of a render say; what is not given comes from the scene.
+struct Wishes {
+  std::optional<std::array<int, 2>> size;
+  std::optional<int> spp, max_depth, tile, threads;
+  std::optional<PixelFilter> filter;
+  std::optional<Method> method;
+  std::optional<Solver> solver;
+  std::optional<PixelOrder> order;
+  std::optional<double> outline, time_limit;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::array<int, 4>> crop;
+  std::optional<cli::BackgroundChoice> background;
+  std::optional<std::string> isa;
+  AovSelection aovs;
+  bool partial = false;
+};
+
+AovSelection aovs_of(const Arguments& given) {
+  const auto object = given.find("aov");
+  if (!object) return {};
+  std::string names;
+  if (py::isinstance<py::str>(*object)) {
+    names = *given.text("aov");
+  } else {
+    if (!py::isinstance<py::sequence>(*object)) throw_error("aov", "expected names");
+    for (const py::handle name : *object) {
+      names += (names.empty() ? "" : ",") + std::string(py::str(name));
+    }
+    if (names.empty()) return {};
+  }
+  const auto aovs = cli::parse_aovs(names);
+  if (!aovs) {
+    throw_error("aov", quote(names) + " is not understood, expected some of " + cli::list_aovs() +
+                           ", each once");
+  }
+  return *aovs;
+}
+
+std::optional<cli::BackgroundChoice> background_of(const Arguments& given) {
+  const auto text = given.text("background");
+  if (!text) return std::nullopt;
+  const auto choice = cli::parse_background(*text);
+  if (!choice) {
+    throw_error(
+        "background",
+        quote(*text) + " is not understood, expected a colour such as #ffffff, or transparent");
+  }
+  return choice;
+}
+
+Wishes wishes_of(const py::dict& dictionary) {
+  const Arguments given(dictionary);
+  Wishes wishes;
+  wishes.size = given.wholes<2>("size", rule::image_side);
+  wishes.spp = given.whole("spp", rule::samples);
+  wishes.filter = given.choice<PixelFilter>("filter");
+  wishes.background = background_of(given);
+  wishes.outline = given.number("outline", rule::outline);
+  wishes.seed = given.any_whole("seed");
+  wishes.crop = given.wholes<4>("crop", {.low = 0, .high = max_image_side});
+  wishes.aovs = aovs_of(given);
+  wishes.method = given.choice<Method>("method");
+  wishes.max_depth = given.whole("max_depth", rule::bounces);
+  wishes.time_limit =
+      given.number("time_limit", {.low = 0, .high = 1e9, .takes_low = false, .unit = " seconds"});
+  wishes.partial = given.flag("partial");
+  if (const auto order = given.text("order")) {
+    wishes.order = choose<PixelOrder>(*order, "order", order_names);
+  }
+  wishes.tile = given.whole("tile", {.low = 1, .high = max_tile});
+  wishes.isa = given.text("isa");
+  wishes.solver = given.choice<Solver>("solver");
+  wishes.threads = given.whole("threads", {.low = 0, .high = 1024});
+  return wishes;
+}
+
+void choose_background(const Wishes& wishes, Scene& scene) {
+  if (!wishes.background) return;
+  const std::optional<SrgbColor>& color = wishes.background->color;
+  scene.image.transparent = !color;
+  if (color) scene.backdrop = linear_of(*color);
+}
+
+RenderOptions combine(const Scene& scene, const Wishes& wishes) {
+  RenderOptions options = options_of(scene);
+  if (wishes.size)
+    std::tie(options.width, options.height) = std::tuple((*wishes.size)[0], (*wishes.size)[1]);
+  options.spp = wishes.spp.value_or(options.spp);
+  options.filter = wishes.filter.value_or(options.filter);
+  options.method = wishes.method.value_or(options.method);
+  options.max_depth = wishes.max_depth.value_or(options.max_depth);
+  if (wishes.outline) options.outline = static_cast<float>(*wishes.outline);
+  if (wishes.crop) {
+    const auto [x0, y0, x1, y1] = *wishes.crop;
+    options.crop = PixelRect{x0, y0, x1, y1};
+  }
+  options.aovs = wishes.aovs;
+  options.seed = wishes.seed.value_or(0);
+  options.tile = wishes.tile.value_or(0);
+  options.order =
+      wishes.order.value_or(wishes.partial ? PixelOrder::progressive : PixelOrder::tiles);
+  options.threads = static_cast<unsigned>(wishes.threads.value_or(0));
+  options.isa = wishes.isa.value_or("auto");
+  options.solver = wishes.solver.value_or(Solver::robust);
+  return options;
+}
+
+/// One render, which its thread and the waiting one share.
+class Run {
+ public:
+  Run(SceneRequest request, Wishes wishes)
+      : request_(std::move(request)), wishes_(std::move(wishes)) {}
+
+  /// The picture; unfinished, or none, if it was stopped.
+  Status work(Call& call);
+
+  /// After work(): the picture, if there is one.
+  [[nodiscard]] const std::shared_ptr<const PictureParts>& picture() const { return picture_; }
+
+  [[nodiscard]] bool is_out_of_time() const {
+    if (!wishes_.time_limit || !is_rendering_) return false;
+    return std::chrono::duration<double>(Clock::now() - begin_.load()).count() >=
+           *wishes_.time_limit;
+  }
+  /// Of all samples; none before the rendering begins.
+  [[nodiscard]] std::optional<double> share() const {
+    if (!is_rendering_) return std::nullopt;
+    return live_.read().share;
+  }
+
+ private:
+  Status render(Renderer& renderer, PictureParts& parts, const Call& call);
+  void describe(const Renderer& renderer, PictureParts& parts) const;
+
+  SceneRequest request_;
+  Wishes wishes_;
+  LiveProgress live_;
+  std::atomic<Clock::time_point> begin_{};
+  std::atomic<bool> is_rendering_{false};
+  std::shared_ptr<const PictureParts> picture_;
+};
+
+Status Run::work(Call& call) {
+  auto loaded = request_.load(call);
+  if (!loaded) return loaded.error();
+  Scene& scene = loaded.value().scene;
+  choose_background(wishes_, scene);
+  RenderOptions options = combine(scene, wishes_);
+  options.cancel = &call.cancel;
+  options.live = &live_;
+  auto parts = std::make_shared<PictureParts>();
+  parts->notes = std::move(loaded.value().notes);
+  if (auto bad = validate(scene)) return bad;
+  parts->scene_hash = scene_hash(scene);
+  auto renderer = Renderer::create(std::move(scene), options);
+  if (!renderer) return renderer.error();
+  begin_ = Clock::now();
+  is_rendering_ = true;
+  if (auto bad = render(renderer.value(), *parts, call)) return bad;
+  describe(renderer.value(), *parts);
+  picture_ = std::move(parts);
+  return std::nullopt;
+}
+
+/// Renders the extra channels and the lines first: a picture that is stopped has them too.
+Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
+  if (wishes_.aovs.any()) {
+    auto aovs = renderer.render_aovs();
+    if (!aovs) return aovs.error();
+    parts.channels = std::move(aovs).value();
+  }
+  auto lines = renderer.render_outline();
+  if (!lines) return lines.error();
+  Film film(renderer.rect());
+  const Status status = renderer.render_live(film);
+  const Alpha alpha = alpha_of(renderer.options());
+  if (status) {
+    const std::uint64_t all =
+        renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp);
+    if (!call.cancel || film.total_samples() == 0) return status;
+    parts.partial = cli::PartialSamples{film.total_samples(), all};
+    parts.image = partial_picture(film, renderer.options().order, alpha);
+  } else {
+    parts.image = film.to_image(alpha);
+  }
+  if (renderer.options().outline > 0) lines.value().draw(parts.image);
+  return std::nullopt;
+}
+
+void Run::describe(const Renderer& renderer, PictureParts& parts) const {
+  const RenderOptions& options = renderer.options();
+  parts.header = cli::picture_header(renderer, parts.scene_hash, parts.partial);
+  if (options.crop) {
+    parts.crop = {options.width, options.height, options.crop->x0, options.crop->y0};
+  }
+  parts.statistics = renderer.statistics();
+  parts.spp = options.spp;
+  parts.notes.insert(parts.notes.end(), renderer.notes().begin(), renderer.notes().end());
+}
+
+/// What the exception was that a signal or the tick raised, or None.
+py::object value_of(const std::optional<py::error_already_set>& raised) {
+  return raised ? py::object(raised->value()) : py::object(py::none());
+}
+
+/// Renders: a picture or None, and what stopped it: an exception, "time" or None.
+py::tuple render(const py::object& source, const py::dict& keys, const py::dict& given,
+                 const py::object& tick) {
+  const auto run = std::make_shared<Run>(SceneRequest(source, keys), wishes_of(given));
+  const auto call = std::make_shared<Call>();
+  const auto status = std::make_shared<Status>();
+  WaitOptions waiting;
+  waiting.is_out_of_time = [run] { return run->is_out_of_time(); };
+  waiting.waits_for_end = Arguments(given).flag("partial");
+  if (!tick.is_none()) waiting.tick = [&] { tick(run->share()); };
+  std::optional<py::error_already_set> raised;
+  const CallEnd end = run_call(
+      call, [run, call, status] { *status = run->work(*call); }, waiting, raised);
+  if (end == CallEnd::left) return py::make_tuple(py::none(), value_of(raised));
+  if (end == CallEnd::done && *status) throw_error(**status);
+  py::object picture = py::none();
+  if (run->picture()) picture = py::cast(Picture{run->picture()});
+  if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture, "time");
+  return py::make_tuple(picture, value_of(raised));
+}
+
+}  // namespace
+
+void bind_rendering(py::module_& module) {
+  module.def("render", &render, py::arg("source"), py::arg("keys"), py::arg("options"),
+             py::arg("tick"));
+}
+
+}  // namespace boule::python

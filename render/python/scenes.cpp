@@ -1,0 +1,154 @@
+#include "render/python/scenes.h"
+
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "render/cli/particle_scene.h"
+#include "render/cli/scene_loader.h"
+#include "render/python/arguments.h"
+#include "render/python/choices.h"
+#include "render/python/errors.h"
+#include "render/python/scene_values.h"
+#include "render/scene_file/frame_name.h"
+#include "render/scene_file/scene_tree.h"
+
+namespace py = pybind11;
+
+namespace boule::python {
+namespace {
+
+constexpr std::array<std::string_view, 3> polygon_names{"plane", "skip", "error"};
+
+constexpr WholeRule any_frame{.low = std::numeric_limits<int>::min(),
+                              .high = std::numeric_limits<int>::max()};
+
+/// What `boule render` would be told.
+cli::RenderCommand command_of(const std::string& path, const py::dict& keys) {
+  cli::RenderCommand command;
+  command.scene = path;
+  command.look = look_of(keys);
+  if (const auto polygons = Arguments(keys).text("polygons")) {
+    command.polygons = choose<PolygonPolicy>(*polygons, "polygons", polygon_names);
+  }
+  return command;
+}
+
+/// A loader of the frames of a series. One thread at a time uses it; the others wait.
+struct Series {
+  std::mutex mutex;
+  cli::RenderCommand command;
+  std::unique_ptr<cli::SceneLoader> loader;
+};
+
+std::shared_ptr<Series> open_series(const std::string& path, int first, int last, int step,
+                                    const py::dict& keys) {
+  auto series = std::make_shared<Series>();
+  series->command = command_of(path, keys);
+  series->command.frames = cli::FrameRange{first, last, step};
+  series->loader = std::make_unique<cli::SceneLoader>(series->command);
+  return series;
+}
+
+py::dict next_of_series(const std::shared_ptr<Series>& series, int frame) {
+  return values_of(take(interruptible([series, frame](Call&) {
+    const std::lock_guard lock(series->mutex);
+    return series->loader->load(frame);
+  })));
+}
+
+/// How many frames a file of particles has.
+std::size_t count_frames(const std::string& path, const py::dict& keys) {
+  const cli::RenderCommand command = command_of(path, keys);
+  return take(interruptible([command](Call& call) -> Result<std::size_t> {
+    if (!cli::is_particle_input(command.scene, command.look)) {
+      return Diagnostic::in_file(command.scene,
+                                 "no file of particles by its name or content: say which frames");
+    }
+    ParticleFileOptions options;
+    options.format = command.look.format;
+    auto file = ParticleFile::open(command.scene, options, call.parallel_for());
+    if (!file) return file.error();
+    return file.value().frames();
+  }));
+}
+
+py::dict read_scene(const py::object& source, const py::dict& keys) {
+  const SceneRequest request(source, keys);
+  return values_of(take(interruptible([request](Call& call) { return request.load(call); })));
+}
+
+/// The scene that shows particles in memory.
+py::dict show_particles(const Data& data, const py::dict& keys) {
+  const auto* const file = std::get_if<std::shared_ptr<ParticleFile>>(&data.held);
+  if (file == nullptr) throw_error("particles", "expected particles");
+  const cli::LookOptions look = look_of(keys);
+  auto made = take(interruptible([look, file = *file](Call& call) {
+    const std::string name = "particles in memory";
+    SceneData all;
+    all.particles.emplace(name, file);
+    SceneFileOptions options;
+    options.data = &all;
+    options.parallel_for = call.parallel_for();
+    auto scene = cli::load_particle_scene(name, look, options);
+    if (scene) return scene;
+    Diagnostic error = scene.error();
+    if (error.file == name) error.file.clear();
+    return Result<cli::ParticleScene>(error);
+  }));
+  return values_of(std::move(made.loaded));
+}
+
+}  // namespace
+
+SceneRequest::SceneRequest(const py::object& source, const py::dict& keys) {
+  if (!py::isinstance<py::dict>(source)) {
+    cli::RenderCommand command = command_of(py::cast<std::string>(source), keys);
+    const std::optional<int> frame = Arguments(keys).whole("frame", any_frame);
+    const bool of_file =
+        !has_frame_slot(command.scene) && cli::is_particle_input(command.scene, command.look);
+    (of_file ? command.look.frame : frame_) = frame;
+    source_ = std::move(command);
+    return;
+  }
+  for (const auto& [key, value] : keys) {
+    if (value.is_none() || value.is(py::bool_(false))) continue;
+    if (py::cast<std::string>(py::str(key)) == "frame") continue;
+    throw_error(py::str(key), "is of files, and the scene is none");
+  }
+  frame_ = Arguments(keys).whole("frame", any_frame);
+  Tree tree;
+  TreeBuilder builder;
+  tree.members = builder.members(py::reinterpret_borrow<py::dict>(source), "");
+  tree.data = builder.data();
+  source_ = std::move(tree);
+}
+
+Result<LoadedScene> SceneRequest::load(Call& call) const {
+  if (const auto* command = std::get_if<cli::RenderCommand>(&source_)) {
+    return cli::SceneLoader(*command).load(frame_);
+  }
+  const Tree& tree = std::get<Tree>(source_);
+  SceneFileOptions options;
+  options.data = &tree.data;
+  options.frame = frame_;
+  options.parallel_for = call.parallel_for();
+  return load_scene_tree(tree.members, tree.folder, options);
+}
+
+void bind_scenes(py::module_& module) {
+  py::class_<Data>(module, "Data", "Something large that a scene holds: spheres, a picture, ...");
+  py::class_<Series, std::shared_ptr<Series>>(module, "Series")
+      .def(py::init(&open_series), py::arg("path"), py::arg("first"), py::arg("last"),
+           py::arg("step"), py::arg("keys"))
+      .def("read", &next_of_series, py::arg("frame"));
+  module.def("count_frames", &count_frames, py::arg("path"), py::arg("keys"));
+  module.def("read", &read_scene, py::arg("source"), py::arg("keys"));
+  module.def("show_particles", &show_particles, py::arg("particles"), py::arg("keys"));
+}
+
+}  // namespace boule::python

@@ -1,0 +1,175 @@
+#include "render/python/tables.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "render/python/errors.h"
+#include "render/python/field_values.h"
+#include "render/scene_file/toml_camera.h"
+#include "render/scene_file/toml_color_map.h"
+#include "render/scene_file/toml_entities.h"
+#include "render/scene_file/toml_fields.h"
+#include "render/scene_file/toml_particle_style.h"
+
+namespace py = pybind11;
+
+namespace boule::python {
+namespace {
+
+/// Materials and groups that are not looked up: only a scene knows which there are.
+class AnyNames final : public TomlNames {
+ public:
+  std::uint32_t material_of(TomlTable& table) override { return any(table, "material"); }
+  MaterialRef colored_material_of(TomlTable& table) override {
+    if (table.has("color")) static_cast<void>(read_color_codes(table, "color"));
+    return any(table, "material");
+  }
+  std::uint32_t group_of(TomlTable& table) override { return any(table, "group"); }
+
+ private:
+  static std::uint32_t any(TomlTable& table, const char* key) {
+    std::string name;
+    table.read(key, name);
+    return 0;
+  }
+};
+
+template <class T>
+void read_object(TomlTable& table) {
+  AnyNames names;
+  T value;
+  TomlFields(table, &names).read(value);
+  if constexpr (std::is_same_v<T, Instance>) {
+    table.finish({"group"});
+  } else {
+    table.finish();
+  }
+  table.check(find_problem(value));
+}
+
+void read_camera_table(TomlTable& table) {
+  if (read_camera_fit(table)) return;
+  read_camera(table);
+}
+
+void read_particle_table(TomlTable& table) {
+  std::string text;
+  int frame = 0;
+  bool water = false;
+  std::vector<std::string> columns;
+  for (const char* key : {"file", "format", "material"}) table.read(key, text);
+  table.read("frame", frame);
+  table.read("water", water);
+  table.read("columns", columns);
+  read_particle_style(table);
+  table.finish({"file"});
+}
+
+/// How the table of a kind is read.
+void read_table(const std::string& kind, TomlTable& table) {
+  Scene scene;
+  if (kind == "image") return table.check(find_problem(read_image(table)));
+  if (kind == "render") return table.check(find_problem(read_render(table)));
+  if (kind == "background") return static_cast<void>(read_background(table, scene));
+  if (kind == "material") return static_cast<void>(read_material(table));
+  if (kind == "light") return static_cast<void>(read_light(table));
+  if (kind == "camera") return read_camera_table(table);
+  if (kind == "distortion") return;  // with its camera
+  if (kind == "sphere") return read_object<Sphere>(table);
+  if (kind == "plane") return read_object<Plane>(table);
+  if (kind == "instance") return read_object<Instance>(table);
+  if (kind == "particles") return read_particle_table(table);
+  if (kind == "map") {
+    read_color_map(table);
+    return table.finish();
+  }
+  throw_error("kind", "there is no kind " + quote(kind));
+}
+
+/// Whether a field's value stands in a file.
+template <class Rule>
+constexpr bool is_in_file = std::is_same_v<Rule, FileRule>;
+
+template <class T>
+void list_keys(const py::dict& defaults, py::list& keys) {
+  each_field<T>([&](const auto& field) {
+    using Rule = std::remove_cvref_t<decltype(field.rule)>;
+    const py::str key{std::string(field.key)};
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>,
+                                 Field<T, CameraPose, TypeRule>>) {
+      list_keys<CameraPose>(defaults, keys);
+    } else {
+      keys.append(py::make_tuple(
+          key, defaults.contains(key) ? py::object(defaults[key]) : py::object(py::none()),
+          is_in_file<Rule>));
+    }
+  });
+}
+
+template <class T>
+void list_struct(py::dict& types) {
+  py::list keys;
+  list_keys<T>(FieldValues().of(T{}), keys);
+  types[py::str(std::string(fields<T>.type))] = keys;
+}
+
+template <class... Kinds>
+py::dict list_kinds(const std::variant<Kinds...>*) {
+  py::dict types;
+  (list_struct<Kinds>(types), ...);
+  return types;
+}
+
+template <class T>
+py::dict list_kinds(const T*) {
+  py::dict types;
+  list_struct<T>(types);
+  return types;
+}
+
+template <class T>
+py::dict kinds() {
+  return list_kinds(static_cast<const T*>(nullptr));
+}
+
+}  // namespace
+
+py::dict list_fields() {
+  py::dict all;
+  all["image"] = kinds<ImageSettings>();
+  all["render"] = kinds<RenderSettings>();
+  all["camera"] = kinds<Camera>();
+  all["fit"] = kinds<CameraFit>();
+  all["distortion"] = kinds<DistortionMap>();
+  all["background"] = kinds<Background>();
+  all["material"] = kinds<Material>();
+  all["light"] = kinds<Light>();
+  all["sphere"] = kinds<Sphere>();
+  all["plane"] = kinds<Plane>();
+  all["instance"] = kinds<Instance>();
+  py::list scene;
+  each_field<Scene>([&](const auto& field) { scene.append(std::string(field.key)); });
+  all["scene"] = scene;
+  return all;
+}
+
+py::dict check_table(const std::string& kind, const py::dict& dictionary) {
+  TreeBuilder builder;
+  const TomlMembers members = builder.members(dictionary, "");
+  FirstError error("", std::nullopt, &builder.data());
+  TomlTable table(members, {}, "", error);
+  read_table(kind, table);
+  check(error.status());
+  return to_python(members);
+}
+
+void bind_tables(py::module_& module) {
+  module.def("fields", &list_fields, "The keys of each kind and type of table, with defaults.");
+  module.def("check", &check_table, py::arg("kind"), py::arg("table"),
+             "Raise Error if a table is wrong; return its values as plain ones.");
+}
+
+}  // namespace boule::python

@@ -1,0 +1,47 @@
+"""Builds the Python package by CMake: pip install . --no-build-isolation (docs/python.md)."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).resolve().parent
+
+
+def version():
+    """That of CMakeLists.txt."""
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(boule VERSION ([0-9.]+)", text).group(1)
+
+
+class CMakeBuild(build_ext):
+    def run(self):
+        build = pathlib.Path(self.build_temp).resolve() / "cmake"
+        subprocess.run(
+            ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DBOULE_PYTHON=ON",
+             "-DBOULE_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+             *os.environ.get("CMAKE_ARGS", "").split()],
+            check=True,
+        )  # fmt: skip
+        subprocess.run(
+            ["cmake", "--build", build, "--target", "boule_python",
+             "--parallel", str(os.cpu_count() or 1)], check=True
+        )
+        target = pathlib.Path(self.build_lib) / "boule"
+        if self.inplace:
+            target = ROOT / "render" / "python" / "boule"
+        shutil.copytree(build / "boule", target, dirs_exist_ok=True)
+        # Pictures are read and written by this module, which is looked for beside the package's own.
+        shutil.copy2(build / "bin" / "boule_image_io.so", target)
+
+
+setup(
+    version=version(),
+    ext_modules=[Extension("boule._core", sources=[])],
+    cmdclass={"build_ext": CMakeBuild},
+)

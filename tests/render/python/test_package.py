@@ -1,0 +1,162 @@
+"""The package as such: what importing it loads, its stubs, its examples."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+import boule
+
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLES = ROOT / "render" / "python" / "examples"
+PACKAGE = pathlib.Path(boule.__file__).resolve().parent
+
+
+def run(*arguments, **options):
+    told = subprocess.run(
+        [sys.executable, *arguments], capture_output=True, text=True, timeout=300, **options
+    )
+    assert told.returncode == 0, told.stdout + told.stderr
+    return told.stdout
+
+
+def test_importing_loads_next_to_nothing():
+    told = run("-c", "import sys, boule; print(*sys.modules); print(open('/proc/self/maps').read())")
+    modules, maps = told.split("\n", 1)
+    for name in ("numpy", "tqdm", "asyncio", "ctypes"):
+        assert name not in modules.split(), name
+    for library in ("OpenImageIO", "OpenEXR", "boule_image_io"):
+        assert library not in maps, library
+    # Tracing and rendering need numpy, pictures in files OpenImageIO.
+    told = run("-c", "import boule; boule.Tracer([[0, 0, 0]], 1).closest([[0, 0, 5]], [[0, 0, -1]]);"
+               "print(open('/proc/self/maps').read())")  # fmt: skip
+    assert "OpenImageIO" not in told
+
+
+def test_version_and_isa():
+    assert boule.__version__ == "0.1.0"
+    assert boule.isa() in ("scalar", "sse42", "avx2", "avx512", "neon")
+
+
+def test_everything_public_says_what_it_is():
+    for name in boule.__all__:
+        thing = getattr(boule, name)
+        if name != "__version__":
+            assert thing.__doc__, name
+            assert thing.__module__ in ("boule", "boule._core"), name
+
+
+def check_types(*arguments):
+    pytest.importorskip("mypy")
+    environment = {**os.environ, "MYPYPATH": str(PACKAGE.parent)}
+    return run("-m", *arguments, env=environment, cwd=HERE)
+
+
+def test_stubs_are_complete(tmp_path):
+    """stubtest compares them with the package: every name, argument and default."""
+    check_types(
+        "mypy.stubtest", "boule", "--mypy-config-file", str(HERE / "mypy.ini"), "--allowlist",
+        str(HERE / "stubtest_allowed.txt"), "--ignore-missing-stub", "--ignore-unused-allowlist",
+    )  # fmt: skip
+
+
+def test_stubs_have_every_public_name():
+    import ast
+
+    tree = ast.parse((PACKAGE / "__init__.pyi").read_text())
+    known = {node.name for node in tree.body if hasattr(node, "name")}
+    known |= {node.target.id for node in tree.body if isinstance(node, ast.AnnAssign)}
+    assert set(boule.__all__) <= known
+    assert (PACKAGE / "py.typed").exists()
+
+
+def test_examples_have_strict_types(tmp_path):
+    examples = sorted(str(path) for path in EXAMPLES.glob("*.py"))
+    assert len(examples) >= 3
+    check_types("mypy", "--strict", "--config-file", str(HERE / "mypy.ini"), "--cache-dir",
+                str(tmp_path), *examples)  # fmt: skip
+
+
+def test_a_wrong_argument_is_a_wrong_type(tmp_path):
+    pytest.importorskip("mypy")
+    path = tmp_path / "wrong.py"
+    path.write_text("import boule\nboule.Plastic(colour=1)\nboule.render(3)\n")
+    told = subprocess.run(
+        [sys.executable, "-m", "mypy", "--config-file", HERE / "mypy.ini", "--cache-dir", tmp_path,
+         path],
+        capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(PACKAGE.parent)},
+    )  # fmt: skip
+    assert "Found 2 errors" in told.stdout, told.stdout
+
+
+@pytest.mark.parametrize(
+    "name, needs, pictures",
+    [
+        ("ase_two_lines", "ase", ["picture.png"]),
+        ("mdanalysis_frames", "MDAnalysis", [f"frame{k:04d}.png" for k in range(4)]),
+        ("matplotlib_depth", "matplotlib", ["picture.png"]),
+    ],
+)
+def test_examples_make_pictures(name, needs, pictures, tmp_path):
+    pytest.importorskip(needs)
+    image = pytest.importorskip("matplotlib.image")
+    target = tmp_path if len(pictures) > 1 else tmp_path / pictures[0]
+    run("-W", "ignore", EXAMPLES / f"{name}.py", target, env={**os.environ, "HOME": str(tmp_path)})
+    for picture in pictures:
+        pixels = image.imread(tmp_path / picture)
+        assert pixels.shape[0] >= 240 and pixels[..., :3].std() > 0.05
+
+
+def test_the_notebook_runs(tmp_path):
+    """Every cell of the gallery's notebook, in a kernel of its own."""
+    nbclient = pytest.importorskip("nbclient")
+    nbformat = pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    notebook = nbformat.read(ROOT / "scenes" / "spheres.ipynb", as_version=4)
+    client = nbclient.NotebookClient(
+        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": tmp_path}}
+    )
+    client.execute(env={**os.environ, "HOME": str(tmp_path)})
+    shown = [
+        output
+        for cell in notebook.cells
+        for output in cell.get("outputs", [])
+        if "image/png" in output.get("data", {})
+    ]
+    assert len(shown) >= 3
+
+
+ENDLESS = """
+import numpy as np, boule
+scene = boule.Scene(background=boule.GradientBackground())
+scene.add_spheres(np.random.default_rng(0).uniform(-5, 5, (5000, 3)), 0.2)
+begun = []
+boule.render(scene, size=(160, 120), spp=1_000_000, method="path", partial=True,
+             progress=lambda share: begun or begun.append(print("begun", flush=True)))
+"""
+
+
+def test_a_kernel_that_is_interrupted_shows_what_there_is(tmp_path):
+    manager = pytest.importorskip("jupyter_client.manager")
+    pytest.importorskip("ipykernel")
+    kernel, client = manager.start_new_kernel(
+        kernel_name="python3", env={**os.environ, "HOME": str(tmp_path)}
+    )
+    try:
+        client.execute(ENDLESS)
+        shown = None
+        while shown is None:
+            message = client.get_iopub_msg(timeout=120)
+            content = message["content"]
+            assert message["msg_type"] != "error", content
+            if message["msg_type"] == "stream" and "begun" in content["text"]:
+                kernel.interrupt_kernel()
+            if message["msg_type"] == "execute_result":
+                shown = content["data"]
+        assert "unfinished" in shown["text/plain"] and len(shown["image/png"]) > 1000
+    finally:
+        client.stop_channels()
+        kernel.shutdown_kernel(now=True)

@@ -1,0 +1,162 @@
+"""load(), frames(), from_ase(), from_particles(): the scenes that `boule render` would show."""
+
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import program
+
+import boule
+
+WATER = "O 0.0 0.0 0.119 -0.8\nH 0.0 0.763 -0.477 0.4\nH 0.0 -0.763 -0.477 0.4\n"
+COMMENT = 'Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:charge:R:1\n'
+SIZE = {"size": (48, 36), "spp": 2}
+
+
+@pytest.fixture
+def water(tmp_path):
+    path = tmp_path / "water.xyz"
+    path.write_text("3\n" + COMMENT + WATER)
+    return path
+
+
+@pytest.fixture
+def movie(tmp_path):
+    path = tmp_path / "movie.xyz"
+    path.write_text("".join(f"2\n\nC 0 0 0\nO {k} 0 0\n" for k in (1, 2, 4)))
+    return path
+
+
+def pixels(scene, **options):
+    return np.asarray(boule.render(scene, **{**SIZE, **options}))
+
+
+def test_a_file_of_particles_is_shown_as_by_the_program(water, tmp_path):
+    look = {"look": "dark", "color": "charge", "map": ["#0000ff", "#ff0000"], "range": (-1, 1),
+            "radius": "covalent", "scale": 1.5, "view": "-x", "floor": True}  # fmt: skip
+    told = ["--look", "dark", "--color", "charge", "--map", "#0000ff,#ff0000", "--range", "-1,1",
+            "--radius", "covalent", "--scale", "1.5", "--view", "-x", "--floor"]  # fmt: skip
+    subprocess.run([program(), "render", water, "-o", tmp_path / "a.exr", "--size", "48x36",
+                    "--spp", "2", "-q", *told], check=True)  # fmt: skip
+    boule.render(water, **SIZE, **look).save(tmp_path / "b.exr")
+    assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "b.exr").read_bytes()
+    scene = boule.load(water, **look)
+    assert np.array_equal(pixels(scene), pixels(water, **look))
+    assert "<svg" in scene.legend and isinstance(scene.camera, boule.Fit)
+
+
+def test_particles_in_memory_are_those_of_the_file(water):
+    positions = np.array([[0, 0, 0.119], [0, 0.763, -0.477], [0, -0.763, -0.477]])
+    told = pixels(water, color="charge")
+    for species in (["O", "H", "H"], np.array(["O", "H", "H"]), [8, 1, 1], np.array([8, 1, 1])):
+        made = boule.from_particles(
+            positions, species=species, columns={"charge": [-0.8, 0.4, 0.4]},
+            cell=np.eye(3) * 4, periodic=(True, True, True), color="charge",
+        )  # fmt: skip
+        assert np.array_equal(pixels(made), told)
+
+
+def test_atoms_of_ase_are_those_of_the_file(tmp_path):
+    io = pytest.importorskip("ase.io")
+    build = pytest.importorskip("ase.build")
+    atoms = build.molecule("CH3OH")
+    atoms.set_cell([8, 8, 8])
+    atoms.set_pbc(True)
+    io.write(tmp_path / "a.extxyz", atoms)
+    assert np.allclose(pixels(boule.from_ase(atoms)), pixels(tmp_path / "a.extxyz"), atol=1e-4)
+    atoms.set_tags(range(6))
+    boule.from_ase(atoms, color="tags", quick=True)
+    assert boule.from_ase(build.molecule("H2O")).camera is not None  # has no cell
+
+
+def test_anything_like_atoms_will_do():
+    class Two:
+        cell = [[0, 0, 0]] * 3
+
+        def get_positions(self):
+            return [[0, 0, 0], [1.2, 0, 0]]
+
+        def get_atomic_numbers(self):
+            return [6, 8]
+
+    assert pixels(boule.from_ase(Two())).any()
+
+
+def test_frames_of_a_trajectory(movie, tmp_path):
+    subprocess.run([program(), "render", movie, "-o", tmp_path / "f.#.exr", "--frames", "0-2",
+                    "--size", "48x36", "--spp", "2", "-q"], check=True)  # fmt: skip
+    scenes = list(boule.frames(movie))
+    assert len(scenes) == 3
+    for number, scene in enumerate(scenes):
+        boule.render(scene, **SIZE).save(tmp_path / "one.exr")
+        told = (tmp_path / f"f.{number}.exr").read_bytes()
+        assert (tmp_path / "one.exr").read_bytes() == told
+    assert len(list(boule.frames(movie, range(0, 3, 2)))) == 2
+    last = boule.load(movie)
+    assert np.array_equal(pixels(boule.load(movie, frame=2)), pixels(last))
+    assert not np.array_equal(pixels(boule.load(movie, frame=0)), pixels(last))
+
+
+def test_frames_of_numbered_files(tmp_path):
+    for k in (1, 2):
+        text = f"schema = 1\n[[sphere]]\nradius = {k}\n[[sphere]]\ncenter = [5, 0, 0]\n"
+        (tmp_path / f"s{k}.toml").write_text(text)
+    assert len(list(boule.frames(tmp_path / "s#.toml", range(1, 3)))) == 2
+    with pytest.raises(boule.Error, match="say which frames"):
+        boule.frames(tmp_path / "s1.toml")
+    with pytest.raises(boule.Error) as caught:
+        list(boule.frames(tmp_path / "s#.toml", range(2, 4)))
+    assert "s3.toml" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "call, key, words",
+    [
+        (lambda p: boule.load(p, look="loud"), "look", "unknown name"),
+        (lambda p: boule.load(p, color="chrge"), "color", "did you mean 'charge'"),
+        (lambda p: boule.load(p, color="#12"), "color", "is not understood"),
+        (lambda p: boule.load(p, map="viridis"), "map", "needs 'color'"),
+        (lambda p: boule.load(p, radius=-1), "radius", "a number above 0"),
+        (lambda p: boule.load(p, view=(0, 0, 0)), "view", "three numbers"),
+        (lambda p: boule.load(p, frame=7), "frame", "has no frame 7"),
+        (lambda p: boule.load(p, frame="last"), "frame", "whole number"),
+        (lambda p: boule.load(p, quick=True, look="dark"), "quick", "cannot stand beside"),
+        (lambda p: boule.load(p, input_format="doc"), None, "doc"),
+        (lambda p: boule.load(p, polygons="fill"), "polygons", "unknown name"),
+        (lambda p: boule.frames(p, range(3, 0)), "frames", "expected a range"),
+        (lambda p: boule.frames(p, [1, 2]), "frames", "expected a range"),
+        (lambda p: boule.from_particles([[0, 0, np.inf]]), "positions", "row 0: must be finite"),
+        (lambda p: boule.from_particles([[0, 0, 0]], species=["C", "O"]), "species",
+         "expected 1 texts"),
+        (lambda p: boule.from_particles([[0, 0, 0]], columns={"q": [1, 2]}), "q", "(1,)"),
+        (lambda p: boule.from_particles([[0, 0, 0]], cell=[1, 1, 1]), "cell", "(3, 3)"),
+        (lambda p: boule.from_particles([[0, 0, 0]], color="q"), "color", "no column 'q'"),
+    ],
+)  # fmt: skip
+def test_errors_name_the_argument(water, call, key, words):
+    with pytest.raises(boule.Error) as caught:
+        call(water)
+    assert words in str(caught.value)
+    if key is not None:
+        assert caught.value.key == key
+
+
+def test_an_error_in_a_file_has_its_place(tmp_path):
+    path = tmp_path / "bad.xyz"
+    path.write_text("2\n\nC 0 0 0\nC 0 0 x\n")
+    with pytest.raises(boule.Error) as caught:
+        boule.load(path)
+    assert (caught.value.file, caught.value.line) == (str(path), 4)
+
+
+def test_particles_beside_other_objects(water, tmp_path):
+    scene = boule.Scene()
+    scene.add_particles(str(water), radius=0.4, material=boule.Metal(), color="#ffcc00")
+    scene.add_plane(point=(0, 0, -1), normal=(0, 0, 1))
+    path = tmp_path / "same.toml"
+    path.write_text(
+        'schema = 1\n[material.m]\ntype = "metal"\n[[particles]]\nfile = "water.xyz"\n'
+        'radius = 0.4\nmaterial = "m"\ncolor = "#ffcc00"\n'
+        "[[plane]]\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
+    )
+    assert np.array_equal(pixels(scene), pixels(path))
