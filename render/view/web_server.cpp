@@ -35,7 +35,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t longest_header = 8192, most_connections = 64;
-constexpr seconds longest_request{10};
+constexpr seconds longest_request{10}, longest_download{600};
 constexpr int most_messages = 2000;  // in a second
 constexpr auto taken_over = static_cast<websocket::close_code>(4001);
 
@@ -241,6 +241,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     for (const char c : picture->name) name += c == '"' || c == '\\' || c < ' ' ? '_' : c;
     response.set(http::field::content_disposition, "attachment; filename=\"" + name + "\"");
     response.body() = picture->bytes;
+    stream_.expires_after(longest_download);
     send(std::move(response));
   }
 
