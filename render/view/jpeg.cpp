@@ -8,12 +8,22 @@ namespace boule::view {
 
 bool has_jpeg() { return true; }
 
-JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {}
+struct JpegEncoder::Compressor {
+  tjhandle handle = tjInitCompress();
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
 
-JpegEncoder::~JpegEncoder() {
-  tjFree(bytes_);
-  if (compressor_ != nullptr) tjDestroy(compressor_);
-}
+  Compressor() = default;
+  ~Compressor() {
+    tjFree(bytes);
+    if (handle != nullptr) tjDestroy(handle);
+  }
+  Compressor(const Compressor&) = delete;
+  Compressor& operator=(const Compressor&) = delete;
+};
+
+JpegEncoder::JpegEncoder() : compressor_(std::make_unique<Compressor>()) {}
+JpegEncoder::~JpegEncoder() = default;
 
 std::string JpegEncoder::encode(const Image& image, float exposure_stops, int quality) {
   Image opaque;
@@ -22,12 +32,13 @@ std::string JpegEncoder::encode(const Image& image, float exposure_stops, int qu
     opaque.alpha.clear();
   }
   const auto pixels = tone_map(image.alpha.empty() ? image : opaque, exposure_stops);
+  Compressor& to = *compressor_;
   const bool made =
-      compressor_ != nullptr &&
-      tjCompress2(compressor_, pixels.data(), image.width, 0, image.height, TJPF_RGB, &bytes_,
-                  &room_, quality >= 90 ? TJSAMP_444 : TJSAMP_420, quality, TJFLAG_FASTDCT) == 0;
+      to.handle != nullptr &&
+      tjCompress2(to.handle, pixels.data(), image.width, 0, image.height, TJPF_RGB, &to.bytes,
+                  &to.size, quality >= 90 ? TJSAMP_444 : TJSAMP_420, quality, TJFLAG_FASTDCT) == 0;
   if (!made) return {};
-  return {reinterpret_cast<const char*>(bytes_), room_};
+  return {reinterpret_cast<const char*>(to.bytes), to.size};
 }
 
 }  // namespace boule::view

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "render/image/image.h"
@@ -22,9 +23,9 @@ class JpegEncoder {
   std::string encode(const Image& image, float exposure_stops, int quality);
 
  private:
-  void* compressor_ = nullptr;
-  unsigned char* bytes_ = nullptr;
-  unsigned long room_ = 0;
+  struct Compressor;
+
+  std::unique_ptr<Compressor> compressor_;
 };
 
 }  // namespace boule::view

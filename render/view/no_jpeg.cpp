@@ -3,6 +3,8 @@
 /// In place of jpeg.cpp where there is no libjpeg-turbo.
 namespace boule::view {
 
+struct JpegEncoder::Compressor {};
+
 bool has_jpeg() { return false; }
 JpegEncoder::JpegEncoder() = default;
 JpegEncoder::~JpegEncoder() = default;

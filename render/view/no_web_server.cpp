@@ -6,7 +6,7 @@ namespace boule::view {
 class WebServer::Implementation {};
 
 bool has_web_server() { return false; }
-WebServer::WebServer() : implementation_(nullptr) {}
+WebServer::WebServer() = default;
 WebServer::~WebServer() = default;
 void WebServer::notify() {}
 Status WebServer::serve(const ServerSettings&, ViewSession&) {

@@ -22,18 +22,19 @@ void PaneStage::set_scene(LoadedScene loaded) {
   sample_seconds_ = 0;
 }
 
+/// A scene that is prepared for this is kept for the first picture.
 Result<Camera> PaneStage::scene_camera(int width, int height) {
   if (scene().camera) return *scene().camera;
-  Scene copy = scene();
-  auto made = prepare(std::move(copy), width, height, Scheduler(work_.threads).parallel_for(),
-                      scene().render.method);
-  if (!made) return made.error();
-  return made.value().camera;
+  Prepared first{nullptr, 0, width, height};
+  if (auto bad = prepare_anew(first, scene().render.method, {})) return *bad;
+  const Camera camera = first.scene->camera;
+  prepared_[static_cast<std::size_t>(scene().render.method)] = std::move(first);
+  return camera;
 }
 
-Status PaneStage::prepare_anew(Prepared& kept, Method method, const Camera& camera) {
+Status PaneStage::prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera) {
   Scene copy = scene();
-  copy.camera = camera;
+  if (camera) copy.camera = camera;
   Scheduler scheduler(work_.threads);
   auto made = prepare(std::move(copy), kept.width, kept.height, scheduler.parallel_for(), method);
   if (!made) return made.error();

@@ -74,7 +74,7 @@ class PaneStage {
   };
 
   Result<std::shared_ptr<PreparedScene>> prepare_for(Method method, const Wish& wish, int scale);
-  Status prepare_anew(Prepared& kept, Method method, const Camera& camera);
+  Status prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera);
   void measure();
 
   const WorkSettings work_;

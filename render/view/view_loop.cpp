@@ -15,13 +15,18 @@ namespace {
 using std::chrono::milliseconds;
 
 /// How long the loop renders before it looks for news.
-constexpr double step_seconds = 0.03;
+constexpr double step_seconds = 0.025;
 /// A moving picture is to be rendered within this time; a step then lasts until it is whole.
 constexpr double moving_seconds = 0.035, longest_moving_step = 0.06;
 /// How often a picture at rest is shown as it grows.
 constexpr milliseconds time_between_frames{100}, time_between_reports{250};
 /// The PNG waits for this: nobody who is about to move the camera has to wait for it.
 constexpr milliseconds quiet_time{200};
+
+bool is_frameless(const ViewSettings& settings) {
+  return std::any_of(settings.panes.begin(), settings.panes.end(),
+                     [](const PaneSettings& pane) { return pane.order == PixelOrder::frameless; });
+}
 
 double seconds_of(Mailbox::Clock::duration time) {
   return std::chrono::duration<double>(time).count();
@@ -138,11 +143,7 @@ void ViewLoop::fail(const std::string& about, const Diagnostic& error) {
 /// How coarse a moving picture must be. Order frameless need not be: it shows its pixels as they
 /// come; and at a pace the order is what somebody wants to see.
 int ViewLoop::moving_scale() const {
-  const auto& panes = wish_.settings.panes;
-  const bool frameless = std::any_of(panes.begin(), panes.end(), [](const PaneSettings& pane) {
-    return pane.order == PixelOrder::frameless;
-  });
-  if (frameless || wish_.settings.pace > 0) return 1;
+  if (is_frameless(wish_.settings) || wish_.settings.pace > 0) return 1;
   const double pixels = static_cast<double>(wish_.settings.width) * wish_.settings.height;
   const double seconds = pixels * stage_.sample_seconds();
   for (const int scale : {1, 2, 3, 4, 6, 8, 12}) {
@@ -200,7 +201,9 @@ void ViewLoop::render() {
   const auto pixels = allowance();
   if (!pixels) return;
   const bool moving = stage_.shape().kind == StageKind::moving;
-  const double seconds = moving && wish_.settings.pace == 0 ? longest_moving_step : step_seconds;
+  // A moving picture that is coarse enough is made whole; another one is shown as it comes.
+  const bool whole = moving && wish_.settings.pace == 0 && !is_frameless(wish_.settings);
+  const double seconds = whole ? longest_moving_step : step_seconds;
   if (const auto bad = stage_.step({seconds, *pixels})) {
     if (!parts_.mailbox.overtaken()) return fail("scene", *bad);
     must_begin_ = true;

@@ -373,8 +373,8 @@ class WebServer::Implementation {
 
 bool has_web_server() { return true; }
 
-WebServer::WebServer() : implementation_(new Implementation) {}
-WebServer::~WebServer() { delete implementation_; }
+WebServer::WebServer() : implementation_(std::make_unique<Implementation>()) {}
+WebServer::~WebServer() = default;
 
 void WebServer::notify() { implementation_->notify(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -41,7 +42,7 @@ class WebServer {
 
  private:
   class Implementation;
-  Implementation* implementation_;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace boule::view

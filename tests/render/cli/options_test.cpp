@@ -68,7 +68,7 @@ const Slip slips[] = {
     {"help rendre", "unknown command 'rendre'; did you mean 'render'?", all},
     {"polish", "unknown command 'polish'", all},
     {"a/b.toml -o c.png", "unknown command 'a/b.toml'; did you mean 'boule render a/b.toml'?", all},
-    {"", "a command is missing, expected 'render', 'scene', 'trace', 'info' or 'isa'", all},
+    {"", "a command is missing, expected 'render', 'view', 'scene', 'trace', 'info' or 'isa'", all},
     {"-o c.png", "option '-o' belongs behind a command, such as 'render'", all},
     {"--rays=r.npy", "option '--rays' belongs behind a command, such as 'trace'", all},
     {"-q render a.toml", "option '-q' belongs behind a command, such as 'render'", all},
