@@ -24,14 +24,16 @@ def seconds(work):
 
 
 def in_turns(runs, **works):
-    """The median seconds of each; they take turns, so that all see the same machine."""
+    """The median seconds of each, and its median of processor seconds, which other programs on the
+    machine disturb less. They take turns, so that all see the same machine."""
     times = {name: [] for name in works}
     for run in range(runs + 1):
         for name, work in works.items():
+            begin = time.process_time()
             taken = work()
             if run > 0:  # the first warms up
-                times[name].append(taken)
-    return {name: statistics.median(taken) for name, taken in times.items()}
+                times[name].append((taken, time.process_time() - begin))
+    return {name: tuple(map(statistics.median, zip(*taken))) for name, taken in times.items()}
 
 
 def camera_rays(count):
@@ -87,8 +89,10 @@ def trace(runs, spheres, rays):
         float64=lambda: seconds(lambda: tracer.closest(org8, dir8)),
     )
     print(f"closest, {count} rays of a camera, {spheres} spheres")
-    for name, taken in found.items():
-        print(f"  {name:10} {count / taken / 1e6:8.2f} Mray/s  {found['library'] / taken:6.3f} of the library")
+    for name, (taken, busy) in found.items():
+        rate, rate_busy = found["library"][0] / taken, found["library"][1] / busy
+        print(f"  {name:10} {count / taken / 1e6:8.2f} Mray/s  {rate:6.3f} of the library's rate, "
+              f"by processor time {rate_busy:6.3f}")
     few = 20
     taken = seconds(lambda: by_numpy(centers.astype(np.float64), radii, org8[:few], dir8[:few]))
     print(f"  {'numpy':10} {few / taken / 1e6:8.5f} Mray/s  (by hand, {few} rays)")
@@ -106,8 +110,10 @@ def build(runs, spheres):
         float64=lambda: seconds(lambda: boule.Tracer(centers8, radii)),
     )
     print(f"from arrays to a Tracer, {spheres} spheres")
-    for name, taken in found.items():
-        print(f"  {name:10} {taken * 1000:8.1f} ms  {taken / found['library']:6.3f} times the library")
+    for name, (taken, busy) in found.items():
+        ratio, ratio_busy = taken / found["library"][0], busy / found["library"][1]
+        print(f"  {name:10} {taken * 1000:8.1f} ms  {ratio:6.3f} of the library's time, "
+              f"by processor time {ratio_busy:6.3f}")
 
 
 def main():
@@ -121,7 +127,7 @@ def main():
         boule=lambda: import_seconds("boule"),
         numpy=lambda: import_seconds("numpy"),
     )
-    for name, taken in imports.items():
+    for name, (taken, _) in imports.items():
         print(f"import {name}: {taken * 1000:.1f} ms")
     for spheres in (1000, given.spheres):
         trace(given.runs, spheres, given.rays)

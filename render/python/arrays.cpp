@@ -14,9 +14,8 @@ constexpr std::size_t most_rows = 2147483647;
 
 std::string shape_text(const Numbers::Shape& shape) {
   const std::string rows = shape.rows ? std::to_string(*shape.rows) : "N";
-  std::string many = shape.columns == 1
-                               ? "(" + rows + ",)"
-                               : "(" + rows + ", " + std::to_string(shape.columns) + ")";
+  std::string many = shape.columns == 1 ? "(" + rows + ",)"
+                                        : "(" + rows + ", " + std::to_string(shape.columns) + ")";
   if (!shape.takes_one) return many;
   return many +
          (shape.columns == 1 ? " or one number" : " or (" + std::to_string(shape.columns) + ",)");

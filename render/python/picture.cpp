@@ -44,8 +44,8 @@ py::buffer_info buffer_of(const Picture& picture) {
 py::object array_of(const py::object& picture, const py::object& dtype) {
   const Image& image = py::cast<const Picture&>(picture).parts->image;
   const py::ssize_t row = number_size * 3 * image.width;
-  const py::array view = view_of<float>(&image.pixels.front().r, {image.height, image.width, 3},
-                                        {row, 3 * number_size, number_size}, picture);
+  py::array view = view_of<float>(&image.pixels.front().r, {image.height, image.width, 3},
+                                  {row, 3 * number_size, number_size}, picture);
   if (dtype.is_none()) return view;
   return view.attr("astype")(dtype, py::arg("copy") = false);
 }

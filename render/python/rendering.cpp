@@ -200,7 +200,7 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
   auto lines = renderer.render_outline();
   if (!lines) return lines.error();
   Film film(renderer.rect());
-  const Status status = renderer.render_live(film);
+  Status status = renderer.render_live(film);
   const Alpha alpha = alpha_of(renderer.options());
   if (status) {
     const std::uint64_t all =

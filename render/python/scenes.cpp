@@ -141,7 +141,8 @@ Result<LoadedScene> SceneRequest::load(Call& call) const {
 }
 
 void bind_scenes(py::module_& module) {
-  py::class_<Data>(module, "Data", "Something large that a scene holds: spheres, a picture, ...");
+  const py::class_<Data> data(module, "Data",
+                              "Something large that a scene holds: spheres, a picture, ...");
   py::class_<Series, std::shared_ptr<Series>>(module, "Series")
       .def(py::init(&open_series), py::arg("path"), py::arg("first"), py::arg("last"),
            py::arg("step"), py::arg("keys"))

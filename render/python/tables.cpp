@@ -1,11 +1,13 @@
 #include "render/python/tables.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "render/python/call.h"
 #include "render/python/errors.h"
 #include "render/python/field_values.h"
 #include "render/scene_file/toml_camera.h"
@@ -86,7 +88,7 @@ void read_table(const std::string& kind, TomlTable& table) {
     read_color_map(table);
     return table.finish();
   }
-  throw_error("kind", "there is no kind " + quote(kind));
+  table.report("kind", "there is no kind " + quote(kind));
 }
 
 /// Whether a field's value stands in a file.
@@ -157,13 +159,26 @@ py::dict list_fields() {
 }
 
 py::dict check_table(const std::string& kind, const py::dict& dictionary) {
+  struct Tree {
+    TomlMembers members;
+    SceneData data;
+  };
   TreeBuilder builder;
-  const TomlMembers members = builder.members(dictionary, "");
-  FirstError error("", std::nullopt, &builder.data());
-  TomlTable table(members, {}, "", error);
-  read_table(kind, table);
-  check(error.status());
-  return to_python(members);
+  const auto tree = std::make_shared<Tree>();
+  tree->members = builder.members(dictionary, "");
+  tree->data = builder.data();
+  const auto read = [tree, kind](Call&) {
+    FirstError error("", std::nullopt, &tree->data);
+    TomlTable table(tree->members, {}, "", error);
+    read_table(kind, table);
+    return error.status();
+  };
+  // A picture or a lens in a file may take its time.
+  const bool reads_file = kind != "particles" && dictionary.contains("file") &&
+                          py::isinstance<py::str>(dictionary["file"]);
+  Call here;
+  check(reads_file ? interruptible(read) : read(here));
+  return to_python(tree->members);
 }
 
 void bind_tables(py::module_& module) {

@@ -16,6 +16,12 @@ for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.s
   include/boule/{core/scene/scene.h,simd/dispatch/dispatch.h,render/renderer/renderer.h}; do
   [[ -f "$file" ]] || { echo "$file is not installed"; exit 1; }
 done
+# The Python package, where it was built: it finds what writes pictures beside itself.
+if compgen -G "$build/boule/_core*.so" >/dev/null; then
+  for file in __init__.py __init__.pyi py.typed boule_image_io.so; do
+    [[ -f "$lib/python3/dist-packages/boule/$file" ]] || { echo "boule/$file is not installed"; exit 1; }
+  done
+fi
 if find include | grep -E '/(kernel|lanes|cli|shading|threads)(/|$)' ||
   find include | grep -E '/(image_module|module_loader|wavefront|split|cpu)\.h$'; then
   echo "headers that are nobody's business outside"
