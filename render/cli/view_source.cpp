@@ -92,7 +92,7 @@ Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const 
   options.color = look.color;
   options.map = look.map;
   options.range = look.range;
-  if (has_color_map(options)) return options;
+  if (has_color_map(options.color)) return options;
   options.map.clear();  // what has no map needs none
   options.range.reset();
   return options;
@@ -159,9 +159,7 @@ std::string ViewSource::options_of(const view::ParticleLook& look, int frame) co
   }
   if (facts_.kind != "particles") return text;
   if (!look.color.empty()) text += " --color " + quoted(look.color);
-  LookOptions options;
-  options.color = look.color;
-  if (!has_color_map(options)) return text;
+  if (!has_color_map(look.color)) return text;
   if (!look.map.empty()) text += " --map " + quoted(look.map);
   if (look.range) return text + fmt::format(" --range {},{}", (*look.range)[0], (*look.range)[1]);
   for (const auto& [table, range] : options_.color_ranges)
