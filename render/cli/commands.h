@@ -8,6 +8,9 @@ namespace boule::cli {
 /// Renders a scene file to a picture file.
 ExitCode run(const RenderCommand& command);
 
+/// Makes a picture of film files.
+ExitCode run(const MergeCommand& command);
+
 /// Writes the scene that shows a particle file to standard output.
 ExitCode run(const SceneCommand& command);
 

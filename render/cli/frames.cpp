@@ -26,6 +26,11 @@ Status check_frames(const RenderCommand& command) {
         "json:stats.####.json",
         "--stats");
   }
+  if (command.checkpoint && !has_frame_slot(command.checkpoint->file)) {
+    return wrong_option(
+        "with --frames the file's name needs a place for the number, such as run.####.film",
+        "--checkpoint");
+  }
   return std::nullopt;
 }
 
@@ -54,6 +59,7 @@ RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   one.scene = frame_name(command.scene, frame);
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);
+  if (one.checkpoint) one.checkpoint->file = frame_name(command.checkpoint->file, frame);
   return one;
 }
 

@@ -10,6 +10,7 @@
 #include "render/cli/look_values.h"
 #include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
+#include "render/cli/part_options.h"
 #include "render/cli/usage.h"
 
 namespace boule::cli {
@@ -154,6 +155,7 @@ void add_render(CLI::App& app, RenderCommand& command) {
   add_look_options(app, command.look);
   add_work_options(app, command);
   app.get_option("--frame")->excludes("--frames");
+  add_part_options(app, command);
   start_group(app, "Output");
   add_output(app, command.output, "IMAGE",
              "Picture to write; its extension names the format; - is standard output");
@@ -228,6 +230,7 @@ Command help_on(const CLI::App& app, const std::string& name) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   RenderCommand render;
+  MergeCommand merge;
   SceneCommand scene;
   TraceCommand trace;
   InfoCommand info;
@@ -245,17 +248,15 @@ Command parse_command_line(int argc, const char* const* argv) {
   };
   CLI::App* const render_app = add_command("render", "Render a scene to a picture");
   add_render(*render_app, render);
-  CLI::App* const scene_app = add_command("scene", "Write the scene that shows a particle file");
-  add_scene_text(*scene_app, scene);
-  CLI::App* const trace_app = add_command("trace", "Trace the rays of a file to hits");
-  add_trace(*trace_app, trace);
-  CLI::App* const info_app = add_command("info", "Tell what a scene holds");
-  add_info(*info_app, info);
+  add_merge(*add_command("merge", "Make a picture of the films of its shards"), merge);
+  add_scene_text(*add_command("scene", "Write the scene that shows a particle file"), scene);
+  add_trace(*add_command("trace", "Trace the rays of a file to hits"), trace);
+  add_info(*add_command("info", "Tell what a scene holds"), info);
   CLI::App* const isa_app = add_command("isa", "List the instruction sets");
   isa_app->add_flag("--json", isa.json, "As JSON, for programs");
   CLI::App* const help_app = add_command("help", "Tell the options of a command");
   help_app->add_option("COMMAND", help_topic, "One of these commands")->type_name("");
-  CLI::App* const version_app = add_command("version", "Tell the version");
+  add_command("version", "Tell the version");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -266,15 +267,16 @@ Command parse_command_line(int argc, const char* const* argv) {
     return explain_usage(app, error);
   }
   if (help_app->parsed()) return help_on(app, help_topic);
-  if (version_app->parsed()) return TextCommand{version + "\n"};
+  if (app.got_subcommand("version")) return TextCommand{version + "\n"};
   const auto checked = [](const CLI::App& chosen, auto& command) -> Command {
     if (auto bad = check_look_options(chosen, command.look)) return *bad;
     return command;
   };
   if (render_app->parsed()) return checked(*render_app, render);
-  if (scene_app->parsed()) return checked(*scene_app, scene);
-  if (trace_app->parsed()) return trace;
-  if (info_app->parsed()) return checked(*info_app, info);
+  if (app.got_subcommand("scene")) return checked(*app.get_subcommand("scene"), scene);
+  if (app.got_subcommand("merge")) return merge;
+  if (app.got_subcommand("trace")) return trace;
+  if (app.got_subcommand("info")) return checked(*app.get_subcommand("info"), info);
   return isa;
 }
 

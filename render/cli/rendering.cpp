@@ -12,6 +12,7 @@
 #include "render/cli/legend.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/part_options.h"
 #include "render/cli/picture_stream.h"
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
@@ -28,6 +29,8 @@ namespace {
 
 /// Errors in the command that show without reading the scene.
 Status check(const RenderCommand& command) {
+  if (auto bad = check_part_options(command)) return bad;
+  if (command.shard) return check_run(command, "film", {command.scene});
   if (auto bad = check_picture_stream(command)) return bad;
   const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
@@ -92,6 +95,7 @@ void choose_background(const RenderCommand& command, Scene& scene) {
 
 /// An error if the picture is to be transparent and its format cannot be.
 Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
+  if (command.shard) return std::nullopt;  // merge knows the picture's format
   const ImageFormat& format = *picture_format(command);
   if (!options.transparent || format.alpha) return std::nullopt;
   return wrong_option(std::string("a .") + format.extension +
@@ -131,17 +135,14 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.tile = command.tile;
   options.order =
       command.order.value_or(command.partial ? PixelOrder::progressive : PixelOrder::tiles);
-  if (command.partial || command.time_limit) options.cancel = &StopGuard::flag();
+  if (command.shard && command.tile == 0)
+    options.tile = shared_tile(rendered_rect(options), command.shard->count);
+  if (command.partial || command.time_limit || command.checkpoint)
+    options.cancel = &StopGuard::flag();
   options.threads = command.threads;
   options.isa = command.isa;
   options.solver = command.solver;
   return options;
-}
-
-/// report() with the number of the frame, if any.
-ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
-  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
-  return report(error, code);
 }
 
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
@@ -157,6 +158,11 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
 }
 
 }  // namespace
+
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
+  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
+  return report(error, code);
+}
 
 ExitCode Rendering::run() {
   if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
@@ -207,10 +213,16 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
+  if (command_.checkpoint) {
+    ExitCode code = failed;
+    auto checkpoint = Checkpoint::open(command_, code);
+    if (!checkpoint) return refuse(checkpoint.error(), command_, code);
+    checkpoint_ = std::move(checkpoint).value();
+  }
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
   // Begun only here, so that a command that is refused above loads no module.
-  if (const auto file = file_to_encode(command_)) {
+  if (const auto file = command_.shard ? std::nullopt : file_to_encode(command_)) {
     image_start_.emplace(*file, static_cast<int>(Scheduler(options.threads).workers()));
   }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
@@ -229,8 +241,10 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 ExitCode Rendering::render(Renderer& renderer) {
   live_.end_stage();
   report_.prepared(renderer.statistics());
-  const StopGuard guard(command_.partial ? OnSignal::stop : OnSignal::leave);
+  const bool stops = command_.partial || command_.checkpoint;
+  const StopGuard guard(stops ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
+  if (command_.checkpoint || command_.shard) return render_parts(renderer);
   std::vector<ImageChannel> channels;
   if (command_.aovs.any()) {  // first: a picture that is stopped has them too
     live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));

@@ -5,9 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "render/cli/checkpoint.h"
 #include "render/cli/exit_code.h"
 #include "render/cli/live_report.h"
 #include "render/cli/options.h"
+#include "render/cli/part_run.h"
 #include "render/cli/picture_header.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
@@ -45,6 +47,12 @@ class Rendering {
   Result<LoadedScene> load();
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
+  /// The same for a picture whose samples are kept: with a checkpoint, or of which this is a shard.
+  ExitCode render_parts(Renderer& renderer);
+  ExitCode write_parts(Renderer& renderer, PartRun& run, const FilmHead& head);
+  ExitCode write_film(const PartRun& run, const FilmHead& head);
+  ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;
+  [[nodiscard]] FilmHead film_head(const Renderer& renderer) const;
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
@@ -63,7 +71,11 @@ class Rendering {
   std::string date_;  ///< the file's time stamp
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  std::optional<Checkpoint> checkpoint_;
   std::optional<ImageStart> image_start_;  ///< loads the image module while the scene is prepared
 };
+
+/// report() with the number of the frame, if any.
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code);
 
 }  // namespace boule::cli

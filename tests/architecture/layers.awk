@@ -35,6 +35,8 @@ BEGIN {
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
+  layer("^render/parts/",
+        narrow "|^render/(memory|file|image|frame|prepare|integrators|renderer|parts)/", any)
   layer("^render/cli/", narrow "|^render/", any)
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
@@ -44,7 +46,7 @@ BEGIN {
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|parts)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")

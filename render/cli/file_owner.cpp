@@ -1,0 +1,91 @@
+#include "render/cli/file_owner.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "core/base/error.h"
+
+namespace boule::cli {
+namespace {
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+std::string host_name() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+std::string this_system() {
+  std::error_code ignored;
+  const auto space = std::filesystem::read_symlink("/proc/self/ns/pid", ignored);
+  return first_line("/proc/sys/kernel/random/boot_id") + "/" + space.string();
+}
+
+/// Field 22 of /proc/PID/stat; the name in field 2 may hold anything, but ends at the last ')'.
+std::string start_of(int process) {
+  const std::string line = first_line("/proc/" + std::to_string(process) + "/stat");
+  std::istringstream rest(line.substr(std::min(line.rfind(')') + 1, line.size())));
+  std::string field;
+  for (int i = 3; i <= 22 && rest >> field; ++i) {
+  }
+  return rest ? field : "";
+}
+
+}  // namespace
+
+FileOwner FileOwner::self() {
+  const int process = getpid();
+  return {host_name(), this_system(), process, start_of(process),
+          fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)))};
+}
+
+FileOwner FileOwner::parse(const std::string& text) {
+  std::istringstream lines(text);
+  FileOwner owner;
+  std::string process, end;
+  const auto next = [&lines](std::string& field) {
+    return static_cast<bool>(std::getline(lines, field));
+  };
+  if (!next(owner.host) || !next(owner.processes) || !next(process) || !next(owner.started) ||
+      !next(owner.time))
+    return {};
+  const auto [rest, error] =
+      std::from_chars(process.data(), process.data() + process.size(), owner.process);
+  const bool is_number = error == std::errc{} && *rest == '\0' && owner.process > 0;
+  return is_number ? owner : FileOwner{};
+}
+
+std::string FileOwner::text() const {
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n", host, processes, process, started, time);
+}
+
+bool FileOwner::is_gone() const {
+  if (process <= 0 || processes != this_system()) return false;
+  if (kill(process, 0) != 0 && errno == ESRCH) return true;
+  const std::string now = start_of(process);
+  return !now.empty() && !started.empty() && now != started;
+}
+
+std::string FileOwner::described() const {
+  return fmt::format("process {} on {} since {}", process, printable(host, 64),
+                     printable(time, 40));
+}
+
+}  // namespace boule::cli

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
+#include "render/cli/rendering.h"
+#include "render/frame/stopwatch.h"
+
+namespace boule::cli {
+namespace {
+
+/// Rounded down to a tenth, so that 100 means all.
+double percent(double share) { return std::floor(share * 1000) / 10; }
+
+/// The blocks that are rendered: all of them, or those of the shard.
+std::vector<PixelRect> blocks_of(const RenderCommand& command, const Renderer& renderer) {
+  return blocks_of_shard(renderer.rect(), renderer.options().tile, command.shard.value_or(Shard{}));
+}
+
+}  // namespace
+
+FilmHead Rendering::film_head(const Renderer& renderer) const {
+  const RenderOptions& options = renderer.options();
+  FilmHead head;
+  head.facts = facts_of(options, scene_hash_, BOULE_VERSION);
+  const Shard shard = command_.shard.value_or(Shard{});
+  head.share = {{"shard", fmt::format("{}/{}", shard.index, shard.count)}};
+  head.metadata = picture_header(renderer, scene_hash_);
+  head.frame_width = options.width;
+  head.frame_height = options.height;
+  head.rect = renderer.rect();
+  head.spp = options.spp;
+  head.transparent = options.transparent;
+  head.kinds = kinds_of(options);
+  return head;
+}
+
+ExitCode Rendering::render_parts(Renderer& renderer) {
+  FilmHead head = film_head(renderer);
+  PartRun run(renderer, live_, head, checkpoint_ ? &*checkpoint_ : nullptr);
+  live_.start_pass("pixels");
+  const Status bad = run.run(blocks_of(command_, renderer));
+  live_.end_pass();
+  live_.end_time_limit();
+  if (bad) {
+    const ExitCode code = explain_parts(*bad, run);
+    checkpoint_.reset();  // the lock goes, whether this was a series or not
+    return code;
+  }
+  if (run.resumed() > 0 && tells_of_itself()) {
+    report_.note(fmt::format("boule: note: {} had {:.1f} % of the samples", checkpoint_->file(),
+                             percent(run.resumed())));
+  }
+  live_.start_stage("writing " + printable(command_.output));
+  const ExitCode code = write_parts(renderer, run, head);
+  if (code == done && checkpoint_) checkpoint_->remove();
+  return code == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : code;
+}
+
+ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead& head) {
+  if (command_.shard) {
+    const ExitCode written = write_film(run, head);
+    if (written != done) return written;
+    Image size;
+    size.width = head.rect.width();
+    size.height = head.rect.height();
+    return finish(renderer, size);
+  }
+  const Image image = run.sheet().image(alpha_of(renderer.options()));
+  ImageFileOptions options = file_options(renderer);
+  options.channels = run.sheet().release_channels();
+  const ExitCode written = write(image, options);
+  return written == done ? finish(renderer, image) : written;
+}
+
+ExitCode Rendering::write_film(const PartRun& run, const FilmHead& head) {
+  const Stopwatch watch;
+  Status status;
+  {
+    const WriteGuard guard;
+    status = film_file::write(command_.output, head, run.sheet(),
+                              [] { return WriteGuard::interrupted(); });
+    if (!status) set_written("the film had been written");
+  }
+  exit_if_interrupted();
+  stats_.write_seconds = watch.seconds();
+  return status ? refuse(*status, command_, failed) : done;
+}
+
+/// What was stopped is told with what the checkpoint holds.
+ExitCode Rendering::explain_parts(const Diagnostic& error, const PartRun& run) const {
+  if (!StopGuard::flag()) {
+    const bool of_file = !error.file.empty();  // the checkpoint is damaged, or another picture's
+    return refuse(error, command_, of_file ? invalid_input : failed);
+  }
+  if (!run.saved())
+    return StopGuard::caught() != 0 || checkpoint_ ? refuse(error, command_, failed)
+                                                   : explain(error);
+  const std::string cause = StopGuard::caught() != 0
+                                ? fmt::format("interrupted ({})", StopGuard::caught_name())
+                                : std::string("stopped by the time limit");
+  print_note(fmt::format("boule: {}: {}, {} holds {:.1f} % of the samples; --resume goes on",
+                         command_.output, cause, checkpoint_->file(), percent(run.share())));
+  return StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : failed;
+}
+
+}  // namespace boule::cli
