@@ -60,6 +60,8 @@ Result<std::unique_ptr<Claim>> Claims::take(const std::string& picture) {
     Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (made.number >= 0) {
       if (!replace_text(made.number, FileOwner::self().text())) return cannot_write(path, errno);
+      struct stat info {};
+      if (!first_ && fstat(made.number, &info) == 0) first_ = info.st_mtim;
       return std::unique_ptr<Claim>(new Claim(path, made.keep()));
     }
     if (errno != EEXIST) return cannot_write(path, errno);
@@ -82,6 +84,14 @@ Result<std::unique_ptr<Claim>> Claims::take_over(const std::string& path) {
   if (!owner.is_gone() && !is_silent(path, info.st_mtim)) return nobody();
   if (!replace_text(claim.number, FileOwner::self().text())) return cannot_write(path, errno);
   return std::unique_ptr<Claim>(new Claim(path, claim.keep()));
+}
+
+bool Claims::is_new(const std::string& picture) const {
+  struct stat info {};
+  if (!first_ || stat(picture.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
+  const timespec& made = info.st_mtim;
+  return made.tv_sec != first_->tv_sec ? made.tv_sec > first_->tv_sec
+                                       : made.tv_nsec > first_->tv_nsec;
 }
 
 /// By this process's own clock: those of other machines and of the file system may differ.

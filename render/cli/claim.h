@@ -38,6 +38,10 @@ class Claims {
   /// touched its claim within `silence`, as far as this process could see.
   Result<std::unique_ptr<Claim>> take(const std::string& picture);
 
+  /// Whether there is a picture that is newer than this process's first claim: another process of
+  /// the series has made it. Both times are the file system's.
+  [[nodiscard]] bool is_new(const std::string& picture) const;
+
  private:
   struct Sight {
     timespec touched{};
@@ -47,6 +51,7 @@ class Claims {
   Result<std::unique_ptr<Claim>> take_over(const std::string& path);
 
   std::map<std::string, Sight> seen_;
+  std::optional<timespec> first_;  ///< when the first claim was made
 };
 
 }  // namespace boule::cli

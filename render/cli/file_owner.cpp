@@ -38,21 +38,24 @@ std::string this_system() {
   return first_line("/proc/sys/kernel/random/boot_id") + "/" + space.string();
 }
 
-/// Field 22 of /proc/PID/stat; the name in field 2 may hold anything, but ends at the last ')'.
-std::string start_of(int process) {
+/// Field `wanted`, from 3 on, of /proc/PID/stat; the name in field 2 may hold anything, but ends at
+/// the last ')'.
+std::string stat_of(int process, int wanted) {
   const std::string line = first_line("/proc/" + std::to_string(process) + "/stat");
   std::istringstream rest(line.substr(std::min(line.rfind(')') + 1, line.size())));
   std::string field;
-  for (int i = 3; i <= 22 && rest >> field; ++i) {
+  for (int i = 3; i <= wanted && rest >> field; ++i) {
   }
   return rest ? field : "";
 }
+
+constexpr int state_field = 3, start_field = 22;
 
 }  // namespace
 
 FileOwner FileOwner::self() {
   const int process = getpid();
-  return {host_name(), this_system(), process, start_of(process),
+  return {host_name(), this_system(), process, stat_of(process, start_field),
           fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)))};
 }
 
@@ -79,7 +82,8 @@ std::string FileOwner::text() const {
 bool FileOwner::is_gone() const {
   if (process <= 0 || processes != this_system()) return false;
   if (kill(process, 0) != 0 && errno == ESRCH) return true;
-  const std::string now = start_of(process);
+  if (stat_of(process, state_field) == "Z") return true;  // ended, and not yet waited for
+  const std::string now = stat_of(process, start_field);
   return !now.empty() && !started.empty() && now != started;
 }
 

@@ -56,6 +56,7 @@ Status check_single_scene(const std::string& scene) {
 RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   RenderCommand one = command;
   one.frame = frame;
+  if (one.claim) one.skip_existing = true;  // another process may have made it a moment ago
   one.scene = frame_name(command.scene, frame);
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);

@@ -22,14 +22,19 @@ int least_samples(const Film& film, const PixelRect& block) {
 
 }  // namespace
 
+/// Takes what the checkpoint holds, if there is one, and begins its first interval.
+Status PartRun::load() {
+  if (checkpoint_ == nullptr) return std::nullopt;
+  const auto loaded = checkpoint_->load(head_, sheet_);
+  if (!loaded) return loaded.error();
+  resumed_ = loaded.value() ? share() : 0;
+  due_ = Clock::now() + time_span(checkpoint_->interval());
+  return std::nullopt;
+}
+
 Status PartRun::run(const std::vector<PixelRect>& blocks) {
   head_.blocks = blocks;
-  if (checkpoint_ != nullptr) {
-    const auto loaded = checkpoint_->load(head_, sheet_);
-    if (!loaded) return loaded.error();
-    resumed_ = loaded.value() ? share() : 0;
-    due_ = Clock::now() + time_span(checkpoint_->interval());
-  }
+  if (auto bad = load()) return bad;
   for (;;) {
     std::vector<PixelRect> rest;
     for (const PixelRect& block : blocks) {
@@ -55,7 +60,7 @@ Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
       if (StopGuard::flag()) return;
       const std::uint64_t before = tools.counts().total();
       progress.begin_block();
-      if (!render_block(tools, blocks[i])) return progress.drop_block();
+      if (!render_block(tools, blocks[i], sheet_)) return progress.drop_block();
       progress.end_block(tools.counts().total() - before);
       live_.update(progress.read());
     }
@@ -63,29 +68,29 @@ Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
   return renderer_.work(std::cref(task));
 }
 
-/// Lines and AOVs first: where all pixels have samples, they are known. False if it was stopped.
-bool PartRun::render_block(BlockTools& tools, const PixelRect& block) {
+/// Lines and AOVs first: where all pixels have samples, they are known.
+bool PartRun::render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
   const int spp = renderer_.options().spp;
-  int until = least_samples(sheet_.film(), block);
-  if (until == 0) find_extras(tools, block);
+  int until = least_samples(sheet.film(), block);
+  if (until == 0) find_extras(tools, block, sheet);
   while (until < spp) {
     if (is_due()) return false;
-    until = std::min(spp, until + std::min(spp, tools.worthwhile_samples(block)));
-    if (!tools.render(block, until, sheet_.film())) return false;
+    until += std::min(spp - until, tools.worthwhile_samples(block));
+    if (!tools.render(block, until, sheet.film())) return false;
   }
   return true;
 }
 
-void PartRun::find_extras(BlockTools& tools, const PixelRect& block) {
-  if (head_.kinds.outline) {
+void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
+  if (sheet.kinds().outline) {
     Outline lines(block);
     tools.find_lines(block, lines);
-    sheet_.set_lines(block, lines);
+    sheet.set_lines(block, lines);
   }
-  if (head_.kinds.aovs.any()) {
-    AovChannels channels(head_.kinds.aovs, block);
+  if (sheet.kinds().aovs.any()) {
+    AovChannels channels(sheet.kinds().aovs, block);
     tools.find_aovs(block, channels);
-    sheet_.set_channels(block, channels.release(), block);
+    sheet.set_channels(block, channels.release(), block);
   }
 }
 

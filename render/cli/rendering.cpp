@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -145,6 +146,15 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   return options;
 }
 
+/// The tile of a picture that a team renders: the same on all its ranks, whatever machines they
+/// have.
+int tile_of_team(const RenderOptions& options, const Team& team) {
+  constexpr unsigned usual_threads = 8, most = 4096;
+  const unsigned each = options.threads != 0 ? options.threads : usual_threads;
+  const unsigned shares = std::min(each * static_cast<unsigned>(team.size()), most);
+  return shared_tile(rendered_rect(options), static_cast<int>(shares));
+}
+
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
 /// scene; a size from the command line is wrong usage.
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
@@ -169,7 +179,8 @@ ExitCode Rendering::run() {
   auto date = source_date();
   if (!date) return refuse(date.error(), command_, wrong_usage);
   date_ = std::move(date).value();
-  if (auto bad = check_outputs(command_)) return refuse(*bad, command_, failed);
+  if (auto bad = writes() ? check_outputs(command_) : std::nullopt)
+    return refuse(*bad, command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   // The error is reported. The image module may still be loading: to wait for it would take time,
@@ -205,15 +216,22 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 
   RenderOptions options = combine(scene, command_);
   if (auto bad = check_transparency(options, command_)) return refuse(*bad, command_, wrong_usage);
-  if (command_.skip_existing && is_finished_picture(command_.output, shape_of(options))) {
+  // One process decides: the picture may appear meanwhile.
+  if (writes() && command_.skip_existing &&
+      is_finished_picture(command_.output, shape_of(options))) {
     skipped_ = true;
+    if (team_ != nullptr) team_->skip(command_.frame.value_or(0));
     if (tells_of_itself())
       report_.note("boule: " + command_.output + ": is there already, skipped");
     return done;
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
-  if (command_.checkpoint) {
+  if (team_ != nullptr) {
+    options.cancel = &StopGuard::flag();
+    if (command_.tile == 0) options.tile = tile_of_team(options, *team_);
+  }
+  if (command_.checkpoint && writes()) {
     ExitCode code = failed;
     auto checkpoint = Checkpoint::open(command_, code);
     if (!checkpoint) return refuse(checkpoint.error(), command_, code);
@@ -222,7 +240,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
   // Begun only here, so that a command that is refused above loads no module.
-  if (const auto file = command_.shard ? std::nullopt : file_to_encode(command_)) {
+  const bool encodes = writes() && !command_.shard;
+  if (const auto file = encodes ? file_to_encode(command_) : std::nullopt) {
     image_start_.emplace(*file, static_cast<int>(Scheduler(options.threads).workers()));
   }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
@@ -241,10 +260,10 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 ExitCode Rendering::render(Renderer& renderer) {
   live_.end_stage();
   report_.prepared(renderer.statistics());
-  const bool stops = command_.partial || command_.checkpoint;
+  const bool stops = command_.partial || command_.checkpoint || team_ != nullptr;
   const StopGuard guard(stops ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
-  if (command_.checkpoint || command_.shard) return render_parts(renderer);
+  if (command_.checkpoint || command_.shard || team_ != nullptr) return render_parts(renderer);
   std::vector<ImageChannel> channels;
   if (command_.aovs.any()) {  // first: a picture that is stopped has them too
     live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
@@ -342,7 +361,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
 
 /// Writes the final line and the statistics.
 ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
-  const RenderStatistics rendering = renderer.statistics();
+  const RenderStatistics rendering = of_team_.value_or(renderer.statistics());
   static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(rendering);
   stats_.work_seconds = rendering.render_seconds;
   stats_.rays = rendering.rays.total();
@@ -369,10 +388,11 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
     return;
   }
   if (!tells_of_itself()) return;
-  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
+  const std::string ranks = team_ != nullptr ? fmt::format(", {} ranks", team_->size()) : "";
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {}{})",
                            shown_output(command_.output), image.width, image.height,
                            renderer.options().spp, stats_.work_seconds, mrays_per_s(stats_),
-                           stats_.isa, counted(stats_.threads, "thread")));
+                           stats_.isa, counted(stats_.threads, "thread"), ranks));
   if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "render/cli/run_report.h"
 #include "render/cli/scene_loader.h"
 #include "render/cli/stats.h"
+#include "render/cli/team_run.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/image_start.h"
 #include "render/renderer/renderer.h"
@@ -26,11 +28,13 @@ namespace boule::cli {
 /// exit code.
 class Rendering {
  public:
-  /// `live` and `loader` must outlive it. A series has one of each for all its frames.
-  Rendering(RenderCommand command, LiveReport& live, SceneLoader& loader)
+  /// All must outlive it. A series has one of each for all its frames. `team` may be null; else its
+  /// ranks render the picture together, and the leader writes it.
+  Rendering(RenderCommand command, LiveReport& live, SceneLoader& loader, Team* team = nullptr)
       : command_(std::move(command)),
         live_(live),
         loader_(loader),
+        team_(team),
         report_(command_, live),
         reading_limit_(command_.load_limit) {}
 
@@ -53,6 +57,10 @@ class Rendering {
   ExitCode write_film(const PartRun& run, const FilmHead& head);
   ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;
   [[nodiscard]] FilmHead film_head(const Renderer& renderer) const;
+  std::unique_ptr<PartRun> part_run(Renderer& renderer, FilmHead& head);
+  void add_team(const Renderer& renderer, const TeamRun& run);
+  /// Whether this process writes the picture.
+  [[nodiscard]] bool writes() const { return team_ == nullptr || team_->leads(); }
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
@@ -63,6 +71,7 @@ class Rendering {
   const RenderCommand command_;  ///< before what refers to it
   LiveReport& live_;
   SceneLoader& loader_;
+  Team* const team_;
   RunReport report_;
   ReadingLimit reading_limit_;
   bool skipped_ = false;
@@ -72,7 +81,8 @@ class Rendering {
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
   std::optional<Checkpoint> checkpoint_;
-  std::optional<ImageStart> image_start_;  ///< loads the image module while the scene is prepared
+  std::optional<RenderStatistics> of_team_;  ///< what all ranks traced
+  std::optional<ImageStart> image_start_;    ///< loads the image module while the scene is prepared
 };
 
 /// report() with the number of the frame, if any.

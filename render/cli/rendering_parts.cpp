@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/picture_stream.h"
 #include "render/cli/rendering.h"
 #include "render/frame/stopwatch.h"
 
@@ -37,26 +39,56 @@ FilmHead Rendering::film_head(const Renderer& renderer) const {
   return head;
 }
 
+std::unique_ptr<PartRun> Rendering::part_run(Renderer& renderer, FilmHead& head) {
+  const Checkpoint* const checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
+  if (team_ == nullptr) return std::make_unique<PartRun>(renderer, live_, head, checkpoint);
+  return std::make_unique<TeamRun>(renderer, live_, head, checkpoint, *team_,
+                                   command_.frame.value_or(0));
+}
+
 ExitCode Rendering::render_parts(Renderer& renderer) {
   FilmHead head = film_head(renderer);
-  PartRun run(renderer, live_, head, checkpoint_ ? &*checkpoint_ : nullptr);
+  const std::unique_ptr<PartRun> run = part_run(renderer, head);
   live_.start_pass("pixels");
-  const Status bad = run.run(blocks_of(command_, renderer));
+  const Status bad = run->run(blocks_of(command_, renderer));
   live_.end_pass();
   live_.end_time_limit();
+  if (!writes()) return run->failed() ? refuse(*bad, command_, failed) : done;
   if (bad) {
-    const ExitCode code = explain_parts(*bad, run);
+    const ExitCode code = explain_parts(*bad, *run);
     checkpoint_.reset();  // the lock goes, whether this was a series or not
     return code;
   }
-  if (run.resumed() > 0 && tells_of_itself()) {
+  if (const auto* team_run = dynamic_cast<const TeamRun*>(run.get())) add_team(renderer, *team_run);
+  if (run->resumed() > 0 && tells_of_itself()) {
     report_.note(fmt::format("boule: note: {} had {:.1f} % of the samples", checkpoint_->file(),
-                             percent(run.resumed())));
+                             percent(run->resumed())));
   }
-  live_.start_stage("writing " + printable(command_.output));
-  const ExitCode code = write_parts(renderer, run, head);
+  live_.start_stage("writing " + printable(shown_output(command_.output)));
+  const ExitCode code = write_parts(renderer, *run, head);
   if (code == done && checkpoint_) checkpoint_->remove();
   return code == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : code;
+}
+
+/// Tells what the ranks did, if somebody asks.
+void Rendering::add_team(const Renderer& renderer, const TeamRun& run) {
+  of_team_ = renderer.statistics();
+  of_team_->rays = run.rays();
+  of_team_->faults = run.faults();
+  const std::vector<RankWork> work = team_->work();
+  std::size_t slowest = 0;
+  const auto speed = [](const RankWork& one) {
+    return one.seconds > 0 ? static_cast<double>(one.rays) / one.seconds / 1e6 : 0;
+  };
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    if (work[i].blocks > 0 && speed(work[i]) < speed(work[slowest])) slowest = i;
+  }
+  const TeamTraffic traffic = team_->traffic();
+  report_.detail(fmt::format("{} ranks; slowest: rank {} on {}, {:.2f} Mray/s of a thread, {}",
+                             work.size(), slowest, work[slowest].host, speed(work[slowest]),
+                             counted(work[slowest].blocks, "block")));
+  report_.detail(fmt::format("rank 0 sent and received {} in {} bytes",
+                             counted(traffic.letters, "letter"), traffic.bytes));
 }
 
 ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead& head) {
@@ -91,13 +123,16 @@ ExitCode Rendering::write_film(const PartRun& run, const FilmHead& head) {
 
 /// What was stopped is told with what the checkpoint holds.
 ExitCode Rendering::explain_parts(const Diagnostic& error, const PartRun& run) const {
-  if (!StopGuard::flag()) {
+  if (run.failed()) {
     const bool of_file = !error.file.empty();  // the checkpoint is damaged, or another picture's
     return refuse(error, command_, of_file ? invalid_input : failed);
   }
-  if (!run.saved())
-    return StopGuard::caught() != 0 || checkpoint_ ? refuse(error, command_, failed)
-                                                   : explain(error);
+  if (!checkpoint_ && (team_ == nullptr || StopGuard::caught() == 0)) return explain(error);
+  if (!checkpoint_) {  // the other ranks are waiting for this one's end
+    print_note(fmt::format("boule: interrupted ({}), nothing written", StopGuard::caught_name()));
+    return interrupted_by(StopGuard::caught());
+  }
+  if (!run.saved()) return refuse(error, command_, failed);
   const std::string cause = StopGuard::caught() != 0
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");

@@ -38,6 +38,8 @@ class BlockTools {
   /// All rays that this thread traced, and those of them that are for AOVs and outlines.
   [[nodiscard]] RayCounts counts() const;
   [[nodiscard]] RayCounts extra_counts() const;
+  /// What was wrong with this thread's samples before they entered a film.
+  [[nodiscard]] SampleFaults faults() const { return worker_.faults(); }
 
  private:
   const BlockSetup& setup_;

@@ -37,6 +37,7 @@ BEGIN {
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/parts/",
         narrow "|^render/(memory|file|image|frame|prepare|integrators|renderer|parts)/", any)
+  layer("^render/team/", "^(core|render/(threads|image|frame|renderer|parts|team))/", any)
   layer("^render/cli/", narrow "|^render/", any)
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
@@ -46,11 +47,12 @@ BEGIN {
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|parts)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|parts|team)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <mpi\\.h>", "^render/team/mpi_module\\.cpp$", "MPI")
   owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
