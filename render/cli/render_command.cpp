@@ -184,7 +184,9 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
     return run_in(&team, team.leads() ? command : command_of_rank(command));
   };
   const ExitCode own = run();
-  const auto code = static_cast<ExitCode>(team.leave(own, kept_lines()));
+  ignore_interrupts();  // launchers send some when the first rank ends
+  const std::string told = kept_lines();
+  const auto code = static_cast<ExitCode>(team.leave(own, told.substr(0, told.find('\n'))));
   if (team.leads() && own == done && code != done)
     return report(Diagnostic::of(team.failures()), code);
   return code;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -136,23 +135,12 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.tile = command.tile;
   options.order =
       command.order.value_or(command.partial ? PixelOrder::progressive : PixelOrder::tiles);
-  if (command.shard && command.tile == 0)
-    options.tile = shared_tile(rendered_rect(options), command.shard->count);
   if (command.partial || command.time_limit || command.checkpoint)
     options.cancel = &StopGuard::flag();
   options.threads = command.threads;
   options.isa = command.isa;
   options.solver = command.solver;
   return options;
-}
-
-/// The tile of a picture that a team renders: the same on all its ranks, whatever machines they
-/// have.
-int tile_of_team(const RenderOptions& options, const Team& team) {
-  constexpr unsigned usual_threads = 8, most = 4096;
-  const unsigned each = options.threads != 0 ? options.threads : usual_threads;
-  const unsigned shares = std::min(each * static_cast<unsigned>(team.size()), most);
-  return shared_tile(rendered_rect(options), static_cast<int>(shares));
 }
 
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
@@ -168,11 +156,6 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
 }
 
 }  // namespace
-
-ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
-  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
-  return report(error, code);
-}
 
 ExitCode Rendering::run() {
   if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
@@ -227,16 +210,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
-  if (team_ != nullptr) {
-    options.cancel = &StopGuard::flag();
-    if (command_.tile == 0) options.tile = tile_of_team(options, *team_);
-  }
-  if (command_.checkpoint && writes()) {
-    ExitCode code = failed;
-    auto checkpoint = Checkpoint::open(command_, code);
-    if (!checkpoint) return refuse(checkpoint.error(), command_, code);
-    checkpoint_ = std::move(checkpoint).value();
-  }
+  if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
   // Begun only here, so that a command that is refused above loads no module.

@@ -53,6 +53,7 @@ class Rendering {
   Result<Image> make_image(Renderer& renderer);
   /// The same for a picture whose samples are kept: with a checkpoint, or of which this is a shard.
   ExitCode render_parts(Renderer& renderer);
+  ExitCode prepare_parts(RenderOptions& options);
   ExitCode write_parts(Renderer& renderer, PartRun& run, const FilmHead& head);
   ExitCode write_film(const PartRun& run, const FilmHead& head);
   ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;

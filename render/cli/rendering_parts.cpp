@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -21,7 +22,36 @@ std::vector<PixelRect> blocks_of(const RenderCommand& command, const Renderer& r
   return blocks_of_shard(renderer.rect(), renderer.options().tile, command.shard.value_or(Shard{}));
 }
 
+/// The tile of a picture that a team renders: the same on all its ranks, whatever machines they
+/// have.
+int tile_of_team(const RenderOptions& options, const Team& team) {
+  constexpr unsigned usual_threads = 8, most = 4096;
+  const unsigned each = options.threads != 0 ? options.threads : usual_threads;
+  const unsigned shares = std::min(each * static_cast<unsigned>(team.size()), most);
+  return shared_tile(rendered_rect(options), static_cast<int>(shares));
+}
+
 }  // namespace
+
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
+  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
+  return report(error, code);
+}
+
+/// What parts of pictures need beside all else: blocks that all processes agree on, a checkpoint.
+ExitCode Rendering::prepare_parts(RenderOptions& options) {
+  const bool is_free = command_.tile == 0;
+  if (command_.shard && is_free)
+    options.tile = shared_tile(rendered_rect(options), command_.shard->count);
+  if (team_ != nullptr && is_free) options.tile = tile_of_team(options, *team_);
+  if (team_ != nullptr || command_.checkpoint) options.cancel = &StopGuard::flag();
+  if (!command_.checkpoint || !writes()) return done;
+  ExitCode code = failed;
+  auto checkpoint = Checkpoint::open(command_, code);
+  if (!checkpoint) return refuse(checkpoint.error(), command_, code);
+  checkpoint_ = std::move(checkpoint).value();
+  return done;
+}
 
 FilmHead Rendering::film_head(const Renderer& renderer) const {
   const RenderOptions& options = renderer.options();

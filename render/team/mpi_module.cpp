@@ -76,9 +76,9 @@ bool idle() {
 
 void finish() { MPI_Finalize(); }
 
-void abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
+void end_all(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
-constexpr Table table = {version, start, send, receive, idle, finish, abort};
+constexpr Table table = {version, start, send, receive, idle, finish, end_all};
 
 /// What the loader looks for in the file before it runs any of the module.
 [[gnu::used]] constexpr auto mark = std::to_array(version_mark);

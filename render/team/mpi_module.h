@@ -35,7 +35,7 @@ struct Table {
   /// Leaves in order, together with all others.
   void (*finish)();
   /// Ends all processes at once, this one among them.
-  void (*abort)(int code);
+  void (*end_all)(int code);
 };
 
 }  // namespace boule::mpi_module

@@ -32,7 +32,7 @@ class MpiPost : public Post {
   }
   bool idle() override { return table_.idle(); }
   void finish() override { table_.finish(); }
-  void abort(int code) override { table_.abort(code); }
+  void end_all(int code) override { table_.end_all(code); }
 
  private:
   const Table& table_;

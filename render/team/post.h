@@ -32,7 +32,7 @@ class Post {
   /// Leaves in order, when all ranks do.
   virtual void finish() = 0;
   /// Ends all ranks at once.
-  virtual void abort(int code) = 0;
+  virtual void end_all(int code) = 0;
 };
 
 }  // namespace boule

@@ -156,6 +156,7 @@ class Team {
   const TeamSettings settings_;
   std::unique_ptr<Post> post_;  ///< the team's thread's
   int rank_ = 0, size_ = 1;
+  int gone_checks_ = 0;  ///< in how many checks the leader was gone
   std::vector<Rank> ranks_;
 
   mutable std::mutex mutex_;  ///< of all below

@@ -193,8 +193,10 @@ void Team::check_ranks() {
   for (int number = 0; number < (leads() ? size_ : 1); ++number) {
     const Rank& rank = ranks_[static_cast<std::size_t>(number)];
     if (number == rank_ || rank.ended) continue;
-    if (rank.name.process != 0 && settings_.is_gone && settings_.is_gone(rank.name))
-      return lose(number, "is gone");
+    if (rank.name.process != 0 && settings_.is_gone && settings_.is_gone(rank.name)) {
+      // A leader that ends all goes first itself, and has told why.
+      if (leads() || ++gone_checks_ > 10) return lose(number, "is gone");
+    }
     const double silent = std::chrono::duration<double>(now - rank.heard).count();
     if (silent > std::max(rank.patience, settings_.silence)) {
       return lose(number, "has given no sign of life for " +
@@ -207,7 +209,7 @@ void Team::check_ranks() {
 void Team::lose(int number, const std::string& what) {
   call_lost();
   if (settings_.lost) settings_.lost(called(number) + " " + what);
-  post_->abort(1);
+  post_->end_all(1);
 }
 
 std::vector<RankWork> Team::work() const {
