@@ -38,11 +38,14 @@ class SeriesTotals {
   }
   /// A frame whose picture was there already.
   void add_skipped() { ++skipped_; }
+  /// A frame that another rank rendered.
+  void add_other() { ++others_; }
 
   /// "20 frames, 3 of them there already, 12.30 s, 4.2 Mray/s (avx2, 2 threads)". `seconds` is the
   /// time of the whole series; the speed is that of rendering alone.
   [[nodiscard]] std::string text(double seconds) const {
-    std::string text = counted(rendered_ + skipped_, "frame");
+    std::string text = counted(rendered_ + skipped_ + others_, "frame");
+    if (others_ > 0) text += fmt::format(", {} of them by other ranks", others_);
     if (skipped_ > 0) text += fmt::format(", {} of them there already", skipped_);
     text += fmt::format(", {:.2f} s", seconds);
     if (rendered_ == 0) return text;
@@ -51,7 +54,7 @@ class SeriesTotals {
   }
 
  private:
-  std::size_t rendered_ = 0, skipped_ = 0;
+  std::size_t rendered_ = 0, skipped_ = 0, others_ = 0;
   Stats work_;
 };
 
@@ -86,6 +89,7 @@ class Series {
 
  private:
   ExitCode run_round();
+  ExitCode run_dealt(const std::vector<int>& frames);
   ExitCode run_claimed(int number);
   ExitCode run_frame(int number);
 
@@ -115,17 +119,28 @@ ExitCode Series::run() {
 }
 
 ExitCode Series::run_round() {
-  if (dealing_ != nullptr) {
-    const std::vector<int> frames = std::exchange(rest_, {});
-    while (const auto i = dealing_->next_frame(static_cast<int>(frames.size()))) {
-      const ExitCode code = run_frame(frames[static_cast<std::size_t>(*i)]);
-      if (code != done) return code;
-    }
-    return done;
-  }
+  if (dealing_ != nullptr) return run_dealt(std::exchange(rest_, {}));
   for (const int number : std::exchange(rest_, {})) {
     const ExitCode code = command_.claim ? run_claimed(number) : run_frame(number);
     if (code != done) return code;
+  }
+  return done;
+}
+
+/// Frames that went to other ranks in between count as frames of the series, too.
+ExitCode Series::run_dealt(const std::vector<int>& frames) {
+  const int count = static_cast<int>(frames.size());
+  for (int next = 0; next < count;) {
+    const int mine = dealing_->next_frame(count).value_or(count);
+    for (; next < mine; ++next) {
+      live_.start_frame();
+      live_.skip_frame();
+      totals_.add_other();
+    }
+    if (mine == count) break;
+    const ExitCode code = run_frame(frames[static_cast<std::size_t>(mine)]);
+    if (code != done) return code;
+    next = mine + 1;
   }
   return done;
 }
