@@ -5,10 +5,12 @@ set -euo pipefail
 # openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
 readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev
-  gemmi-dev tao-pegtl-dev)
+  gemmi-dev tao-pegtl-dev libxxhash-dev)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
+# libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
 readonly test_packages=(binutils clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev libgtest-dev
-  lammps-examples libmpfr-dev librapidcheck-dev pkg-config python3-ase python3-gemmi qemu-user)
+  lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev mpich openmpi-bin pkg-config
+  python3-ase python3-gemmi qemu-user)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 
 usage() {

@@ -2,6 +2,7 @@
 #include "render/team/team.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace boule {
 namespace {
@@ -316,6 +317,9 @@ int Team::leave(int code, const std::string& text) {
     if (code != 0) frames_dealt_ = frame_count_;
     code_ = code;
     ranks_.front().ended = true;
+    stopped_ = stopped_ || code != 0;
+    number_ = std::numeric_limits<int>::max();  // no rank waits for a picture that never begins
+    finish_picture();
   } else {
     LetterWriter letter(LetterKind::ended);
     letter.add(code).add_text(text);

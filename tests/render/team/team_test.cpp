@@ -149,6 +149,16 @@ TEST_F(TeamTest, ARankThatFailsEndsAll) {
   EXPECT_EQ(failures_, "rank 1 (process 101 on host) failed: bad");
 }
 
+/// The others have begun a picture that the leader never begins.
+TEST_F(TeamTest, ALeaderThatFailsEndsAll) {
+  const auto codes = run(3, [&](Team& team, int rank) {
+    if (rank == 0) return 3;
+    static_cast<void>(render(team, picture(0, 100)));
+    return 0;
+  });
+  EXPECT_EQ(codes, std::vector<int>(3, 3));
+}
+
 TEST_F(TeamTest, ASignalOnAnyRankReachesTheLeader) {
   const auto codes = run(3, [&](Team& team, int rank) {
     TeamPicture one = picture(0, 1'000'000);
