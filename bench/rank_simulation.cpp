@@ -4,6 +4,7 @@
 #include <deque>
 #include <numeric>
 #include <queue>
+#include <utility>
 
 #include "render/team/block_dealer.h"
 
@@ -63,7 +64,7 @@ class Simulation {
   }
   void deal(int number, double now) {
     Rank& rank = ranks_[static_cast<std::size_t>(number)];
-    while (dealer_.left() > 0 && BlockDealer::wants(rank.in_hand, rank.last_portion)) {
+    while (dealer_.left() > 0 && dealer_.wants(rank.in_hand, rank.last_portion, 1, run_.ranks)) {
       auto blocks = dealer_.deal(1, run_.ranks);
       rank.in_hand += blocks.size();
       rank.last_portion = blocks.size();

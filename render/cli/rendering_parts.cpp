@@ -28,7 +28,7 @@ int tile_of_team(const RenderOptions& options, const Team& team) {
   constexpr unsigned usual_threads = 8, most = 4096;
   const unsigned each = options.threads != 0 ? options.threads : usual_threads;
   const unsigned shares = std::min(each * static_cast<unsigned>(team.size()), most);
-  return shared_tile(rendered_rect(options), static_cast<int>(shares));
+  return shared_tile(rendered_rect(options), static_cast<int>(shares), BlockDealer::blocks_each);
 }
 
 }  // namespace

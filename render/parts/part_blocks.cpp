@@ -30,11 +30,11 @@ PixelRect grown(const PixelRect& rect, const std::vector<std::uint8_t>& times, i
 
 }  // namespace
 
-int shared_tile(const PixelRect& rect, int shares, int largest) {
-  constexpr int smallest = 16;
-  constexpr std::uint64_t blocks_each = 16;
-  int tile = std::max(largest, smallest);
-  while (tile > smallest && rect.area() < blocks_each * static_cast<std::uint64_t>(shares) *
+int shared_tile(const PixelRect& rect, int shares, int blocks_each) {
+  constexpr int smallest = 16, largest = 128;
+  const std::uint64_t each = static_cast<std::uint64_t>(std::max(blocks_each, 1));
+  int tile = largest;
+  while (tile > smallest && rect.area() < each * static_cast<std::uint64_t>(shares) *
                                               static_cast<std::uint64_t>(tile) *
                                               static_cast<std::uint64_t>(tile))
     tile /= 2;

@@ -13,8 +13,9 @@ struct Shard {
 };
 
 /// The side of the blocks in which a picture is shared out. It depends on the picture and on the
-/// number of shares only, so that all machines agree; never above `largest`.
-int shared_tile(const PixelRect& rect, int shares, int largest = 128);
+/// number of shares only, so that all machines agree: about `blocks_each` for a share, of 16 to 128
+/// pixels a side.
+int shared_tile(const PixelRect& rect, int shares, int blocks_each = 16);
 
 /// Every shard.count-th of the blocks of side `tile` that cover `rect`, along a Morton curve.
 std::vector<PixelRect> blocks_of_shard(const PixelRect& rect, int tile, const Shard& shard);

@@ -110,8 +110,9 @@ void Team::deal() {
 
 void Team::deal_to(Rank& rank, int number) {
   const int threads = std::max(rank.name.threads, 1);
-  while (dealer_->left() > 0 && BlockDealer::wants(rank.in_hand, rank.last_portion)) {
-    const auto blocks = dealer_->deal(threads, std::max(all_threads(), threads));
+  const int all = std::max(all_threads(), threads);
+  while (dealer_->left() > 0 && dealer_->wants(rank.in_hand, rank.last_portion, threads, all)) {
+    const auto blocks = dealer_->deal(threads, all);
     rank.in_hand += blocks.size();
     rank.last_portion = blocks.size();
     if (number == 0) {

@@ -39,7 +39,7 @@ TEST(PartBlocks, TilesDoNotDependOnMoreThanPictureAndShares) {
   EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 4), 128);
   EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 64), 32);
   EXPECT_EQ(shared_tile({0, 0, 64, 64}, 1), 16);
-  EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 4, 32), 32);
+  EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 4, 256), 32);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace boule::test {
@@ -14,7 +15,7 @@ std::vector<std::uint32_t> numbers(std::size_t count) {
   return all;
 }
 
-TEST(BlockDealer, DealsEachBlockOnceAndInOrder) {
+TEST(BlockDealer, DealsEachBlockOnce) {
   for (const int workers : {1, 3, 64}) {
     BlockDealer dealer(numbers(1000));
     std::vector<std::uint32_t> dealt;
@@ -23,6 +24,7 @@ TEST(BlockDealer, DealsEachBlockOnceAndInOrder) {
       ASSERT_FALSE(portion.empty());
       dealt.insert(dealt.end(), portion.begin(), portion.end());
     }
+    std::sort(dealt.begin(), dealt.end());
     EXPECT_EQ(dealt, numbers(1000));
     EXPECT_TRUE(dealer.deal(1, workers).empty());
   }
@@ -41,12 +43,32 @@ TEST(BlockDealer, PortionsShrinkToOneBlockForEachThread) {
   EXPECT_LT(portions, 300U);
 }
 
+/// The first eighth has an eighth of each quarter of the list.
+TEST(BlockDealer, APortionIsSpreadOverThePicture) {
+  BlockDealer dealer(numbers(1024));
+  const auto portion = dealer.deal(1, 2);
+  ASSERT_EQ(portion.size(), 128U);
+  for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+    EXPECT_EQ(std::count_if(portion.begin(), portion.end(),
+                            [&](std::uint32_t block) { return (block - 100) / 256 == quarter; }),
+              32);
+  }
+}
+
 TEST(BlockDealer, AWorkerHasTheNextPortionBeforeItNeedsIt) {
-  EXPECT_TRUE(BlockDealer::wants(0, 0));
-  EXPECT_TRUE(BlockDealer::wants(40, 40));   // it has the first portion only
-  EXPECT_FALSE(BlockDealer::wants(70, 30));  // it has both
-  EXPECT_TRUE(BlockDealer::wants(30, 30));   // the first is done
-  EXPECT_TRUE(BlockDealer::wants(1, 1));
+  BlockDealer dealer(numbers(10));
+  EXPECT_TRUE(dealer.wants(0, 0, 1, 4));
+  EXPECT_TRUE(dealer.wants(40, 40, 1, 4));   // it has the first portion only
+  EXPECT_FALSE(dealer.wants(70, 30, 1, 4));  // it has both
+  EXPECT_TRUE(dealer.wants(30, 30, 1, 4));   // the first is done
+  EXPECT_TRUE(dealer.wants(1, 1, 1, 4));
+}
+
+TEST(BlockDealer, TheLastBlocksGoToWhoHasNone) {
+  BlockDealer dealer(numbers(4));
+  EXPECT_FALSE(dealer.wants(1, 1, 1, 4));
+  EXPECT_TRUE(dealer.wants(0, 1, 1, 4));
+  EXPECT_TRUE(dealer.wants(1, 1, 2, 4));
 }
 
 }  // namespace
