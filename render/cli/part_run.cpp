@@ -41,7 +41,7 @@ Status PartRun::run(const std::vector<PixelRect>& blocks) {
       if (!is_finished(block)) rest.push_back(block);
     }
     if (rest.empty()) return std::nullopt;
-    const Status bad = render_some(rest);
+    Status bad = render_some(rest);
     if (bad && !StopGuard::flag()) return bad;
     if (checkpoint_ != nullptr && (StopGuard::flag() || is_due())) {
       if (auto unsaved = save()) return unsaved;

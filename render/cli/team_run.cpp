@@ -42,9 +42,9 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
   }
   team_.begin(std::move(picture));
   const auto task = [&](BlockTools& tools) { render(tools, blocks); };
-  const Status bad = renderer_.work(std::cref(task));
+  Status bad = renderer_.work(std::cref(task));
   if (bad) team_.stop();
-  const Status ended = team_.end();
+  Status ended = team_.end();
   failed_ = failed_ || bad || (ended && !StopGuard::flag());
   if (unsaved_) return unsaved_;
   if (bad) return bad;

@@ -95,10 +95,11 @@ class Launch {
     }
     return found;
   }
-  /// The exit code, and all that was told.
-  ProgramRun finish() {
+  /// The exit code, and all that was told, when no rank runs any more: the launcher may end first.
+  ProgramRun finish(const std::string& picture) {
     int status = 0;
     waitpid(process_, &status, 0);
+    while (!ranks(picture).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_bytes(output_),
             ""};
   }
@@ -196,7 +197,7 @@ TEST_P(MpiTest, ASignalToOneRankSavesAndEndsAll) {
   const auto processes = Launch::ranks(path("long.exr"));
   ASSERT_EQ(processes.size(), 3U);
   kill(processes.back(), SIGTERM);
-  const ProgramRun run = launch.finish();
+  const ProgramRun run = launch.finish(path("long.exr"));
   EXPECT_EQ(run.exit_code, 143) << run.out;
   EXPECT_THAT(run.out, HasSubstr("; --resume goes on"));
   const ProgramRun more = boule_run(long_picture({"--resume", "--time-limit", "50ms"}));
@@ -208,7 +209,7 @@ TEST_P(MpiTest, AKilledRankIsNamedAndTheCheckpointIsGood) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
   kill(Launch::ranks(path("long.exr")).back(), SIGKILL);
-  const ProgramRun run = launch.finish();
+  const ProgramRun run = launch.finish(path("long.exr"));
   EXPECT_NE(run.exit_code, 0);
   if (GetParam().name == "openmpi") {
     EXPECT_THAT(run.out, testing::ContainsRegex("rank [0-2] "));
@@ -222,7 +223,7 @@ TEST_P(MpiTest, AHangingRankIsNamed) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
   kill(Launch::ranks(path("long.exr")).back(), SIGSTOP);
-  const ProgramRun run = launch.finish();
+  const ProgramRun run = launch.finish(path("long.exr"));
   EXPECT_NE(run.exit_code, 0);
   EXPECT_THAT(run.out, testing::ContainsRegex(
                            "boule: error: rank [0-2] .*has given no sign of life for [0-9]+ s"));
