@@ -200,7 +200,7 @@ std::string Reader::parse() {
     return "is a film file of version " + std::to_string(n.version) + ", expected " +
            std::to_string(format_version);
   }
-  const std::string cut_off = parse_blocks(n.text_bytes, n.blocks);
+  std::string cut_off = parse_blocks(n.text_bytes, n.blocks);
   if (!cut_off.empty()) return cut_off;
   const char* const changed = "was changed: its checksum is wrong";
   head_.kinds = {(n.flags & outline_flag) != 0, aovs_of(n.aovs)};

@@ -10,7 +10,7 @@ MpiLauncher find_mpi_launcher(const std::function<const char*(const char* name)>
     return text != nullptr && std::atoi(text) > 1;
   };
   const auto is_set = [&variable](const char* name) { return variable(name) != nullptr; };
-  const MpiLauncher open{"OpenMPI", "boule_mpi_openmpi.so"}, mpich{"MPICH", "boule_mpi_mpich.so"};
+  MpiLauncher open{"OpenMPI", "boule_mpi_openmpi.so"}, mpich{"MPICH", "boule_mpi_mpich.so"};
   if (is_set("OMPI_COMM_WORLD_SIZE")) return is_team("OMPI_COMM_WORLD_SIZE") ? open : MpiLauncher{};
   if (is_set("PMI_SIZE")) return is_team("PMI_SIZE") ? mpich : MpiLauncher{};
   if (is_set("PMIX_RANK") && is_team("SLURM_STEP_NUM_TASKS")) return open;

@@ -82,7 +82,7 @@ void Team::work_until_left() {
     leads() ? deal() : send_results();
     beat();
     while (!outbox_.empty()) {
-      send(outbox_.front().first, std::move(outbox_.front().second));
+      send(outbox_.front().first, outbox_.front().second);
       outbox_.pop_front();
     }
     if (leaving_ && may_leave_) break;
@@ -117,7 +117,7 @@ void Team::call_lost() {
 }
 
 /// On the team's thread only.
-void Team::send(int to, std::string letter) {
+void Team::send(int to, const std::string& letter) {
   ++traffic_.letters;
   traffic_.bytes += letter.size();
   post_->send(to, letter);

@@ -131,7 +131,7 @@ class Team {
   void call_picture(const Call& call);
   void send_hello();
   void work_until_left();
-  void send(int to, std::string letter);
+  void send(int to, const std::string& letter);
   void read(const Letter& letter);
   void read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader& letter);
   void read_from_leader(LetterKind kind, LetterReader& letter);

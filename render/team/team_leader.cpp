@@ -139,7 +139,7 @@ void Team::check_facts(Rank& rank, int number) {
   for (std::size_t at = 0; at < rank.facts.size();) {
     const auto line = [&] {
       const std::size_t end = std::min(rank.facts.find('\n', at), rank.facts.size());
-      const std::string text = rank.facts.substr(at, end - at);
+      std::string text = rank.facts.substr(at, end - at);
       at = end + 1;
       return text;
     };
