@@ -5,12 +5,13 @@ set -euo pipefail
 # openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
 readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev
-  gemmi-dev tao-pegtl-dev libboost-dev libturbojpeg0-dev)
+  gemmi-dev tao-pegtl-dev libboost-dev libturbojpeg0-dev libxxhash-dev)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
 # chromium-driver, python3-selenium: the pages, driven in a browser.
+# libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
 readonly test_packages=(binutils chromium-driver clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev
-  libgtest-dev lammps-examples libmpfr-dev librapidcheck-dev pkg-config python3-ase python3-gemmi
-  python3-selenium qemu-user)
+  libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev mpich openmpi-bin
+  pkg-config python3-ase python3-gemmi python3-selenium qemu-user)
 # For the package boule, and what its tests hold it against.
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
 readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis

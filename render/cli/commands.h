@@ -11,6 +11,9 @@ ExitCode run(const RenderCommand& command);
 /// Shows a scene in a browser, until it is interrupted.
 ExitCode run(const ViewCommand& command);
 
+/// Makes a picture of film files.
+ExitCode run(const MergeCommand& command);
+
 /// Writes the scene that shows a particle file to standard output.
 ExitCode run(const SceneCommand& command);
 

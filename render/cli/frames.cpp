@@ -26,6 +26,11 @@ Status check_frames(const RenderCommand& command) {
         "json:stats.####.json",
         "--stats");
   }
+  if (command.checkpoint && !has_frame_slot(command.checkpoint->file)) {
+    return wrong_option(
+        "with --frames the file's name needs a place for the number, such as run.####.film",
+        "--checkpoint");
+  }
   return std::nullopt;
 }
 
@@ -51,9 +56,11 @@ Status check_single_scene(const std::string& scene) {
 RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   RenderCommand one = command;
   one.frame = frame;
+  if (one.claim) one.skip_existing = true;  // another process may have made it a moment ago
   one.scene = frame_name(command.scene, frame);
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);
+  if (one.checkpoint) one.checkpoint->file = frame_name(command.checkpoint->file, frame);
   return one;
 }
 

@@ -73,6 +73,10 @@ void install_interrupt_handlers() {
   }
 }
 
+void ignore_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+}
+
 WriteGuard::WriteGuard() { writing = true; }
 WriteGuard::~WriteGuard() { writing = false; }
 bool WriteGuard::interrupted() { return pending_signal != 0; }

@@ -10,6 +10,9 @@ namespace boule::cli {
 /// WriteGuard lives. If the output has been written already, the line says that instead.
 void install_interrupt_handlers();
 
+/// From now on those signals do nothing: the work is over, and only other processes are waited for.
+void ignore_interrupts();
+
 /// While it lives, a signal only raises a flag, so that a temporary file can be removed.
 class WriteGuard {
  public:

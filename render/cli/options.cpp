@@ -10,6 +10,7 @@
 #include "render/cli/look_values.h"
 #include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
+#include "render/cli/part_options.h"
 #include "render/cli/usage.h"
 #include "render/cli/view_options.h"
 
@@ -178,6 +179,7 @@ void add_render(CLI::App& app, RenderCommand& command) {
   add_look_options(app, command.look);
   add_work_options(app, command);
   app.get_option("--frame")->excludes("--frames");
+  add_part_options(app, command);
   start_group(app, "Output");
   add_output(app, command.output, "IMAGE",
              "Picture to write; its extension names the format; - is standard output");
@@ -273,6 +275,7 @@ Command help_on(const CLI::App& app, const std::string& name) {
 struct Commands {
   RenderCommand render;
   ViewCommand view;
+  MergeCommand merge;
   SceneCommand scene;
   TraceCommand trace;
   InfoCommand info;
@@ -288,6 +291,7 @@ void add_commands(CLI::App& app, Commands& commands) {
   };
   add_render(add("render", "Render a scene to a picture"), commands.render);
   add_view(add("view", "Show a scene in a browser"), commands.view);
+  add_merge(add("merge", "Make a picture of the films of its shards"), commands.merge);
   add_scene_text(add("scene", "Write the scene that shows a particle file"), commands.scene);
   add_trace(add("trace", "Trace the rays of a file to hits"), commands.trace);
   add_info(add("info", "Tell what a scene holds"), commands.info);
@@ -311,6 +315,7 @@ Command chosen_command(const CLI::App& app, Commands& commands, const std::strin
   if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
   if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
+  if (is_chosen("merge")) return commands.merge;
   if (is_chosen("trace")) return commands.trace;
   if (is_chosen("info")) return checked("info", commands.info, commands.info.look);
   return commands.isa;

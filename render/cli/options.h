@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/math/srgb.h"
 #include "core/scene/scene.h"
@@ -15,6 +16,7 @@
 #include "render/frame/pixel_rect.h"
 #include "render/image/encode_image.h"
 #include "render/image/write_image.h"
+#include "render/parts/part_blocks.h"
 #include "render/renderer/aov_channels.h"
 #include "render/renderer/run_statistics.h"
 #include "render/scene_file/scene_file.h"
@@ -40,6 +42,15 @@ struct FrameRange {
   /// How many they are.
   [[nodiscard]] int count() const { return (last - first) / step + 1; }
 };
+
+/// Where a checkpoint is, and how often it is replaced.
+struct CheckpointChoice {
+  std::string file;
+  double interval = 60;  ///< seconds
+};
+
+/// Whether the processes that a launcher of MPI started work together.
+enum class MpiUse { automatic, never };
 
 /// How statistics are written: text for people, on standard error, or JSON.
 enum class StatsForm { none, text, json };
@@ -93,6 +104,21 @@ struct RenderCommand : RunOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
   LookOptions look;    ///< of a particle file
   std::string legend;  ///< a file for it; empty: none
+  std::optional<CheckpointChoice> checkpoint;
+  bool resume = false;         ///< go on from the checkpoint
+  std::optional<Shard> shard;  ///< the share of the picture that goes into a film file
+  bool claim = false;          ///< share the series with other processes
+  MpiUse mpi = MpiUse::automatic;
+};
+
+/// `boule merge`.
+struct MergeCommand {
+  std::vector<std::string> films;
+  std::string output;
+  float exposure_stops = 0;
+  Compression compression = Compression::zip;
+  unsigned threads = 0;
+  bool quiet = false;
 };
 
 /// `boule scene`.
@@ -142,8 +168,8 @@ struct UsageError {
   std::string help = "boule --help";
 };
 
-using Command = std::variant<RenderCommand, ViewCommand, SceneCommand, TraceCommand, InfoCommand,
-                             IsaCommand, TextCommand, UsageError>;
+using Command = std::variant<RenderCommand, ViewCommand, MergeCommand, SceneCommand, TraceCommand,
+                             InfoCommand, IsaCommand, TextCommand, UsageError>;
 
 /// Parses the command line.
 Command parse_command_line(int argc, const char* const* argv);

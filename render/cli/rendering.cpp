@@ -13,6 +13,7 @@
 #include "render/cli/legend.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/part_options.h"
 #include "render/cli/picture_stream.h"
 #include "render/cli/source_date.h"
 #include "render/frame/partial_picture.h"
@@ -29,6 +30,8 @@ namespace {
 
 /// Errors in the command that show without reading the scene.
 Status check(const RenderCommand& command) {
+  if (auto bad = check_part_options(command)) return bad;
+  if (command.shard) return check_run(command, "film", {command.scene});
   if (auto bad = check_picture_stream(command)) return bad;
   const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
@@ -93,6 +96,7 @@ void choose_background(const RenderCommand& command, Scene& scene) {
 
 /// An error if the picture is to be transparent and its format cannot be.
 Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
+  if (command.shard) return std::nullopt;  // merge knows the picture's format
   const ImageFormat& format = *picture_format(command);
   if (!options.transparent || format.alpha) return std::nullopt;
   return wrong_option(std::string("a .") + format.extension +
@@ -133,17 +137,12 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.tile = command.tile;
   options.order =
       command.order.value_or(command.partial ? PixelOrder::progressive : PixelOrder::tiles);
-  if (command.partial || command.time_limit) options.cancel = &StopGuard::flag();
+  if (command.partial || command.time_limit || command.checkpoint)
+    options.cancel = &StopGuard::flag();
   options.threads = command.threads;
   options.isa = command.isa;
   options.solver = command.solver;
   return options;
-}
-
-/// report() with the number of the frame, if any.
-ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code) {
-  if (command.frame) error.message = fmt::format("frame {}: {}", *command.frame, error.message);
-  return report(error, code);
 }
 
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
@@ -165,7 +164,8 @@ ExitCode Rendering::run() {
   auto date = source_date();
   if (!date) return refuse(date.error(), command_, wrong_usage);
   date_ = std::move(date).value();
-  if (auto bad = check_outputs(command_)) return refuse(*bad, command_, failed);
+  if (auto bad = writes() ? check_outputs(command_) : std::nullopt)
+    return refuse(*bad, command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   // The error is reported. The image module may still be loading: to wait for it would take time,
@@ -202,18 +202,23 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 
   RenderOptions options = combine(scene, command_);
   if (auto bad = check_transparency(options, command_)) return refuse(*bad, command_, wrong_usage);
-  if (command_.skip_existing && is_finished_picture(command_.output, shape_of(options))) {
+  // One process decides: the picture may appear meanwhile.
+  if (writes() && command_.skip_existing &&
+      is_finished_picture(command_.output, shape_of(options))) {
     skipped_ = true;
+    if (team_ != nullptr) team_->skip(command_.frame.value_or(0));
     if (tells_of_itself())
       report_.note("boule: " + command_.output + ": is there already, skipped");
     return done;
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
+  if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
   // Begun only here, so that a command that is refused above loads no module.
-  if (const auto file = file_to_encode(command_)) {
+  const bool encodes = writes() && !command_.shard;
+  if (const auto file = encodes ? file_to_encode(command_) : std::nullopt) {
     image_start_.emplace(*file, static_cast<int>(Scheduler(options.threads).workers()));
   }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
@@ -232,8 +237,10 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
 ExitCode Rendering::render(Renderer& renderer) {
   live_.end_stage();
   report_.prepared(renderer.statistics());
-  const StopGuard guard(command_.partial ? OnSignal::stop : OnSignal::leave);
+  const bool stops = command_.partial || command_.checkpoint || team_ != nullptr;
+  const StopGuard guard(stops ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
+  if (command_.checkpoint || command_.shard || team_ != nullptr) return render_parts(renderer);
   std::vector<ImageChannel> channels;
   if (command_.aovs.any()) {  // first: a picture that is stopped has them too
     live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
@@ -331,7 +338,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
 
 /// Writes the final line and the statistics.
 ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
-  const RenderStatistics rendering = renderer.statistics();
+  const RenderStatistics rendering = of_team_.value_or(renderer.statistics());
   static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(rendering);
   stats_.work_seconds = rendering.render_seconds;
   stats_.rays = rendering.rays.total();
@@ -358,10 +365,11 @@ void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
     return;
   }
   if (!tells_of_itself()) return;
-  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {})",
+  const std::string ranks = team_ != nullptr ? fmt::format(", {} ranks", team_->size()) : "";
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {}{})",
                            shown_output(command_.output), image.width, image.height,
                            renderer.options().spp, stats_.work_seconds, mrays_per_s(stats_),
-                           stats_.isa, counted(stats_.threads, "thread")));
+                           stats_.isa, counted(stats_.threads, "thread"), ranks));
   if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
 }
 

@@ -1,18 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "render/cli/checkpoint.h"
 #include "render/cli/exit_code.h"
 #include "render/cli/live_report.h"
 #include "render/cli/options.h"
+#include "render/cli/part_run.h"
 #include "render/cli/picture_header.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
 #include "render/cli/scene_loader.h"
 #include "render/cli/stats.h"
+#include "render/cli/team_run.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/image_start.h"
 #include "render/renderer/renderer.h"
@@ -24,11 +28,13 @@ namespace boule::cli {
 /// exit code.
 class Rendering {
  public:
-  /// `live` and `loader` must outlive it. A series has one of each for all its frames.
-  Rendering(RenderCommand command, LiveReport& live, SceneLoader& loader)
+  /// All must outlive it. A series has one of each for all its frames. `team` may be null; else its
+  /// ranks render the picture together, and the leader writes it.
+  Rendering(RenderCommand command, LiveReport& live, SceneLoader& loader, Team* team = nullptr)
       : command_(std::move(command)),
         live_(live),
         loader_(loader),
+        team_(team),
         report_(command_, live),
         reading_limit_(command_.load_limit) {}
 
@@ -45,6 +51,17 @@ class Rendering {
   Result<LoadedScene> load();
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
+  /// The same for a picture whose samples are kept: with a checkpoint, or of which this is a shard.
+  ExitCode render_parts(Renderer& renderer);
+  ExitCode prepare_parts(RenderOptions& options);
+  ExitCode write_parts(Renderer& renderer, PartRun& run, const FilmHead& head);
+  ExitCode write_film(const PartRun& run, const FilmHead& head);
+  ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;
+  [[nodiscard]] FilmHead film_head(const Renderer& renderer) const;
+  std::unique_ptr<PartRun> part_run(Renderer& renderer, FilmHead& head);
+  void add_team(const Renderer& renderer, const TeamRun& run);
+  /// Whether this process writes the picture.
+  [[nodiscard]] bool writes() const { return team_ == nullptr || team_->leads(); }
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
   ExitCode finish(const Renderer& renderer, const Image& image);
@@ -55,6 +72,7 @@ class Rendering {
   const RenderCommand command_;  ///< before what refers to it
   LiveReport& live_;
   SceneLoader& loader_;
+  Team* const team_;
   RunReport report_;
   ReadingLimit reading_limit_;
   bool skipped_ = false;
@@ -63,7 +81,12 @@ class Rendering {
   std::string date_;  ///< the file's time stamp
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
-  std::optional<ImageStart> image_start_;  ///< loads the image module while the scene is prepared
+  std::optional<Checkpoint> checkpoint_;
+  std::optional<RenderStatistics> of_team_;  ///< what all ranks traced
+  std::optional<ImageStart> image_start_;    ///< loads the image module while the scene is prepared
 };
+
+/// report() with the number of the frame, if any.
+ExitCode refuse(Diagnostic error, const RenderCommand& command, ExitCode code);
 
 }  // namespace boule::cli

@@ -55,6 +55,10 @@ SceneLoader::SceneLoader(const RenderCommand& command)
 }
 
 Result<LoadedScene> SceneLoader::load(std::optional<int> frame) {
+  if (is_first_ && frames_ && frame != frames_->first) {
+    auto first = load(frames_->first);
+    if (!first) return first;
+  }
   auto loaded = read(frame);
   if (!loaded) return loaded;
   if (std::exchange(is_first_, false)) {

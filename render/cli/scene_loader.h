@@ -25,7 +25,8 @@ class SceneLoader {
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  /// The scene of a frame, or that of a single picture.
+  /// The scene of a frame, or that of a single picture. Where a series does not begin with its
+  /// first frame, because other processes share it, that is read first: all make the same choices.
   Result<LoadedScene> load(std::optional<int> frame);
 
   /// Whether a scene was made for a particle file.

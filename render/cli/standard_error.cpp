@@ -17,6 +17,8 @@ namespace {
 
 std::mutex mutex;                    // one writer at a time, but for the last line's
 std::size_t drawn = 0;               // under the mutex: length of the line that is open
+bool keeping = false;                // under the mutex
+std::string kept;                    // under the mutex
 std::atomic<bool> line_open{false};  // for the last line, which takes no mutex
 std::atomic<bool> writing{false};
 std::atomic<bool> closed{false};  // the last line has been written, or will be at once
@@ -56,10 +58,24 @@ std::size_t terminal_columns() {
 
 void write_lines(const std::string& lines) {
   const std::lock_guard lock(mutex);
+  if (keeping) {
+    kept += lines;
+    return;
+  }
   if (drawn == 0) return put(lines);
   put("\r" + std::string(drawn, ' ') + "\r" + lines);
   line_open = false;
   drawn = 0;
+}
+
+void keep_lines() {
+  const std::lock_guard lock(mutex);
+  keeping = true;
+}
+
+std::string kept_lines() {
+  const std::lock_guard lock(mutex);
+  return kept;
 }
 
 /// What is left of a longer line is blanked.

@@ -8,6 +8,11 @@ namespace boule::cli {
 /// left open.
 void write_lines(const std::string& lines);
 
+/// From now on lines are kept instead of written: another process will tell them.
+void keep_lines();
+/// The lines that were kept.
+std::string kept_lines();
+
 /// Rewrites the last line of the terminal on standard error, which stays open: no end of line
 /// yet. Cut to the terminal's width.
 void draw_line(std::string line);

@@ -94,7 +94,7 @@ std::string unexpected(const CLI::App& command, const std::string& word) {
 std::string missing(const CLI::App& app, const CLI::App& command) {
   if (&command == &app) {
     return "a command is missing, expected " +
-           list_names({"render", "view", "scene", "trace", "info", "isa"});
+           list_names({"render", "view", "merge", "scene", "trace", "info", "isa"});
   }
   const CLI::Option& option = *missing_options(command).front();
   const std::string& type = option.get_type_name();

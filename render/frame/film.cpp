@@ -17,7 +17,7 @@ float mean(double sum, std::int32_t samples) {
 
 std::uint64_t Film::total_samples() const {
   std::uint64_t total = 0;
-  for (const Pixel& pixel : pixels_) total += static_cast<std::uint64_t>(pixel.samples);
+  for (const FilmPixel& pixel : pixels_) total += static_cast<std::uint64_t>(pixel.samples);
   return total;
 }
 
@@ -29,7 +29,7 @@ Image Film::to_image(Alpha alpha) const {
 }
 
 void Film::copy_to(Image& image, const PixelRect& rect) const {
-  const Pixel* pixel = pixels_.data();
+  const FilmPixel* pixel = pixels_.data();
   for (int y = rect_.y0; y < rect_.y1; ++y) {
     const std::size_t row = image.index(rect_.x0 - rect.x0, y - rect.y0);
     for (std::size_t x = 0; x < static_cast<std::size_t>(rect_.width()); ++x, ++pixel) {

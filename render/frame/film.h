@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,13 @@
 #include "render/image/image.h"
 
 namespace boule {
+
+/// The samples of a pixel so far: their sum and their number.
+struct FilmPixel {
+  double r = 0, g = 0, b = 0;
+  std::int32_t samples = 0;
+  std::uint32_t covered = 0;  ///< how many of the samples are
+};
 
 /// The samples of a picture so far, or of a part of it: their sum and their number per pixel. Two
 /// threads may add to different pixels at the same time.
@@ -40,7 +48,7 @@ class Film {
   /// Adds a sample to pixel (x, y) of the frame. Preconditions: the sample is finite, and the pixel
   /// has fewer than 2147483647.
   void add(int x, int y, const Color& sample) {
-    Pixel& pixel = pixels_[rect_.index(x, y)];
+    FilmPixel& pixel = pixels_[rect_.index(x, y)];
     pixel.r += static_cast<double>(sample.r);
     pixel.g += static_cast<double>(sample.g);
     pixel.b += static_cast<double>(sample.b);
@@ -66,18 +74,21 @@ class Film {
   /// image has it. Precondition: `rect` holds this film's pixels.
   void copy_to(Image& image, const PixelRect& rect) const;
 
+  /// Pixels [x0, x1) of row y of the frame. Precondition: they lie in rect().
+  [[nodiscard]] std::span<const FilmPixel> row(int x0, int x1, int y) const {
+    return {pixels_.data() + rect_.index(x0, y), static_cast<std::size_t>(x1 - x0)};
+  }
+  /// The same, to be set to what another film had there.
+  [[nodiscard]] std::span<FilmPixel> row(int x0, int x1, int y) {
+    return {pixels_.data() + rect_.index(x0, y), static_cast<std::size_t>(x1 - x0)};
+  }
+
   /// Bytes that a film of the pixels in `rect` takes.
-  static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(Pixel); }
+  static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(FilmPixel); }
 
  private:
-  struct Pixel {
-    double r = 0, g = 0, b = 0;
-    std::int32_t samples = 0;
-    std::uint32_t covered = 0;  ///< how many of the samples are
-  };
-
   PixelRect rect_;
-  std::vector<Pixel> pixels_;
+  std::vector<FilmPixel> pixels_;
 };
 
 }  // namespace boule

@@ -82,6 +82,8 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   return folders;
 }
 
+fs::path own_module_folder() { return own_folder(); }
+
 Result<const Table*> open_image_module() {
   std::string searched;
   std::optional<Diagnostic> reason;

@@ -14,6 +14,9 @@ namespace boule {
 /// folders lie in that tree.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own);
 
+/// The folder of the running library or program.
+std::filesystem::path own_module_folder();
+
 /// Loads the module from the first of these folders that has one of this version. The version is
 /// looked up in the file before any of it runs. The Diagnostic says where the module was looked
 /// for, or what the system said.

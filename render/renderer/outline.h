@@ -30,6 +30,9 @@ class Outline {
     points_[rect_.index(x, y)] = static_cast<std::uint8_t>(points);
   }
 
+  /// How many points of pixel (x, y) of the frame lie on a line. Precondition: it lies in `rect`.
+  [[nodiscard]] int points(int x, int y) const { return points_[rect_.index(x, y)]; }
+
   /// Draws the lines in black. Alpha becomes that of the picture and the lines over it.
   /// Precondition: the picture is of the same pixels.
   void draw(Image& image) const;

@@ -12,6 +12,7 @@
 #include "render/integrators/whitted.h"
 #include "render/memory/scene_memory.h"
 #include "render/renderer/aov_worker.h"
+#include "render/renderer/block_tools.h"
 #include "render/renderer/preparation.h"
 
 namespace boule {
@@ -182,6 +183,28 @@ Status Renderer::find_aovs(AovChannels& channels) {
   return run_extra<AovWorker>(
       blocks_, [this] { return std::make_unique<AovWorker>(*setup_, options_.solver); },
       [&](AovWorker& worker, const PixelRect& block) { worker.render(block, channels); });
+}
+
+Status Renderer::work(const std::function<void(BlockTools&)>& task) {
+  if (!scene_) return moved_away();
+  const FloatEnvironment environment;
+  const Stopwatch watch;
+  std::vector<std::unique_ptr<BlockTools>> tools(scheduler_.workers());
+  const auto body = [&](unsigned worker, std::size_t) {
+    if (!workers_[worker]) workers_[worker] = make_worker();
+    if (!tools[worker]) {
+      const OutlineWorker::Lines lines{
+          {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
+      tools[worker] = std::make_unique<BlockTools>(*setup_, *workers_[worker], lines);
+    }
+    task(*tools[worker]);
+  };
+  Status status = scheduler_.run(tools.size(), std::cref(body));
+  for (const auto& one : tools) {
+    if (one) extra_rays_ += one->extra_counts();
+  }
+  render_seconds_ += watch.seconds();
+  return status;
 }
 
 Result<Outline> Renderer::render_outline() {

@@ -21,6 +21,8 @@
 
 namespace boule {
 
+class BlockTools;
+
 /// What rendering has cost, over all passes so far.
 struct RenderStatistics : RunStatistics {
   RayCounts rays;
@@ -87,6 +89,11 @@ class Renderer {
   /// they are drawn by Outline::draw(). Their rays count as primary rays. An error if it was
   /// cancelled.
   Result<Outline> render_outline();
+
+  /// For those who choose the blocks themselves: calls task(tools) once on each thread, at the same
+  /// time, and waits for all. What a thread renders with its tools has the bits of render(). An
+  /// error if a task throws; whether all was rendered, the tasks know. It adds to statistics().
+  Status work(const std::function<void(BlockTools&)>& task);
 
   [[nodiscard]] const RenderOptions& options() const { return options_; }
   /// The pixels that a film for this renderer has.

@@ -37,10 +37,13 @@ BEGIN {
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/view/",
         narrow "|^render/(memory|threads|particles|scene_file|image|frame|prepare|shading|integrators|renderer|view)/", any)
-  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|cli)/", any)
+  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team|cli)/", any)
   # Of the program, what says how files are shown and written; nothing that owns the terminal or the
   # process.
-  layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
+  layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|parts|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
+  layer("^render/parts/",
+        narrow "|^render/(memory|file|image|frame|prepare|integrators|renderer|parts)/", any)
+  layer("^render/team/", "^(core|render/(threads|image|frame|renderer|parts|team))/", any)
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
   layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
@@ -49,7 +52,7 @@ BEGIN {
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
@@ -57,6 +60,7 @@ BEGIN {
   owner("#include <boost/", "^render/view/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/view/jpeg\\.cpp$", "libjpeg-turbo")
   owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")
+  owner("#include <mpi\\.h>", "^render/team/mpi_module\\.cpp$", "MPI")
   owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")

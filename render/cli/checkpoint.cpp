@@ -1,0 +1,50 @@
+#include "render/cli/checkpoint.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/run_report.h"
+
+namespace boule::cli {
+
+Result<Checkpoint> Checkpoint::open(const RenderCommand& command, ExitCode& code) {
+  const CheckpointChoice& choice = *command.checkpoint;
+  code = failed;
+  if (auto bad = film_file::check_support()) return *bad;
+  auto lock = FileLock::take(choice.file + ".lock");
+  if (!lock) return lock.error();
+  std::error_code ignored;
+  if (!command.resume && std::filesystem::exists(choice.file, ignored)) {
+    code = wrong_usage;
+    return wrong_option(
+        quote(choice.file) + " is there already: --resume goes on from it, or remove it first",
+        "--checkpoint");
+  }
+  return Checkpoint(choice, command.resume, std::move(lock).value());
+}
+
+Result<bool> Checkpoint::load(const FilmHead& head, PartSheet& sheet) const {
+  std::error_code ignored;
+  if (!resume_ || !std::filesystem::exists(choice_.file, ignored)) return false;
+  const auto reader = film_file::Reader::open(choice_.file);
+  if (!reader) return reader.error();
+  const FilmHead& found = reader.value().head();
+  std::string difference = find_difference(found.facts, head.facts);
+  if (difference.empty()) difference = find_difference(found.share, head.share);
+  if (!difference.empty()) return Diagnostic::in_file(choice_.file, difference);
+  if (auto bad = reader.value().read(sheet)) return *bad;
+  return true;
+}
+
+Status Checkpoint::save(const FilmHead& head, const PartSheet& sheet) const {
+  const WriteGuard guard;  // the film goes into a file without a name: nothing to remove
+  return film_file::write(choice_.file, head, sheet, {});
+}
+
+void Checkpoint::remove() const { unlink(choice_.file.c_str()); }
+
+}  // namespace boule::cli

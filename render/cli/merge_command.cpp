@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/cli/commands.h"
+#include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
+#include "render/cli/output_check.h"
+#include "render/cli/run_report.h"
+#include "render/cli/source_date.h"
+#include "render/frame/scheduler.h"
+#include "render/image/image_format.h"
+#include "render/parts/film_file.h"
+#include "render/parts/part_blocks.h"
+
+namespace boule::cli {
+namespace {
+
+/// The films of one picture, as they are read.
+class Merging {
+ public:
+  explicit Merging(const MergeCommand& command) : command_(command) {}
+
+  /// Reads all films. The Diagnostic names the one that is wrong, or what is missing.
+  Status read() {
+    for (const std::string& file : command_.films) {
+      if (auto bad = add(file)) return bad;
+    }
+    return check_blocks();
+  }
+
+  [[nodiscard]] const FilmHead& head() const { return head_; }
+  PartSheet& sheet() { return *sheet_; }
+
+ private:
+  Status add(const std::string& file);
+  [[nodiscard]] Status check_blocks() const;
+
+  const MergeCommand& command_;
+  FilmHead head_;  ///< of the first film, with the blocks of all
+  std::optional<PartSheet> sheet_;
+};
+
+Status Merging::add(const std::string& file) {
+  const auto reader = film_file::Reader::open(file);
+  if (!reader) return reader.error();
+  const FilmHead& head = reader.value().head();
+  if (!sheet_) {
+    head_ = head;
+    head_.blocks.clear();
+    sheet_.emplace(head.rect, head.kinds);
+  } else {
+    const std::string difference = find_difference(head.facts, head_.facts);
+    if (!difference.empty())
+      return Diagnostic::in_file(file, difference + ", as " + command_.films.front());
+    if (!(head.rect == head_.rect) || head.kinds.pixel_bytes() != head_.kinds.pixel_bytes())
+      return Diagnostic::in_file(file, "is not of the pixels of " + command_.films.front());
+  }
+  if (auto bad = reader.value().read(*sheet_)) return bad;
+  for (const PixelRect& block : head.blocks) {
+    for (int y = block.y0; y < block.y1; ++y) {
+      for (const FilmPixel& pixel : sheet_->film().row(block.x0, block.x1, y)) {
+        if (pixel.samples < head.spp)
+          return Diagnostic::in_file(file, "is a checkpoint that is not finished");
+      }
+    }
+    head_.blocks.push_back(block);
+  }
+  return std::nullopt;
+}
+
+Status Merging::check_blocks() const {
+  const std::string gap = find_gap(head_.rect, head_.blocks);
+  if (gap.empty()) return std::nullopt;
+  return Diagnostic::of("the films do not make a picture: " + gap);
+}
+
+/// An error if the picture cannot be written in that format.
+Status check_format(const FilmHead& head, const MergeCommand& command) {
+  const ImageFormat& format = *find_image_format(command.output);
+  if (head.kinds.aovs.any() && !format.channels) {
+    return wrong_option("the films have extra channels, expected --output to be an .exr file",
+                        "--output");
+  }
+  if (head.transparent && !format.alpha) {
+    return wrong_option("the films are transparent, expected --output to be an .exr or .png file",
+                        "--output");
+  }
+  return std::nullopt;
+}
+
+ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
+                              const std::string& date) {
+  const FilmHead& head = merging.head();
+  ImageFileOptions file;
+  file.compression = command.compression;
+  file.exposure_stops = command.exposure_stops;
+  const PixelRect frame{0, 0, head.frame_width, head.frame_height};
+  if (!(head.rect == frame))
+    file.crop = {head.frame_width, head.frame_height, head.rect.x0, head.rect.y0};
+  file.date_time = date;
+  file.metadata = head.metadata;
+  file.channels = merging.sheet().release_channels();
+  file.threads = static_cast<int>(Scheduler(command.threads).workers());
+  file.stop = [] { return WriteGuard::interrupted(); };
+  return file;
+}
+
+ExitCode write(const MergeCommand& command, Merging& merging, const std::string& date) {
+  const FilmHead& head = merging.head();
+  const Image image = merging.sheet().image(head.transparent ? Alpha::coverage : Alpha::none);
+  Status status;
+  {
+    const WriteGuard guard;
+    status = write_image(image, command.output, file_options(command, merging, date));
+    if (!status) set_written("the picture had been written");
+  }
+  exit_if_interrupted();
+  if (status) return report(*status, failed);
+  if (!command.quiet) {
+    print_note(fmt::format("boule: {}: {} x {} pixels, {} spp, of {}", command.output, image.width,
+                           image.height, head.spp, counted(command.films.size(), "film")));
+  }
+  return done;
+}
+
+}  // namespace
+
+ExitCode run(const MergeCommand& command) {
+  if (find_image_format(command.output) == nullptr) {
+    return report(wrong_option("no picture format has the extension of " + quote(command.output) +
+                                   ", expected one of " + known_image_extensions(),
+                               "--output"),
+                  wrong_usage);
+  }
+  const auto date = source_date();
+  if (!date) return report(date.error(), wrong_usage);
+  if (auto bad = film_file::check_support()) return report(*bad, failed);
+  RunOptions outputs;
+  outputs.output = command.output;
+  if (auto bad = check_data_files(outputs, "picture", command.films))
+    return report(*bad, wrong_usage);
+  if (auto bad = check_output(command.output)) return report(*bad, failed);
+  Merging merging(command);
+  if (auto bad = merging.read()) return report(*bad, invalid_input);
+  if (auto bad = check_format(merging.head(), command)) return report(*bad, wrong_usage);
+  return write(command, merging, date.value());
+}
+
+}  // namespace boule::cli

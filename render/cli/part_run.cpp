@@ -1,0 +1,117 @@
+#include "render/cli/part_run.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "render/cli/interrupt.h"
+#include "render/cli/time_span.h"
+
+namespace boule::cli {
+namespace {
+
+/// The fewest samples that a pixel of the block has.
+int least_samples(const Film& film, const PixelRect& block) {
+  int least = film.row(block.x0, block.x1, block.y0).front().samples;
+  for (int y = block.y0; y < block.y1; ++y) {
+    for (const FilmPixel& pixel : film.row(block.x0, block.x1, y))
+      least = std::min(least, pixel.samples);
+  }
+  return least;
+}
+
+}  // namespace
+
+/// Takes what the checkpoint holds, if there is one, and begins its first interval.
+Status PartRun::load() {
+  if (checkpoint_ == nullptr) return std::nullopt;
+  const auto loaded = checkpoint_->load(head_, sheet_);
+  if (!loaded) return loaded.error();
+  resumed_ = loaded.value() ? share() : 0;
+  due_ = Clock::now() + time_span(checkpoint_->interval());
+  return std::nullopt;
+}
+
+Status PartRun::run(const std::vector<PixelRect>& blocks) {
+  head_.blocks = blocks;
+  if (auto bad = load()) return bad;
+  for (;;) {
+    std::vector<PixelRect> rest;
+    for (const PixelRect& block : blocks) {
+      if (!is_finished(block)) rest.push_back(block);
+    }
+    if (rest.empty()) return std::nullopt;
+    Status bad = render_some(rest);
+    if (bad && !StopGuard::flag()) return bad;
+    if (checkpoint_ != nullptr && (StopGuard::flag() || is_due())) {
+      if (auto unsaved = save()) return unsaved;
+    }
+    if (StopGuard::flag()) return Diagnostic::of("rendering was cancelled");
+  }
+}
+
+/// Renders these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
+Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
+  LiveProgress& progress = live_.progress();
+  progress.begin_pass(blocks.size(), {share(), 1, renderer_.statistics().rays.total()});
+  std::atomic<std::size_t> next{0};
+  const auto task = [&](BlockTools& tools) {
+    for (std::size_t i = next++; i < blocks.size() && !is_due(); i = next++) {
+      if (StopGuard::flag()) return;
+      const std::uint64_t before = tools.counts().total();
+      progress.begin_block();
+      if (!render_block(tools, blocks[i], sheet_)) return progress.drop_block();
+      progress.end_block(tools.counts().total() - before);
+      live_.update(progress.read());
+    }
+  };
+  return renderer_.work(std::cref(task));
+}
+
+/// Lines and AOVs first: where all pixels have samples, they are known.
+bool PartRun::render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
+  const int spp = renderer_.options().spp;
+  int until = least_samples(sheet.film(), block);
+  if (until == 0) find_extras(tools, block, sheet);
+  while (until < spp) {
+    if (is_due()) return false;
+    until += std::min(spp - until, tools.worthwhile_samples(block));
+    if (!tools.render(block, until, sheet.film())) return false;
+  }
+  return true;
+}
+
+void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
+  if (sheet.kinds().outline) {
+    Outline lines(block);
+    tools.find_lines(block, lines);
+    sheet.set_lines(block, lines);
+  }
+  if (sheet.kinds().aovs.any()) {
+    AovChannels channels(sheet.kinds().aovs, block);
+    tools.find_aovs(block, channels);
+    sheet.set_channels(block, channels.release(), block);
+  }
+}
+
+bool PartRun::is_finished(const PixelRect& block) const {
+  return least_samples(sheet_.film(), block) >= renderer_.options().spp;
+}
+
+bool PartRun::is_due() const { return Clock::now() >= due_; }
+
+Status PartRun::save() {
+  if (auto bad = checkpoint_->save(head_, sheet_)) return bad;
+  saved_ = true;
+  due_ = Clock::now() + time_span(checkpoint_->interval());
+  return std::nullopt;
+}
+
+double PartRun::share() const {
+  double pixels = 0;
+  for (const PixelRect& block : head_.blocks) pixels += static_cast<double>(block.area());
+  const double all = pixels * renderer_.options().spp;
+  return all > 0 ? static_cast<double>(sheet_.film().total_samples()) / all : 0;
+}
+
+}  // namespace boule::cli

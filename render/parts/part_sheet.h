@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/frame/film.h"
+#include "render/image/write_image.h"
+#include "render/renderer/aov_channels.h"
+#include "render/renderer/outline.h"
+#include "render/renderer/render_options.h"
+
+namespace boule {
+
+/// What a picture has for each pixel, beside its samples.
+struct PartKinds {
+  bool outline = false;
+  AovSelection aovs{};
+
+  /// Bytes of a pixel in a part's text.
+  [[nodiscard]] std::size_t pixel_bytes() const;
+};
+
+/// What a picture with these options has.
+PartKinds kinds_of(const RenderOptions& options);
+
+/// All that is known of a picture's pixels, or of a part of them: samples, lines and AOVs. Parts
+/// travel as text, from process to process and into files, by blocks: of each block first the
+/// samples of its pixels, then the lines, then each AOV's channel; row by row, little-endian.
+class PartSheet {
+ public:
+  /// Nothing is known yet of the frame's pixels in `rect`.
+  PartSheet(const PixelRect& rect, const PartKinds& kinds);
+
+  [[nodiscard]] const PixelRect& rect() const { return film_.rect(); }
+  [[nodiscard]] const PartKinds& kinds() const { return kinds_; }
+  [[nodiscard]] Film& film() { return film_; }
+  [[nodiscard]] const Film& film() const { return film_; }
+
+  /// Takes the lines, or the AOVs, of a block from what holds them. Precondition: both have it.
+  void set_lines(const PixelRect& block, const Outline& outline);
+  void set_channels(const PixelRect& block, const std::vector<ImageChannel>& channels,
+                    const PixelRect& channels_rect);
+
+  /// Appends the text of a block. Precondition: it lies in rect().
+  void append(const PixelRect& block, std::string& text) const;
+  /// Takes a block from its text. Preconditions: it lies in rect(), and the text is
+  /// block.area() * kinds().pixel_bytes() long. False if a pixel's samples cannot be: then the
+  /// block may be half taken.
+  bool take(const PixelRect& block, std::string_view text);
+
+  /// The picture: the samples' means, with the lines drawn.
+  [[nodiscard]] Image image(Alpha alpha) const;
+  /// The channels of the AOVs; afterwards there are none.
+  std::vector<ImageChannel> release_channels();
+
+  /// Bytes that a sheet takes.
+  static std::uint64_t bytes(const PixelRect& rect, const PartKinds& kinds);
+
+ private:
+  PartKinds kinds_;
+  Film film_;
+  std::optional<Outline> lines_;
+  std::vector<ImageChannel> channels_;
+};
+
+}  // namespace boule

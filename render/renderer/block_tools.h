@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "render/renderer/aov_worker.h"
+#include "render/renderer/block_worker.h"
+#include "render/renderer/outline.h"
+
+namespace boule {
+
+/// What one thread renders blocks of its own choice with (Renderer::work()). Preconditions: a block
+/// lies within the frame and within what it is rendered into; its sides are at most the renderer's
+/// options().tile.
+class BlockTools {
+ public:
+  /// All of them must outlive it.
+  BlockTools(const BlockSetup& setup, BlockWorker& worker, const OutlineWorker::Lines& lines)
+      : setup_(setup), worker_(worker), lines_(lines) {}
+
+  /// Renders a block until every pixel has `until` samples. False if it was cancelled; then the
+  /// film has whole samples, but not all of them.
+  bool render(const PixelRect& block, int until, Film& film) {
+    return worker_.render(block, until, film);
+  }
+  /// Finds the AOVs of a block.
+  void find_aovs(const PixelRect& block, AovChannels& channels);
+  /// Finds the outline's lines in a block.
+  void find_lines(const PixelRect& block, Outline& outline);
+
+  /// How many samples per pixel of a block are worth a call of render(): fewer would leave its
+  /// streams of rays half empty.
+  [[nodiscard]] int worthwhile_samples(const PixelRect& block) const {
+    const std::size_t area = std::max<std::size_t>(static_cast<std::size_t>(block.area()), 1);
+    return static_cast<int>(std::max<std::size_t>(4 * setup_.stream_size / area, 1));
+  }
+
+  /// All rays that this thread traced, and those of them that are for AOVs and outlines.
+  [[nodiscard]] RayCounts counts() const;
+  [[nodiscard]] RayCounts extra_counts() const;
+  /// What was wrong with this thread's samples before they entered a film.
+  [[nodiscard]] SampleFaults faults() const { return worker_.faults(); }
+
+ private:
+  const BlockSetup& setup_;
+  BlockWorker& worker_;
+  const OutlineWorker::Lines lines_;
+  std::optional<AovWorker> aovs_;
+  std::optional<OutlineWorker> outline_;
+};
+
+}  // namespace boule

@@ -1,0 +1,100 @@
+// --shard and merge: a picture in parts.
+#include "tests/render/cli/part_program.h"
+
+namespace boule::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Shards : public PartTest {
+ protected:
+  std::string shard(int k, int n, const std::vector<std::string>& more = {},
+                    const std::string& spp = "20") const {
+    const std::string name = "p" + std::to_string(k) + "of" + std::to_string(n) + ".film";
+    std::vector<std::string> words = {"--shard", std::to_string(k) + "/" + std::to_string(n)};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramRun run = boule_run(render(name, words, spp));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return path(name);
+  }
+  std::vector<std::string> merge(const std::vector<std::string>& films) const {
+    std::vector<std::string> words = {"merge", "-q", "-o", path("merged.exr")};
+    words.insert(words.end(), films.begin(), films.end());
+    return words;
+  }
+};
+
+TEST_F(Shards, MergedTheyAreThePictureOfOneRun) {
+  const std::string whole = whole_picture();
+  for (const int n : {1, 2, 3, 40}) {
+    std::vector<std::string> films;
+    for (int k = n; k >= 1; --k)  // in any order, on any number of threads
+      films.push_back(shard(k, n, {"-t", std::to_string(k % 3 + 1)}));
+    const ProgramRun run = boule_run(merge(films));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read("merged.exr"), whole) << n;
+  }
+}
+
+TEST_F(Shards, CropsAndOtherFormatsToo) {
+  const std::vector<std::string> base = {"render", small_scene(), "--size", "97x61",    "--spp",
+                                         "4",      "-q",          "--crop", "5,6,80,50"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = base;
+    words.insert(words.end(), more.begin(), more.end());
+    return boule_run(words).exit_code;
+  };
+  ASSERT_EQ(with({"-o", path("a.film"), "--shard", "1/2"}), 0);
+  ASSERT_EQ(with({"-o", path("b.film"), "--shard", "2/2"}), 0);
+  for (const char* const extension : {".exr", ".png", ".jpg", ".ppm"}) {
+    const std::string whole = std::string("whole") + extension,
+                      merged = "merged" + std::string(extension);
+    ASSERT_EQ(with({"-o", path(whole)}), 0);
+    const ProgramRun run =
+        boule_run({"merge", path("a.film"), path("b.film"), "-q", "-o", path(merged)});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read(merged), read(whole)) << extension;
+  }
+}
+
+/// Every second block along the Morton curve is every second column.
+TEST_F(Shards, MissingAndDoubledBlocksAreNamed) {
+  const std::string a = shard(1, 2), b = shard(2, 2);
+  EXPECT_THAT(refused_run(merge({b}), 3).err,
+              HasSubstr("do not make a picture: pixels 0,0,16,61 are missing"));
+  EXPECT_THAT(refused_run(merge({a, b, a}), 3).err,
+              HasSubstr("do not make a picture: pixels 0,0,16,61 are there twice"));
+}
+
+TEST_F(Shards, FilmsOfOtherPicturesAreRefusedByName) {
+  const std::string a = shard(1, 2), b = shard(2, 2, {}, "21");
+  const ProgramRun run = refused_run(merge({a, b}), 3);
+  EXPECT_THAT(run.err, HasSubstr("p2of2.film: error: has --spp 21, not 20, as "));
+  EXPECT_THAT(refused_run(merge({path("none.film")}), 3).err, HasSubstr("none.film"));
+  write("text.film", "no film");
+  EXPECT_THAT(refused_run(merge({a, path("text.film")}), 3).err, HasSubstr("no film file"));
+}
+
+TEST_F(Shards, AFormatThatCannotHoldThePictureIsRefused) {
+  const std::string a = shard(1, 1);
+  EXPECT_THAT(refused_run({"merge", a, "-o", path("a.png")}, 2).err, HasSubstr("extra channels"));
+  EXPECT_THAT(refused_run({"merge", a, "-o", path("a.xyz")}, 2).err, HasSubstr("extension"));
+  EXPECT_THAT(refused_run({"merge", a, "-o", a}, 2).err, HasSubstr("extension"));
+  EXPECT_THAT(refused_run(render("a.exr", {"--shard", "1/2"}), 2).err, HasSubstr(".film"));
+  EXPECT_THAT(refused_run(render("a.film", {"--shard", "3/2"}), 2).err, HasSubstr("K/N"));
+}
+
+/// A shard that was stopped goes on, and is no other shard.
+TEST_F(Shards, HaveCheckpointsToo) {
+  const std::vector<std::string> saved = {"--checkpoint", path("run.film") + ",10ms"};
+  std::vector<std::string> stopped = render("p.film", saved, "100000");
+  for (const char* word : {"--shard", "1/2", "--time-limit", "100ms"}) stopped.emplace_back(word);
+  EXPECT_EQ(boule_run(stopped).exit_code, 1);
+  EXPECT_THAT(refused_run(merge({path("run.film")}), 3).err, HasSubstr("is not finished"));
+  std::vector<std::string> other = render("p.film", saved, "100000");
+  for (const char* word : {"--shard", "2/2", "--resume"}) other.emplace_back(word);
+  EXPECT_THAT(refused_run(other, 3).err, HasSubstr("has --shard 1/2, not 2/2"));
+}
+
+}  // namespace
+}  // namespace boule::test
