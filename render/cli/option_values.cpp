@@ -31,6 +31,10 @@ bool* find_aov(AovSelection& aovs, const std::string& name) {
 
 }  // namespace
 
+Diagnostic wrong_option(const std::string& message, const char* option) {
+  return Diagnostic::about(option, message);
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::size_t begin = 0;

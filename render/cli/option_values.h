@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.h"
 #include "render/cli/options.h"
 
 namespace boule::cli {
+
+/// An error about the command line itself, with the option as its key.
+Diagnostic wrong_option(const std::string& message, const char* option);
 
 /// A number in decimal within low .. high, nothing before or after it; else none. Not NaN.
 template <class Number>

@@ -3,8 +3,6 @@
 #include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
 #include "render/cli/picture_stream.h"
-#include "render/cli/run_report.h"
-#include "render/scene_file/frame_name.h"
 
 namespace boule::cli {
 

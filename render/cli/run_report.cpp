@@ -27,10 +27,6 @@ bool is_one_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Diagnostic wrong_option(const std::string& message, const char* option) {
-  return Diagnostic::about(option, message);
-}
-
 Status check_run(const RunOptions& options, const std::string& output,
                  const std::vector<std::string>& inputs) {
   const std::string& stats = options.stats.file;

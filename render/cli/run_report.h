@@ -6,14 +6,12 @@
 #include "core/base/error.h"
 #include "render/cli/exit_code.h"
 #include "render/cli/live_report.h"
+#include "render/cli/option_values.h"
 #include "render/cli/options.h"
 #include "render/cli/stats.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
-
-/// An error about the command line itself, with the option as its key.
-Diagnostic wrong_option(const std::string& message, const char* option);
 
 /// Checks the options that render and trace share, without reading the scene. Above all, the output
 /// and the statistics must not replace one of `inputs`, or each other. `output` is what messages
