@@ -61,6 +61,7 @@ ViewSource::ViewSource(const RenderCommand& command)
 Status ViewSource::open() {
   const FrameRange range = command_.frames.value_or(FrameRange{0, 0, 1});
   if (command_.frames) facts_.frames = {range.first, range.last, range.step};
+  facts_.numbered = command_.frames.has_value();
   facts_.first_frame = range.first;
   const std::string path =
       command_.frames ? frame_name(command_.scene, range.first) : command_.scene;

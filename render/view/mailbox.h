@@ -52,7 +52,7 @@ class Mailbox {
     bool particles = false;
     std::optional<FrameSpan> frames;
   };
-  Mailbox(Wish first, Limits limits) : wish_(std::move(first)), limits_(std::move(limits)) {}
+  Mailbox(Wish first, const Limits& limits) : wish_(std::move(first)), limits_(limits) {}
 
   /// A message; an error says why it changes nothing.
   Status take(const ClientMessage& message);

@@ -31,6 +31,7 @@ struct SourceFacts {
   std::string kind;                 ///< "toml", "nff", "spheres", "particles"
   std::optional<FrameSpan> frames;  ///< none: one picture
   int first_frame = 0;              ///< that is shown first
+  bool numbered = false;            ///< each frame has files of its own: so must its pictures
   ParticleLook look;                ///< of a particle file, as the command line says
   std::string shared_options;       ///< of the command line, for a command that shows the same
 };

@@ -24,8 +24,8 @@ std::string word(const std::string& text) {
 }
 
 /// "first_light.png" of "scenes/first_light.toml".
-std::string picture_name(const std::string& path) {
-  return std::filesystem::path(path).stem().string() + ".png";
+std::string picture_name(const std::string& path, const char* ending = ".png") {
+  return std::filesystem::path(path).stem().string() + ending;
 }
 
 }  // namespace
@@ -42,11 +42,12 @@ std::string ViewLoop::command_of(std::size_t index) const {
   const SourceFacts& facts = parts_.source.facts();
   const ViewSettings& settings = wish_.settings;
   const PaneSettings& pane = settings.panes[index];
-  std::string text = "boule render " + word(facts.path) + " -o " + word(picture_name(facts.path)) +
-                     " --size " + std::to_string(settings.width) + "x" +
-                     std::to_string(settings.height) + " --spp " + std::to_string(settings.spp) +
-                     " --camera " + word(camera_keys(wish_.camera, stage_.loaded().origin)) +
-                     " --method " + std::string(name_of(pane.method)) + " --max-depth " +
+  const std::string name = picture_name(facts.path, facts.numbered ? ".####.png" : ".png");
+  std::string text = "boule render " + word(facts.path) + " -o " + word(name) + " --size " +
+                     std::to_string(settings.width) + "x" + std::to_string(settings.height) +
+                     " --spp " + std::to_string(settings.spp) + " --camera " +
+                     word(camera_keys(wish_.camera, stage_.loaded().origin)) + " --method " +
+                     std::string(name_of(pane.method)) + " --max-depth " +
                      std::to_string(settings.max_depth);
   if (pane.solver != Solver::robust) text += " --solver " + std::string(name_of(pane.solver));
   if (settings.exposure != 0) text += " --exposure " + shortest(settings.exposure);
