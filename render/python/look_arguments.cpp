@@ -88,6 +88,7 @@ cli::LookOptions look_of(const py::dict& keys) {
   if (look.quick && !name.empty()) throw_error("quick", "cannot stand beside 'look'");
   all.read("floor", look.floor);
   all.read("input_format", look.format, parse_words, "the name of a format");
+  all.read("columns", look.columns, parse_names, "names such as id,type,x,y,z");
   all.read("water", look.water);
   all.read("color", look.color, parse_particle_color, "element, #rrggbb or a column");
   all.read("map", look.map, parse_map, "the name of a map, or colours #rrggbb");

@@ -34,7 +34,7 @@ struct Wishes {
   std::optional<Method> method;
   std::optional<Solver> solver;
   std::optional<PixelOrder> order;
-  std::optional<double> outline, time_limit;
+  std::optional<double> outline, shadow_epsilon, time_limit;
   std::optional<std::uint64_t> seed;
   std::optional<std::array<int, 4>> crop;
   std::optional<cli::BackgroundChoice> background;
@@ -42,6 +42,19 @@ struct Wishes {
   AovSelection aovs;
   bool partial = false;
 };
+
+/// A length, or "none": 0.
+std::optional<double> shadow_epsilon_of(const Arguments& given) {
+  const auto object = given.find("shadow_epsilon");
+  if (object && py::isinstance<py::str>(*object)) {
+    if (given.text("shadow_epsilon") != "none")
+      throw_error("shadow_epsilon",
+                  "expected a number or 'none', got " + quote(std::string(py::str(*object))));
+    return 0;
+  }
+  constexpr double most = std::numeric_limits<float>::max();
+  return given.number("shadow_epsilon", {.low = 0, .high = most});
+}
 
 AovSelection aovs_of(const Arguments& given) {
   const auto object = given.find("aov");
@@ -89,6 +102,7 @@ Wishes wishes_of(const py::dict& dictionary) {
   wishes.aovs = aovs_of(given);
   wishes.method = given.choice<Method>("method");
   wishes.max_depth = given.whole("max_depth", rule::bounces);
+  wishes.shadow_epsilon = shadow_epsilon_of(given);
   wishes.time_limit =
       given.number("time_limit", {.low = 0, .high = 1e9, .takes_low = false, .unit = " seconds"});
   wishes.partial = given.flag("partial");
@@ -117,6 +131,7 @@ RenderOptions combine(const Scene& scene, const Wishes& wishes) {
   options.filter = wishes.filter.value_or(options.filter);
   options.method = wishes.method.value_or(options.method);
   options.max_depth = wishes.max_depth.value_or(options.max_depth);
+  if (wishes.shadow_epsilon) options.shadow_epsilon = static_cast<float>(*wishes.shadow_epsilon);
   if (wishes.outline) options.outline = static_cast<float>(*wishes.outline);
   if (wishes.crop) {
     const auto [x0, y0, x1, y1] = *wishes.crop;

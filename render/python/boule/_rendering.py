@@ -22,8 +22,8 @@ class Interrupted(KeyboardInterrupt):
 @with_look()
 def render(
     scene, *, size=None, spp=None, filter=None, background=None, outline=None, seed=0, crop=None,
-    aov=None, method=None, max_depth=None, time_limit=None, partial=False, order=None, tile=None,
-    solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None, **look,
+    aov=None, method=None, max_depth=None, shadow_epsilon=None, time_limit=None, partial=False,
+    order=None, tile=None, solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None, **look,
 ):  # fmt: skip
     """Renders a scene to a Picture. What is not given comes from the scene.
 
@@ -35,6 +35,8 @@ def render(
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
         albedo, z).
     method: "whitted" or "path". max_depth: bounces after the first hit.
+    shadow_epsilon: for teaching: where shadow rays begin, a length or "none", in place of Boule's way
+        without an epsilon. It makes false shadows.
     time_limit: seconds of rendering. partial: when the time limit or Ctrl-C comes, return the
         unfinished picture (Picture.finished is False) in place of an exception.
     order: "rows", "tiles", "progressive" (with partial) or "frameless"; never shows in a finished
@@ -56,7 +58,7 @@ def render(
     options = {
         "size": size, "spp": spp, "filter": filter, "background": background, "outline": outline,
         "seed": seed, "crop": crop, "aov": aov, "method": method, "max_depth": max_depth,
-        "time_limit": time_limit, "partial": partial, "order": order, "tile": tile,
+        "shadow_epsilon": shadow_epsilon, "time_limit": time_limit, "partial": partial, "order": order, "tile": tile,
         "solver": solver, "threads": threads, "isa": isa,
     }  # fmt: skip
     with reporter(progress) as tick:

@@ -10,8 +10,8 @@ from ._scene import Scene
 
 
 def look_keys(
-    *, look=None, quick=False, floor=False, input_format=None, water=False, color=None, map=None,
-    range=None, radius=None, scale=None, select=None, view=None, up=None,
+    *, look=None, quick=False, floor=False, input_format=None, columns=None, water=False,
+    color=None, map=None, range=None, radius=None, scale=None, select=None, view=None, up=None,
 ):  # fmt: skip
     """The arguments that say how particles are shown, as a dictionary."""
     return dict(locals())
@@ -45,7 +45,8 @@ def load(source, *, frame=None, polygons="plane", **look):
     frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
     polygons: what those of NFF become: "plane", "skip" or "error".
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
-        quick, floor, input_format, water, color, map, range, radius, scale, select, view, up.
+        quick, floor, input_format, columns (names, "-" skips one), water, color, map, range,
+        radius, scale, select, view, up.
 
     Raises boule.Error with file, line, column and key.
     """

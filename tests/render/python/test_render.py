@@ -30,6 +30,21 @@ def test_files_are_the_programs_byte_for_byte(tmp_path, scenes):
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
+@pytest.mark.parametrize("epsilon", ["none", 0.001])
+def test_false_shadows_are_the_programs(tmp_path, scenes, epsilon):
+    scene = scenes / "false_shadows.toml"
+    told = ["--size", "96x54", "--shadow-epsilon", str(epsilon), "-q"]
+    subprocess.run([program(), "render", scene, "-o", tmp_path / "a.png", *told], check=True)
+    picture = boule.render(scene, size=(96, 54), shadow_epsilon=epsilon)
+    picture.save(tmp_path / "b.png")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    assert not np.array_equal(picture, boule.render(scene, size=(96, 54)))
+    for wrong in ("some", -1):
+        with pytest.raises(boule.Error) as told:
+            boule.render(scene, shadow_epsilon=wrong)
+        assert told.value.key == "shadow_epsilon"
+
+
 @pytest.mark.parametrize("name", ["first_light", "depth_of_field", "double_gauss", "distorted", "far_away", "lecture", "daylight"])
 def test_a_scene_that_was_loaded_gives_the_files_picture(scenes, name, tmp_path):
     path = scenes / f"{name}.toml"

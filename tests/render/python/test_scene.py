@@ -72,9 +72,11 @@ def test_every_option_of_the_program_is_an_argument():
     told = subprocess.run([program(), "render", "--help"], capture_output=True, text=True).stdout
     options = {name.replace("-", "_") for name in re.findall(r"--([a-z][a-z-]+)", told)}
     assert len(options) > 30
-    # Of files and of messages; save() has exposure and compression, frames() the frames.
-    not_here = {"help", "output", "format", "legend", "stats", "quiet", "verbose", "skip_existing",
-                "frames", "load_limit", "exposure", "compression"}  # fmt: skip
+    # Of files, messages and processes; save() has exposure and compression, frames() the frames, and
+    # a scene its camera.
+    not_here = {"camera", "checkpoint", "claim", "mpi", "resume", "shard", "help", "output", "format",
+                "legend", "stats", "quiet", "verbose", "skip_existing", "frames", "load_limit",
+                "exposure", "compression"}  # fmt: skip
     arguments = set(inspect.signature(boule.render).parameters)
     assert options - not_here <= arguments
     for name in ("exposure", "compression"):

@@ -160,3 +160,11 @@ def test_particles_beside_other_objects(water, tmp_path):
         "[[plane]]\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
     )
     assert np.array_equal(pixels(scene), pixels(path))
+
+
+@pytest.mark.parametrize("columns", ["radius,x,y,z", ["radius", "x", "y", "z"]])
+def test_columns_can_be_named(tmp_path, columns):
+    path = tmp_path / "a.csv"
+    path.write_text("2,1,0,0\n3,0,5,0\n")
+    scene = boule.load(path, columns=columns)
+    assert [float(r) for r in scene.spheres[0].radii] == [2, 3]
