@@ -51,9 +51,15 @@ void check_frame(const ParticleFrame& frame) {
   require(!frame.time || std::isfinite(*frame.time), "a finite time");
 }
 
+/// Names for columns that the format names itself: an error about the call, not about the file.
+bool is_of_call(const Diagnostic& error) { return error.file.empty() && error.key == "columns"; }
+
 void read_all(const std::string& path, const ParticleFileOptions& options) {
   Result<ParticleFile> file = ParticleFile::open(path, options);
-  if (!file) return fuzz::require_good(file.error());
+  if (!file) {
+    if (!is_of_call(file.error())) fuzz::require_good(file.error());
+    return;
+  }
   constexpr std::size_t enough = 5;
   const std::size_t frames = file.value().frames();
   require(frames >= 1, "a file has a frame");
