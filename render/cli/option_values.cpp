@@ -111,6 +111,12 @@ std::optional<BackgroundChoice> parse_background(const std::string& text) {
   return color ? std::optional(BackgroundChoice{color}) : std::nullopt;
 }
 
+void choose_background(const std::optional<BackgroundChoice>& choice, Scene& scene) {
+  if (!choice) return;
+  scene.image.transparent = !choice->color;
+  if (choice->color) scene.backdrop = linear_of(*choice->color);
+}
+
 std::optional<StatsTarget> parse_stats(const std::string& text) {
   const std::string json_to = "json:";
   if (text == "text") return StatsTarget{StatsForm::text, {}};

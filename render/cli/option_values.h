@@ -44,6 +44,9 @@ std::string list_aovs();
 /// "#rrggbb" or "transparent".
 std::optional<BackgroundChoice> parse_background(const std::string& text);
 
+/// Puts the choice, if there is one, into the scene.
+void choose_background(const std::optional<BackgroundChoice>& choice, Scene& scene);
+
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);
 

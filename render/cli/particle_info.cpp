@@ -113,10 +113,8 @@ Result<Json> particle_info(const std::string& path, const LookOptions& look,
   const LoadedScene& loaded = made.value().loaded;
   const ParticleFacts& facts = loaded.particles.front();
   // Once more, with all columns: a picture needs few of them.
-  ParticleFileOptions file_options;
+  ParticleFileOptions file_options = file_options_of(look);
   file_options.format = facts.format;
-  file_options.columns = look.columns;
-  file_options.water = look.water;
   auto file = ParticleFile::open(facts.file, file_options, options.parallel_for);
   if (!file) return file.error();
   const auto read = file.value().read(static_cast<long>(facts.frame), options.parallel_for);

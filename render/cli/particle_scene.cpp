@@ -86,6 +86,14 @@ Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& 
   return error;
 }
 
+ParticleFileOptions file_options_of(const LookOptions& look) {
+  ParticleFileOptions options;
+  options.format = look.format;
+  options.columns = look.columns;
+  options.water = look.water;
+  return options;
+}
+
 bool is_particle_input(const std::string& path, const LookOptions& look) {
   if (!look.format.empty()) return true;
   if (has_ending(path, ".npy")) return !look.first.empty() || has_named_fields(path);

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "render/cli/particle_look.h"
+#include "render/particle_file/particle_file.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
@@ -13,6 +14,9 @@ namespace boule::cli {
 /// name or its content. A .npy file is one if it has named fields, or if an
 /// option of particles was given.
 bool is_particle_input(const std::string& path, const LookOptions& look);
+
+/// How the file is read, with all its columns.
+ParticleFileOptions file_options_of(const LookOptions& look);
 
 /// The scene of a file that is none of particles. The error for a name that is neither a scene's
 /// nor that of particles tells the endings of both.

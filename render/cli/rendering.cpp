@@ -86,14 +86,6 @@ Status check_legend(const RenderCommand& command, const std::vector<ParticleColo
   return bad;
 }
 
-/// Puts what the command line says about the background into the scene.
-void choose_background(const RenderCommand& command, Scene& scene) {
-  if (!command.background) return;
-  const std::optional<SrgbColor>& color = command.background->color;
-  scene.image.transparent = !color;
-  if (color) scene.backdrop = linear_of(*color);
-}
-
 /// An error if the picture is to be transparent and its format cannot be.
 Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
   if (command.shard) return std::nullopt;  // merge knows the picture's format
@@ -196,7 +188,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));
-  choose_background(command_, scene);
+  choose_background(command_.background, scene);
   if (auto bad = use_camera(command_, loaded.value())) return refuse(*bad, command_, wrong_usage);
   scene_hash_ = scene_hash(scene);
 

@@ -15,14 +15,10 @@
 namespace boule::cli {
 namespace {
 
-bool ends_with(const std::string& path, const char* ending) {
-  return path.size() > 4 && path.substr(path.size() - 4) == ending;
-}
-
 const char* kind_of(const std::string& path, bool particles) {
   if (particles) return "particles";
-  if (ends_with(path, ".nff")) return "nff";
-  return ends_with(path, ".npy") ? "spheres" : "toml";
+  if (path.ends_with(".nff")) return "nff";
+  return path.ends_with(".npy") ? "spheres" : "toml";
 }
 
 std::string quoted(const std::string& text) {
@@ -41,6 +37,8 @@ std::string fixed_options(const LookOptions& look) {
   if (look.floor) text += " --floor";
   if (look.water) text += " --water";
   if (!look.format.empty()) text += " --input-format " + look.format;
+  if (!look.columns.empty())
+    text += " --columns " + quoted(fmt::format("{}", fmt::join(look.columns, ",")));
   if (!look.radius.empty()) text += " --radius " + quoted(look.radius);
   if (look.scale) text += fmt::format(" --scale {}", *look.scale);
   if (!look.select.empty()) text += " --select " + quoted(look.select);
@@ -136,9 +134,8 @@ std::vector<view::NumberRange> ViewSource::columns() {
   if (columns_ || particle_file_.empty())
     return columns_.value_or(std::vector<view::NumberRange>{});
   columns_.emplace();
-  ParticleFileOptions options;
+  ParticleFileOptions options = file_options_of(command_.look);
   options.format = particle_format_;
-  options.water = command_.look.water;
   auto file = ParticleFile::open(particle_file_, options, options_.parallel_for);
   if (!file) return {};
   const auto frame = file.value().read(particle_frame_, options_.parallel_for);

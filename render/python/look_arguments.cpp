@@ -27,7 +27,7 @@ std::string text_of(const py::handle& value, const std::string& key) {
   return text;
 }
 
-/// The keys of a dictionary, one by one; what is not asked for is refused at the end.
+/// The keys of a dictionary, one by one.
 class LookKeys {
  public:
   LookKeys(const py::dict& keys, cli::LookOptions& look) : keys_(keys), look_(look) {}
@@ -48,16 +48,6 @@ class LookKeys {
     if (!py::isinstance<py::bool_>(*value)) throw_error(key, "expected True or False");
     target = py::cast<bool>(*value);
     if (target) note(key);
-  }
-  void read(const char* key, std::optional<int>& target) {
-    const auto value = find(key);
-    if (!value) return;
-    const std::string text = text_of(*value, key);
-    try {
-      target = py::cast<int>(*value);
-    } catch (const py::cast_error&) {
-      throw_error(key, quote(text) + " is not understood, expected a whole number");
-    }
   }
 
  private:

@@ -116,13 +116,6 @@ Wishes wishes_of(const py::dict& dictionary) {
   return wishes;
 }
 
-void choose_background(const Wishes& wishes, Scene& scene) {
-  if (!wishes.background) return;
-  const std::optional<SrgbColor>& color = wishes.background->color;
-  scene.image.transparent = !color;
-  if (color) scene.backdrop = linear_of(*color);
-}
-
 RenderOptions combine(const Scene& scene, const Wishes& wishes) {
   RenderOptions options = options_of(scene);
   if (wishes.size)
@@ -187,7 +180,7 @@ Status Run::work(Call& call) {
   auto loaded = request_.load(call);
   if (!loaded) return loaded.error();
   Scene& scene = loaded.value().scene;
-  choose_background(wishes_, scene);
+  cli::choose_background(wishes_.background, scene);
   RenderOptions options = combine(scene, wishes_);
   options.cancel = &call.cancel;
   options.live = &live_;

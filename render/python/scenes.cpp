@@ -69,9 +69,8 @@ std::size_t count_frames(const std::string& path, const py::dict& keys) {
       return Diagnostic::in_file(command.scene,
                                  "no file of particles by its name or content: say which frames");
     }
-    ParticleFileOptions options;
-    options.format = command.look.format;
-    auto file = ParticleFile::open(command.scene, options, call.parallel_for());
+    auto file =
+        ParticleFile::open(command.scene, cli::file_options_of(command.look), call.parallel_for());
     if (!file) return file.error();
     return file.value().frames();
   }));
