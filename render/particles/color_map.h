@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,23 @@ class ColorMap {
 
  private:
   std::vector<SrgbColor> colors_;
+};
+
+/// Where a number lies between the ends of a range, for a colour map: 0 at the least, 1 at the
+/// largest, 0.5 if the ends are one number. All are finite; their difference may be too large for a
+/// double.
+class RangePlace {
+ public:
+  explicit RangePlace(const std::array<double, 2>& range)
+      : least_(range[0]), width_(range[1] - range[0]), half_(range[1] / 2 - range[0] / 2) {}
+
+  [[nodiscard]] double operator()(double number) const {
+    if (!(half_ > 0)) return 0.5;
+    return std::isfinite(width_) ? (number - least_) / width_ : (number / 2 - least_ / 2) / half_;
+  }
+
+ private:
+  double least_, width_, half_;
 };
 
 }  // namespace boule

@@ -11,20 +11,6 @@
 namespace boule {
 namespace {
 
-/// Where a number lies between the ends of a range: 0 at the least, 1 at the largest.
-class Place {
- public:
-  explicit Place(const std::array<double, 2>& range)
-      : least_(range[0]), width_(range[1] - range[0]), half_(range[1] / 2 - range[0] / 2) {}
-
-  [[nodiscard]] double operator()(double number) const {
-    return std::isfinite(width_) ? (number - least_) / width_ : (number / 2 - least_ / 2) / half_;
-  }
-
- private:
-  double least_, width_, half_;
-};
-
 /// A range around what is the same for all particles.
 std::array<double, 2> range_around(double number) {
   const double half = std::max(std::fabs(number), 1.0) / 2;
@@ -60,7 +46,7 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
   }
   made.colors.scale = {mapped.by, mapped.map, range};
   made.values.resize(colored.frame.size());
-  const Place place(range);
+  const RangePlace place(range);
   in_chunks(colored.parallel_for, made.values.size(),
             [&](std::size_t, std::size_t begin, std::size_t end) {
               std::vector<double> block(end - begin);

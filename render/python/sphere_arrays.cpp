@@ -119,14 +119,6 @@ Status check_room(const SphereInput& input) {
   return check_memory(bytes_of_spheres(count) + exact, std::to_string(count) + " spheres need");
 }
 
-/// One of 8 bits for a component of a colour.
-std::uint8_t code_of(double component, ColorSpace space) {
-  if (space == ColorSpace::linear) {
-    return SrgbTable::get().code(static_cast<float>(component));
-  }
-  return static_cast<std::uint8_t>(std::lround(component * 255));
-}
-
 Status color_spheres(const Numbers& colors, ColorSpace space, SphereArrays& arrays) {
   if (colors.is_bytes() && space == ColorSpace::linear) {
     return Diagnostic::about("colors",
@@ -136,13 +128,13 @@ Status color_spheres(const Numbers& colors, ColorSpace space, SphereArrays& arra
     std::array<std::uint8_t, 3> codes{};
     for (std::size_t k = 0; k < 3; ++k) {
       const double component = colors.at(i, k);
-      if (!colors.is_bytes() && !(component >= 0 && component <= 1)) {
+      const auto code = color_code(colors.is_bytes() ? component / 255 : component, space);
+      if (!code) {
         return Diagnostic::about(
             "colors",
             "row " + std::to_string(i) + ": must be from 0 to 1, is " + number_text(component));
       }
-      codes[k] =
-          colors.is_bytes() ? static_cast<std::uint8_t>(component) : code_of(component, space);
+      codes[k] = *code;
     }
     arrays.spheres[i].material = MaterialRef::colored(0, {codes[0], codes[1], codes[2]});
   }
@@ -165,11 +157,9 @@ Result<std::array<double, 2>> map_spheres(const Numbers& scalar, const ColorMapK
   if (!keys.range && !numbers.empty()) {
     range = percentiles(ParticleNumbers(numbers.data(), 1), numbers.size(), parallel_for);
   }
-  // Halves: the difference of two numbers may be too large for a double.
-  const double width = range[1] / 2 - range[0] / 2;
+  const RangePlace place(range);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const double at = width > 0 ? (numbers[i] / 2 - range[0] / 2) / width : 0.5;
-    arrays.spheres[i].material = MaterialRef::colored(0, keys.map.color(at));
+    arrays.spheres[i].material = MaterialRef::colored(0, keys.map.color(place(numbers[i])));
   }
   arrays.has_colors = true;
   return range;

@@ -117,14 +117,13 @@ Status NumberRows::visit(const std::function<Status(std::size_t, const double*)>
   return std::nullopt;
 }
 
-/// A number from 0 to 1 as a code, if it is one.
-std::optional<std::uint8_t> code_of(double number, ColorSpace space) {
+}  // namespace
+
+std::optional<std::uint8_t> color_code(double number, ColorSpace space) {
   if (!(number >= 0 && number <= 1)) return std::nullopt;
   if (space == ColorSpace::linear) return SrgbTable::get().code(static_cast<float>(number));
   return static_cast<std::uint8_t>(std::lround(number * 255));
 }
-
-}  // namespace
 
 Status color_by_npy(const std::string& path, ColorSpace space, std::span<Sphere> spheres) {
   auto rows = NumberRows::open(path, spheres.size(), 3);
@@ -139,7 +138,7 @@ Status color_by_npy(const std::string& path, ColorSpace space, std::span<Sphere>
   return rows.value().visit([&](std::size_t row, const double* rgb) -> Status {
     std::array<std::uint8_t, 3> codes{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto code = code_of(holds_bytes ? rgb[i] / 255 : rgb[i], space);
+      const auto code = color_code(holds_bytes ? rgb[i] / 255 : rgb[i], space);
       if (!code) return row_error(row, "must be from 0 to 1, is " + number_text(rgb[i]));
       codes[i] = *code;
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ namespace boule {
 enum class ColorSpace { srgb, linear };
 template <>
 inline constexpr std::array<std::string_view, 2> names<ColorSpace>{"srgb", "linear"};
+
+/// The 8-bit sRGB code of a component of a colour, if it is from 0 to 1.
+std::optional<std::uint8_t> color_code(double component, ColorSpace space);
 
 /// Gives each sphere the colour in its row of a .npy file, N x 3 of float32, float64 or uint8; they
 /// keep their material, whose index is below MaterialRef::max_colored. A bad row is named by its

@@ -30,13 +30,11 @@ std::optional<ParticleColors::Scale> map_numbers(TomlTable& table, const SphereC
                      : known != options.color_ranges.end()
                          ? known->second
                          : usual_range(numbers.value(), options.parallel_for);
-  const auto [least, largest] = range;
+  const RangePlace place(range);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    // Halves: the difference of two numbers may be too large for a double.
-    const double above = numbers.value()[i] / 2 - least / 2, width = largest / 2 - least / 2;
-    const double at = width > 0 ? above / width : 0.5;
     MaterialRef& material = spheres[i].material;
-    material = MaterialRef::colored(material.index(), keys.map.map.color(at));
+    material =
+        MaterialRef::colored(material.index(), keys.map.map.color(place(numbers.value()[i])));
   }
   return ParticleColors::Scale{keys.scalar, keys.map.map, range};
 }
