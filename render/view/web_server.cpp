@@ -84,7 +84,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
     timeouts.idle_timeout = seconds(60);
     timeouts.keep_alive_pings = true;
     socket_.set_option(timeouts);
-    socket_.read_message_max(longest_message);
+    socket_.read_message_max(0);  // read() has a limit of its own
     socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](const Error& error) {
       if (!error) self->begin();
@@ -138,15 +138,21 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
     pump();
   }
 
+  /// Reads a part of a message. A message that is too long is closed by close(), which reads what
+  /// the client still sends: Beast's own limit closes the connection with that unread, which resets
+  /// it, and the client may never learn why.
   void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](const Error& error, std::size_t) {
-      if (!error) self->handle();
-    });
+    socket_.async_read_some(buffer_, longest_message + 1 - buffer_.size(),
+                            [self = shared_from_this()](const Error& error, std::size_t) {
+                              if (!error) self->handle();
+                            });
   }
 
   void handle() {
     if (!is_current_ || closing_) return;
     if (!socket_.got_text()) return close(websocket::close_code::unknown_data);
+    if (buffer_.size() > longest_message) return close(websocket::close_code::too_big);
+    if (!socket_.is_message_done()) return read();
     if (!has_time_for_more()) return close(websocket::close_code::policy_error);
     const auto data = buffer_.data();
     hub_.session->receive({static_cast<const char*>(data.data()), data.size()});
