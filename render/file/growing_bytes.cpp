@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "render/file/huge_pages.h"
+#include "core/base/memory_pages.h"
 #include "render/memory/available_memory.h"
 
 namespace boule {

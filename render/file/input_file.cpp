@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "render/file/huge_pages.h"
+#include "core/base/memory_pages.h"
 #include "render/memory/available_memory.h"
 
 namespace boule {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/file/huge_pages.h"
+#include "core/base/memory_pages.h"
 
 namespace boule {
 

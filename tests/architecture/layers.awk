@@ -13,6 +13,7 @@ BEGIN {
   narrow = "^(core|simd/(abi|geometry|stream|dispatch))/"
 
   layer(formulas, formulas, kernel_std)
+  layer("^core/base/memory_pages\\.cpp$", "^core/", plain_std "|^<(sys/mman|unistd)\\.h>$")
   layer("^core/", "^core/", plain_std)
   layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/(ray|vec)|optics/(camera|lens)_view)\\.h$)", kernel_std)
   layer("^simd/(geometry|stream)/", "^(core|simd/(abi|geometry|stream))/", plain_std)
