@@ -103,8 +103,7 @@ void visit(const BvhView& bvh, const Ray& ray, double limit, std::uint32_t index
 }
 
 /// Bytes a sphere takes while a picture is made: nodes, leaves and ids, what is scanned as arrays
-/// (SphereView: six floats), and what shading looks up (PreparedScene::spheres: the sphere and its
-/// material's number). Materials are no part of it, spheres share them.
+/// (SphereView: six floats). Materials are no part of it, spheres share them.
 struct Bytes {
   double tree, all;
 };
@@ -115,9 +114,8 @@ Bytes bytes_per_sphere(const GeometryView& view, std::size_t n) {
                            view.spheres.block_count * sizeof(SphereBlock) +
                            slots * sizeof(std::int32_t);
   const std::size_t arrays = padded(view.spheres.scanned) * 6 * sizeof(float);
-  const std::size_t shading = n * sizeof(Sphere);
   const auto count = static_cast<double>(n);
-  return {static_cast<double>(tree) / count, static_cast<double>(tree + arrays + shading) / count};
+  return {static_cast<double>(tree) / count, static_cast<double>(tree + arrays) / count};
 }
 
 double seconds_of(const KernelTable& kernels, const GeometryView& geometry, RayBuffer& rays,

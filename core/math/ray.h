@@ -45,6 +45,7 @@ inline Ray segment(const Vec3d& from, const Vec3d& to) {
 struct Hit {
   double t = std::numeric_limits<double>::infinity();
   std::int32_t id = no_primitive;
+  std::uint32_t slot = 0;  ///< of a sphere in a Geometry: where it lies there; else anything
 };
 
 }  // namespace boule

@@ -22,7 +22,7 @@ Color at_most_one(const Color& c) {
 Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   if (hit.id == no_primitive) return {};
   const Surface surface = find_surface(scene, ray, hit);
-  const FlatMaterial material = scene.material_of(hit.id);
+  const FlatMaterial material = scene.material_of(hit);
   const Scatter weights = scatter(material, surface);
   const Vec3d& p = surface.point;
   const double along = dot(p - scene.camera_view.eye, scene.camera_view.forward);

@@ -114,23 +114,22 @@ const FlatMaterial* Path::find_emission(const PathStream& stream, std::uint32_t 
     sum = sum + weighted_background(stream, index);
     return nullptr;
   }
-  const FlatMaterial& material = materials_.find(met.id);
+  const FlatMaterial& material = materials_.find(met);
   if (is_black(material.constant)) {
     return takes_direct_light(material) || scatters(material) ? &material : nullptr;
   }
   // Only emissive materials have a constant, and they send nothing on.
   const double other =
-      density > 0 ? emitter_density(stream.rays->org(index), met.id, material.constant) : 0;
+      density > 0 ? emitter_density(stream.rays->org(index), met, material.constant) : 0;
   sum = sum + material.constant * static_cast<float>(weight_of_hit(density, other));
   return nullptr;
 }
 
 /// The density with which light sampling at `org` chooses a direction to an emissive primitive; it
 /// is the same for all directions that meet it.
-double Path::emitter_density(const Vec3d& org, std::int32_t id, const Color& radiance) const {
-  const auto sphere = static_cast<std::size_t>(id);
-  if (sphere >= scene_.spheres.size()) return 0;
-  const AreaLight light = scene_.area_lights.light_of(scene_.spheres[sphere], radiance);
+double Path::emitter_density(const Vec3d& org, const Hit& hit, const Color& radiance) const {
+  if (!scene_.is_sphere(hit)) return 0;
+  const AreaLight light = scene_.area_lights.light_of(scene_.geometry.sphere(hit.slot), radiance);
   return (1 - environment_share_) * light.share *
          LightCone(org, light.center, light.radius).density();
 }

@@ -76,7 +76,7 @@ class Path final : public StreamIntegrator {
   bool survives(const PathStream& stream, const Point& point, UnitPair numbers, Bounce& bounce);
   void find_numbers(const PathStream& stream, Use use);
   [[nodiscard]] Color weighted_background(const PathStream& stream, std::uint32_t ray) const;
-  [[nodiscard]] double emitter_density(const Vec3d& org, std::int32_t id,
+  [[nodiscard]] double emitter_density(const Vec3d& org, const Hit& hit,
                                        const Color& radiance) const;
   [[nodiscard]] Color crossed_lights(const Ray& ray, double density, double t) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;

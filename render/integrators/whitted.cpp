@@ -17,12 +17,12 @@ void Whitted::shade(const Block& block) {
   bool any_lit = false;
   scattering_hits_.clear();
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
-    const std::int32_t id = hit(k).id;
-    if (id == no_primitive) {
+    const Hit met = hit(k);
+    if (met.id == no_primitive) {
       radiance(k) = seen_background(block.stream, k);
       continue;
     }
-    const FlatMaterial& material = materials_.find(id);
+    const FlatMaterial& material = materials_.find(met);
     radiance(k) = material.constant;
     if (takes_direct_light(material)) {
       illumination_.add_point(k, material);

@@ -1,6 +1,7 @@
 #include "render/prepare/prepared_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -33,6 +34,18 @@ bool has_own_colors(const Scene& scene) {
   const auto colored = [](const auto& primitive) { return primitive.material.has_color(); };
   return std::any_of(scene.spheres.begin(), scene.spheres.end(), colored) ||
          std::any_of(scene.planes.begin(), scene.planes.end(), colored);
+}
+
+/// The spheres that give light, for path tracing.
+std::vector<Sphere> emissive_spheres(const Scene& scene) {
+  std::vector<Sphere> emissive;
+  const auto gives_light = [](const NamedMaterial& named) {
+    return std::holds_alternative<Emissive>(named.material);
+  };
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), gives_light)) return emissive;
+  std::copy_if(scene.spheres.begin(), scene.spheres.end(), std::back_inserter(emissive),
+               [&](const Sphere& s) { return gives_light(scene.materials[s.material.index()]); });
+  return emissive;
 }
 
 Coherence primary_coherence(CameraKind kind) {
@@ -88,7 +101,7 @@ Status reframe(PreparedScene& scene, const Camera& camera, int width, int height
   LensOptics lens = build_lens(camera, width, height);
   Camera own = camera;
   if (scene.method == Method::path)
-    scene.area_lights = AreaLights(lights, scene.spheres, scene.plain_materials);
+    scene.area_lights = AreaLights(lights, scene.emissive_spheres, scene.plain_materials);
   scene.lights = std::move(lights);
   scene.camera = std::move(own);
   scene.lens = std::move(lens);
@@ -114,22 +127,23 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   if (lit_by_default) notes.emplace_back(light_note(scene, method));
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene);
-  PreparedScene prepared{
-      .geometry = Geometry(scene.spheres, scene.planes, Structure::automatic, parallel_for),
-      .spheres = std::move(scene.spheres),  // only now: the geometry has read them
-      .planes = std::move(scene.planes),
-      .materials = flatten_all(scene, method),
-      .plain_materials = plain_materials(scene),
-      .has_own_colors = own_colors,
-      .method = method,
-      .ambient = scene.ambient,
-      .own_lights = std::move(scene.lights),
-      .lit_by_default = lit_by_default,
-      .background = std::move(scene.background),
-      .backdrop = scene.backdrop,
-      .environment = std::move(environment),
-      .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
-      .notes = std::move(notes)};
+  std::vector<Sphere> emissive = emissive_spheres(scene);
+  PreparedScene prepared{.geometry = Geometry(std::move(scene.spheres), scene.planes,
+                                              Structure::automatic, parallel_for),
+                         .planes = std::move(scene.planes),  // only now: the geometry has read them
+                         .materials = flatten_all(scene, method),
+                         .plain_materials = plain_materials(scene),
+                         .has_own_colors = own_colors,
+                         .method = method,
+                         .ambient = scene.ambient,
+                         .emissive_spheres = std::move(emissive),
+                         .own_lights = std::move(scene.lights),
+                         .lit_by_default = lit_by_default,
+                         .background = std::move(scene.background),
+                         .backdrop = scene.backdrop,
+                         .environment = std::move(environment),
+                         .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
+                         .notes = std::move(notes)};
   if (auto bad = reframe(prepared, *scene.camera, width, height)) return *bad;
   return prepared;
 }

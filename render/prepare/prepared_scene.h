@@ -22,17 +22,17 @@ namespace boule {
 /// light, and is laid out for the kernels. It does not change any more.
 struct PreparedScene {
   Geometry geometry;                      ///< what rays are tested against
-  std::vector<Sphere> spheres;            ///< by id, for shading
-  std::vector<Plane> planes;              ///< by id - spheres.size(), for shading
+  std::vector<Plane> planes;              ///< by id less that of the first plane, for shading
   std::vector<FlatMaterial> materials;    ///< by MaterialRef::index()
   std::vector<Material> plain_materials;  ///< likewise: what those in other colours are made of
   bool has_own_colors = false;            ///< some primitive has a colour of its own
   Method method = Method::whitted;        ///< for which the materials are flattened
   Color ambient;
-  std::vector<Light> own_lights;  ///< as the scene has them, not placed by its camera yet
-  bool lit_by_default = false;    ///< it has none, and gets default_lights()
-  std::vector<Light> lights{};    ///< in file order, placed
-  AreaLights area_lights{};       ///< for path tracing
+  std::vector<Sphere> emissive_spheres;  ///< those that give light, in the order of their ids
+  std::vector<Light> own_lights;         ///< as the scene has them, not placed by its camera yet
+  bool lit_by_default = false;           ///< it has none, and gets default_lights()
+  std::vector<Light> lights{};           ///< in file order, placed
+  AreaLights area_lights{};              ///< for path tracing
   Background background;
   std::optional<Color> backdrop;   ///< what camera rays see instead
   EnvironmentLight environment;    ///< the background's image as a light, for path tracing
@@ -44,12 +44,18 @@ struct PreparedScene {
   Coherence central_coherence{};   ///< what those through the centre of the lens have in common
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 
-  /// What the primitive with this id is made of. Precondition of this and of material_of(): there
-  /// is one.
-  [[nodiscard]] MaterialRef material_ref(std::int32_t id) const {
-    const auto i = static_cast<std::size_t>(id);
-    const std::size_t first_plane = spheres.size();
-    return i < first_plane ? spheres[i].material : planes[i - first_plane].material;
+  /// Whether a hit is one of a sphere. Precondition of this and of what follows: it is a hit of
+  /// this geometry's, no miss.
+  [[nodiscard]] bool is_sphere(const Hit& hit) const {
+    return static_cast<std::size_t>(hit.id) < geometry.sphere_count();
+  }
+  /// The plane that was hit. Precondition: it was no sphere.
+  [[nodiscard]] const Plane& plane(const Hit& hit) const {
+    return planes[static_cast<std::size_t>(hit.id) - geometry.sphere_count()];
+  }
+  /// What was hit is made of this.
+  [[nodiscard]] MaterialRef material_ref(const Hit& hit) const {
+    return is_sphere(hit) ? geometry.materials()[hit.slot] : plane(hit).material;
   }
 
   /// A material in a colour of its own. Precondition: the reference has one.
@@ -58,23 +64,24 @@ struct PreparedScene {
                    method);
   }
 
-  /// The material of the primitive with this id.
-  [[nodiscard]] FlatMaterial material_of(std::int32_t id) const {
-    const MaterialRef ref = material_ref(id);
+  /// The material of what was hit.
+  [[nodiscard]] FlatMaterial material_of(const Hit& hit) const {
+    const MaterialRef ref = material_ref(hit);
     return ref.has_color() ? colored_material(ref) : materials[ref.index()];
   }
 };
 
 /// The surface that a ray met in the scene.
 inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
-  return find_surface(scene.spheres, scene.planes, ray, hit);
+  return scene.is_sphere(hit) ? find_surface(scene.geometry.sphere(hit.slot), ray, hit)
+                              : find_surface(scene.plane(hit), ray, hit);
 }
 
 /// Prepares a scene for a picture of `width` x `height` pixels. Takes any values; an error if the
 /// scene is invalid (validate()), if a side is not 1 .. 65535, or if the scene has no camera and
 /// none can be made for it. Passes on what `parallel_for` throws. Instances become spheres and
-/// planes (expand_instances()). Spheres and planes are moved, not copied: move a scene here that is
-/// not needed any more. scene.image and scene.render are not used.
+/// planes (expand_instances()). The geometry takes the place of the scene's spheres: move a scene
+/// here that is not needed any more. scene.image and scene.render are not used.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);

@@ -126,9 +126,9 @@ void OutlineWorker::trace(int x0, int y0) {
 /// The line between two points that see different things.
 const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) const {
   const Hit& nearer = b.t < a.t ? b : a;
-  const auto& spheres = setup_.scene.spheres;
-  if (static_cast<std::size_t>(nearer.id) >= spheres.size()) return discs_.back();
-  const auto radius = static_cast<double>(spheres[static_cast<std::size_t>(nearer.id)].radius);
+  const PreparedScene& scene = setup_.scene;
+  if (nearer.id == no_primitive || !scene.is_sphere(nearer)) return discs_.back();
+  const auto radius = static_cast<double>(scene.geometry.sphere(nearer.slot).radius);
   const double pixel = length(step_org_ + step_dir_ * nearer.t);
   const double most = outline_share * radius / pixel;
   if (!(most < static_cast<double>(width_))) return discs_.back();

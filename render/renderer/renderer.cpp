@@ -28,8 +28,8 @@ Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedS
       scene_(std::move(scene)),
       setup_(std::make_unique<const BlockSetup>(
           BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
-                     block_pixels(options.tile), fitting_stream_size(scene_->spheres.size()),
-                     alpha_of(options)})),
+                     block_pixels(options.tile),
+                     fitting_stream_size(scene_->geometry.sphere_count()), alpha_of(options)})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -72,7 +72,7 @@ Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
     if (!kernels) return kernels.error();
     RenderOptions fitted = options;
     fitted.tile =
-        fitting_tile(options, Scheduler(options.threads).workers(), scene->spheres.size());
+        fitting_tile(options, Scheduler(options.threads).workers(), scene->geometry.sphere_count());
     return Renderer(fitted, std::move(scene), *kernels.value());
   });
 }

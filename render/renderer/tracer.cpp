@@ -66,9 +66,9 @@ struct Tracer::Worker {
 Tracer::Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
-      spheres_(std::move(scene.spheres)),
       planes_(std::move(scene.planes)),
-      geometry_(spheres_, planes_, Structure::automatic, Scheduler(options.threads).parallel_for()),
+      geometry_(std::move(scene.spheres), planes_, Structure::automatic,
+                Scheduler(options.threads).parallel_for()),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
@@ -115,7 +115,10 @@ void Tracer::find_any(Worker& worker) {
 /// 0 for a miss.
 Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
   if (hit.id == no_primitive) return {};
-  return vec_cast<float>(find_surface(spheres_, planes_, ray, hit).normal);
+  const auto id = static_cast<std::size_t>(hit.id), spheres = geometry_.sphere_count();
+  const Surface met = id < spheres ? find_surface(geometry_.sphere(hit.slot), ray, hit)
+                                   : find_surface(planes_[id - spheres], ray, hit);
+  return vec_cast<float>(met.normal);
 }
 
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {

@@ -88,7 +88,6 @@ class Tracer {
 
   TraceOptions options_;
   const KernelTable* kernels_;
-  std::vector<Sphere> spheres_;
   std::vector<Plane> planes_;
   Geometry geometry_;
   Scheduler scheduler_;

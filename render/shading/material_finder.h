@@ -21,9 +21,9 @@ class MaterialFinder {
     if (scene_.has_own_colors) made_.reserve(rays);  // so that no material moves
   }
 
-  /// The material of a primitive. Precondition: it is called at most once for each ray.
-  const FlatMaterial& find(std::int32_t id) {
-    const MaterialRef ref = scene_.material_ref(id);
+  /// The material of what was hit. Precondition: it is called at most once for each ray.
+  const FlatMaterial& find(const Hit& hit) {
+    const MaterialRef ref = scene_.material_ref(hit);
     if (!ref.has_color()) return scene_.materials[ref.index()];
     // Rays beside each other often meet the same primitive, or others of its colour.
     if (!made_.empty() && ref == last_) return made_.back();

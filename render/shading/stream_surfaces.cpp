@@ -5,7 +5,7 @@
 namespace boule {
 
 StreamSurfaces::StreamSurfaces(const PreparedScene& scene, const KernelTable& kernels)
-    : kernels_(kernels), geometry_(scene.geometry.view()), spheres_(sphere_rows(scene.spheres)) {
+    : kernels_(kernels), geometry_(scene.geometry.view()) {
   views_.resize(block_size);
   cosines_.resize(block_size);
   reaches_.resize(block_size);
@@ -30,8 +30,7 @@ void StreamSurfaces::find(const RayStream& rays, const HitStream& hits, std::siz
                             reaches_.data(),
                             inner_.data(),
                             inside_.data() + first};
-  kernels_.find_surfaces(geometry_, spheres_, part(rays, first, size), part(hits, first, size),
-                         found);
+  kernels_.find_surfaces(geometry_, part(rays, first, size), part(hits, first, size), found);
 }
 
 Surface StreamSurfaces::get(std::size_t k) const {

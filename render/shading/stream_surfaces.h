@@ -49,7 +49,6 @@ class StreamSurfaces {
  private:
   const KernelTable& kernels_;
   GeometryView geometry_;
-  SphereRows spheres_;
   const std::int32_t* ids_ = nullptr;  ///< by ray, from the last find()
   // By ray of the stream:
   VectorBuffer points_, normals_, mirrored_, orgs_;

@@ -23,9 +23,9 @@ const char* kind_name(RayKind kind) {
   return kinds[static_cast<std::size_t>(kind)];
 }
 
-/// The name of what a primitive is made of.
-Json material_name(const PickedPixel& pixel, std::int32_t id) {
-  const std::size_t material = pixel.scene.material_ref(id).index();
+/// The name of the material that was hit.
+Json material_name(const PickedPixel& pixel, const Hit& hit) {
+  const std::size_t material = pixel.scene.material_ref(hit).index();
   const auto& names = pixel.loaded.scene.materials;
   return material < names.size() ? Json(names[material].name) : Json();
 }
@@ -36,17 +36,17 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   const Vec3d& origin = pixel.loaded.origin;
   const Surface surface = find_surface(scene, primary.ray, primary.hit);
   const auto id = static_cast<std::size_t>(primary.hit.id);
-  const bool is_sphere = id < scene.spheres.size();
+  const bool is_sphere = scene.is_sphere(primary.hit);
   Json json = {
       {"primitive", id},
       {"kind", is_sphere ? "sphere" : "plane"},
-      {"material", material_name(pixel, primary.hit.id)},
+      {"material", material_name(pixel, primary.hit)},
       {"t", number(primary.hit.t)},
       {"depth", number(dot(surface.point - scene.camera_view.eye, scene.camera_view.forward))},
       {"position", vector(surface.point + origin)},
       {"normal", vector(surface.normal)}};
   if (is_sphere) {
-    const Sphere& sphere = scene.spheres[id];
+    const Sphere sphere = scene.geometry.sphere(primary.hit.slot);
     json["center"] = vector(vec_cast<double>(sphere.center) + origin);
     json["radius"] = number(double{sphere.radius});
   }
@@ -63,7 +63,7 @@ Json ray_json(const PickedPixel& pixel, const RecordedRay& ray, const Color& ret
                {"t", met ? number(ray.hit.t) : Json()},
                {"distance", met ? number(ray.hit.t * size) : Json()},
                {"primitive", met ? Json(ray.hit.id) : Json()},
-               {"material", met ? material_name(pixel, ray.hit.id) : Json()},
+               {"material", met ? material_name(pixel, ray.hit) : Json()},
                {"weight", color(ray.weight)},
                {"throughput", color(ray.throughput)},
                {"own", color(ray.own)},

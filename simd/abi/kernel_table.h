@@ -44,8 +44,7 @@ struct KernelTable {
                   std::uint8_t* occluded);
 
   /// surfaces[k] = where rays[k] met hits[k]; anything where that is a miss.
-  void (*find_surfaces)(const GeometryView& geometry, const SphereRows& spheres,
-                        const RayStream& rays, const HitStream& hits,
+  void (*find_surfaces)(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
                         const SurfaceStream& surfaces);
 
   /// Makes the shadow rays of all lit points that face the light, in their order. Returns how many.

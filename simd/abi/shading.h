@@ -7,14 +7,8 @@
 
 namespace boule {
 
-/// Spheres by id: the centre's coordinates and the radius of sphere `id` are the four floats from
-/// first + id stride on. This and the streams below are views: they own nothing and check nothing.
-struct SphereRows {
-  const float* first;
-  std::size_t stride;
-};
-
-/// Vectors in memory as a structure of arrays, as in RayStream.
+/// Vectors in memory as a structure of arrays, as in RayStream. This and the streams below are
+/// views: they own nothing and check nothing.
 struct VectorStream {
   double* x;
   double* y;

@@ -65,15 +65,17 @@ Ray get_ray(const Rays& rays, std::size_t i) {
 }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
-/// miss. Arrays as in RayStream.
+/// miss. Of a sphere also the slot where it lies in the geometry; of other hits `slot` is anything.
+/// Arrays as in RayStream.
 struct HitStream {
   double* t;
   std::int32_t* id;
+  std::uint32_t* slot;
   std::size_t size;
 };
 
 inline HitStream part(const HitStream& hits, std::size_t first, std::size_t size) {
-  return {hits.t + first, hits.id + first, size};
+  return {hits.t + first, hits.id + first, hits.slot + first, size};
 }
 
 /// Samples of the image plane to send primary rays through: raster coordinates, where (0, 0) is the

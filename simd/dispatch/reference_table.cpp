@@ -16,18 +16,21 @@ Plane get_plane(const PlaneView& p, std::size_t i) {
 /// Copies of a sphere that the tree's builder left out have no radius: nothing hits them.
 struct Primitives {
   std::vector<Sphere> spheres;
+  std::vector<std::uint32_t> slots;  ///< by the sphere's id
   std::vector<Plane> planes;
 
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
     const Sphere nowhere{{0, 0, 0}, std::numeric_limits<float>::quiet_NaN(), 0};
     spheres.resize(static_cast<std::size_t>(view.planes.first_id), nowhere);
+    slots.resize(spheres.size());
     for (std::size_t slot = 0; slot < s.block_count * bvh_leaf_size; ++slot) {
       if (s.id[slot] < 0) continue;
       const SphereBlock& block = s.blocks[slot / bvh_leaf_size];
       const std::size_t k = slot % bvh_leaf_size;
-      spheres[static_cast<std::size_t>(s.id[slot])] = {
-          {block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], 0};
+      const auto id = static_cast<std::size_t>(s.id[slot]);
+      spheres[id] = {{block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], 0};
+      slots[id] = static_cast<std::uint32_t>(slot);
     }
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) planes.push_back(get_plane(p, i));
@@ -41,6 +44,8 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
     const Hit hit = reference::closest_hit(get_ray(rays, i), all.spheres, all.planes);
     hits.t[i] = hit.t;
     hits.id[i] = hit.id;
+    const auto id = static_cast<std::size_t>(hit.id);
+    if (id < all.slots.size()) hits.slot[i] = all.slots[id];
   }
 }
 

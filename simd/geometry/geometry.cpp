@@ -31,6 +31,20 @@ bool wants_tree(std::size_t spheres, Structure structure) {
          (structure == Structure::automatic && spheres > tuning::most_scanned);
 }
 
+/// What the spheres are made of, by their slots.
+SlotMaterials slot_materials(const std::vector<Sphere>& spheres,
+                             const std::vector<std::int32_t>& slots) {
+  const auto differs = [&](const Sphere& s) { return !(s.material == spheres[0].material); };
+  if (spheres.empty()) return SlotMaterials();
+  if (std::none_of(spheres.begin(), spheres.end(), differs))
+    return SlotMaterials(spheres[0].material);
+  AlignedArray<MaterialRef> by_slot(slots.size());
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+    if (slots[slot] >= 0) by_slot[slot] = spheres[static_cast<std::size_t>(slots[slot])].material;
+  }
+  return SlotMaterials(std::move(by_slot));
+}
+
 /// The greatest coordinate of any box of a tree, without its sign.
 float extent_of(const std::vector<BvhNode>& nodes) {
   float extent = 0;
@@ -46,18 +60,17 @@ float extent_of(const std::vector<BvhNode>& nodes) {
 
 }  // namespace
 
-SphereRows sphere_rows(std::span<const Sphere> spheres) {
-  static_assert(sizeof(Sphere) % sizeof(float) == 0 && offsetof(Sphere, center) == 0 &&
-                offsetof(Sphere, radius) == 3 * sizeof(float));
-  if (spheres.empty()) return {nullptr, 0};
-  return {&spheres[0].center.x, sizeof(Sphere) / sizeof(float)};
-}
-
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
                    Structure structure, const ParallelFor& parallel_for)
     : Geometry(spheres, planes,
                wants_tree(spheres.size(), structure) ? build_bvh(spheres, parallel_for)
                                                      : no_bvh(spheres.size())) {}
+
+Geometry::Geometry(std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,
+                   Structure structure, const ParallelFor& parallel_for)
+    : Geometry(spheres, planes, structure, parallel_for) {
+  std::vector<Sphere>().swap(spheres);
+}
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh)
     : nodes_(std::move(bvh.nodes)),
@@ -70,6 +83,7 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
       // rejects it before that.
       id_(bvh.slots.size(), empty_slot),
       blocks_(std::move(bvh.blocks)),
+      materials_(slot_materials(spheres, bvh.slots)),
       center_x_(scanned_),
       center_y_(scanned_),
       center_z_(scanned_),
@@ -93,6 +107,13 @@ Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>&
     set_scanned(slot, spheres[static_cast<std::size_t>(id)]);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
+}
+
+Sphere Geometry::sphere(std::uint32_t slot) const {
+  const SphereBlock& block = blocks_[slot / bvh_leaf_size];
+  const std::size_t k = slot % bvh_leaf_size;
+  return {
+      {block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], materials_[slot]};
 }
 
 void Geometry::set_in_block(std::size_t i, const Sphere& sphere) {

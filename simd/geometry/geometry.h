@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
-#include "simd/abi/shading.h"
 #include "simd/geometry/bvh_builder.h"
+#include "simd/geometry/slot_materials.h"
 #include "simd/stream/aligned_array.h"
 
 namespace boule {
@@ -16,9 +15,6 @@ namespace boule {
 /// How spheres are found: each is tested (scan), or a tree leads to them. The hits are the same;
 /// automatic scans up to tuning::most_scanned.
 enum class Structure { automatic, scan, bvh };
-
-/// A view of the caller's spheres, as find_surfaces reads them; null for none.
-SphereRows sphere_rows(std::span<const Sphere> spheres);
 
 /// Spheres and planes laid out for the kernels, with the numbers the conservative reject needs.
 /// Immutable once built. Takes any floats: what is NaN, infinite or without a normal is missed by
@@ -29,9 +25,20 @@ class Geometry {
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
            Structure structure = Structure::automatic,
            const ParallelFor& parallel_for = serial_for);
+  /// The same, in the place of the spheres: their memory is given back while it is built.
+  Geometry(std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,
+           Structure structure = Structure::automatic,
+           const ParallelFor& parallel_for = serial_for);
 
   /// What the kernels see; valid as long as this object, and not of one that was moved away.
   [[nodiscard]] GeometryView view() const;
+
+  /// How many spheres it was built of; planes have the ids from here on.
+  [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
+  /// What the spheres are made of, by slot.
+  [[nodiscard]] const SlotMaterials& materials() const { return materials_; }
+  /// The sphere in a slot. Precondition: there is one, as in that of a hit.
+  [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
 
  private:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh);
@@ -44,6 +51,7 @@ class Geometry {
   std::size_t sphere_count_, scanned_, block_count_, plane_count_;
   AlignedArray<std::int32_t> id_;
   AlignedArray<SphereBlock> blocks_;
+  SlotMaterials materials_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
   AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
 };

@@ -68,9 +68,9 @@ void camera_rays(const CameraView& camera, const SampleStream& samples, const Ra
   primary_rays(camera, samples, rays);
 }
 
-void surfaces_of_hits(const GeometryView& geometry, const SphereRows& spheres,
-                      const RayStream& rays, const HitStream& hits, const SurfaceStream& surfaces) {
-  find_surfaces(geometry, spheres, rays, hits, surfaces);
+void surfaces_of_hits(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
+                      const SurfaceStream& surfaces) {
+  find_surfaces(geometry, rays, hits, surfaces);
 }
 
 std::size_t shadow_rays(const ShadowTarget& light, const LitStream& points,

@@ -67,15 +67,17 @@ class HitBuffer {
   void resize(std::size_t size) {
     t_.resize(size);
     id_.resize(size);
+    slot_.resize(size);
     size_ = size;
   }
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] Hit get(std::size_t i) const { return {t_[i], id_[i]}; }
-  HitStream view() { return {t_.data(), id_.data(), size_}; }
+  [[nodiscard]] Hit get(std::size_t i) const { return {t_[i], id_[i], slot_[i]}; }
+  HitStream view() { return {t_.data(), id_.data(), slot_.data(), size_}; }
 
  private:
   AlignedArray<double> t_;
   AlignedArray<std::int32_t> id_;
+  AlignedArray<std::uint32_t> slot_;
   std::size_t size_ = 0;
 };
 

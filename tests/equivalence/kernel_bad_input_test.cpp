@@ -68,7 +68,7 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
       kernels->closest_hit(view, rays, query, {});
       kernels->any_hit(view, rays, query, nullptr);
     }
-    kernels->find_surfaces(view, {}, rays, {}, {});
+    kernels->find_surfaces(view, rays, {}, {});
   }
   kernels->primary_rays(build_camera(PinholeCamera{}, 4, 3), {}, rays);
   EXPECT_EQ(kernels->make_shadow_rays({}, {}, {}), 0U);

@@ -74,18 +74,16 @@ class SurfacesOfHardCases : public OnEachHardCase {
     hits.resize(ray_count);
     reference_kernels().closest_hit(geometry->view(), rays.view(), {}, hits.view());
     for (std::size_t k = 0; k < ray_count; k += 7) rays.view().source[k] = hits.get(k).id;
-    rows = sphere_rows(hard_case.spheres);
   }
 
   void find(const KernelTable& table, SurfaceArrays& found) {
-    table.find_surfaces(geometry->view(), rows, rays.view(), hits.view(), found.stream());
+    table.find_surfaces(geometry->view(), rays.view(), hits.view(), found.stream());
   }
 
   HardCase hard_case;
   std::optional<Geometry> geometry;
   RayBuffer rays;
   HitBuffer hits;
-  SphereRows rows{nullptr, 0};
 };
 
 TEST_P(SurfacesOfHardCases, EqualTheScalarPath) {
@@ -165,10 +163,10 @@ TEST_P(SurfacesOfSpecks, FaceTheViewer) {
   for (std::size_t k = 0; k < ray_count; ++k) {
     hits.view().t[k] = 2;
     hits.view().id[k] = 0;
+    hits.view().slot[k] = 0;
   }
   SurfaceArrays wide;
-  kernels->find_surfaces(geometry.view(), sphere_rows(specks), rays.view(), hits.view(),
-                         wide.stream());
+  kernels->find_surfaces(geometry.view(), rays.view(), hits.view(), wide.stream());
   for (std::size_t k = 0; k < ray_count; ++k) {
     ASSERT_EQ(wide.point.get(k), (Vec3d{1, 2, 3}));
     ASSERT_EQ(wide.normal.get(k), (Vec3d{0, 0, -1}));

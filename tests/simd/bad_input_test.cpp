@@ -78,8 +78,7 @@ TEST(BadInput, WhatWasMovedAwayCanBeResized) {
   EXPECT_EQ(kept.size(), 40U);
 }
 
-TEST(BadInput, NoSpheresAreNoRows) {
-  EXPECT_EQ(sphere_rows({}).first, nullptr);
+TEST(BadInput, NoSpheresAreNoBlocks) {
   const Geometry nothing({}, {});
   EXPECT_EQ(nothing.view().spheres.block_count, 0U);
   EXPECT_EQ(nothing.view().planes.size, 0U);

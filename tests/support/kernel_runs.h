@@ -51,6 +51,13 @@ inline RayBuffer to_stream(const std::vector<Ray>& rays) {
   return buffer;
 }
 
+/// Whether a hit of a sphere names the slot where that sphere lies.
+inline bool names_its_slot(const GeometryView& geometry, const Hit& hit) {
+  if (hit.id < 0 || hit.id >= geometry.planes.first_id) return true;
+  return hit.slot < geometry.spheres.block_count * bvh_leaf_size &&
+         geometry.spheres.id[hit.slot] == hit.id;
+}
+
 /// The kernels' nearest hits of these rays.
 inline std::vector<Hit> run_closest(const KernelTable& kernels, const GeometryView& geometry,
                                     const std::vector<Ray>& rays, const Query& query) {
@@ -58,7 +65,10 @@ inline std::vector<Hit> run_closest(const KernelTable& kernels, const GeometryVi
   HitBuffer hits(rays.size());
   kernels.closest_hit(geometry, stream.view(), query, hits.view());
   std::vector<Hit> result;
-  for (std::size_t i = 0; i < rays.size(); ++i) result.push_back(hits.get(i));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    result.push_back(hits.get(i));
+    EXPECT_TRUE(names_its_slot(geometry, result.back())) << "ray " << i;
+  }
   return result;
 }
 

@@ -19,6 +19,7 @@ namespace boule::BOULE_KERNEL_ISA {
 struct ClosestHit {
   Wide t;        ///< of the nearest hit that is solved
   Bits id;       ///< of that hit's primitive
+  Bits slot;     ///< where it lies, if it is a sphere
   Bits pending;  ///< slot of a sphere that is certainly hit, and certainly nearer than t
   RealMask is_pending;
   Real nearest;  ///< lower bound of t |dir|: of the pending hit, else of the solved one or of tmax
@@ -27,6 +28,7 @@ struct ClosestHit {
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
       : t(no_hit),
         id(no_primitive),
+        slot(0),
         pending(0),
         is_pending(uniform(false)),
         nearest(rays.filter.live_to),
@@ -37,17 +39,18 @@ struct ClosestHit {
     return narrow(t * rays.filter.length);
   }
 
-  /// Takes what float knows about the sphere in `slot`. `low` is a lower bound of its hit; lanes in
-  /// `out` do not hit it. Returns whether the double solver must decide: it must unless every lane
-  /// is out, has found a nearer sphere, or certainly has its nearest hit here. Adds these to `out`.
+  /// Takes what float knows about the sphere in `in_slot`. `low` is a lower bound of its hit; lanes
+  /// in `out` do not hit it. Returns whether the double solver must decide: it must unless every
+  /// lane is out, has found a nearer sphere, or certainly has its nearest hit here. Adds these to
+  /// `out`.
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
-                             const Bits& slot, const FilterRays& rays) {
+                             const Bits& in_slot, const FilterRays& rays) {
     const Real high = highest(roots, rays);
     const RealMask first = high < nearest;
     out |= bits(first | (reach < low));
     reach = select(high < reach, high, reach);
     nearest = select(first, low, nearest);
-    pending = select(first, slot, pending);
+    pending = select(first, in_slot, pending);
     is_pending = is_pending | first;
     return out != all_lanes;
   }
@@ -59,18 +62,20 @@ struct ClosestHit {
   /// Nothing beyond this t |dir| is of interest.
   [[nodiscard]] BOULE_INLINE Real limit() const { return reach; }
 
-  BOULE_INLINE void offer(const Roots& roots, const Bits& primitive, const RayLanes& rays) {
+  /// `in_slot`: where the primitive lies, if it is a sphere.
+  BOULE_INLINE void offer(const Roots& roots, const Bits& primitive, const Bits& in_slot,
+                          const RayLanes& rays) {
     const WideMask lower_id = widen(~(id <= primitive));
     const WideMask nearer = (roots.t < t) | ((roots.t == t) & lower_id);
     const WideMask better = roots.hit & nearer;
-    if (any(better)) take(roots.t, primitive, better, rays);
+    if (any(better)) take(roots.t, primitive, in_slot, better, rays);
   }
   /// Solves the pending hits by one double solve, each lane against its own sphere.
   BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
     if (bits(is_pending) == 0) return;
     const SphereLanes each = gather_spheres(spheres, pending);
     const Roots roots = solve_robust(rays.exact, each);
-    take(roots.t, each.id, roots.hit & widen(is_pending), rays);
+    take(roots.t, each.id, pending, roots.hit & widen(is_pending), rays);
     is_pending = uniform(false);
   }
   static constexpr bool done() { return false; }
@@ -78,10 +83,11 @@ struct ClosestHit {
   static constexpr std::size_t chunk = tuning::nearest_chunk;
 
  private:
-  BOULE_INLINE void take(const Wide& new_t, const Bits& new_id, const WideMask& lanes,
-                         const RayLanes& rays) {
+  BOULE_INLINE void take(const Wide& new_t, const Bits& new_id, const Bits& new_slot,
+                         const WideMask& lanes, const RayLanes& rays) {
     t = select(lanes, new_t, t);
     id = select(narrow(lanes), new_id, id);
+    slot = select(narrow(lanes), new_slot, slot);
     const Real solved = distance(t, rays);
     reach = select(solved < reach, solved, reach);
     nearest = select(solved < rays.filter.live_to, solved, rays.filter.live_to);
@@ -109,7 +115,7 @@ struct AnyHit {
   }
   [[nodiscard]] BOULE_INLINE Real limit() const { return far; }
 
-  BOULE_INLINE void offer(const Roots& roots, const Bits&, const RayLanes&) {
+  BOULE_INLINE void offer(const Roots& roots, const Bits&, const Bits&, const RayLanes&) {
     hit |= bits(roots.hit);
   }
   static void settle(const SphereView&, const RayLanes&) {}

@@ -173,6 +173,7 @@ class BundleClosest {
     const Wide t = solve_first(rays, uniform_[ray / width] ? broadcast_slot(spheres_, slot_[ray])
                                                            : gather_slots(spheres_, slot_ + ray));
     store(hits.t + first, select(hit, t, Wide(no_hit)));
+    store(hits.slot + first, load_integers(slot_ + ray));
     find_ids(ray, hits.id + first);
   }
 
@@ -191,6 +192,7 @@ class BundleClosest {
     for (std::size_t lane = 0; lane < live; ++lane) {
       hits.t[first + lane] = t[lane];
       hits.id[first + lane] = id[lane];
+      hits.slot[first + lane] = slot_[static_cast<std::size_t>(ray) + lane];
     }
   }
 

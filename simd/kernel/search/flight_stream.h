@@ -288,15 +288,16 @@ class Flights {
     for (unsigned first = 0; first < candidates.size; first += width) {
       for (unsigned k = candidates.size; k < first + width; ++k)
         candidates.slot[k] = candidates.slot[first];
-      const SphereLanes spheres =
-          gather_spheres(geometry_.spheres, load_integers(candidates.slot + first));
-      take(flight, ray, solve_robust(ray.exact, spheres), spheres.id);
+      const std::uint32_t* const slots = candidates.slot + first;
+      const SphereLanes spheres = gather_spheres(geometry_.spheres, load_integers(slots));
+      take(flight, ray, solve_robust(ray.exact, spheres), spheres.id, slots);
     }
     steps_ += candidates.size / tuning::solves_a_step;
     candidates.size = 0;
   }
   /// Takes solved hits of one ray: nothing beyond them is of interest any more.
-  BOULE_INLINE void take(Flight& flight, const RayLanes& ray, const Roots& roots, const Bits& ids) {
+  BOULE_INLINE void take(Flight& flight, const RayLanes& ray, const Roots& roots, const Bits& ids,
+                         const std::uint32_t* slots) {
     alignas(64) double t[width];
     alignas(64) std::int32_t id[width];
     alignas(64) float reach[width];
@@ -305,7 +306,7 @@ class Flights {
     store(reach, ClosestHit::distance(roots.t, ray));
     for (unsigned hit = bits(roots.hit); hit != 0; hit &= hit - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(hit));
-      answer(answers_, flight.index, t[k], id[k]);
+      answer(answers_, flight.index, {t[k], id[k], slots[k]});
       if (reach[k] < flight.ray.reach) flight.ray.reach = reach[k];
       if constexpr (any_hit) flight.pending.clear();
     }

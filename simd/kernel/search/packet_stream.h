@@ -48,15 +48,19 @@ BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, st
   if (live == width) {
     store(hits.t + first, best.t);
     store(hits.id + first, best.id);
+    store(hits.slot + first, best.slot);
     return;
   }
   alignas(64) double t[width];
   alignas(64) std::int32_t id[width];
+  alignas(64) std::uint32_t slot[width];
   store(t, best.t);
   store(id, best.id);
+  store(slot, best.slot);
   for (std::size_t lane = 0; lane < live; ++lane) {
     hits.t[first + lane] = t[lane];
     hits.id[first + lane] = id[lane];
+    hits.slot[first + lane] = slot[lane];
   }
 }
 
@@ -64,8 +68,10 @@ BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, st
 BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
   alignas(64) double t[width];
   alignas(64) std::int32_t id[width];
+  alignas(64) std::uint32_t slot[width];
   store(t, best.t);
   store(id, best.id);
+  store(slot, best.slot);
   std::size_t nearest = 0;
   for (std::size_t lane = 1; lane < width; ++lane) {
     const bool tie = t[lane] == t[nearest] && id[lane] < id[nearest];
@@ -73,6 +79,7 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
   }
   hits.t[index] = t[nearest];
   hits.id[index] = id[nearest];
+  hits.slot[index] = slot[nearest];
 }
 
 /// Finds the nearest hits of rays begin .. end - 1. Returns how many nodes and leaves were visited.

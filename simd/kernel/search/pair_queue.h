@@ -13,16 +13,15 @@
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Keeps a hit of a ray if it is nearer than the ray's nearest one so far.
-BOULE_INLINE void answer(const HitStream& hits, std::size_t ray, double t, std::int32_t id) {
-  const bool nearer = t < hits.t[ray] || (t == hits.t[ray] && id < hits.id[ray]);
+BOULE_INLINE void answer(const HitStream& hits, std::size_t ray, const Hit& hit) {
+  const bool nearer = hit.t < hits.t[ray] || (hit.t == hits.t[ray] && hit.id < hits.id[ray]);
   if (!nearer) return;
-  hits.t[ray] = t;
-  hits.id[ray] = id;
+  hits.t[ray] = hit.t;
+  hits.id[ray] = hit.id;
+  hits.slot[ray] = hit.slot;
 }
 /// Notes that a ray has a hit.
-BOULE_INLINE void answer(std::uint8_t* occluded, std::size_t ray, double, std::int32_t) {
-  occluded[ray] = 1;
-}
+BOULE_INLINE void answer(std::uint8_t* occluded, std::size_t ray, const Hit&) { occluded[ray] = 1; }
 
 /// Pairs of a ray and a sphere that wait for the double solver, which takes W of them at a time.
 /// Answers: HitStream for nearest hits, std::uint8_t* for any.
@@ -74,7 +73,7 @@ class PairQueue {
     const unsigned hit = bits(roots.hit);
     for (std::size_t k = 0; k < count; ++k) {
       if ((hit >> k & 1U) == 0) continue;
-      answer(answers_, ray_[k], t[k], id[k]);
+      answer(answers_, ray_[k], {t[k], id[k], slot_[k]});
     }
   }
 

@@ -104,8 +104,9 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
   for (std::size_t k = 0; k < candidates.count; ++k) {
     if (!best.wants(load(candidates.low[k]), candidates.out[k])) continue;
     best.settle(all, rays);
-    const SphereLanes sphere = get_sphere(spheres, begin + candidates.offset[k]);
-    best.offer(solve_robust(rays.exact, sphere), sphere.id, rays);
+    const std::size_t step = begin + candidates.offset[k];
+    const SphereLanes sphere = get_sphere(spheres, step);
+    best.offer(solve_robust(rays.exact, sphere), sphere.id, spheres.slot(step), rays);
   }
 }
 
@@ -119,8 +120,9 @@ BOULE_INLINE void meet_survivors(const RayLanes& rays, const SphereView& all,
     solve_survivors(rays, all, spheres, begin, survivors, best);
   } else {
     for (std::size_t k = 0; k < survivors.count; ++k) {
-      const SphereLanes sphere = get_sphere(spheres, begin + survivors.offset[k]);
-      best.offer(solve_fast(rays, sphere), sphere.id, rays);
+      const std::size_t step = begin + survivors.offset[k];
+      const SphereLanes sphere = get_sphere(spheres, step);
+      best.offer(solve_fast(rays, sphere), sphere.id, spheres.slot(step), rays);
     }
   }
 }
@@ -145,9 +147,9 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, const PlaneView& planes, Bes
   for (std::size_t step = 0; step < steps && !best.done(); ++step) {
     const PlaneLanes plane = get_plane<Access>(planes, step);
     if constexpr (solver == Solver::fast) {
-      best.offer(solve_fast(rays, plane), plane.id, rays);
+      best.offer(solve_fast(rays, plane), plane.id, Bits(0), rays);
     } else {
-      best.offer(solve_robust(rays.exact, plane), plane.id, rays);
+      best.offer(solve_robust(rays.exact, plane), plane.id, Bits(0), rays);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "core/optics/incidence.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/shading.h"
+#include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
@@ -21,11 +22,6 @@ BOULE_INLINE void store(std::uint8_t* p, const WideMask& m) {
 using Arrivals = ArrivalOf<Wide>;
 using Contacts = ContactOf<Wide>;
 
-BOULE_INLINE Contacts meet_spheres(const Arrivals& rays, const float* const* rows) {
-  const Columns sphere = load_rows(rows);
-  return meet_sphere(rays, widen(Vec3<Real>{sphere.x, sphere.y, sphere.z}), widen(sphere.w));
-}
-
 BOULE_INLINE Contacts meet_plane(const Arrivals& rays, const PlaneView& planes, std::size_t k) {
   const auto broadcast = [k](const float* x, const float* y, const float* z) {
     return widen(Vec3<Real>{x[k], y[k], z[k]});
@@ -38,14 +34,19 @@ BOULE_INLINE Contacts meet_plane(const Arrivals& rays, const PlaneView& planes, 
 /// the other.
 class MetPrimitives {
  public:
-  MetPrimitives(const GeometryView& geometry, const SphereRows& spheres, const std::int32_t* id,
+  /// The first `live` hits, up to W, from `first` on.
+  MetPrimitives(const GeometryView& geometry, const HitStream& hits, std::size_t first,
                 std::size_t live)
-      : planes_(geometry.planes), id_(id) {
+      : planes_(geometry.planes), id_(hits.id + first) {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
-      const std::int32_t primitive = lane < live ? id[lane] : no_primitive;
+      const std::int32_t primitive = lane < live ? id_[lane] : no_primitive;
       const bool sphere = primitive >= 0 && primitive < planes_.first_id;
-      rows_[lane] =
-          sphere ? spheres.first + static_cast<std::size_t>(primitive) * spheres.stride : no_sphere;
+      const SlotSphere met =
+          sphere ? get_slot(geometry.spheres, hits.slot[first + lane]) : SlotSphere{0, 0, 0, 1};
+      x_[lane] = met.x;
+      y_[lane] = met.y;
+      z_[lane] = met.z;
+      radius_[lane] = met.radius;
       spheres_ |= static_cast<unsigned>(sphere) << lane;
       planes_met_ |= static_cast<unsigned>(primitive >= planes_.first_id) << lane;
     }
@@ -55,7 +56,8 @@ class MetPrimitives {
 
   /// `ids`: those of the primitives.
   [[nodiscard]] BOULE_INLINE Contacts meet(const Arrivals& rays, const Bits& ids) const {
-    Contacts met = meet_spheres(rays, rows_);
+    Contacts met =
+        meet_sphere(rays, widen(Vec3<Real>{load(x_), load(y_), load(z_)}), widen(load(radius_)));
     for (unsigned left = planes_met_; left != 0;) {
       const std::int32_t id = id_[__builtin_ctz(left)];
       const WideMask same = widen(ids == Bits(id));
@@ -74,11 +76,9 @@ class MetPrimitives {
   }
 
  private:
-  static constexpr float no_sphere[4] = {0, 0, 0, 1};
-
   const PlaneView& planes_;
   const std::int32_t* id_;
-  const float* rows_[width];
+  alignas(64) float x_[width], y_[width], z_[width], radius_[width];
   unsigned spheres_ = 0, planes_met_ = 0;
 };
 
@@ -109,11 +109,10 @@ BOULE_INLINE void find_surfaces_of_packet(const MetPrimitives& primitives, const
   store(surfaces.inside + first, met.inner & primitives.is_sphere(ids));
 }
 
-BOULE_INLINE void find_surfaces(const GeometryView& geometry, const SphereRows& spheres,
-                                const RayStream& rays, const HitStream& hits,
-                                const SurfaceStream& surfaces) {
+BOULE_INLINE void find_surfaces(const GeometryView& geometry, const RayStream& rays,
+                                const HitStream& hits, const SurfaceStream& surfaces) {
   for (std::size_t first = 0; first < rays.size; first += width) {
-    const MetPrimitives primitives(geometry, spheres, hits.id + first, rays.size - first);
+    const MetPrimitives primitives(geometry, hits, first, rays.size - first);
     if (!primitives.none()) find_surfaces_of_packet(primitives, rays, hits, first, surfaces);
   }
 }
