@@ -13,22 +13,6 @@
 
 namespace boule {
 
-/// The spheres of a tree, in two arrays, because a partition reads one and writes the other. Each
-/// run of spheres is in one of them; whoever works on a run knows in which (its side, 0 or 1).
-struct SphereBuffers {
-  explicit SphereBuffers(std::size_t count)
-      : size(count),
-        arrays{std::make_unique_for_overwrite<BuildSphere[]>(count),
-               std::make_unique_for_overwrite<BuildSphere[]>(count)} {}
-
-  [[nodiscard]] std::span<BuildSphere> run(int side, std::size_t begin, std::size_t end) const {
-    return {arrays[side].get() + begin, end - begin};
-  }
-
-  std::size_t size;
-  std::unique_ptr<BuildSphere[]> arrays[2];
-};
-
 /// A node of a forest: the node with index `node` of subtree `tree`, or of the upper part.
 struct ForestNode {
   static constexpr std::uint32_t upper = ~std::uint32_t{0};
@@ -40,18 +24,27 @@ struct ForestNode {
 /// depends on the spheres alone, so that the tree is the same for any number of threads.
 class BinaryForest {
  public:
-  /// Builds the tree over the first arrays of `buffers`, at least one sphere.
-  BinaryForest(SphereBuffers& buffers, const ParallelFor& parallel_for);
+  /// Builds the tree over the spheres, at least one. They are brought into the order of the leaves,
+  /// where they are. They must outlive it.
+  BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for);
 
-  /// Spheres that became a tree of their own: run [begin, end) of side `side`.
+  /// Spheres that became a tree of their own: run [begin, end).
   struct Subtree {
     std::size_t begin, end;
-    int side, depth;
+    int depth;
     std::uint32_t first_leaf = 0;
     BinaryTree tree = {};
   };
   [[nodiscard]] const std::vector<Subtree>& subtrees() const { return subtrees_; }
-  [[nodiscard]] std::uint32_t leaves() const { return leaves_; }
+  /// The subtrees in the order of their spheres, and so of their leaves.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] std::size_t leaves() const { return leaves_; }
+  [[nodiscard]] std::span<const BuildSphere> spheres_of(const Subtree& subtree) const {
+    return spheres_.subspan(subtree.begin, subtree.end - subtree.begin);
+  }
+  /// Forgets the nodes of a subtree, and gives their memory back. Of different subtrees, threads
+  /// may do so at the same time.
+  void drop(std::uint32_t subtree);
 
   [[nodiscard]] ForestNode root() const { return root_; }
   [[nodiscard]] const BinaryNode& operator[](ForestNode node) const;
@@ -73,17 +66,19 @@ class BinaryForest {
   struct Level;
 
   void attach(const Run& run, ForestNode node);
-  void add_subtree(const Run& run, int side);
-  std::vector<Run> divide(const std::vector<Run>& runs, int side, const ParallelFor& parallel_for);
-  void add_children(std::vector<Run>& next, const Run& run, std::size_t middle, int side);
+  void add_subtree(const Run& run);
+  std::vector<Run> divide(const std::vector<Run>& runs, const ParallelFor& parallel_for);
+  void add_children(std::vector<Run>& next, const Run& run, std::size_t middle);
+  void build(Subtree& subtree);
   void finish_upper();
 
-  SphereBuffers& buffers_;
+  std::span<BuildSphere> spheres_;
   std::size_t subtree_size_;
   std::vector<UpperNode> upper_;
   std::vector<Subtree> subtrees_;
+  std::vector<std::uint32_t> order_;
   ForestNode root_{};
-  std::uint32_t leaves_ = 0;
+  std::size_t leaves_ = 0;
 };
 
 }  // namespace boule

@@ -41,7 +41,7 @@ class Builder {
     if (middle == 0) {
       bring_first(spheres);
       set_leaf(tree_.nodes[index], spheres.first(kept_copies));
-      tree_.nodes[index].copies = static_cast<std::uint32_t>(spheres.size() - kept_copies);
+      tree_.nodes[index].set_copies(spheres.size() - kept_copies);
       return {};
     }
     const CollapseCosts left = add(spheres.first(middle), depth + 1);
@@ -49,14 +49,16 @@ class Builder {
     const CollapseCosts right = add(spheres.subspan(middle), depth + 1);
     BinaryNode& node = tree_.nodes[index];
     node.right = second;
-    node.size = 0;
-    node.box = tree_.nodes[index + 1].box;
-    node.box.add(tree_.nodes[second].box);
+    BuildBox box = tree_.nodes[index + 1].box();
+    box.add(tree_.nodes[second].box());
+    node.set_box(box);
     return choose_shares(node, left, right);
   }
 
   void set_leaf(BinaryNode& node, std::span<const BuildSphere> spheres) {
-    for (const BuildSphere& sphere : spheres) node.box.add(outward_box(sphere));
+    BuildBox box;
+    for (const BuildSphere& sphere : spheres) box.add(outward_box(sphere));
+    node.set_box(box);
     node.right = tree_.leaves++;
     node.size = static_cast<std::uint32_t>(spheres.size());
   }
@@ -72,18 +74,18 @@ CollapseCosts choose_shares(BinaryNode& node, const CollapseCosts& left,
   CollapseCosts costs;
   for (std::size_t j = 2; j < costs.size(); ++j) {
     costs[j] = left[1] + right[j - 1];
-    node.share[j] = 1;
+    std::size_t share = 1;
     for (std::size_t k = 2; k < j; ++k) {
       const double both = left[k] + right[j - k];
       if (both < costs[j]) {
         costs[j] = both;
-        node.share[j] = static_cast<std::uint8_t>(k);
+        share = k;
       }
     }
+    node.set_share(static_cast<int>(j), static_cast<int>(share));
   }
   costs[0] = 0;
-  costs[1] = node.box.area() + costs.back();
-  node.share[0] = node.share[1] = 0;
+  costs[1] = node.box().area() + costs.back();
   return costs;
 }
 

@@ -14,25 +14,47 @@ namespace boule {
 /// copies: equal hits go to the lowest id, and a ray that leaves this one meets the next.
 inline constexpr int kept_copies = 2;
 
-/// A node of the binary tree that becomes a wide one.
-struct BinaryNode {
-  BuildBox box;         ///< rounded outward
-  std::uint32_t right;  ///< the second child; the first follows this node. Of a leaf: its index
-  std::uint32_t size;   ///< spheres of a leaf; 0: no leaf
+/// A node of the binary tree that becomes a wide one. It is small, because the whole binary tree is
+/// in memory together with the spheres.
+class BinaryNode {
+ public:
+  std::uint32_t right = 0;  ///< the second child; the first follows this node. Of a leaf: its index
+  std::uint32_t size = 0;   ///< spheres of a leaf; 0: no leaf
+
+  /// Rounded outward.
+  [[nodiscard]] BuildBox box() const {
+    return {Float4{low_[0], low_[1], low_[2], 0}, Float4{high_[0], high_[1], high_[2], 0}};
+  }
+  void set_box(const BuildBox& box) {
+    for (int k = 0; k < 3; ++k) {
+      low_[k] = box.low[k];
+      high_[k] = box.high[k];
+    }
+  }
+  /// If a node that is no leaf may become j children of a wide node, j = 1 .. 16, its first child
+  /// becomes so many of them and the second one the rest; 0: it stays whole, as one child.
+  [[nodiscard]] int share(int j) const {
+    return j < 2 ? 0 : static_cast<int>(numbers_ >> 4 * (j - 2) & 15);
+  }
+  /// Precondition: none was set for this j before, and 2 <= j, 1 <= share < j.
+  void set_share(int j, int share) { numbers_ |= static_cast<std::uint64_t>(share) << 4 * (j - 2); }
   /// Spheres that follow those of a leaf in the run and are in no leaf: exact copies of them.
-  std::uint32_t copies = 0;
-  /// share[j]: if this node may become j children of a wide node, its first child becomes so many
-  /// of them and the second one the rest; 0: the node stays whole, as one child.
-  std::uint8_t share[bvh_width + 1];
+  [[nodiscard]] std::uint64_t copies() const { return numbers_; }
+  void set_copies(std::uint64_t copies) { numbers_ = copies; }
+
+ private:
+  float low_[3] = {}, high_[3] = {};
+  std::uint64_t numbers_ = 0;  ///< of a leaf its copies, else the shares, four bits each
 };
+static_assert(sizeof(BinaryNode) == 40);
 
 /// What a binary node and those below it cost if it becomes at most j children of a wide node, j =
 /// 1 .. 16: the sum of the areas of all wide nodes. Leaves are not counted, because every tree of
 /// wide nodes has the same ones.
 using CollapseCosts = std::array<double, bvh_width + 1>;
 
-/// The least costs of a node, from those of its children; sets `node.share` to the choice that
-/// gives them and reads `node.box`. Dynamic programming (Ylitie, Karras, Laine, "Efficient
+/// The least costs of a node, from those of its children; sets the node's shares to the choice
+/// that gives them and reads its box. Dynamic programming (Ylitie, Karras, Laine, "Efficient
 /// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017).
 CollapseCosts choose_shares(BinaryNode& node, const CollapseCosts& left,
                             const CollapseCosts& right);

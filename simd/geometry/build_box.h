@@ -26,7 +26,7 @@ inline Float4 max4(Float4 a, Float4 b) { return b < a ? a : b; }
 /// Rounds toward zero.
 inline Int4 truncate4(Float4 a) { return __builtin_convertvector(a, Int4); }
 
-/// A sphere while the tree is built: centre, radius (not negative) and id.
+/// A sphere while the tree is built: centre, radius with its sign, and id.
 struct BuildSphere {
   float at[4];
   std::int32_t id;
@@ -63,7 +63,8 @@ inline bool in_filter_range(const Sphere& s) {
 /// The box of a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest: good
 /// enough to weigh splits by, not to test rays against.
 inline BuildBox rough_box(Float4 at) {
-  const Float4 r = {at[3], at[3], at[3], at[3]};
+  const float size = std::fabs(at[3]);
+  const Float4 r = {size, size, size, size};
   return {at - r, at + r};
 }
 inline BuildBox rough_box(const BuildSphere& sphere) { return rough_box(load4(sphere.at)); }
@@ -72,7 +73,7 @@ inline BuildBox rough_box(const BuildSphere& sphere) { return rough_box(load4(sp
 inline BuildBox outward_box(const BuildSphere& sphere) {
   const auto& at = sphere.at;
   BuildBox box;
-  const double r = double{at[3]} * (1 + filter::box_step);
+  const double r = std::fabs(double{at[3]}) * (1 + filter::box_step);
   for (int k = 0; k < 3; ++k) {
     const double low = double{at[k]} - r, high = double{at[k]} + r;
     box.low[k] = static_cast<float>(low - std::fabs(low) * filter::box_step);

@@ -1,21 +1,29 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/math/ray.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/bvh.h"
-#include "simd/stream/aligned_array.h"
+#include "simd/geometry/large_array.h"
+#include "simd/geometry/slot_materials.h"
 
 namespace boule {
 
-/// A tree over spheres, and the order in which its leaves want them.
+/// The id of a slot that holds no sphere: no ray's source, not even that of a ray that leaves
+/// nothing, which is no_primitive.
+inline constexpr std::int32_t empty_slot = no_primitive - 1;
+
+/// Spheres in slots, and a tree over those that are in leaves.
 struct Bvh {
-  std::vector<BvhNode> nodes;        ///< the root first; none: the spheres are to be scanned
-  std::vector<std::int32_t> slots;   ///< sphere of each slot, or no_primitive; leaf k: SphereView
-  std::size_t scanned = 0;           ///< slots in front that are in no leaf
-  AlignedArray<SphereBlock> blocks;  ///< sixteen slots each; only leaves are filled
+  LargeArray<BvhNode> nodes;       ///< the root first; none: the spheres are to be scanned
+  LargeArray<std::int32_t> slots;  ///< sphere of each slot, or empty_slot; leaf k: SphereView
+  std::size_t scanned = 0;         ///< slots in front that are in no leaf
+  LargeArray<SphereBlock> blocks;  ///< sixteen slots each
+  SlotMaterials materials;
 };
 
 /// Builds a tree of 16-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
@@ -24,13 +32,17 @@ struct Bvh {
 /// hold and giants (spheres_apart.h). Where more copies of one sphere, same centre and same radius,
 /// lie together than a leaf holds, only the two of the lowest ids are kept, and of those kept apart
 /// likewise: no ray's hit depends on the others. Takes any spheres, max_primitives at most; the
-/// depth is bounded by bvh_max_depth. Throws std::bad_alloc, and what `parallel_for` throws.
-Bvh build_bvh(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
+/// depth is bounded by bvh_max_depth.
+///
+/// The spheres' memory is given back while the tree takes their place, so that both together need
+/// little more than the tree: 26 bytes a sphere, and 8 more while they are not all made of the
+/// same. Throws std::bad_alloc, and what `parallel_for` throws; the spheres are lost then.
+Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for = serial_for);
 
 /// A block of slots that hold no sphere.
 SphereBlock empty_block();
 
 /// No tree: every sphere in the slot of its own id, all scanned. Throws std::bad_alloc.
-Bvh no_bvh(std::size_t spheres);
+Bvh no_bvh(const std::vector<Sphere>& spheres);
 
 }  // namespace boule

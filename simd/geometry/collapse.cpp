@@ -1,7 +1,6 @@
 #include "simd/geometry/collapse.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace boule {
 namespace {
@@ -24,59 +23,119 @@ void set_box(BvhNode& node, std::size_t k, const BuildBox& box) {
   node.max_z[k] = box.high[2];
 }
 
-class Collapse {
- public:
-  explicit Collapse(const BinaryForest& forest) : forest_(forest) { add(forest.root()); }
-
-  [[nodiscard]] std::vector<BvhNode> nodes() && { return std::move(nodes_); }
-
- private:
-  struct Children {
-    ForestNode nodes[bvh_width];
-    std::size_t size = 0;
-  };
-
-  /// Appends the wide node of a binary one and all below it.
-  void add(ForestNode root) {
-    Children children;
-    collect(root, bvh_width, children);
-    const std::size_t index = nodes_.size();
-    nodes_.emplace_back();
-    BvhNode node = empty_node();
-    node.size = static_cast<std::uint8_t>(children.size);
-    for (std::size_t k = 0; k < children.size; ++k) {
-      const ForestNode at = children.nodes[k];
-      const BinaryNode& child = forest_[at];
-      set_box(node, k, child.box);
-      node.leaf_size[k] = static_cast<std::uint8_t>(child.size);
-      if (child.size > 0) {
-        node.child[k] = (forest_.subtrees()[at.tree].first_leaf + child.right) | leaf_bit;
-      } else {
-        node.child[k] = static_cast<std::uint32_t>(nodes_.size());
-        add(at);
-      }
-    }
-    nodes_[index] = node;
-  }
-
-  /// Collects the binary nodes that stand for one in `most` children of a wide node.
-  void collect(ForestNode at, int most, Children& children) const {
-    const BinaryNode& node = forest_[at];
-    const int left = node.size > 0 ? 0 : node.share[most];
-    if (left == 0) {
-      children.nodes[children.size++] = at;
-    } else {
-      collect(forest_.left(at), left, children);
-      collect(forest_.right(at), most - left, children);
-    }
-  }
-
-  const BinaryForest& forest_;
-  std::vector<BvhNode> nodes_;
+struct Children {
+  ForestNode nodes[bvh_width];
+  std::size_t size = 0;
 };
+
+/// Collects the binary nodes that stand for one in `most` children of a wide node.
+void collect(const BinaryForest& forest, ForestNode at, int most, Children& children) {
+  const BinaryNode& node = forest[at];
+  const int left = node.size > 0 ? 0 : node.share(most);
+  if (left == 0) {
+    children.nodes[children.size++] = at;
+  } else {
+    collect(forest, forest.left(at), left, children);
+    collect(forest, forest.right(at), most - left, children);
+  }
+}
+
+Children children_of(const BinaryForest& forest, ForestNode at) {
+  Children children;
+  collect(forest, at, bvh_width, children);
+  return children;
+}
+
+/// How many wide nodes one within a subtree and those below it are.
+std::size_t count_nodes(const BinaryForest& forest, ForestNode at) {
+  const Children children = children_of(forest, at);
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < children.size; ++k) {
+    if (forest[children.nodes[k]].size == 0) count += count_nodes(forest, children.nodes[k]);
+  }
+  return count;
+}
+
+/// Makes a wide node; make(child) makes those below that are no leaves, one after the other, and
+/// returns their indices.
+template <class Make>
+BvhNode make_node(const BinaryForest& forest, ForestNode root, const Make& make) {
+  const Children children = children_of(forest, root);
+  BvhNode node = empty_node();
+  node.size = static_cast<std::uint8_t>(children.size);
+  for (std::size_t k = 0; k < children.size; ++k) {
+    const ForestNode at = children.nodes[k];
+    const BinaryNode& child = forest[at];
+    set_box(node, k, child.box());
+    node.leaf_size[k] = static_cast<std::uint8_t>(child.size);
+    node.child[k] = child.size > 0
+                        ? (forest.subtrees()[at.tree].first_leaf + child.right) | leaf_bit
+                        : static_cast<std::uint32_t>(make(at));
+  }
+  return node;
+}
+
+/// Makes the wide node of one within a subtree, and all below it, from index `next` on.
+std::size_t make_below(const BinaryForest& forest, ForestNode at, std::size_t& next,
+                       BvhNode* nodes) {
+  const std::size_t index = next++;
+  nodes[index] = make_node(
+      forest, at, [&](ForestNode child) { return make_below(forest, child, next, nodes); });
+  return index;
+}
 
 }  // namespace
 
-std::vector<BvhNode> collapse(const BinaryForest& forest) { return Collapse(forest).nodes(); }
+Collapse::Collapse(const BinaryForest& forest, const ParallelFor& parallel_for)
+    : forest_(forest), of_subtrees_(forest.subtrees().size()) {
+  plan(forest.root());
+  parallel_for(parts_.size(), [this](std::size_t i) {
+    if (parts_[i].at.tree != ForestNode::upper)
+      parts_[i].count = count_nodes(forest_, parts_[i].at);
+  });
+  for (Part& part : parts_) {
+    part.first = size_;
+    size_ += part.count;
+  }
+}
+
+/// Lists the parts at and below a node that becomes a wide one.
+void Collapse::plan(ForestNode at) {
+  parts_.push_back({at});
+  if (at.tree != ForestNode::upper) {
+    Parts& parts = of_subtrees_[at.tree];
+    if (parts.end == 0) parts.begin = parts_.size() - 1;
+    parts.end = parts_.size();
+    return;
+  }
+  const Children children = children_of(forest_, at);
+  for (std::size_t k = 0; k < children.size; ++k) {
+    if (forest_[children.nodes[k]].size == 0) plan(children.nodes[k]);
+  }
+}
+
+void Collapse::make_upper(BvhNode* nodes) const {
+  std::size_t part = 0;
+  make_upper(forest_.root(), part, nodes);
+}
+
+/// Goes through the parts in the order of their plan.
+void Collapse::make_upper(ForestNode at, std::size_t& part, BvhNode* nodes) const {
+  const std::size_t index = parts_[part++].first;
+  if (at.tree != ForestNode::upper) return;
+  nodes[index] = make_node(forest_, at, [&](ForestNode child) {
+    const std::size_t first = parts_[part].first;
+    make_upper(child, part, nodes);
+    return first;
+  });
+}
+
+void Collapse::make_subtree(std::uint32_t subtree, BvhNode* nodes) const {
+  const Parts& own = of_subtrees_[subtree];
+  for (std::size_t i = own.begin; i < own.end; ++i) {
+    std::size_t next = parts_[i].first;
+    make_below(forest_, parts_[i].at, next, nodes);
+  }
+}
 
 }  // namespace boule

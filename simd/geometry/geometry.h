@@ -25,7 +25,8 @@ class Geometry {
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
            Structure structure = Structure::automatic,
            const ParallelFor& parallel_for = serial_for);
-  /// The same, in the place of the spheres: their memory is given back while it is built.
+  /// The same, in the place of the spheres, whose memory is given back while it is built
+  /// (build_bvh()).
   Geometry(std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,
            Structure structure = Structure::automatic,
            const ParallelFor& parallel_for = serial_for);
@@ -36,22 +37,20 @@ class Geometry {
   /// How many spheres it was built of; planes have the ids from here on.
   [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
   /// What the spheres are made of, by slot.
-  [[nodiscard]] const SlotMaterials& materials() const { return materials_; }
+  [[nodiscard]] const SlotMaterials& materials() const { return bvh_.materials; }
   /// The sphere in a slot. Precondition: there is one, as in that of a hit.
   [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
 
  private:
-  Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes, Bvh bvh);
-  void set_scanned(std::size_t slot, const Sphere& sphere);
-  void set_in_block(std::size_t slot, const Sphere& sphere);
+  Geometry(std::size_t count, std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,
+           Structure structure, const ParallelFor& parallel_for);
+  Geometry(Bvh bvh, std::size_t spheres, const std::vector<Plane>& planes);
+  void set_scanned(std::size_t slot);
   void set_plane(std::size_t i, const Plane& plane);
 
-  std::vector<BvhNode> nodes_;
+  Bvh bvh_;
   float extent_;
-  std::size_t sphere_count_, scanned_, block_count_, plane_count_;
-  AlignedArray<std::int32_t> id_;
-  AlignedArray<SphereBlock> blocks_;
-  SlotMaterials materials_;
+  std::size_t sphere_count_, plane_count_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;
   AlignedArray<float> point_x_, point_y_, point_z_, normal_x_, normal_y_, normal_z_;
 };

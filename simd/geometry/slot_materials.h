@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/scene/material_ref.h"
-#include "simd/stream/aligned_array.h"
+#include "simd/geometry/large_array.h"
 
 namespace boule {
 
@@ -16,7 +16,7 @@ class SlotMaterials {
   /// All are made of this.
   explicit SlotMaterials(MaterialRef all = {}) : all_(all) {}
   /// One for each slot, those that hold no sphere among them.
-  explicit SlotMaterials(AlignedArray<MaterialRef> by_slot)
+  explicit SlotMaterials(LargeArray<MaterialRef> by_slot)
       : own_(std::move(by_slot)), by_slot_(own_.data()) {}
   /// The same in memory of others, which must live longer.
   explicit SlotMaterials(const MaterialRef* by_slot) : by_slot_(by_slot) {}
@@ -30,7 +30,7 @@ class SlotMaterials {
 
  private:
   MaterialRef all_;
-  AlignedArray<MaterialRef> own_;
+  LargeArray<MaterialRef> own_;
   const MaterialRef* by_slot_ = nullptr;
 };
 

@@ -21,8 +21,10 @@ std::vector<std::int32_t> find_spheres_apart(const std::vector<Sphere>& spheres,
 std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
                                          const std::vector<Sphere>& spheres);
 
-/// Copies all spheres but those of the ids `apart`, which are in order, to `target`.
-void gather_others(const std::vector<Sphere>& spheres, const std::vector<std::int32_t>& apart,
-                   BuildSphere* target, const ParallelFor& parallel_for);
+/// Moves all spheres but those of the ids `apart`, which are in order, to `target`. The memory of
+/// the spheres is given back meanwhile: what they hold afterwards is undefined. Their materials go
+/// to materials[id], unless `materials` is null.
+void gather_others(std::vector<Sphere>& spheres, const std::vector<std::int32_t>& apart,
+                   BuildSphere* target, MaterialRef* materials, const ParallelFor& parallel_for);
 
 }  // namespace boule

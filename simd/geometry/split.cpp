@@ -112,19 +112,8 @@ std::size_t count_left(const Bins& bins, const Cut& cut) {
   return std::accumulate(counts, counts + cut.bin, std::size_t{0});
 }
 
-void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
-               Targets targets) {
-  BuildSphere* next[2] = {targets.right, targets.left};
-  for (const BuildSphere& sphere : spheres) *next[is_left(grid, cut, sphere)]++ = sphere;
-}
-
-std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch) {
-  const BuildBox extent = extent_of(spheres);
-  const BinGrid grid(extent);
-  Bins bins;
-  bins.add(grid, spheres);
-  const Cut cut = best_cut(bins, grid.axes());
-  if (cut.axis < 0) return halve(spheres, extent);
+std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
+                      std::span<BuildSphere> scratch) {
   std::size_t left = 0, right = 0;
   for (const BuildSphere sphere : spheres) {  // no branch: no CPU could predict it
     spheres[left] = sphere;
@@ -135,6 +124,16 @@ std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch
   }
   std::copy_n(scratch.begin(), right, spheres.begin() + static_cast<std::ptrdiff_t>(left));
   return left;
+}
+
+std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch) {
+  const BuildBox extent = extent_of(spheres);
+  const BinGrid grid(extent);
+  Bins bins;
+  bins.add(grid, spheres);
+  const Cut cut = best_cut(bins, grid.axes());
+  if (cut.axis < 0) return halve(spheres, extent);
+  return partition(spheres, grid, cut, scratch);
 }
 
 }  // namespace boule

@@ -62,14 +62,10 @@ Cut best_cut(const Bins& bins, int axes);
 /// The spheres that go left.
 std::size_t count_left(const Bins& bins, const Cut& cut);
 
-/// Where a partition writes the next sphere of either side.
-struct Targets {
-  BuildSphere *left, *right;
-};
-
-/// Copies the spheres to either side of a cut. On each side they keep their order.
-void partition(std::span<const BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
-               Targets targets);
+/// Brings the spheres on the left of a cut before the others. On each side they keep their order.
+/// `scratch` has as much room as there are spheres. Returns how many are on the left.
+std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
+                      std::span<BuildSphere> scratch);
 
 /// The range of centres and radii.
 BuildBox extent_of(std::span<const BuildSphere> spheres);

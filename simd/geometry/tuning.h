@@ -42,4 +42,9 @@ inline constexpr std::size_t parallel_size = 65'536;
 inline constexpr std::size_t least_subtree = 4096;
 inline constexpr std::size_t most_subtrees = 512;
 
+/// So many subtrees become leaves before their spheres' memory is given back: enough for as many
+/// threads, and a thirtieth of the memory. Set by trial.
+/// Again: bench_build 10000000
+inline constexpr std::size_t subtrees_at_once = 16;
+
 }  // namespace boule::tuning

@@ -108,7 +108,7 @@ struct EverySet {
     if (is_leaf(node)) return 0;
     double best = std::numeric_limits<double>::infinity();
     try_all({node + 1, right(node)}, 0, best);
-    return best + tree.nodes[node].box.area();
+    return best + tree.nodes[node].box().area();
   }
   /// Divides any of `children` from index `first` on.
   void try_all(const std::vector<std::uint32_t>& children, std::size_t first, double& best) const {
@@ -145,7 +145,7 @@ TEST(Collapse, IsTheBestOfAll) {
       same.push_back({{s.at[0], s.at[1], s.at[2]}, s.at[3], 0});
     const Bvh bvh = build_bvh(same);
     if (bvh.scanned > 0) continue;  // another tree
-    double sum = tree.nodes[0].box.area();
+    double sum = tree.nodes[0].box().area();
     for (const BvhNode& node : bvh.nodes) {
       for (std::size_t k = 0; k < node.size; ++k)
         sum += node.leaf_size[k] > 0 ? 0 : area_of(node, k);

@@ -31,8 +31,8 @@ using Ids = std::vector<std::int32_t>;
 
 /// The spheres that are kept apart.
 Ids apart(const Bvh& bvh) {
-  Ids ids(bvh.slots.begin(), bvh.slots.begin() + static_cast<std::ptrdiff_t>(bvh.scanned));
-  std::erase(ids, -1);
+  Ids ids(bvh.slots.begin(), bvh.slots.begin() + bvh.scanned);
+  std::erase(ids, empty_slot);
   return ids;
 }
 

@@ -47,7 +47,7 @@ struct Walk {
         ++leaves;
         in_leaves += node.leaf_size[k];
         for (std::size_t i = 0; i < node.leaf_size[k]; ++i)
-          some.push_back(bvh.slots.at(bvh.scanned + index_of(node.child[k]) * bvh_leaf_size + i));
+          some.push_back(bvh.slots[bvh.scanned + index_of(node.child[k]) * bvh_leaf_size + i]);
       } else {
         EXPECT_GT(node.child[k], index);  // children come later: no loops
         some = below(node.child[k], level + 1);
@@ -95,13 +95,12 @@ inline Walk check(const Bvh& bvh, const std::vector<Sphere>& spheres) {
   Walk walk{bvh, spheres};
   EXPECT_EQ(bvh.scanned % max_width, 0U);
   EXPECT_EQ((bvh.slots.size() - bvh.scanned) % bvh_leaf_size, 0U);
-  std::vector<std::int32_t> found(bvh.slots.begin(),
-                                  bvh.slots.begin() + static_cast<std::ptrdiff_t>(bvh.scanned));
+  std::vector<std::int32_t> found(bvh.slots.begin(), bvh.slots.begin() + bvh.scanned);
   if (!bvh.nodes.empty()) {
     const std::vector<std::int32_t> below = walk.below(0, 1);
     found.insert(found.end(), below.begin(), below.end());
   }
-  std::erase(found, -1);
+  std::erase(found, empty_slot);
   check_found(found, spheres);
   EXPECT_LE(walk.depth, bvh_max_depth);
   return walk;
