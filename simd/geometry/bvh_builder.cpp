@@ -118,7 +118,8 @@ void fill_tree(BinaryForest& forest, LargeArray<BuildSphere>& spheres,
                const ParallelFor& parallel_for, Filler& filler) {
   const Collapse collapse(forest, parallel_for);
   LargeArray<BvhNode> nodes(collapse.size());
-  collapse.make_upper(nodes.data());
+  // They lie far apart: written now, they would touch the pages of nearly all others.
+  const std::vector<Collapse::PlacedNode> upper = collapse.make_upper();
   ConsumedPages consumed(spheres.data());
   const std::vector<std::uint32_t>& order = forest.order();
   constexpr std::size_t at_once = tuning::subtrees_at_once;
@@ -132,6 +133,7 @@ void fill_tree(BinaryForest& forest, LargeArray<BuildSphere>& spheres,
     });
     consumed.consume(spheres.data() + forest.subtrees()[order[end - 1]].end);
   }
+  for (const auto& [index, node] : upper) nodes[index] = node;
   filler.set_nodes(std::move(nodes));
 }
 

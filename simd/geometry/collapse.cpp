@@ -114,20 +114,23 @@ void Collapse::plan(ForestNode at) {
   }
 }
 
-void Collapse::make_upper(BvhNode* nodes) const {
+std::vector<Collapse::PlacedNode> Collapse::make_upper() const {
+  std::vector<PlacedNode> nodes;
   std::size_t part = 0;
   make_upper(forest_.root(), part, nodes);
+  return nodes;
 }
 
 /// Goes through the parts in the order of their plan.
-void Collapse::make_upper(ForestNode at, std::size_t& part, BvhNode* nodes) const {
+void Collapse::make_upper(ForestNode at, std::size_t& part, std::vector<PlacedNode>& nodes) const {
   const std::size_t index = parts_[part++].first;
   if (at.tree != ForestNode::upper) return;
-  nodes[index] = make_node(forest_, at, [&](ForestNode child) {
+  const auto make = [&](ForestNode child) {
     const std::size_t first = parts_[part].first;
     make_upper(child, part, nodes);
     return first;
-  });
+  };
+  nodes.push_back({index, make_node(forest_, at, make)});
 }
 
 void Collapse::make_subtree(std::uint32_t subtree, BvhNode* nodes) const {

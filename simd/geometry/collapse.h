@@ -21,8 +21,13 @@ class Collapse {
   /// How many nodes there will be.
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Makes the nodes that belong to no subtree. Before any of these is dropped.
-  void make_upper(BvhNode* nodes) const;
+  /// A node and where it belongs.
+  struct PlacedNode {
+    std::size_t index;
+    BvhNode node;
+  };
+  /// The nodes that belong to no subtree, few. To be made before any of these is dropped.
+  [[nodiscard]] std::vector<PlacedNode> make_upper() const;
   /// Makes the nodes that lie within a subtree. Threads may make those of different ones.
   void make_subtree(std::uint32_t subtree, BvhNode* nodes) const;
 
@@ -38,7 +43,7 @@ class Collapse {
   };
 
   void plan(ForestNode at);
-  void make_upper(ForestNode at, std::size_t& part, BvhNode* nodes) const;
+  void make_upper(ForestNode at, std::size_t& part, std::vector<PlacedNode>& nodes) const;
 
   const BinaryForest& forest_;
   std::vector<Part> parts_;  ///< in depth-first order

@@ -163,17 +163,20 @@ TEST(Prepare, TellsWhatPrimaryRaysHaveInCommon) {
   EXPECT_EQ(prepare(scene, 10, 10).value().coherence, Coherence::common_direction);
 }
 
-TEST(Prepare, FindsMaterialsByIdSpheresThenPlanes) {
+TEST(Prepare, FindsMaterialsOfSpheresBySlotAndOfPlanesById) {
   Scene scene = empty_scene(10, 10);
   const auto red = add_material(scene, Matte{{1, 0, 0}});
   const auto blue = add_material(scene, Matte{{0, 0, 1}});
   scene.spheres = {{{0, 0, 0}, 1, blue}, {{0, 0, 0}, 2, red}};
   scene.planes = {{{0, 0, 0}, {0, 1, 0}, blue}, {{0, 0, 0}, {0, 1, 0}, red}};
   const auto prepared = prepare(scene, 10, 10);
-  const Color expected[] = {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, {1, 0, 0}};
-  for (int id = 0; id < 4; ++id) {
-    EXPECT_EQ(prepared.value().material_of(id).diffuse, expected[id]) << id;
+  const SphereView spheres = prepared.value().geometry.view().spheres;
+  for (std::uint32_t slot = 0; slot < 2; ++slot) {
+    const Color expected = spheres.id[slot] == 0 ? Color{0, 0, 1} : Color{1, 0, 0};
+    EXPECT_EQ(prepared.value().material_of({1, spheres.id[slot], slot}).diffuse, expected) << slot;
   }
+  EXPECT_EQ(prepared.value().material_of({1, 2}).diffuse, (Color{0, 0, 1}));
+  EXPECT_EQ(prepared.value().material_of({1, 3}).diffuse, (Color{1, 0, 0}));
 }
 
 TEST(FlatMaterial, HasTheTablesCoefficients) {

@@ -67,7 +67,7 @@ KernelTable kernels_in() {
 std::vector<std::uint32_t> picture(const Scene& scene, Structure structure,
                                    const KernelTable& kernels) {
   PreparedScene prepared = prepare(scene, side, side).value();
-  prepared.geometry = Geometry(prepared.spheres, prepared.planes, structure);
+  prepared.geometry = Geometry(scene.spheres, prepared.planes, structure);
   const BlockSetup setup{prepared, kernels, Sampler(2, 1), block_pixels(side), 16384, Alpha::none};
   BlockWorker worker(setup, std::make_unique<Whitted>(prepared, kernels, IntegratorSettings{}));
   const PixelRect all{0, 0, side, side};
