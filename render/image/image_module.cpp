@@ -5,55 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "render/image/descriptor_proxy.h"
 #include "render/image/image_module.h"
+#include "render/image/module_writer.h"
 
 namespace boule::image_module {
 namespace {
-
-/// Rows per call: whole zip blocks of EXR, which have 16 rows; at least one block per thread; and
-/// about a MiB otherwise, so that writing stops soon after a signal.
-int band_rows(const Picture& picture, const OIIO::ImageSpec& spec) {
-  constexpr int block = 16, most_blocks = 16;
-  constexpr size_t enough_bytes = 1 << 20;
-  const size_t block_bytes = static_cast<size_t>(spec.scanline_bytes(true)) * block;
-  const auto blocks = static_cast<int>(std::min<size_t>(enough_bytes / block_bytes, most_blocks));
-  return block * std::max(blocks, std::max(picture.threads, 1));
-}
-
-void fail(Report* report, const std::string& text) {
-  report->outcome = Outcome::failed;
-  const size_t length = std::min(text.size(), sizeof report->text - 1);
-  std::memcpy(report->text, text.data(), length);
-  report->text[length] = 0;
-}
-
-/// OpenImageIO's message in one line.
-std::string reason_of(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "OpenImageIO gives no reason" : text;
-}
-
-OIIO::TypeDesc type_of(SampleType type) {
-  switch (type) {
-    case SampleType::u8:
-      return OIIO::TypeDesc::UINT8;
-    case SampleType::u32:
-      return OIIO::TypeDesc::UINT32;
-    case SampleType::f32:
-      break;
-  }
-  return OIIO::TypeDesc::FLOAT;
-}
 
 void add_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
   switch (attribute.type) {
@@ -92,70 +54,6 @@ OIIO::ImageSpec spec_of(const Picture& picture) {
   return spec;
 }
 
-size_t size_of(SampleType type) { return type == SampleType::u8 ? 1 : 4; }
-
-/// Rows [begin, end) as OpenImageIO takes them: the samples of each pixel side by side, no gaps.
-void pack_rows(const Picture& picture, int begin, int end, std::vector<unsigned char>& packed) {
-  size_t pixel_size = 0;
-  for (size_t i = 0; i < picture.channel_count; ++i) {
-    pixel_size += size_of(picture.channels[i].type);
-  }
-  const auto width = static_cast<size_t>(picture.width);
-  const size_t first = static_cast<size_t>(begin) * width;
-  const size_t count = static_cast<size_t>(end - begin) * width;
-  packed.resize(count * pixel_size);
-  size_t offset = 0;
-  for (size_t i = 0; i < picture.channel_count; ++i) {
-    const Channel& channel = picture.channels[i];
-    const size_t size = size_of(channel.type);
-    const unsigned char* from = channel.samples + first * channel.stride;
-    unsigned char* to = packed.data() + offset;
-    for (size_t pixel = 0; pixel < count; ++pixel, from += channel.stride, to += pixel_size) {
-      std::memcpy(to, from, size);
-    }
-    offset += size;
-  }
-}
-
-/// Writes a few rows of noise, from `begin` on. libpng complains on standard error about a file
-/// that is closed without any pixels, and OpenImageIO does not prevent that. libpng keeps rows back
-/// while they compress well, but not noise.
-void write_noise(const Picture& picture, OIIO::ImageOutput& output, int begin) {
-  constexpr size_t enough_bytes = 1 << 16;
-  const auto row_bytes = static_cast<size_t>(output.spec().scanline_bytes(true));
-  const auto wanted = static_cast<int>(1 + enough_bytes / row_bytes);
-  const int end = std::min(picture.height, begin + wanted);
-  std::vector<unsigned char> noise(static_cast<size_t>(end - begin) * row_bytes);
-  std::uint32_t state = 1;
-  for (unsigned char& byte : noise) {
-    state = state * 1664525U + 1013904223U;  // Numerical Recipes 7.1
-    byte = static_cast<unsigned char>(state >> 24);
-  }
-  const int top = output.spec().y;
-  output.write_scanlines(top + begin, top + end, 0, output.spec().format, noise.data());
-}
-
-void write_bands(const Picture& picture, OIIO::ImageOutput& output, const DescriptorProxy& proxy,
-                 Report* report) {
-  std::vector<unsigned char> packed;
-  const int rows = band_rows(picture, output.spec());
-  for (int begin = 0; begin < picture.height && proxy.code() == 0; begin += rows) {
-    if (picture.stop(picture.context)) {
-      report->outcome = Outcome::stopped;
-      if (output.format_name() == std::string_view("png")) write_noise(picture, output, begin);
-      return;
-    }
-    const int end = std::min(begin + rows, picture.height);
-    pack_rows(picture, begin, end, packed);
-    const bool mixed = !output.spec().channelformats.empty();
-    const OIIO::TypeDesc type = mixed ? OIIO::TypeUnknown : type_of(picture.channels[0].type);
-    const int top = output.spec().y;
-    if (!output.write_scanlines(top + begin, top + end, 0, type, packed.data())) {
-      return fail(report, reason_of(output.geterror()));
-    }
-  }
-}
-
 /// The sizes of the two thread pools; 1 means that there is none. Only `start` changes them, one
 /// call at a time.
 int pool_threads = 1, exr_threads = 1;
@@ -183,24 +81,6 @@ std::unique_ptr<OIIO::ImageInput> make_input(const char* format) {
   auto input = OIIO::ImageInput::create(format);
   if (input) input->threads(1);
   return input;
-}
-
-void write_picture(const Picture& picture, int descriptor, Report* report) {
-  DescriptorProxy proxy(descriptor);
-  const auto output = OIIO::ImageOutput::create(picture.format);
-  if (!output) return fail(report, reason_of(OIIO::geterror()));
-  output->threads(picture.threads);
-  const std::string name = std::string("picture.") + picture.format;
-  if (!output->set_ioproxy(&proxy) || !output->open(name, spec_of(picture))) {
-    return fail(report, reason_of(output->geterror()));
-  }
-  write_bands(picture, *output, proxy, report);
-  const bool closed = output->close();
-  if (report->outcome == Outcome::done && !closed) fail(report, reason_of(output->geterror()));
-  if (const int code = proxy.finish()) {  // the cause of what OpenImageIO may complain about
-    report->outcome = Outcome::system_error;
-    report->code = code;
-  }
 }
 
 /// Whether a file's header has all that was wanted; formats may keep channels in another order.
@@ -353,8 +233,22 @@ void start(const char* format, int threads, Report* report) {
   guarded(report, [&] { start_threads(format, threads); });
 }
 
-void write(const Picture* picture, int descriptor, Report* report) {
-  guarded(report, [&] { write_picture(*picture, descriptor, report); });
+Writer* open(const Picture* picture, int descriptor, Report* report) {
+  std::unique_ptr<Writer> writer;
+  guarded(report, [&] {
+    writer = std::make_unique<Writer>(*picture, descriptor);
+    writer->open(spec_of(*picture), report);
+  });
+  return report->outcome == Outcome::done ? writer.release() : nullptr;
+}
+
+void put(Writer* writer, const Samples* samples, int rows, Report* report) {
+  guarded(report, [&] { writer->put(samples, rows, report); });
+}
+
+void close(Writer* writer, Report* report) {
+  const std::unique_ptr<Writer> owner(writer);
+  guarded(report, [&] { writer->close(report); });
 }
 
 void check(const Picture* picture, const char* path, Report* report) {
@@ -369,7 +263,7 @@ void read(PictureFile* file, Report* report) {
   guarded(report, [&] { read_picture(*file, report); });
 }
 
-constexpr Table table = {version, start, write, check, inspect, read};
+constexpr Table table = {version, start, open, put, close, check, inspect, read};
 
 /// What the loader looks for in the file before it runs any of the module.
 [[gnu::used]] constexpr auto mark = std::to_array(version_mark);

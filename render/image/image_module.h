@@ -9,19 +9,24 @@ namespace boule::image_module {
 
 /// Both change with any change of this file. The mark stands in the module's file, so the loader
 /// can refuse a module of another version before any of it has run.
-inline constexpr std::uint32_t version = 6;
-inline constexpr char version_mark[] = "boule image module, version 6.";
+inline constexpr std::uint32_t version = 7;
+inline constexpr char version_mark[] = "boule image module, version 7.";
 
 /// The module's one exported symbol: `const Table* boule_image_module()`.
 inline constexpr const char* entry_point = "boule_image_module";
 
 enum class SampleType : std::uint32_t { u8, u32, f32 };
 
-/// One channel of a picture. The sample of pixel i lies at samples + i * stride bytes.
+/// One channel of a picture.
 struct Channel {
   const char* name;
   SampleType type;
-  const unsigned char* samples;
+};
+
+/// The samples of a channel in some rows: that of pixel i, counted from the first of these rows on,
+/// lies at first + i * stride bytes.
+struct Samples {
+  const unsigned char* first;
   std::size_t stride;
 };
 
@@ -34,7 +39,7 @@ struct Attribute {
   const void* value;
 };
 
-/// A picture to write: pixels row by row from the top, as many in every channel.
+/// A picture to write. It must outlive its Writer.
 struct Picture {
   const char* format;  ///< OpenImageIO's name of the format
   int width, height;
@@ -91,6 +96,9 @@ struct WantedPicture {
   const void* context;
 };
 
+/// A file that is being written. It belongs to the module until `close`.
+struct Writer;
+
 /// The functions of the module.
 struct Table {
   std::uint32_t version;
@@ -98,8 +106,14 @@ struct Table {
   /// threads or fewer. Preconditions: it is called before the other functions are called for that
   /// format, and by one thread at a time.
   void (*start)(const char* format, int threads, Report* report);
-  /// Writes to an open, empty, seekable file.
-  void (*write)(const Picture* picture, int descriptor, Report* report);
+  /// Begins a picture in an open, empty, seekable file. Null, with a report, if that fails.
+  Writer* (*open)(const Picture* picture, int descriptor, Report* report);
+  /// Takes the next rows: their samples, by channel. The file does not depend on how many come at
+  /// once. Precondition: there are so many rows left, and no call before has failed.
+  void (*put)(Writer* writer, const Samples* samples, int rows, Report* report);
+  /// Ends the file and frees the writer. After all rows and no failure the picture is complete;
+  /// else the file is useless.
+  void (*close)(Writer* writer, Report* report);
   /// Opens a written file and reads its header, its first and its last row.
   void (*check)(const Picture* picture, const char* path, Report* report);
   /// Reads the header of a file and, if that is accepted, all rows.

@@ -291,15 +291,20 @@ TEST_F(WriteImage, CheckFindsTruncatedFiles) {
       {"bmp", image_module::SampleType::u8}};
   for (const auto& [format, type] : formats) {
     using image_module::Channel, image_module::Outcome;
-    const Channel channels[] = {
-        {"R", type, bytes.data(), 4}, {"G", type, bytes.data(), 4}, {"B", type, bytes.data(), 4}};
+    const Channel channels[] = {{"R", type}, {"G", type}, {"B", type}};
+    const image_module::Samples samples[] = {
+        {bytes.data(), 4}, {bytes.data(), 4}, {bytes.data(), 4}};
     const image_module::Picture picture{
         format, 40, 40, 0, 0, 40, 40, channels, 3, nullptr, 0, 1, [](const void*) { return false; },
         nullptr};
     test::write_bytes(at("a"), "");
     const int descriptor = open(at("a").c_str(), O_RDWR);
     image_module::Report report{};
-    table->write(&picture, descriptor, &report);
+    image_module::Writer* const writer = table->open(&picture, descriptor, &report);
+    ASSERT_NE(writer, nullptr) << format << report.text;
+    table->put(writer, samples, 40, &report);
+    ASSERT_EQ(report.outcome, Outcome::done) << format << report.text;
+    table->close(writer, &report);
     close(descriptor);
     ASSERT_EQ(report.outcome, Outcome::done) << format << report.text;
     table->check(&picture, at("a").c_str(), &report);
