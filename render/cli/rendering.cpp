@@ -111,6 +111,13 @@ PictureShape shape_of(const RenderOptions& options) {
   return shape;
 }
 
+/// Whether the file is written while the picture is rendered. Channels come first as a whole, what
+/// is kept or shown unfinished is in memory as a whole, and so is what goes into a pipe.
+bool comes_in_bands(const RenderCommand& command) {
+  return !command.partial && !command.checkpoint && !command.shard && !command.aovs.any() &&
+         !is_stream(command.output) && command.output != standard_output;
+}
+
 RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   RenderOptions options = options_of(scene);
   if (command.size) {
@@ -125,6 +132,7 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   options.outline = command.outline.value_or(options.outline);
   options.crop = command.crop;
   options.aovs = command.aovs;
+  options.in_bands = comes_in_bands(command);
   options.seed = command.seed;
   options.tile = command.tile;
   options.order =
@@ -205,6 +213,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
+  options.in_bands = options.in_bands && team_ == nullptr;
   if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
@@ -233,46 +242,9 @@ ExitCode Rendering::render(Renderer& renderer) {
   const StopGuard guard(stops ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
   if (command_.checkpoint || command_.shard || team_ != nullptr) return render_parts(renderer);
-  std::vector<ImageChannel> channels;
-  if (command_.aovs.any()) {  // first: a picture that is stopped has them too
-    live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
-    auto aovs = renderer.render_aovs();
-    if (!aovs) return explain(aovs.error());
-    channels = std::move(aovs).value();
-  }
-  live_.start_pass("pixels");
-  const auto image = make_image(renderer);
-  live_.end_pass();
-  live_.end_time_limit();
-  if (!image) return explain(image.error());
-  ImageFileOptions options = file_options(renderer);
-  options.channels = std::move(channels);
-  live_.start_stage("writing " + printable(shown_output(command_.output)));
-  const ExitCode written = write(image.value(), options);
-  const ExitCode end = written == done ? finish(renderer, image.value()) : written;
+  const ExitCode end =
+      renderer.options().in_bands ? render_bands(renderer) : render_whole(renderer);
   return end == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : end;
-}
-
-/// The finished picture; or, with --partial, the unfinished one where it was stopped.
-Result<Image> Rendering::make_image(Renderer& renderer) {
-  if (!command_.partial) return renderer.render();
-  // First: a picture that is stopped has its lines too.
-  const auto lines = renderer.render_outline();
-  if (!lines) return lines.error();
-  Film film(renderer.rect());
-  const Status status = renderer.render_live(film);
-  const Alpha alpha = alpha_of(renderer.options());
-  const auto with_lines = [&lines](Image image) {
-    lines.value().draw(image);
-    return image;
-  };
-  if (!status) return with_lines(film.to_image(alpha));
-  const PartialSamples samples{
-      film.total_samples(),
-      renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
-  if (!StopGuard::flag() || samples.done == 0) return *status;
-  partial_ = samples;
-  return with_lines(partial_picture(film, renderer.options().order, alpha));
 }
 
 /// Reports why a picture could not be made. The library knows that it was stopped, but not whether
@@ -297,35 +269,6 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.metadata = picture_header(renderer, scene_hash_, partial_);
   file.threads = static_cast<int>(renderer.statistics().threads);
   return file;
-}
-
-ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
-  const Stopwatch watch;
-  Status status;
-  // After rendering, a signal that StopGuard catches ends the waiting for a pipe's reader.
-  const auto caught = [before = StopGuard::caught()] { return StopGuard::caught() != before; };
-  {
-    const WriteGuard guard;
-    std::optional<RemovalGuard> removal;
-    options.stop = [&caught, stream = is_stream(command_.output)] {
-      return WriteGuard::interrupted() || (stream && caught());
-    };
-    options.temporary = [&](const std::string& path) {
-      removal.reset();
-      path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
-    };
-    status = command_.output == standard_output ? send_picture(image, *command_.format, options)
-                                                : write_image(image, command_.output, options);
-    removal.reset();
-    if (!status) {
-      set_written(live_.is_series() ? "the frames up to this one had been written"
-                                    : "the picture had been written");
-    }
-  }
-  exit_if_interrupted();
-  if (status && caught()) leave_as_caught();
-  stats_.write_seconds = watch.seconds();
-  return status ? refuse(*status, command_, failed) : done;
 }
 
 /// Writes the final line and the statistics.

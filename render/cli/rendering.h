@@ -51,6 +51,9 @@ class Rendering {
   Result<LoadedScene> load();
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
+  ExitCode render_whole(Renderer& renderer);
+  /// The same for a picture that is written while it is rendered.
+  ExitCode render_bands(Renderer& renderer);
   /// The same for a picture whose samples are kept: with a checkpoint, or of which this is a shard.
   ExitCode render_parts(Renderer& renderer);
   ExitCode prepare_parts(RenderOptions& options);
@@ -64,6 +67,9 @@ class Rendering {
   [[nodiscard]] bool writes() const { return team_ == nullptr || team_->leads(); }
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
+  /// Calls write(options), with what it must do at signals.
+  template <class Write>
+  Status guarded_write(ImageFileOptions options, const Write& write);
   ExitCode finish(const Renderer& renderer, const Image& image);
   void tell_end(const Renderer& renderer, const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;

@@ -1,5 +1,7 @@
 #include "render/renderer/render_options.h"
 
+#include <algorithm>
+
 #include "render/image/image.h"
 #include "render/memory/available_memory.h"
 #include "render/renderer/outline.h"
@@ -14,13 +16,26 @@ int least_tile(const RenderOptions& options) {
   return options.tile != 0 ? options.tile : smallest_fit;
 }
 
-Status check_picture_memory(const RenderOptions& options) {
+/// The most bytes that bands and the file's encoder take.
+std::uint64_t bytes_of_bands(const RenderOptions& options) {
+  constexpr std::uint64_t encoder = Bands::most_bytes;
+  const std::uint64_t whole = rendered_rect(options).area() * (sizeof(Color) + sizeof(float));
+  return std::min(whole, Bands::most_bytes) + std::min(whole, encoder);
+}
+
+std::uint64_t bytes_of_whole(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t alpha_bytes = options.transparent ? rect.area() * sizeof(float) : 0;
   const std::uint64_t line_bytes = options.outline > 0 ? Outline::bytes(rect) : 0;
-  const std::uint64_t needed = Film::bytes(rect) + rect.area() * sizeof(Color) + alpha_bytes +
-                               line_bytes + BlockOrder::bytes(rect, least_tile(options)) +
-                               AovChannels::bytes(options.aovs, rect);
+  return Film::bytes(rect) + rect.area() * sizeof(Color) + alpha_bytes + line_bytes +
+         AovChannels::bytes(options.aovs, rect);
+}
+
+Status check_picture_memory(const RenderOptions& options) {
+  const PixelRect rect = rendered_rect(options);
+  const std::uint64_t needed =
+      (options.in_bands ? bytes_of_bands(options) : bytes_of_whole(options)) +
+      BlockOrder::bytes(rect, least_tile(options));
   return check_memory(needed,
                       "a picture of " + std::to_string(rect.width()) + " x " +
                           std::to_string(rect.height()) + " pixels needs",
@@ -44,6 +59,12 @@ RenderOptions options_of(const Scene& scene) {
 
 PixelRect rendered_rect(const RenderOptions& options) {
   return options.crop.value_or(PixelRect{0, 0, options.width, options.height});
+}
+
+Bands bands_of(const RenderOptions& options, unsigned workers) {
+  const std::size_t alpha_bytes = options.transparent ? sizeof(float) : 0;
+  const std::size_t line_bytes = options.outline > 0 ? 1 : 0;
+  return {rendered_rect(options), options.tile, workers, sizeof(Color) + alpha_bytes + line_bytes};
 }
 
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres) {

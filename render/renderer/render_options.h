@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "render/frame/bands.h"
 #include "render/frame/film.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
@@ -37,7 +38,8 @@ struct RenderOptions {
   float outline = 0;              ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: none
   std::optional<PixelRect> crop;  ///< the pixels of the frame to render; all if there is none
   AovSelection aovs;              ///< which AOVs render_aovs() finds
-  PixelOrder order = PixelOrder::tiles;
+  bool in_bands = false;          ///< what is rendered needs memory for render_bands() only
+  PixelOrder order = PixelOrder::tiles;  ///< of all but render_bands()
   int tile = 0;              ///< side of a block in pixels, 1 .. 1024; 0: fitting_tile()
   unsigned threads = 0;      ///< 1024 at most; 0: as many as the hardware runs at once
   std::string isa = "auto";  ///< a name that select_kernels() knows
@@ -59,6 +61,10 @@ inline Alpha alpha_of(const RenderOptions& options) {
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);
+
+/// The bands of render_bands(). Precondition: validate() passes the options, with a tile that is
+/// not 0.
+Bands bands_of(const RenderOptions& options, unsigned workers);
 
 /// The side of a block in pixels: options.tile or, if that is 0, a side that suits the picture, the
 /// number of workers and the number of the scene's spheres. In a large block many rays are traced

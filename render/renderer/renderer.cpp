@@ -140,27 +140,35 @@ BlockWorker& Renderer::worker(unsigned index) {
   return *workers_[index];
 }
 
-/// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Renderer::run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span) {
+  const auto of_index = [&](unsigned index, std::size_t block) {
+    return task(worker(index), blocks_[block]);
+  };
+  return run_indexed(blocks_.size(), std::cref(of_index), span);
+}
+
+/// Closures are passed by reference, here and above: a copy takes memory, and can throw.
+Status Renderer::run_indexed(std::size_t count, const IndexedTask& task,
+                             const LiveProgress::PassSpan& span) {
   const Stopwatch watch;
   LiveProgress own;
   LiveProgress& live = options_.live != nullptr ? *options_.live : own;
-  live.begin_pass(blocks_.size(), span);
+  live.begin_pass(count, span);
   const auto report = [&] {
     if (options_.progress) options_.progress(live.read());
   };
   const auto body = [&](unsigned worker, std::size_t block) {
-    BlockWorker& mine = this->worker(worker);
-    const std::uint64_t before = mine.counts().total();
+    const auto& mine = workers_[worker];
+    const std::uint64_t before = mine ? mine->counts().total() : 0;
     live.begin_block();
-    if (!task(mine, blocks_[block])) return live.drop_block();
-    live.end_block(mine.counts().total() - before);
+    if (!task(worker, block)) return live.drop_block();
+    live.end_block(mine->counts().total() - before);
     if (worker == 0) report();
   };
-  Status status = scheduler_.run(blocks_.size(), std::cref(body), options_.cancel);
+  Status status = scheduler_.run(count, std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
   if (status) return status;
-  if (live.ended() != blocks_.size()) return Diagnostic::of("rendering was cancelled");
+  if (live.ended() != count) return Diagnostic::of("rendering was cancelled");
   return diagnose(std::cref(report));  // by reference: a copy of it takes memory
 }
 

@@ -21,6 +21,7 @@
 
 namespace boule {
 
+class BandQueue;
 class BlockTools;
 
 /// What rendering has cost, over all passes so far.
@@ -51,6 +52,12 @@ class Renderer {
   /// Renders the whole picture, or its crop, in one pass. The picture is the same as that of a film
   /// after render_pass(), without the memory of a film.
   Result<Image> render();
+
+  /// Renders the same picture in bands of rows from the top, so that only some of them are in
+  /// memory (Bands::most_bytes). Calls take(band) for each of them in order, on the threads that
+  /// render, one call at a time, while the others go on with the next ones. A Diagnostic of `take`
+  /// ends the rendering and is returned. statistics() leaves out the time that `take` cost.
+  Status render_bands(const std::function<Status(const Image& band)>& take);
 
   /// Renders until every pixel of the film has at least `until` samples, 1 .. spp. Call it again
   /// with the same film and a greater `until` to refine the picture; the result is the same as that
@@ -120,6 +127,11 @@ class Renderer {
   Status run_slice(Film& film, const LivePass& pass, LivePosition& position,
                    const BlockRange& range);
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
+  /// The same for blocks that the task knows by their index, and for worker(index).
+  using IndexedTask = std::function<bool(unsigned index, std::size_t block)>;
+  Status run_indexed(std::size_t count, const IndexedTask& task,
+                     const LiveProgress::PassSpan& span);
+  Status run_bands(const Bands& bands, BandQueue& queue);
   Status find_aovs(AovChannels& channels);
   Status find_lines(Outline& outline);
   template <class Worker, class Make, class Task>
