@@ -57,7 +57,7 @@ BEGIN {
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
-  owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <boost/", "^render/view/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/view/jpeg\\.cpp$", "libjpeg-turbo")
   owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")
