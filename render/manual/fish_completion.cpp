@@ -41,12 +41,12 @@ std::string option_line(const std::string& when, const OptionFacts& option) {
 std::string fish_completion(const std::vector<CommandFacts>& commands,
                             const std::string& functions) {
   std::string text = functions, names;
+  for (const CommandFacts& command : commands) names += command.name + " ";
   for (const CommandFacts& command : commands) {
     const bool is_program = command.name.empty();
     const std::string when = is_program ? "__boule_begins" : "__boule_in " + command.name;
     text += "\n";
     if (!is_program) {
-      names += (names.empty() ? "" : " ") + command.name;
       text += "complete -c boule -n __boule_begins -a " + command.name + " -d " +
               quoted(command.text) + "\n";
     }

@@ -43,8 +43,8 @@ void write_all(const std::string& folder, const std::string& functions,
 int main(int argc, char** argv) {
   try {
     if (argc != 5) throw std::runtime_error("usage: boule_manual FOLDER SOURCE VERSION DATE");
-    const std::string docs = argv[2];
-    write_all(argv[1],
+    const std::string source = argv[2], docs = source + "/docs";
+    write_all(argv[1], source + "/render/manual/functions",
               {argv[3], argv[4], read(docs + "/command_line.md"), read(docs + "/scene_format.md")});
     return 0;
   } catch (const std::exception& error) {

@@ -55,6 +55,18 @@ std::string synopsis_of(const CommandFacts& command) {
   return line;
 }
 
+/// What an option does, and the names that it takes where neither tells them.
+std::string meaning_of(const OptionFacts& option) {
+  const std::vector<std::string>& words = option.takes.words;
+  const auto is_told = [&option](const std::string& word) {
+    return (option.value + option.text).find(word) != std::string::npos;
+  };
+  if (std::all_of(words.begin(), words.end(), is_told)) return roff_literal(option.text);
+  std::string names;
+  for (const std::string& word : words) names += (names.empty() ? "" : ", ") + word;
+  return roff_literal(option.text + ". Names: " + names);
+}
+
 /// The options of a command, under the headings of its help.
 std::string options_of(const CommandFacts& command) {
   std::vector<std::string> groups;
@@ -66,7 +78,7 @@ std::string options_of(const CommandFacts& command) {
   for (const std::string& group : groups) {
     if (groups.size() > 1 && group != "Options") roff += ".SS " + roff_literal(group) + "\n";
     for (const OptionFacts& option : command.options) {
-      if (option.group == group) roff += roff_entry(term_of(option), roff_literal(option.text));
+      if (option.group == group) roff += roff_entry(term_of(option), meaning_of(option));
     }
   }
   return roff;
@@ -110,10 +122,13 @@ bool is_option_table(const Block& block) {
   return block.kind == BlockKind::table && block.rows.front().front() == "option";
 }
 
-/// Blocks that are commands to try, or the others but for tables of options.
+/// Blocks that are commands to try, or the others but for tables of options and what announces
+/// them.
 Blocks blocks_of(const Section& section, bool examples) {
   Blocks blocks;
   for (const Block& block : section.blocks) {
+    const bool announced = !blocks.empty() && blocks.back().text.ends_with(':');
+    if (is_option_table(block) && announced) blocks.pop_back();
     const bool is_example = block.kind == BlockKind::code && block.text == "sh";
     if (is_example == examples && !is_option_table(block)) blocks.push_back(block);
   }
@@ -195,7 +210,7 @@ ManualFile program_page(const std::vector<Section>& sections,
 ManualFile scene_page(const std::vector<Section>& sections, const ManualSources& sources) {
   Blocks blocks = parse_markdown(sources.scene_format);
   blocks.erase(blocks.begin());  // the title
-  std::string text = head("boule-scene", 5, "scene files of boule", sources);
+  std::string text = head("boule-scene", 5, "scene files of Boule", sources);
   text += ".SH DESCRIPTION\n" + roff_blocks(blocks, 2);
   return {"boule-scene.5", text + see_also(sections, "")};
 }

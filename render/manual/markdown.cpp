@@ -77,7 +77,7 @@ class Parser {
       begin(BlockKind::heading, line.substr(level + 1));
       blocks_.back().level = static_cast<int>(level);
       end();
-    } else if (text.front() == '|') {
+    } else if (text.size() > 1 && text.front() == '|' && text.back() == '|') {
       if (!open_ || blocks_.back().kind != BlockKind::table) begin(BlockKind::table, "");
       if (!is_rule(text)) blocks_.back().rows.push_back(cells_of(text));
     } else if (mark > 0) {

@@ -49,6 +49,21 @@ Span span_of(std::string_view text, std::size_t at, std::string_view begin, std:
   return {text.substr(from, to - from), to + end.size()};
 }
 
+/// The words of a link, "[words](" at text[at]; code among them may have brackets.
+Span link_words(std::string_view text, std::size_t at) {
+  if (at >= text.size() || text[at] != '[') return {};
+  bool in_code = false;
+  for (std::size_t i = at + 1; i < text.size(); ++i) {
+    if (text[i] == '`') in_code = !in_code;
+    if (in_code) continue;
+    if (text[i] == '[') return {};
+    if (text[i] == ']')
+      return text.substr(i).starts_with("](") ? Span{text.substr(at + 1, i - at - 1), i + 2}
+                                              : Span{};
+  }
+  return {};
+}
+
 std::string file_of(std::string_view path) {
   return std::string(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
 }
@@ -69,13 +84,12 @@ std::string take_inline(std::string_view text, std::size_t& at) {
     return "\\fI" + roff_text(soft.inside) + "\\fP";
   }
   const bool is_picture = text.substr(at).starts_with("![");
-  const Span words = span_of(text, at + (is_picture ? 1 : 0), "[", "](");
-  if (is_picture || (words.next > 0 && words.inside.find('[') == std::string_view::npos)) {
-    const std::size_t begin = is_picture ? text.find("](", at) + 2 : words.next;
-    const std::size_t end = std::min(text.find(')', begin), text.size() - 1);
+  if (const Span words = link_words(text, at + (is_picture ? 1 : 0)); words.next > 0) {
+    const std::size_t end = std::min(text.find(')', words.next), text.size() - 1);
     go(end + 1);
     if (!is_picture) return roff_text(words.inside);
-    return "[picture " + roff_letters(file_of(text.substr(begin, end - begin)), true) + "]";
+    const std::string_view path = text.substr(words.next, end - words.next);
+    return "[picture " + roff_letters(file_of(path), true) + "]";
   }
   return roff_letter(text[at++] == '\n' ? ' ' : text[at - 1], false);
 }
@@ -103,11 +117,13 @@ std::string roff_heading(const Block& block, int top) {
 /// A row's meaning: all cells but the first, each with its column's name where that tells more.
 std::string meaning_of(const std::vector<std::string>& heads, const std::vector<std::string>& row) {
   std::string meaning;
+  bool after_default = false;
   for (std::size_t i = 1; i < row.size(); ++i) {
     if (row[i].empty()) continue;
     const bool is_default = i < heads.size() && heads[i] == "default";
     const bool is_named = row.size() > 2 && i < heads.size() && heads[i] != "meaning";
-    if (!meaning.empty()) meaning += meaning.back() == ')' ? " " : "; ";
+    if (!meaning.empty()) meaning += after_default ? " " : "; ";
+    after_default = is_default;
     if (is_default) {
       meaning += "(" + row[i] + ")";
     } else {
@@ -169,7 +185,7 @@ std::string roff_entry(std::string_view term, std::string_view meaning) {
 }
 
 std::string roff_example(const std::vector<std::string>& lines) {
-  std::string roff = ".PP\n.RS 4\n.nf\n";
+  std::string roff = ".RS 4\n.nf\n";
   for (const std::string& line : lines) {
     const std::string literal = roff_letters(line, true);
     const bool is_request = literal.starts_with('.') || literal.starts_with('\'');
@@ -181,9 +197,12 @@ std::string roff_example(const std::vector<std::string>& lines) {
 std::string roff_blocks(const std::vector<Block>& blocks, int top) {
   std::string roff;
   int number = 0;
-  BlockKind before = BlockKind::heading;
+  bool is_first = true;  // below its heading
   for (const Block& block : blocks) {
     number = block.kind == BlockKind::number ? number + 1 : 0;
+    const bool is_text = block.kind == BlockKind::paragraph || block.kind == BlockKind::code;
+    if (is_text && !is_first) roff += ".PP\n";
+    is_first = block.kind == BlockKind::heading;
     switch (block.kind) {
       case BlockKind::heading:
         roff += roff_heading(block, top);
@@ -199,10 +218,9 @@ std::string roff_blocks(const std::vector<Block>& blocks, int top) {
         roff += roff_item(block, number);
         break;
       case BlockKind::paragraph:
-        roff += (before == BlockKind::heading ? "" : ".PP\n") + roff_lines(roff_text(block.text));
+        roff += roff_lines(roff_text(block.text));
         break;
     }
-    before = block.kind;
   }
   return roff;
 }

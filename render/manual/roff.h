@@ -22,7 +22,7 @@ std::string roff_lines(std::string_view roff);
 /// ".TP", the term, and what it means; both as roff.
 std::string roff_entry(std::string_view term, std::string_view meaning);
 
-/// Lines that keep their breaks and blanks, such as commands.
+/// Lines that keep their breaks and blanks, such as commands; begins no paragraph.
 std::string roff_example(const std::vector<std::string>& lines);
 
 /// Blocks of a document. A heading of level `top` becomes a section (.SH), all below it .SS. The
