@@ -124,11 +124,9 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
     options.width = command.size->width;
     options.height = command.size->height;
   }
-  options.noise = command.noise.value_or(options.noise);
+  choose_samples(command.spp, command.noise, options);
   options.min_spp = command.min_spp.value_or(options.min_spp);
   options.exposure_stops = command.exposure_stops;
-  if (command.noise && options.noise > 0) options.spp = usual_max_spp;
-  if (command.spp) options.spp = *command.spp;
   options.filter = command.filter.value_or(options.filter);
   options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
@@ -293,14 +291,14 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   live_.end_stage();
   try {
     report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
-    tell_end(renderer, image);
+    tell_end(image);
     for (const std::string& text : fault_notes(rendering.faults)) report_.note(text);
   } catch (const std::bad_alloc&) {  // the picture is written: a missing line is no failure
   }
   return report_.finish(stats_);
 }
 
-void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
+void Rendering::tell_end(const Image& image) const {
   const std::string cause = StopGuard::caught() != 0
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");

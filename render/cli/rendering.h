@@ -73,7 +73,7 @@ class Rendering {
   template <class Write>
   Status guarded_write(ImageFileOptions options, const Write& write);
   ExitCode finish(const Renderer& renderer, const Image& image);
-  void tell_end(const Renderer& renderer, const Image& image) const;
+  void tell_end(const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 

@@ -123,11 +123,9 @@ RenderOptions combine(const Scene& scene, const Wishes& wishes) {
   RenderOptions options = options_of(scene);
   if (wishes.size)
     std::tie(options.width, options.height) = std::tuple((*wishes.size)[0], (*wishes.size)[1]);
-  if (wishes.noise) {
-    options.noise = static_cast<float>(*wishes.noise);
-    if (options.noise > 0) options.spp = usual_max_spp;
-  }
-  options.spp = wishes.spp.value_or(options.spp);
+  std::optional<float> noise;
+  if (wishes.noise) noise = static_cast<float>(*wishes.noise);
+  choose_samples(wishes.spp, noise, options);
   options.min_spp = wishes.min_spp.value_or(options.min_spp);
   options.exposure_stops = static_cast<float>(wishes.exposure.value_or(0));
   options.filter = wishes.filter.value_or(options.filter);

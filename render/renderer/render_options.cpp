@@ -82,6 +82,12 @@ RenderOptions options_of(const Scene& scene) {
   return options;
 }
 
+void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options) {
+  if (noise && *noise > 0) options.spp = usual_max_spp;
+  options.spp = spp.value_or(options.spp);
+  options.noise = noise.value_or(spp ? 0 : options.noise);
+}
+
 NoiseTarget noise_target(const RenderOptions& options) {
   return {options.noise, options.min_spp, options.spp, options.exposure_stops, options.transparent};
 }

@@ -71,6 +71,9 @@ NoiseTarget noise_target(const RenderOptions& options);
 /// The most samples of a pixel where noise is asked for and nobody says how many.
 inline constexpr int usual_max_spp = 4096;
 
+/// Sets what somebody wishes beside the scene: each of the two sets the scene's other one aside.
+void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options);
+
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);
 

@@ -59,20 +59,12 @@ TEST_F(Shards, CropsAndOtherFormatsToo) {
 
 /// Each pixel with the samples that its noise needs: no shard knows the pixels of the others.
 TEST_F(Shards, PicturesWhoseNoiseIsAskedForToo) {
-  const auto with = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"render",  small_scene(),  "--size",           "97x61",
-                                      "--noise", "0.1",          "--min-spp",        "16",
-                                      "--spp",   "64",           "--outline",        "1",
-                                      "-q",      "--aov",        "id,noise,samples", "--method",
-                                      "path",    "--background", "transparent"};
-    words.insert(words.end(), more.begin(), more.end());
-    return boule_run(words).exit_code;
-  };
-  ASSERT_EQ(with({"-o", path("whole.exr")}), 0);
+  ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
   std::vector<std::string> films;
-  for (const char* const shard : {"1/3", "2/3", "3/3"}) {
-    films.push_back(path(std::string("p") + shard[0] + ".film"));
-    ASSERT_EQ(with({"-o", films.back(), "--shard", shard}), 0);
+  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
+    const std::string film = "p" + shard.substr(0, 1) + ".film";
+    films.push_back(path(film));
+    ASSERT_EQ(boule_run(render_noise(film, {"--shard", shard})).exit_code, 0);
   }
   const ProgramRun run = boule_run(merge(films));
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -71,7 +71,7 @@ TEST(PixelNoise, AHalfWidthIsSeenThroughTheCurve) {
   EXPECT_EQ(displayed_half_width(2, 0.5), 0);  // white whatever it is
   EXPECT_EQ(displayed_half_width(0, 0.002), srgb_from_linear(0.002));
   EXPECT_EQ(displayed_half_width(0.5, 0.1), srgb_from_linear(0.5) - srgb_from_linear(0.4));
-  EXPECT_EQ(displayed_half_width(1.5, 1), 1 - srgb_from_linear(0.5));
+  EXPECT_EQ(displayed_half_width(1.5, 1), srgb_from_linear(1) - srgb_from_linear(0.5));
   EXPECT_EQ(displayed_half_width(0.001, 0.5), srgb_from_linear(0.501) - srgb_from_linear(0.001));
 }
 

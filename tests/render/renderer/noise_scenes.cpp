@@ -162,9 +162,9 @@ std::vector<NoiseScene> noise_scenes() {
     scenes.push_back({name, "", true});
   const std::string room = in_a_room;
   scenes.push_back({"figure", figure_text(), false});
-  scenes.push_back({"lamp in glass", room + lamp_in_glass, false});
+  scenes.push_back({"lamp in glass", room + lamp_in_glass, false, true});
   scenes.push_back({"lamp through glass", room + lamp_through_glass, false});
-  scenes.push_back({"lamp in mirror", room + lamp_in_mirror, false});
+  scenes.push_back({"lamp in mirror", room + lamp_in_mirror, false, true});
   scenes.push_back({"sun in sky", sun_in_sky, false});
   return scenes;
 }

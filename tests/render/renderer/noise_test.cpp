@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
 
 #include "core/math/random.h"
 #include "render/renderer/noise_block.h"
@@ -93,14 +96,15 @@ TEST(Noise, SamplesStayWithinTheirBoundsAndNoisyPixelsGetMore) {
   for (const MeasuredPixel& pixel : picture.pixels()) {
     fewest = std::min(fewest, pixel.samples);
     most = std::max(most, pixel.samples);
-    if (pixel.samples == 16) EXPECT_LT(pixel.noise, 0.06F);
+    if (pixel.samples == 16) {
+      EXPECT_LT(pixel.noise, 0.06F);
+    }
   }
   EXPECT_EQ(fewest, 16U);
   EXPECT_EQ(most, 200U);
   options.noise = 1;
-  for (const MeasuredPixel& pixel : measured(scene, options).pixels()) {
-    EXPECT_EQ(pixel.samples, 16U);
-  }
+  const MeasuredPicture coarse = measured(scene, options);
+  for (const MeasuredPixel& pixel : coarse.pixels()) EXPECT_EQ(pixel.samples, 16U);
 }
 
 TEST(Noise, ABrighterExposureNeedsMoreSamplesOfWhatIsDark) {
@@ -165,13 +169,13 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
 }
 
 TEST(Noise, TheMeanOfRareBrightSamplesIsUnbiased) {
-  constexpr int blocks = 40;
-  for (const double probability : {0.01, 0.05, 0.3}) {
+  constexpr int blocks = 10;
+  for (const double probability : {0.02, 0.3}) {
     double samples = 0;
     const double mean = mean_of_rare_samples(probability, blocks, &samples);
     EXPECT_GT(samples, 20);
     // A pixel of n samples in either half has the variance p (1 - p) / 2n, which is greatest where
-    // n is 8. Five standard errors; one that stops by its own samples is off by over ten.
+    // n is 8. Five standard errors: pixels that stop by their own samples are off by 5.8 and 9.8.
     const double variance = probability * (1 - probability) / 16 / (1024.0 * blocks);
     EXPECT_NEAR(mean, probability, 5 * std::sqrt(variance)) << probability;
   }
