@@ -115,7 +115,7 @@ try_line() {
   line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
   # A slow machine is no fault, nor are pictures of these pages tried at their size.
   line="$(sed -E 's/--time-limit [0-9]+[a-z]+/--time-limit 1h/' <<<"$line")"
-  [[ "$where" != docs/@(gallery.md|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
+  [[ "$where" != docs/@(gallery.md:*|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
   mapfile -t words < <(xargs -r printf '%s\n' <<<"$line")  # as the shell does, quotes and all
   ((${#words[@]} > 0)) || return 0
   tried=$((tried + 1))
