@@ -75,6 +75,8 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   if (tree.empty() || !is_within(own, tree)) {
     // Beside another folder, say /tmp/mine, the library folder could be anybody's.
     if (own.filename() == BOULE_PROGRAM_FOLDER) folders.push_back(installed);
+    // The shared library.
+    if (own.filename() == BOULE_SHARED_FOLDER) folders.push_back(own / "boule");
     return folders;
   }
   if (is_within(installed, tree)) folders.push_back(installed);
