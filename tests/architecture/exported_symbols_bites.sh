@@ -43,7 +43,7 @@ check() {
 status=0
 check api.map || status=$?
 ((status == 0)) || { cat api.map said; echo "finds faults where there are none"; exit 1; }
-grep -q '^5 functions are shown, 1 are hidden' said || { cat said; echo "counts otherwise"; exit 1; }
+grep -q '^4 functions are shown, 1 are hidden' said || { cat said; echo "counts otherwise"; exit 1; }
 
 # bites SED WHAT: the version script, changed, is noticed by these words.
 bites() {
