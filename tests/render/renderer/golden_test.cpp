@@ -40,8 +40,8 @@ std::vector<Golden> goldens() {
       {"every feature, higher than wide", mixed_scene(19, 37), 4, 0xf98ce3cc6a82f0d4},
       {"orthographic", parallel, 1, 0xd169a17a2310321f},
       {"a crowd of glass and mirrors", glass_cloud(32, 32), 1, 0xd31a1f403a3353e8},
-      {"every feature, by path tracing", path, 4, 0},
-      {"a crowd of glass and mirrors, by path tracing", path_cloud, 4, 0},
+      {"every feature, by path tracing", path, 4, 0xaa71cd7685fe7507},
+      {"a crowd of glass and mirrors, by path tracing", path_cloud, 4, 0xcfe712ed30fb59f3},
   };
 }
 
