@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/scene/scene.h"
+#include "render/cli/command_app.h"
 #include "render/cli/look_options.h"
 #include "render/cli/look_values.h"
 #include "render/cli/option_kinds.h"
@@ -54,6 +55,17 @@ void add_size(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--spp", command.spp, rule::samples.low, rule::samples.high, "Samples per pixel");
 }
 
+void add_noise(CLI::App& app, RenderCommand& command) {
+  add_parsed(
+      app, "--noise", command.noise,
+      [](const std::string& text) { return parse_number(text, 0.0F, 1.0F); },
+      "a number from 0 to 1", "X",
+      "Samples until each pixel is right to X of 0..1 as it is shown (95 %), --spp at most "
+      "(4096); 0.004 is a step of 8 bits; 0: --spp for all");
+  add_whole(app, "--min-spp", command.min_spp, rule::least_samples.low, rule::least_samples.high,
+            "With --noise: the fewest samples of a pixel (32)");
+}
+
 void add_order(CLI::App& app, RenderCommand& command, const std::string& help) {
   add_choice(app, "--order", command.order, choices<PixelOrder>(), help);
 }
@@ -62,6 +74,7 @@ void add_order(CLI::App& app, RenderCommand& command, const std::string& help) {
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Picture");
   add_size(app, command);
+  add_noise(app, command);
   add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_parsed(app, "--background", command.background, parse_background,
@@ -303,15 +316,25 @@ void add_commands(CLI::App& app, Commands& commands) {
   add("version", "Tell the version");
 }
 
+constexpr const char* version = "boule " BOULE_VERSION;
+
+/// Tells the app all that can be typed; `commands` takes it.
+void describe(CLI::App& app, Commands& commands) {
+  app.set_version_flag("--version", version, "Tell the version");
+  app.require_subcommand(1);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  add_commands(app, commands);
+}
+
 /// The command that was chosen, or what is wrong with it.
-Command chosen_command(const CLI::App& app, Commands& commands, const std::string& version) {
+Command chosen_command(const CLI::App& app, Commands& commands) {
   const auto is_chosen = [&app](const char* name) { return app.got_subcommand(name); };
   const auto checked = [&app](const char* name, auto& command, LookOptions& look) -> Command {
     if (auto bad = check_look_options(*app.get_subcommand(name), look)) return *bad;
     return command;
   };
   if (is_chosen("help")) return help_on(app, commands.help_topic);
-  if (is_chosen("version")) return TextCommand{version + "\n"};
+  if (is_chosen("version")) return TextCommand{std::string(version) + "\n"};
   if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
   if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
@@ -325,22 +348,25 @@ Command chosen_command(const CLI::App& app, Commands& commands, const std::strin
 
 Command parse_command_line(int argc, const char* const* argv) {
   Commands commands;
-  const std::string version = "boule " BOULE_VERSION;
   CLI::App app(description, "boule");
-  app.set_version_flag("--version", version);
-  app.require_subcommand(1);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  add_commands(app, commands);
+  describe(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     return help_text(app.help());  // of the command that was chosen, if any
   } catch (const CLI::CallForVersion&) {
-    return TextCommand{version + "\n"};
+    return TextCommand{std::string(version) + "\n"};
   } catch (const CLI::ParseError& error) {
     return explain_usage(app, error);
   }
-  return chosen_command(app, commands, version);
+  return chosen_command(app, commands);
+}
+
+void visit_commands(const std::function<void(const CLI::App&)>& visit) {
+  Commands commands;
+  CLI::App app(description, "boule");
+  describe(app, commands);
+  visit(app);
 }
 
 }  // namespace boule::cli
