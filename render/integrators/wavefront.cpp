@@ -1,6 +1,7 @@
 #include "render/integrators/wavefront.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace boule {
@@ -8,11 +9,12 @@ namespace boule {
 void Wavefront::start(RayBuffer& camera_rays) {
   const std::size_t samples = camera_rays.size();
   if (samples > most_samples_) {
-    camera_throughput_.resize(samples, 1);
-    camera_density_.resize(samples);
-    camera_sample_.resize(samples);
-    most_samples_ = samples;
-    for (std::size_t k = 0; k < samples; ++k) camera_sample_[k] = static_cast<std::uint32_t>(k);
+    most_samples_ = std::bit_ceil(samples);
+    camera_throughput_.resize(most_samples_, 1);
+    camera_density_.resize(most_samples_);
+    camera_sample_.resize(most_samples_);
+    for (std::size_t k = 0; k < most_samples_; ++k)
+      camera_sample_[k] = static_cast<std::uint32_t>(k);
   }
   // A run that was cancelled or failed may have left streams.
   if (running_) spare_.push_back(std::move(running_));
