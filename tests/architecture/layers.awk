@@ -20,7 +20,7 @@ BEGIN {
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
+  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(frame|image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
   layer("^render/file/", "^(core|render/(memory|file))/", any)
   layer("^render/particle_file/", "^(core|render/(memory|file|particle_file))/", any)
