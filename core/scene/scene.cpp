@@ -137,11 +137,11 @@ Status validate_all_but_primitives(const Scene& scene) {
   return std::nullopt;
 }
 
-Status validate(const Scene& scene, const ParallelFor& parallel_for) {
+Status validate_in_parallel(const Scene& scene, const ParallelFor& parallel_for) {
   if (auto bad = validate_all_but_primitives(scene)) return bad;
   return check_objects(scene, parallel_for);
 }
 
-Status validate(const Scene& scene) { return validate(scene, serial_for); }
+Status validate(const Scene& scene) { return validate_in_parallel(scene, serial_for); }
 
 }  // namespace boule

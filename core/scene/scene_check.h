@@ -7,6 +7,6 @@ namespace boule {
 
 /// validate(scene), whose spheres several threads check. The Diagnostic is the same for any of
 /// them. Passes on what `parallel_for` throws.
-Status validate(const Scene& scene, const ParallelFor& parallel_for);
+Status validate_in_parallel(const Scene& scene, const ParallelFor& parallel_for);
 
 }  // namespace boule

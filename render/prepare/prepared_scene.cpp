@@ -125,7 +125,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                               Method method) {
   const FloatEnvironment floats;
   if (auto bad = check_size(width, height)) return *bad;
-  if (auto bad = validate(scene, parallel_for)) return *bad;
+  if (auto bad = validate_in_parallel(scene, parallel_for)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;
   if (auto bad = add_camera(scene, width, height, parallel_for, notes)) return *bad;
