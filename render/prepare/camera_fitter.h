@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/camera.h"
 #include "core/scene/camera_fit.h"
 #include "core/scene/primitive.h"
@@ -18,7 +19,7 @@ class CameraFitter {
   /// `view` does not lie along its direction.
   CameraFitter(const CameraFit& fit, const View& view, int width, int height);
 
-  void add(const std::vector<Sphere>& spheres);
+  void add(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
 
   /// The camera. It looks at the middle of the spheres' depths. Its coordinates are floats: the
   /// spheres are taken as larger by 2^-20 of the largest coordinate and of the eye's distance, so
@@ -37,6 +38,8 @@ class CameraFitter {
     double high = std::numeric_limits<double>::infinity();  ///< from the right or the upper one
   };
 
+  void add(const Sphere& sphere);
+  void add(const CameraFitter& other);
   [[nodiscard]] Camera pinhole() const;
   [[nodiscard]] Camera orthographic() const;
   [[nodiscard]] CameraPose pose_at(double x, double y, double depth) const;

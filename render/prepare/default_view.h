@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/math/vec.h"
 #include "core/scene/camera_fit.h"
 #include "core/scene/primitive.h"
@@ -21,6 +22,6 @@ struct View {
 /// Precondition: fit's vectors are finite and not zero. A fit whose up lies along its direction
 /// gives such a View.
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
-                  const std::vector<Plane>& planes);
+                  const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

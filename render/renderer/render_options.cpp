@@ -19,7 +19,7 @@ int least_tile(const RenderOptions& options) {
 
 /// The most bytes that bands and the file's encoder take.
 std::uint64_t bytes_of_bands(const RenderOptions& options) {
-  constexpr std::uint64_t encoder = Bands::most_bytes;
+  constexpr std::uint64_t encoder = std::uint64_t{40} << 20;
   const std::uint64_t whole = rendered_rect(options).area() * (sizeof(Color) + sizeof(float));
   return std::min(whole, Bands::most_bytes) + std::min(whole, encoder);
 }
@@ -50,13 +50,12 @@ Status validate_noise(const RenderOptions& options) {
     return Diagnostic::about("render.noise", "must be " + describe(rule::noise));
   if (auto bad = check_range("render.min_spp", options.min_spp, rule::least_samples)) return bad;
   if (options.noise > 0 && options.spp < options.min_spp) {
-    return Diagnostic::about("image.spp",
-                             "is the most samples where noise is asked for, and must "
-                             "be at least min_spp, which is " +
-                                 std::to_string(options.min_spp));
+    return Diagnostic::about("image.spp", "must be at least " + std::to_string(options.min_spp) +
+                                              ", the min_spp, where noise is asked for");
   }
   if (!(options.noise > 0) && (options.aovs.noise || options.aovs.samples)) {
-    return Diagnostic::about("aov", "noise and samples are told where noise is asked for only");
+    return Diagnostic::about("aov",
+                             "has noise or samples, which are told where noise is asked for only");
   }
   constexpr NumberRule stops{.low = -126, .high = 126};
   if (!stops.allows(double{options.exposure_stops}))

@@ -67,7 +67,7 @@ Result<LoadedScene> TomlReader::read() {
   root_.finish();
   if (!root_.has("schema")) root_.report("schema", "missing key 'schema': write schema = 1");
 
-  if (image) scene_.image = read_image(*image);
+  if (image) scene_.image = read_image_settings(*image);
   if (render) scene_.render = read_render(*render);
   TomlObjects reader(scene_, error_, options_);
   reader.read_materials(std::move(materials));
