@@ -73,7 +73,7 @@ void read_particle_table(TomlTable& table) {
 /// How the table of a kind is read.
 void read_table(const std::string& kind, TomlTable& table) {
   Scene scene;
-  if (kind == "image") return table.check(find_problem(read_image(table)));
+  if (kind == "image") return table.check(find_problem(read_image_settings(table)));
   if (kind == "render") return table.check(find_problem(read_render(table)));
   if (kind == "background") return static_cast<void>(read_background(table, scene));
   if (kind == "material") return static_cast<void>(read_material(table));

@@ -251,12 +251,12 @@ TEST(Elementary, PowIsExactWhereItSaysSo) {
 }
 
 TEST(Elementary, PowOfWhatHasNoPowerIsNaN) {
-  EXPECT_TRUE(std::isnan(elementary::pow(-1, 2)));
-  EXPECT_TRUE(std::isnan(elementary::pow(-inf, 1)));
-  EXPECT_TRUE(std::isnan(elementary::pow(nan, 0)));
-  EXPECT_TRUE(std::isnan(elementary::pow(nan, 1)));
-  EXPECT_TRUE(std::isnan(elementary::pow(2, nan)));
-  EXPECT_TRUE(std::isnan(elementary::pow(1, nan)));
+  EXPECT_TRUE(std::isnan(elementary::pow(-1.0, 2.0)));
+  EXPECT_TRUE(std::isnan(elementary::pow(-inf, 1.0)));
+  EXPECT_TRUE(std::isnan(elementary::pow(nan, 0.0)));
+  EXPECT_TRUE(std::isnan(elementary::pow(nan, 1.0)));
+  EXPECT_TRUE(std::isnan(elementary::pow(2.0, nan)));
+  EXPECT_TRUE(std::isnan(elementary::pow(1.0, nan)));
 }
 
 TEST(Elementary, TanAtTheEdges) {

@@ -74,7 +74,8 @@ void expect_density(const Warp& warp, const Density& density, double lowest) {
 }
 
 TEST(Warp, SamplesFollowTheirDensities) {
-  expect_density([](double u) { return warp_to_cosine(u); }, cosine_density, 0);
+  expect_density([](double u) { return warp_to_cosine(u); },
+                 [](double c) { return cosine_density(c); }, 0);
   for (const double n : {0.5, 1.0, 7.5, 60.0}) {
     expect_density([&](double u) { return warp_to_power(u, n); },
                    [&](double c) { return power_density(std::pow(c, n), n); }, 0);
