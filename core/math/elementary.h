@@ -144,7 +144,7 @@ BOULE_INLINE T pow(const T& x, const T& y) {
   const T at_end = select(select(x == zero, up, y <= zero), zero, T(inf));
   const T known = select((x == zero) | (x == T(inf)), at_end, finite);
   const T power = select((y == zero) | (x == one), one, known);
-  return select(select(zero <= x, y == y, x < x), power, T(inf - inf));
+  return select((zero <= x) & ((y <= zero) | (zero < y)), power, T(inf - inf));
 }
 
 inline double pow(double x, double y) { return pow<double>(x, y); }
