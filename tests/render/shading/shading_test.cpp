@@ -46,8 +46,8 @@ TEST(Dielectric, ReflectsTotallyBeyondTheCriticalAngle) {
   const double critical = std::asin(1 / 1.5);
   EXPECT_FALSE(refract(coming_down(critical - 1e-6), up, std::cos(critical - 1e-6), 1.5).total);
   EXPECT_TRUE(refract(coming_down(critical + 1e-6), up, std::cos(critical + 1e-6), 1.5).total);
-  EXPECT_TRUE(refract({1, 0, 0}, up, 0, 1).total);  // along the surface nothing goes through
-  EXPECT_FALSE(refract({1, 0, 0}, up, 0, 0.99).total);
+  EXPECT_TRUE(refract({1, 0, 0}, up, 0.0, 1.0).total);  // along the surface nothing goes through
+  EXPECT_FALSE(refract({1, 0, 0}, up, 0.0, 0.99).total);
 }
 
 TEST(Dielectric, FresnelHasItsKnownValues) {
