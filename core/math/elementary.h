@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/base/platform.h"
 #include "core/math/number.h"
@@ -130,7 +131,8 @@ inline double exp(double x) { return x != x ? x : detail::exp_extended<double>({
 /// x^y for x >= 0; error below 1 ulp where the result is normal. x^0 = 1 and 0^y = 0 for y > 0; NaN
 /// for x < 0 and for NaN. T is double or lanes of it.
 template <class T>
-BOULE_INLINE T pow(const T& x, const T& y) {
+requires(!std::is_integral_v<T>)  // whole numbers count as double
+    BOULE_INLINE T pow(const T& x, const T& y) {
   constexpr double inf = std::bit_cast<double>(0x7ff0000000000000);
   const T zero(0.0), one(1.0);
   const detail::SumOf<T> log = detail::log_extended(x);
@@ -152,7 +154,8 @@ inline double pow(double x, double y) { return pow<double>(x, y); }
 /// x^y for 0 <= x <= 1 and y >= 0, for results that become floats: relative error below 2^-38 down
 /// to 2^-200, and 0 far below that. A fraction of the time of pow(). T is double or lanes of it.
 template <class T>
-BOULE_INLINE T pow_for_float(const T& x, const T& y) {
+requires(!std::is_integral_v<T>)  // whole numbers count as double
+    BOULE_INLINE T pow_for_float(const T& x, const T& y) {
   const T whole = mantissa(x);
   const Mask<T> above_root_2 = T(0x1.6a09e667f3bccp0) < whole;
   const T m = select(above_root_2, whole * T(0.5), whole);
