@@ -38,12 +38,13 @@ void* map_anywhere(std::size_t bytes) {
   return map == MAP_FAILED ? nullptr : map;
 }
 
-/// So many bytes, whole pages, of which the first one begins a huge page if they fill one.
+/// So many bytes, whole pages, of which the first one begins a huge page if they fill one and there
+/// are addresses enough.
 void* map_aligned(std::size_t bytes) {
   constexpr std::size_t huge_page = std::size_t{2} << 20;
   if (bytes < huge_page) return map_anywhere(bytes);
   void* const map = map_anywhere(bytes + huge_page);
-  if (map == nullptr) return nullptr;
+  if (map == nullptr) return map_anywhere(bytes);
   const auto at = reinterpret_cast<std::uintptr_t>(map);
   const std::size_t before = rounded_up(at, huge_page) - at;
   char* const begin = static_cast<char*>(map) + before;
@@ -81,7 +82,10 @@ void* resize_pages(void* memory, std::size_t bytes, std::size_t wanted) {
   const std::size_t old_size = in_pages(bytes), new_size = in_pages(wanted);
   if (::mremap(memory, old_size, new_size, 0) != MAP_FAILED) return memory;
   void* const other = map_aligned(new_size);
-  if (other == nullptr) return nullptr;
+  if (other == nullptr) {  // where addresses are short, there may be room for one place only
+    void* const moved = ::mremap(memory, old_size, new_size, MREMAP_MAYMOVE);
+    return moved == MAP_FAILED ? nullptr : moved;
+  }
   if (::mremap(memory, old_size, new_size, MREMAP_MAYMOVE | MREMAP_FIXED, other) == MAP_FAILED) {
     ::munmap(other, new_size);
     return nullptr;

@@ -87,7 +87,7 @@ template <class T>
 BOULE_INLINE ColorOf<T> reflected_light(const CoefficientsOf<T>& material, const T& n_dot_l,
                                         const T& power, const Single<T>& share,
                                         const ColorOf<T>& intensity) {
-  const ColorOf<T> sum = product(material.diffuse, intensity) * narrow(n_dot_l);
+  ColorOf<T> sum = product(material.diffuse, intensity) * narrow(n_dot_l);
   const Mask<T> seen = T(0.0) < power;
   if (!any(seen)) return sum;
   const Single<T> highlight = narrow(material.highlight * power) * share;

@@ -45,7 +45,7 @@ BOULE_INLINE Vec3<Real> crossed_lights(const SeenLight& seen, const Vec3<Wide>& 
 }
 
 BOULE_INLINE Vec3<Real> background_of(const SeenBackground& background, const Vec3<Wide>& dir) {
-  const Vec3<Real> bottom{background.bottom[0], background.bottom[1], background.bottom[2]};
+  Vec3<Real> bottom{background.bottom[0], background.bottom[1], background.bottom[2]};
   if (background.kind == SeenBackground::Kind::constant) return bottom;
   const Vec3<Real> top{background.top[0], background.top[1], background.top[2]};
   const Vec3<Wide> up{background.up[0], background.up[1], background.up[2]};
