@@ -135,7 +135,7 @@ TEST(Metadata, AnEmptyTextMeansNoEntry) {
     EXPECT_FALSE(bad) << bad->message;
     return read_bytes(path);
   };
-  EXPECT_THAT(bytes_with({}), testing::HasSubstr("boule 0"));
+  EXPECT_THAT(bytes_with({}), testing::HasSubstr("boule 1"));
   EXPECT_THAT(bytes_with({{"Software", ""}}), testing::Not(testing::HasSubstr("Software")));
   EXPECT_THAT(bytes_with({{"Software", ""}, {"Software", "mine"}}), testing::HasSubstr("mine"));
   EXPECT_THAT(bytes_with({{"note", "one"}, {"note", ""}}),
