@@ -32,6 +32,8 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("spp"), 1);
   EXPECT_EQ(found.at("method"), "whitted");
   EXPECT_EQ(found.at("max_depth"), 5);
+  EXPECT_EQ(found.at("noise"), 0);
+  EXPECT_EQ(found.at("min_spp"), 32);
   EXPECT_EQ(found.at("spheres"), 1);
   EXPECT_EQ(found.at("planes"), 1);
   EXPECT_EQ(found.at("groups"), 0);
@@ -61,7 +63,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 27u);
+  EXPECT_EQ(found.size(), 29u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
