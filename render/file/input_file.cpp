@@ -103,6 +103,12 @@ Result<InputFile> InputFile::open(const std::string& path) {
   return file;
 }
 
+Result<InputFile> InputFile::standard_input() {
+  const int descriptor = ::fcntl(0, F_DUPFD_CLOEXEC, 0);
+  if (descriptor < 0) return cannot_read("standard input", system_reason());
+  return InputFile("standard input", descriptor, 0);
+}
+
 Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
   if (descriptor_ < 0) return cannot_read(path_, "it was moved away");
   std::size_t done = 0;

@@ -126,11 +126,12 @@ struct BinaryForest::Level {
   std::vector<Chunk> chunks;
 };
 
-BinaryForest::BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for)
+BinaryForest::BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for,
+                           int depth)
     : spheres_(spheres),
       subtree_size_(std::max(tuning::least_subtree, spheres.size() / tuning::most_subtrees)) {
   std::vector<Run> runs;
-  const Run whole{0, spheres.size(), 1, ForestNode::upper, false};
+  const Run whole{0, spheres.size(), depth, ForestNode::upper, false};
   whole.end <= subtree_size_ ? add_subtree(whole) : runs.push_back(whole);
   const ParallelFor level_for = spheres.size() < tuning::parallel_size ? serial_for : parallel_for;
   while (!runs.empty()) runs = divide(runs, level_for);

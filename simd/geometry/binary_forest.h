@@ -25,8 +25,8 @@ struct ForestNode {
 class BinaryForest {
  public:
   /// Builds the tree over the spheres, at least one. They are brought into the order of the leaves,
-  /// where they are. They must outlive it.
-  BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for);
+  /// where they are. They must outlive it. `depth` is that of the root.
+  BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for, int depth = 1);
 
   /// Spheres that became a tree of their own: run [begin, end).
   struct Subtree {

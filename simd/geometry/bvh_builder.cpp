@@ -145,8 +145,10 @@ SphereBlock empty_block() {
   return block;
 }
 
-Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for) {
-  const std::vector<std::int32_t> apart = find_spheres_apart(spheres, parallel_for);
+Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for,
+              const TreePlace& place) {
+  std::vector<std::int32_t> apart;
+  if (place.keeps_apart) apart = find_spheres_apart(spheres, parallel_for);
   const std::vector<std::int32_t> scanned = without_copies(apart, spheres);
   const std::vector<Sphere> scanned_spheres = spheres_of(scanned, spheres);
   const MaterialRef first_material = spheres.empty() ? MaterialRef() : spheres[0].material;
@@ -161,7 +163,7 @@ Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for) {
     return filler.finish(first_material);
   }
   const ParallelFor fill_for = others.size() <= tuning::chunk_size ? serial_for : parallel_for;
-  BinaryForest forest({others.data(), others.size()}, parallel_for);
+  BinaryForest forest({others.data(), others.size()}, parallel_for, place.depth);
   Filler filler(padded(scanned.size()), forest.leaves(), materials.data());
   filler.fill_scanned(scanned_spheres, scanned);
   fill_tree(forest, others, fill_for, filler);

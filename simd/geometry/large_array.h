@@ -11,10 +11,10 @@
 
 namespace boule {
 
-/// An owning array of plain values that starts on a cache line and may take much of the memory. Its
-/// values are not set: whoever fills it touches its pages first, on as many threads as there are,
-/// and its pages can be given back while it is consumed. An index within it is a precondition.
-/// Throws std::bad_alloc; an array that was moved away is empty.
+/// An array of plain values, which it owns unless it is borrowed(). It starts on a cache line and
+/// may take much of the memory. Its values are not set: whoever fills it touches its pages first,
+/// on as many threads as there are, and its pages can be given back while it is consumed. An index
+/// within it is a precondition. Throws std::bad_alloc; an array that was moved away is empty.
 template <class T>
 class LargeArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -22,6 +22,13 @@ class LargeArray {
  public:
   LargeArray() = default;
   explicit LargeArray(std::size_t size) : data_(allocate(size)), size_(size) {}
+  /// A view of others' memory, which must live longer and is only read.
+  static LargeArray borrowed(const T* data, std::size_t size) {
+    LargeArray view;
+    view.data_ = {const_cast<T*>(data), Release{.is_own = false}};
+    view.size_ = size;
+    return view;
+  }
   LargeArray(LargeArray&& other) noexcept
       : data_(std::move(other.data_)), size_(std::exchange(other.size_, 0)) {}
   LargeArray& operator=(LargeArray&& other) noexcept {
@@ -51,7 +58,10 @@ class LargeArray {
   }
 
   struct Release {
-    void operator()(T* data) const { ::operator delete (data, std::align_val_t{stream_alignment}); }
+    bool is_own = true;
+    void operator()(T* data) const {
+      if (is_own) ::operator delete (data, std::align_val_t{stream_alignment});
+    }
   };
   std::unique_ptr<T, Release> data_;
   std::size_t size_ = 0;
