@@ -9,9 +9,10 @@ readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev o
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
 # chromium-driver, python3-selenium: the pages, driven in a browser.
 # libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
-readonly test_packages=(binutils chromium-driver clang clang-format clang-tidy libclang-rt-14-dev libgmock-dev
-  libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev mpich openmpi-bin
-  pkg-config python3-ase python3-gemmi python3-selenium qemu-user)
+# bash-completion, fish, zsh, man-db, mandoc: who reads the manual pages and completions.
+readonly test_packages=(bash-completion binutils chromium-driver clang clang-format clang-tidy fish libclang-rt-14-dev libgmock-dev
+  libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev man-db
+  mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-selenium qemu-user zsh)
 # For the package boule, and what its tests hold it against.
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
 readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis

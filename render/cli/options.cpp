@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/scene/scene.h"
+#include "render/cli/command_app.h"
 #include "render/cli/look_options.h"
 #include "render/cli/look_values.h"
 #include "render/cli/option_kinds.h"
@@ -319,15 +320,25 @@ void add_commands(CLI::App& app, Commands& commands) {
   add("version", "Tell the version");
 }
 
+constexpr const char* version = "boule " BOULE_VERSION;
+
+/// Tells the app all that can be typed; `commands` takes it.
+void describe(CLI::App& app, Commands& commands) {
+  app.set_version_flag("--version", version, "Tell the version");
+  app.require_subcommand(1);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  add_commands(app, commands);
+}
+
 /// The command that was chosen, or what is wrong with it.
-Command chosen_command(const CLI::App& app, Commands& commands, const std::string& version) {
+Command chosen_command(const CLI::App& app, Commands& commands) {
   const auto is_chosen = [&app](const char* name) { return app.got_subcommand(name); };
   const auto checked = [&app](const char* name, auto& command, LookOptions& look) -> Command {
     if (auto bad = check_look_options(*app.get_subcommand(name), look)) return *bad;
     return command;
   };
   if (is_chosen("help")) return help_on(app, commands.help_topic);
-  if (is_chosen("version")) return TextCommand{version + "\n"};
+  if (is_chosen("version")) return TextCommand{std::string(version) + "\n"};
   if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
   if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
@@ -342,22 +353,25 @@ Command chosen_command(const CLI::App& app, Commands& commands, const std::strin
 
 Command parse_command_line(int argc, const char* const* argv) {
   Commands commands;
-  const std::string version = "boule " BOULE_VERSION;
   CLI::App app(description, "boule");
-  app.set_version_flag("--version", version);
-  app.require_subcommand(1);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  add_commands(app, commands);
+  describe(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     return help_text(app.help());  // of the command that was chosen, if any
   } catch (const CLI::CallForVersion&) {
-    return TextCommand{version + "\n"};
+    return TextCommand{std::string(version) + "\n"};
   } catch (const CLI::ParseError& error) {
     return explain_usage(app, error);
   }
-  return chosen_command(app, commands, version);
+  return chosen_command(app, commands);
+}
+
+void visit_commands(const std::function<void(const CLI::App&)>& visit) {
+  Commands commands;
+  CLI::App app(description, "boule");
+  describe(app, commands);
+  visit(app);
 }
 
 }  // namespace boule::cli

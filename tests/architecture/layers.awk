@@ -42,6 +42,7 @@ BEGIN {
   layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|packed|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team|cli)/", any)
   # Of the program, what says how files are shown and written; nothing that owns the terminal or the
   # process.
+  layer("^render/manual/", "^(core|simd/(abi|dispatch)|render/(image|particle_file|cli|manual))/", any)
   layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|parts|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
   layer("^render/parts/",
         narrow "|^render/(memory|file|image|frame|prepare|integrators|renderer|parts)/", any)

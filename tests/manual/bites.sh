@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# bites.sh PROGRAM FOLDER SOURCE MANUAL VERSION: proves that pages.sh and completions.sh bite, on copies of
+# the folder with one fault each.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+program="$1" folder="$2" source="$3" manual="$4" version="$5"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# expect WORDS SCRIPT FILE SED ARGUMENT...: with that change of the file, the script fails with these words.
+expect() {
+  rm -rf "$work/folder"
+  cp -r "$folder" "$work/folder"
+  sed -i "$4" "$work/folder/$3"
+  if "$here/$2" "$program" "$work/folder" "${@:5}" >"$work/out" 2>&1 || ! grep -qF -- "$1" "$work/out"; then
+    echo "$2 does not say '$1':"
+    head -n 5 "$work/out"
+    failures=$((failures + 1))
+  fi
+}
+
+faults='/^\\fB\\-\\-seed/{N;d}' lost='s/^.fBaperture.fP$/nothing/; s/, aperture,/, /; s/aperture/nothing/g'
+expect 'its options are not those of the help' pages.sh boule-render.1 "$faults" "$source" "$manual" "$version"
+expect 'boule-scene(5) lacks: aperture' pages.sh boule-scene.5 "$lost" "$source" "$manual" "$version"
+expect 'expected fast' completions.sh boule.bash 's/fast robust reference/fast reference/' bash
+((failures == 0)) || exit 1
+echo "every rule bites"
