@@ -111,7 +111,7 @@ Status NpySource::read(std::vector<Sphere>& part, std::size_t most) {
 
 Status NpySource::read_rows(File& file, std::uint64_t first, std::size_t count) {
   rows_.resize(count * file.row_bytes());
-  if (file.is_pipe) return read_pipe(file, first, count);
+  if (file.is_pipe) return read_pipe(file, first);
   const std::uint64_t offset = file.begin + first * file.row_bytes();
   if (::lseek(file.file.descriptor(), static_cast<off_t>(offset), SEEK_SET) < 0)
     return Diagnostic::of("cannot be read from a place of its own");
@@ -119,7 +119,7 @@ Status NpySource::read_rows(File& file, std::uint64_t first, std::size_t count) 
 }
 
 /// Rows that were read before come from the temporary file.
-Status NpySource::read_pipe(File& file, std::uint64_t first, std::size_t count) {
+Status NpySource::read_pipe(File& file, std::uint64_t first) {
   const std::uint64_t offset = first * file.row_bytes();
   if (offset < spool_->size()) {
     const auto known =

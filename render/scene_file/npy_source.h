@@ -43,7 +43,7 @@ class NpySource final : public SphereSource {
   explicit NpySource(const ParallelFor& parallel_for) : parallel_for_(parallel_for) {}
   Status add(const std::string& path);
   Status read_rows(File& file, std::uint64_t first, std::size_t count);
-  Status read_pipe(File& file, std::uint64_t first, std::size_t count);
+  Status read_pipe(File& file, std::uint64_t first);
   Status read_pipe_on(File& file, std::size_t begin);
   Status decode(const File& file, std::uint64_t first, std::size_t count, Sphere* spheres) const;
 
