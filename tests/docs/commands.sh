@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# commands.sh PROGRAM SOURCE BUILD: what the documents show is so.
+# commands.sh PROGRAM SOURCE BUILD [PAGE...]: what the documents, or these pages, show is so.
 #
 # Every block of TOML or NFF is a scene. Every line of a block of sh is tried: boule and the programs
 # that make data run, in a copy of the scenes' folder. Of what takes minutes it is checked that there
 # is such a thing: a target, a preset, a test that a ctest line selects, a word of bootstrap.sh. A
 # block whose first line is "# NAME.toml" is that file for the commands. docs/command_line.md has all
-# options of the program's help, and no others.
+# options of the program's help, and no others. A page of docs/howto has at most 100 lines, and commands.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 source "$here/pages.sh"
@@ -28,7 +28,9 @@ npy() {
 
 # Where commands run: the scenes, what the documents say is there, and data for who has no NumPy.
 mkdir "$work/blocks" "$work/here"
-(cd "$source" && pages . | xargs awk -v folder="$work/blocks" -f "$here/blocks.awk")
+selected=("${@:4}")
+((${#selected[@]} > 0)) || mapfile -t selected < <(pages "$source")
+(cd "$source" && printf '%s\n' "${selected[@]}" | xargs awk -v folder="$work/blocks" -f "$here/blocks.awk")
 cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv} "$work/here"
 cd "$work/here"
 ln -s . scenes
@@ -94,11 +96,26 @@ try_ctest() {
   complain "$where: ctest $* selects no test"
 }
 
+# try_ranks WHERE CODE -n RANKS boule ARGUMENT...: by the launcher, where there is one.
+try_ranks() {
+  local where="$1" code="$2" ranks="$4"
+  shift 5
+  if command -v mpirun >/dev/null; then
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+      OMPI_MCA_btl_vader_single_copy_mechanism=none expect "$where" "$code" mpirun -n "$ranks" "$program" "$@"
+  else
+    expect "$where" "$code" "$program" "$@"
+  fi
+}
+
 # try_line WHERE LINE
 try_line() {
   local where="$1" line="$2" code=0 words target=''
   [[ "$line" =~ '# exit code '([0-9]+) ]] && code="${BASH_REMATCH[1]}"
   line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
+  # A slow machine is no fault, nor are pictures of these pages tried at their size.
+  line="$(sed -E 's/--time-limit [0-9]+[a-z]+/--time-limit 1h/' <<<"$line")"
+  [[ "$where" != docs/@(gallery.md:*|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
   mapfile -t words < <(xargs -r printf '%s\n' <<<"$line")  # as the shell does, quotes and all
   ((${#words[@]} > 0)) || return 0
   tried=$((tried + 1))
@@ -113,6 +130,7 @@ try_line() {
     ./bootstrap.sh) has "$where" "${words[1]}" "$(sed -n '/usage: /,/^TEXT/p' "$source/bootstrap.sh")" word ;;
     cmake) try_cmake "$where" "${words[@]:1}" ;;
     ctest) try_ctest "$where" "${words[@]:1}" ;;
+    mpirun) try_ranks "$where" "$code" "${words[@]:1}" ;;
     cmp) expect "$where" "$code" "${words[@]}" ;;
     git | clang-format-14) ;;
     *) [[ -x "$source/${words[0]}" ]] || complain "$where: nobody tries ${words[0]}" ;;
@@ -146,16 +164,19 @@ $(diff <(echo "$helped") <(echo "$shown") | grep '^[<>]')"
 
 targets="$(cmake --build "$build" --target help 2>&1)"
 benchmarks="$(cat "$source"/bench/CMakeLists.txt "$source"/bench/*/CMakeLists.txt 2>/dev/null || true)"
-for block in "$work"/blocks/*; do
+for block in "$work"/blocks/*; do  # in the order of the pages: what one makes, the next may read
   case "$block" in
     *.toml | *.nff) try_scene "$block" ;;
     *.python) try_python "$block" ;;
+    *.sh) try_commands "$block" ;;
   esac
 done
-for block in "$work"/blocks/*.sh; do
-  [[ ! -f "$block" ]] || try_commands "$block"
-done
 try_options
+for page in "$source"/docs/howto/*.md; do
+  [[ -f "$page" ]] || continue
+  (($(wc -l <"$page") <= 100)) || complain "$page: more than 100 lines"
+  grep -q '^```sh$' "$page" || complain "$page: no commands"
+done
 ((wrong == 0)) || exit 1
 ((tried > 0)) || { echo "no commands in the documents of $source"; exit 1; }
 echo "$tried commands and $(find "$work/blocks" -name '*.toml' -o -name '*.nff' | wc -l) scenes work"

@@ -54,6 +54,13 @@ expect fails "$(block sh 'cmake --build build/release --target boule_nothing')" 
 expect fails "$(block sh 'ctest --test-dir build/test -R no.such.test')" 'selects no test'
 expect fails "$(block sh 'bench_two')" 'there is no benchmark bench_two'
 expect fails "$(block sh 'make')" 'nobody tries make'
+# Pages that say how to do something.
+mkdir "$work/docs/howto"
+{ block sh 'boule isa'; yes ''; } 2>/dev/null | head -n 101 >"$work/docs/howto/long.md" || true
+expect fails "$good" 'more than 100 lines'
+echo 'Do it.' >"$work/docs/howto/long.md"
+expect fails "$good" 'no commands'
+rm -r "$work/docs/howto"
 # The options of the help, and those of its page.
 echo 'No options.' >"$work/docs/command_line.md"
 expect fails "$good" '< --exposure'
