@@ -18,16 +18,19 @@ readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-de
 readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
   python3-nbclient python3-pytest)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
+readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopenmpi-dev lintian)
 
 usage() {
   cat <<'TEXT'
-usage: ./bootstrap.sh render|test|python|report
+usage: ./bootstrap.sh render|test|python|report|package
   render  install what is missing, build a release, render scenes/first_light.toml to first_light.png
   test    install what is missing, build the tests in build/test and run them
   python  install what is missing, build the Python package in build/python, run its tests, say how to
           import it
   report  install what is missing, build the benchmarks in build/bench, measure speed against error
           (about 10 minutes), write report.html and what the README shows of it
+  package install what is missing, make Debian packages and a source tarball of what is committed in
+          build/package
 TEXT
 }
 
@@ -96,6 +99,12 @@ report() {
   echo "bootstrap: the page is $PWD/report.html, its figures are report.json"
 }
 
+package() {
+  install_missing "${build_packages[@]}" "${python_packages[@]}" "${package_packages[@]}"
+  packaging/package.sh build/package
+  echo "bootstrap: install them by  apt-get install ./build/package/*.deb"
+}
+
 cd "$(dirname "${BASH_SOURCE[0]}")"
 [[ $# -eq 1 ]] || { usage >&2; exit 2; }
 case "$1" in
@@ -103,6 +112,7 @@ case "$1" in
   test) run_tests ;;
   python) python ;;
   report) report ;;
+  package) package ;;
   -h | --help | help) usage ;;
   *) usage >&2; exit 2 ;;
 esac

@@ -49,12 +49,11 @@ class LightConeOf {
   }
 
   /// True if the sphere lies in this direction, of unit length, before `distance`.
-  [[nodiscard]] bool meets(const Vec3d& direction, double distance) const {
-    if (!(density_ > 0) || !(dot(direction, axis_) > 0)) return false;
-    const Vec3d aside = cross(direction, axis_) * distance_;
-    const double aside2 = dot(aside, aside);
-    const double nearest = std::sqrt(aside2);
-    return aside2 <= radius_ * radius_ && distance_to(nearest * nearest) < distance;
+  [[nodiscard]] BOULE_INLINE Mask<T> meets(const Vec3<T>& direction, const T& distance) const {
+    const Vec3<T> aside = cross(direction, axis_) * distance_;
+    const T aside2 = dot(aside, aside), nearest = sqrt(aside2);
+    return (T(0.0) < density_) & (T(0.0) < dot(direction, axis_)) & (aside2 <= radius_ * radius_) &
+           (distance_to(nearest * nearest) < distance);
   }
 
  private:

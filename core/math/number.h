@@ -1,7 +1,9 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "core/base/platform.h"
@@ -19,11 +21,39 @@ template <class T>
 using Mask = decltype(std::declval<T>() < std::declval<T>());
 
 BOULE_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
+BOULE_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }
 BOULE_INLINE bool select(bool mask, bool a, bool b) { return mask ? a : b; }
+/// True if the mask is set in some lane. Formulas may ask it to leave out what no lane needs.
+BOULE_INLINE bool any(bool mask) { return mask; }
+/// Where the mask is not set.
+BOULE_INLINE bool complement(bool mask) { return !mask; }
 BOULE_INLINE double sqrt(double a) { return std::sqrt(a); }
 BOULE_INLINE double abs(double a) { return std::fabs(a); }
 BOULE_INLINE double copysign(double magnitude, double sign) {
   return std::copysign(magnitude, sign);
+}
+
+/// Rounded to float, and back. A mask of doubles is made one of floats.
+BOULE_INLINE float narrow(double a) { return static_cast<float>(a); }
+BOULE_INLINE bool narrow(bool mask) { return mask; }
+BOULE_INLINE double widen(float a) { return static_cast<double>(a); }
+
+/// float, or W floats.
+template <class T>
+using Single = decltype(narrow(std::declval<T>()));
+
+// Of a positive normal number m 2^e, with m in [1, 2): e + 1023, and m. Of any other number: some
+// number.
+BOULE_INLINE double biased_exponent(double a) {
+  return static_cast<double>(std::bit_cast<std::uint64_t>(a) >> 52);
+}
+BOULE_INLINE double mantissa(double a) {
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a) & 0x000fffffffffffff) |
+                               0x3ff0000000000000);
+}
+/// 2^k for whole k from -1022 to 1023; else some number.
+BOULE_INLINE double power_of_two(double k) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + (0x1p52 + 1023)) << 52);
 }
 
 /// n numbers of one type.
@@ -53,6 +83,11 @@ BOULE_INLINE Numbers<double, count> look_up(Numbers<double, n> given, const Find
 template <class M, class T>
 BOULE_INLINE Vec3<T> select(const M& mask, const Vec3<T>& a, const Vec3<T>& b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+template <class T>
+BOULE_INLINE Vec3<Single<T>> narrow(const Vec3<T>& v) {
+  return {narrow(v.x), narrow(v.y), narrow(v.z)};
 }
 
 /// The larger of a number and 0; 0 for NaN.

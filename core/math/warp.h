@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "core/math/elementary.h"
 #include "core/math/number.h"
 #include "core/math/vec.h"
@@ -54,18 +52,25 @@ BOULE_INLINE Vec3<T> direction_about(const Vec3<T>& axis, const AngleOf<T>& from
 }
 
 /// The angle from the axis of a direction with Lambert's density, cosine / pi; 0 <= u < 1.
-inline Angle warp_to_cosine(double u) { return {std::sqrt(1 - u), std::sqrt(u)}; }
-inline double cosine_density(double cosine) { return cosine / elementary::pi; }
+template <class T = double>
+BOULE_INLINE AngleOf<T> warp_to_cosine(const T& u) {
+  return {sqrt(T(1.0) - u), sqrt(u)};
+}
+template <class T = double>
+BOULE_INLINE T cosine_density(const T& cosine) {
+  return cosine / T(elementary::pi);
+}
 
 /// The same with the density (n + 1) / (2 pi) cosine^n, a lobe of Phong's (Lafortune and Willems,
 /// "Using the modified Phong reflectance model for physically based rendering", 1994).
-inline Angle warp_to_power(double u, double n) {
-  const double cosine = elementary::pow(1 - u, 1 / (n + 1));
-  return {cosine, std::sqrt(positive(1 - cosine * cosine))};
+template <class T = double>
+BOULE_INLINE AngleOf<T> warp_to_power(const T& u, const T& n) {
+  const T cosine = elementary::pow(T(1.0) - u, T(1.0) / (n + T(1.0)));
+  return {cosine, sqrt(positive(T(1.0) - cosine * cosine))};
 }
-
-inline double power_density(double power, double n) {  // power: cosine^n
-  return (n + 1) * power / (2 * elementary::pi);
+template <class T = double>
+BOULE_INLINE T power_density(const T& power, const T& n) {  // power: cosine^n
+  return (n + T(1.0)) * power / T(2 * elementary::pi);
 }
 
 /// The same, spread evenly over a cone whose half angle has the cosine 1 - height.

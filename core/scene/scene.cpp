@@ -1,7 +1,10 @@
 #include "core/scene/scene.h"
 
+#include <algorithm>
+
 #include "core/scene/instances.h"
 #include "core/scene/problem_finder.h"
+#include "core/scene/scene_check.h"
 
 namespace boule {
 namespace {
@@ -80,17 +83,33 @@ class SectionCheck {
 
 bool is_valid(const Plane& plane) { return !find_problem(plane); }
 
+/// The index of the first primitive that is wrong, or how many there are.
+template <class Primitive>
+std::size_t find_wrong(const std::vector<Primitive>& primitives, std::size_t materials,
+                       const ParallelFor& parallel_for) {
+  constexpr std::size_t size = std::size_t{1} << 16;
+  const auto wrong = [&](const Primitive& one) {
+    return !is_valid(one) || one.material.index() >= materials;
+  };
+  std::vector<std::size_t> found((primitives.size() + size - 1) / size, primitives.size());
+  parallel_for(found.size(), [&](std::size_t i) {
+    const auto first = primitives.begin() + static_cast<std::ptrdiff_t>(i * size);
+    const auto end =
+        first + static_cast<std::ptrdiff_t>(std::min(size, primitives.size() - i * size));
+    const auto at = std::find_if(first, end, wrong);
+    if (at != end) found[i] = static_cast<std::size_t>(at - primitives.begin());
+  });
+  return found.empty() ? 0 : *std::min_element(found.begin(), found.end());
+}
+
 template <class Primitive>
 Status check_primitives(const std::string& name, const std::vector<Primitive>& primitives,
-                        const Scene& scene) {
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const bool has_material = primitives[i].material.index() < scene.materials.size();
-    if (is_valid(primitives[i]) && has_material) continue;
-    const std::string path = numbered(name, i);
-    if (auto problem = find_problem(primitives[i])) return located(path, problem);
-    return Diagnostic::about(path + ".material", "names no material of the scene");
-  }
-  return std::nullopt;
+                        const Scene& scene, const ParallelFor& parallel_for = serial_for) {
+  const std::size_t i = find_wrong(primitives, scene.materials.size(), parallel_for);
+  if (i == primitives.size()) return std::nullopt;
+  const std::string path = numbered(name, i);
+  if (auto problem = find_problem(primitives[i])) return located(path, problem);
+  return Diagnostic::about(path + ".material", "names no material of the scene");
 }
 
 Status check_packed(const Scene& scene) {
@@ -102,8 +121,8 @@ Status check_packed(const Scene& scene) {
   return std::nullopt;
 }
 
-Status check_objects(const Scene& scene) {
-  if (auto bad = check_primitives("sphere", scene.spheres, scene)) return bad;
+Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
+  if (auto bad = check_primitives("sphere", scene.spheres, scene, parallel_for)) return bad;
   if (auto bad = check_primitives("plane", scene.planes, scene)) return bad;
   for (const Group& group : scene.groups) {
     const std::string path = "group." + group.name + ".";
@@ -134,9 +153,11 @@ Status validate_all_but_primitives(const Scene& scene) {
   return std::nullopt;
 }
 
-Status validate(const Scene& scene) {
+Status validate_in_parallel(const Scene& scene, const ParallelFor& parallel_for) {
   if (auto bad = validate_all_but_primitives(scene)) return bad;
-  return check_objects(scene);
+  return check_objects(scene, parallel_for);
 }
+
+Status validate(const Scene& scene) { return validate_in_parallel(scene, serial_for); }
 
 }  // namespace boule

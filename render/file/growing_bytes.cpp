@@ -1,7 +1,5 @@
 #include "render/file/growing_bytes.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
@@ -12,7 +10,7 @@
 namespace boule {
 
 GrowingBytes::~GrowingBytes() {
-  if (data_ != nullptr) ::munmap(data_, capacity_);
+  if (data_ != nullptr) give_back_pages(data_, capacity_);
 }
 
 Status GrowingBytes::reserve(std::size_t capacity) {
@@ -20,13 +18,11 @@ Status GrowingBytes::reserve(std::size_t capacity) {
   const std::size_t more = capacity - capacity_;
   const std::string who = capacity_ == 0 ? "unpacked, it needs" : "unpacked, it needs another";
   if (auto none = check_memory(more, who)) return none;
-  void* const grown = data_ == nullptr ? ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE,
-                                                MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
-                                       : ::mremap(data_, capacity_, capacity, MREMAP_MAYMOVE);
-  if (grown == MAP_FAILED) {
-    return Diagnostic::of("memory for it: " + std::generic_category().message(errno));
+  void* const grown =
+      data_ == nullptr ? take_pages(capacity) : resize_pages(data_, capacity_, capacity);
+  if (grown == nullptr) {
+    return Diagnostic::of("memory for it: " + std::generic_category().message(ENOMEM));
   }
-  prefer_huge_pages(grown, capacity);
   data_ = static_cast<char*>(grown);
   capacity_ = capacity;
   return std::nullopt;

@@ -109,17 +109,31 @@ Result<InputFile> InputFile::standard_input() {
   return InputFile("standard input", descriptor, 0);
 }
 
-Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
+/// Calls get(to, count) until `count` bytes are there, or the file ends.
+template <class Get>
+Result<std::size_t> InputFile::read_all(void* buffer, std::size_t count, const Get& get) const {
   if (descriptor_ < 0) return cannot_read(path_, "it was moved away");
   std::size_t done = 0;
   while (done < count) {
-    const ssize_t got = ::read(descriptor_, static_cast<char*>(buffer) + done, count - done);
+    const ssize_t got = get(static_cast<char*>(buffer) + done, count - done, done);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return cannot_read(path_, system_reason());
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
   return done;
+}
+
+Result<std::size_t> InputFile::read(void* buffer, std::size_t count) {
+  return read_all(buffer, count, [this](char* to, std::size_t left, std::size_t) {
+    return ::read(descriptor_, to, left);
+  });
+}
+
+Result<std::size_t> InputFile::read_at(std::uint64_t begin, void* buffer, std::size_t count) const {
+  return read_all(buffer, count, [this, begin](char* to, std::size_t left, std::size_t done) {
+    return ::pread(descriptor_, to, left, static_cast<off_t>(begin + done));
+  });
 }
 
 Result<std::string> read_text(const std::string& path) {

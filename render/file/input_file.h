@@ -31,8 +31,13 @@ class InputFile {
   /// Reads up to `count` bytes into `buffer`, which has room for them. Returns how many it read:
   /// less than `count` at the end of the file only. An error for a file that was moved away.
   Result<std::size_t> read(void* buffer, std::size_t count);
+  /// The same from byte `begin` of the file on, whatever read() has read. Several threads may do so
+  /// at the same time.
+  Result<std::size_t> read_at(std::uint64_t begin, void* buffer, std::size_t count) const;
 
  private:
+  template <class Get>
+  Result<std::size_t> read_all(void* buffer, std::size_t count, const Get& get) const;
   InputFile(std::string path, int descriptor, std::uint64_t size);
 
   std::string path_;

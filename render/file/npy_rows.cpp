@@ -30,11 +30,23 @@ Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uin
                         " bytes of data");
 }
 
-Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes) {
-  const auto got = file.read(rows, bytes);
+namespace {
+
+Status check_read(const Result<std::size_t>& got, std::size_t bytes) {
   if (!got) return got.error();
   if (got.value() < bytes) return Diagnostic::of("became shorter while it was read");
   return std::nullopt;
+}
+
+}  // namespace
+
+Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes) {
+  return check_read(file.read(rows, bytes), bytes);
+}
+
+Status read_npy_rows(const InputFile& file, std::uint64_t begin, unsigned char* rows,
+                     std::size_t bytes) {
+  return check_read(file.read_at(begin, rows, bytes), bytes);
 }
 
 }  // namespace boule

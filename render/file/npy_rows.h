@@ -30,6 +30,9 @@ Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uin
 
 /// Reads the next `bytes` bytes of rows. It is an error if the file has become shorter.
 Status read_npy_rows(InputFile& file, unsigned char* rows, std::size_t bytes);
+/// The same from byte `begin` of the file on. Several threads may do so at the same time.
+Status read_npy_rows(const InputFile& file, std::uint64_t begin, unsigned char* rows,
+                     std::size_t bytes);
 
 /// One little-endian float or double, whatever the machine's byte order. On little-endian machines
 /// compilers make it a single load.

@@ -16,4 +16,11 @@ void make_room(std::vector<Sphere>& spheres, std::size_t more) {
   spheres.swap(roomy);
 }
 
+void append_blank(std::vector<Sphere>& spheres, std::size_t count,
+                  const ParallelFor& parallel_for) {
+  make_room(spheres, count);
+  touch_pages(spheres.data() + spheres.size(), count * sizeof(Sphere), parallel_for);
+  spheres.resize(spheres.size() + count);
+}
+
 }  // namespace boule

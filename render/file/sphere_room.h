@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
@@ -10,5 +11,8 @@ namespace boule {
 /// Makes room for `more` spheres behind those that are there, and at least for half as many again:
 /// otherwise each of many small files would copy all spheres.
 void make_room(std::vector<Sphere>& spheres, std::size_t more);
+
+/// Appends spheres that are set later. Their memory is new: all threads have the system clear it.
+void append_blank(std::vector<Sphere>& spheres, std::size_t count, const ParallelFor& parallel_for);
 
 }  // namespace boule

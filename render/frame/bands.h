@@ -13,7 +13,7 @@ class Bands {
  public:
   /// The most bytes that the bands take that are in memory at the same time, unless two bands of
   /// one row take more.
-  static constexpr std::uint64_t most_bytes = std::uint64_t{32} << 20;
+  static constexpr std::uint64_t most_bytes = std::uint64_t{20} << 20;
 
   /// Blocks are `tile` x `tile` pixels, or cut off at the lower edge of a band and at the right
   /// edge. A band has several blocks for each of the workers, if that leaves room for two bands.

@@ -72,6 +72,8 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   const fs::path installed = (own / BOULE_LIBRARY_FOLDER / "boule").lexically_normal();
   const fs::path tree = fs::canonical(BOULE_BUILD_TREE, ignored);
   std::vector<fs::path> folders = {own};
+  // The shared library.
+  if (own.filename() == BOULE_SHARED_FOLDER) folders.push_back(own / "boule");
   if (tree.empty() || !is_within(own, tree)) {
     // Beside another folder, say /tmp/mine, the library folder could be anybody's.
     if (own.filename() == BOULE_PROGRAM_FOLDER) folders.push_back(installed);

@@ -10,7 +10,8 @@ namespace boule {
 
 /// The folders in which the image module is looked for, given the folder of the running library or
 /// program. These are that folder itself and, if it has the name of an installation's folder for
-/// programs ("bin"), the library folder beside it. If it lies in the tree where it was built, all
+/// programs ("bin"), the library folder beside it, or if it has that of an installation's libraries
+/// ("lib"), the folder "boule" in it. If it lies in the tree where it was built, all
 /// folders lie in that tree.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own);
 

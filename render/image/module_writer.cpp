@@ -10,10 +10,12 @@ namespace {
 
 size_t size_of(SampleType type) { return type == SampleType::u8 ? 1 : 4; }
 
-/// Rows per call: whole zip blocks of EXR, which have 16 rows; about a MiB, so that writing stops
-/// soon after a signal; but at least one block per thread, as long as that is little memory.
+/// Rows per call: whole strips of TIFF, which have 32 rows, and whole zip blocks of EXR, which have
+/// 16 (OpenImageIO packs whole strips on several threads, and loses what is in a strip that it has
+/// begun otherwise); about a MiB, so that writing stops soon after a signal; but at least one block
+/// per thread, as long as that is little memory.
 int rows_at_once(const Picture& picture, const OIIO::ImageSpec& spec) {
-  constexpr size_t block = 16, most_blocks = 16, enough = 1 << 20, most = 1 << 23;
+  constexpr size_t block = 32, most_blocks = 8, enough = 1 << 20, most = 1 << 23;
   const size_t block_bytes = static_cast<size_t>(spec.scanline_bytes(true)) * block;
   const size_t usual = std::min(enough / block_bytes, most_blocks);
   const auto threads = static_cast<size_t>(std::max(picture.threads, 1));

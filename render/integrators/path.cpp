@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/math/elementary.h"
 #include "core/math/geometry.h"
+#include "core/math/light_cone.h"
+#include "core/optics/lobes.h"
 #include "render/shading/background_radiance.h"
 #include "render/shading/lights.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 /// The first depth at which Russian roulette may end a path.
 constexpr int roulette_depth = 3;
-/// The largest probability to survive it: in a scene that absorbs nothing, paths must end as well.
-constexpr float largest_survival = 0.95f;
+
+constexpr std::size_t most_points = StreamSurfaces::block_size;
 
 /// The set of random numbers for a use at a depth. The sets of the camera come before them.
 RandomSet random_set(int depth, unsigned use) {
@@ -23,27 +24,41 @@ RandomSet random_set(int depth, unsigned use) {
                                 uses_per_depth * static_cast<unsigned>(depth) + use);
 }
 
-/// a b scale, in double: a product of two of them could overflow or underflow in float.
-Color multiply(const Color& a, const Color& b, double scale) {
-  const auto product = [scale](float x, float y) {
-    return static_cast<float>(double{x} * double{y} * scale);
-  };
-  return {product(a.r, b.r), product(a.g, b.g), product(a.b, b.b)};
+void copy(const Color& color, float* to) {
+  to[0] = color.r;
+  to[1] = color.g;
+  to[2] = color.b;
 }
 
-/// False only if a line along `dir` certainly misses the sphere; takes no root and no quotient.
-/// Compares the line's distance from the centre with twice the radius, plus a little for rounding.
-bool may_meet(const Vec3d& dir, const Vec3d& to_center, double radius) {
-  const Vec3d aside = cross(dir, to_center);
-  return !(dot(aside, aside) >
-           dot(dir, dir) * (4 * radius * radius + 1e-29 * dot(to_center, to_center)));
+LightSphere light_sphere(const AreaLight& light, double before) {
+  LightSphere sphere{
+      {light.center.x, light.center.y, light.center.z}, light.radius, light.share, before, {}};
+  copy(light.radiance, sphere.radiance);
+  return sphere;
 }
 
-/// Veach's power heuristic with exponent 2: the weight of a sample with density a, where the other
-/// way would have chosen it with density b.
-double power_heuristic(double a, double b) {
-  const double ratio = b / a;
-  return 1 / (1 + ratio * ratio);
+/// The background as the kernels see it. Images are not for them.
+SeenBackground flat_background(const Background& background) {
+  SeenBackground seen{};
+  seen.kind = SeenBackground::Kind::other;
+  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
+    seen.kind = SeenBackground::Kind::constant;
+    copy(constant->color, seen.bottom);
+  } else if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
+    seen.kind = SeenBackground::Kind::gradient;
+    copy(gradient->bottom, seen.bottom);
+    copy(gradient->top, seen.top);
+    const Vec3d up = normalize(vec_cast<double>(gradient->up));
+    seen.up[0] = up.x;
+    seen.up[1] = up.y;
+    seen.up[2] = up.z;
+  }
+  return seen;
+}
+
+HitWeight hit_weight(LightSampling sampling) {
+  if (sampling == LightSampling::both) return HitWeight::heuristic;
+  return sampling == LightSampling::paths ? HitWeight::full : HitWeight::none;
 }
 
 }  // namespace
@@ -56,19 +71,30 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
                          : scene.area_lights.empty() ? 1
                                                      : 0.5),
       samples_lights_(settings.light_sampling != LightSampling::paths &&
-                      (scene.environment.shines() || !scene.area_lights.empty())) {
+                      (scene.environment.shines() || !scene.area_lights.empty())),
+      hit_weight_(hit_weight(settings.light_sampling)),
+      materials_(scene),
+      matte_(most_points),
+      glossy_(most_points),
+      clear_(most_points) {
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<SphereLight>(light)) continue;
     use_light(light);
     delta_lights_ = true;
   }
-  constexpr std::size_t most = StreamSurfaces::block_size;
-  points_.reserve(most);
-  picked_lights_.reserve(most);
-  choices_.resize(most);
-  numbers_.resize(most);
-  light_cones_.resize(most);
-  directions_.resize(most);
+  for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
+    light_spheres_.push_back(light_sphere(scene.area_lights[i], scene.area_lights.before(i)));
+  seen_ = {flat_background(scene.background), light_spheres_.data(),
+           scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_};
+  seen_by_camera_ = seen_;
+  if (scene.backdrop)
+    seen_by_camera_.background = flat_background(ConstantBackground{*scene.backdrop});
+  kinds_.resize(most_points);
+  lobes_.resize(most_points);
+  going_on_buffer_.resize(most_points);
+  for (RandomNumbers* numbers : {&light_numbers_, &bounce_numbers_, &roulette_numbers_})
+    numbers->resize(most_points);
+  given_light_.resize(most_points);
 }
 
 void Path::start(const CameraRays& camera) {
@@ -81,48 +107,57 @@ void Path::start(const CameraRays& camera) {
 }
 
 void Path::make_room(std::size_t rays) {
-  shadow_rays_.resize(rays);
-  sampled_lights_.clear();
-  sampled_lights_.reserve(rays);
+  materials_.start(rays);
+  shadow_buffer_.resize(rays);
+  shadows_ = shadow_buffer_.view();
 }
 
 /// Each step goes through the whole block, so that its kernels compute W points at a time.
 void Path::shade(const Block& block) {
-  scattering_hits_.clear();
-  points_.clear();
-  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
-    if (const FlatMaterial* material = find_emission(block.stream, k))
-      scattering_hits_.push_back({k, material});
-  }
-  if (scattering_hits_.empty()) return;
-  find_surfaces(block);
-  for (const ScatteringHit& one : scattering_hits_) {
-    add_point(one, surfaces_.get(one.ray - block.first));
-  }
-  if (samples_lights_) sample_lights(block.stream);
-  if (!ends(block.stream)) continue_paths(block.stream);
+  see_light(block);
+  meet_materials(block);
+  if (delta_lights_) light_points(block);
+  continue_paths(block);
 }
 
-/// Sets the radiance that a ray finds by its direction: of its hit, of lights that it crosses, of
-/// the background. Returns the material of the hit if that sends light on, else null.
-const FlatMaterial* Path::find_emission(const PathStream& stream, std::uint32_t index) {
-  const Hit met = hit(index);
-  const double density = stream.density[index];
-  Color& sum = radiance(index);
-  sum = density > 0 ? crossed_lights(stream.rays->get(index), density, met.t) : Color{};
-  if (met.id == no_primitive) {
-    sum = sum + weighted_background(stream, index);
-    return nullptr;
+/// Sets the radiance that rays find by their directions: of lights that they cross, and of the
+/// background.
+void Path::see_light(const Block& block) {
+  const PathStream& stream = block.stream;
+  const std::size_t size = block.end - block.first;
+  const SeenLight& seen = stream.depth == 0 ? seen_by_camera_ : seen_;
+  kernels_.see_light(
+      seen, {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
+             stream.density + block.first, part(radiance_.view(), block.first)});
+  if (seen.background.kind != SeenBackground::Kind::other) return;
+  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
+    if (hit(k).id == no_primitive) radiance_.add(k, weighted_background(stream, k));
   }
-  const FlatMaterial& material = materials_.find(met);
-  if (is_black(material.constant)) {
-    return takes_direct_light(material) || scatters(material) ? &material : nullptr;
+}
+
+/// Finds the materials that the rays met, and adds the light that these emit.
+void Path::meet_materials(const Block& block) {
+  std::fill_n(kinds_.data(), padded(block.end - block.first), std::uint32_t{0});
+  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
+    const Hit met = hit(k);
+    if (met.id == no_primitive) continue;
+    const PathMaterial& material = materials_.find(met);
+    kinds_[k - block.first] = static_cast<std::uint32_t>(material.kind);
+    lobes_[k - block.first] = &material.lobes;
+    // Only emissive materials have a constant, and they send nothing on.
+    if (!is_black(material.flat.constant))
+      radiance_.add(k, emitted(block.stream, k, met, material.flat.constant));
+    if (delta_lights_ && takes_direct_light(material.flat) && is_black(material.flat.constant))
+      illumination_.add_point(k, material.flat);
   }
-  // Only emissive materials have a constant, and they send nothing on.
-  const double other =
-      density > 0 ? emitter_density(stream.rays->org(index), met, material.constant) : 0;
-  sum = sum + material.constant * static_cast<float>(weight_of_hit(density, other));
-  return nullptr;
+}
+
+/// The light that a ray gets from what it met.
+Color Path::emitted(const PathStream& stream, std::uint32_t ray, const Hit& met,
+                    const Color& radiance) const {
+  const double density{stream.density[ray]};
+  const double other = density > 0 ? emitter_density(stream.rays->org(ray), met, radiance) : 0;
+  return radiance * static_cast<float>(weight_of_hit(density, other));
 }
 
 /// The density with which light sampling at `org` chooses a direction to an emissive primitive; it
@@ -134,135 +169,108 @@ double Path::emitter_density(const Vec3d& org, const Hit& hit, const Color& radi
          LightCone(org, light.center, light.radius).density();
 }
 
-void Path::add_point(const ScatteringHit& hit, const Surface& surface) {
-  const Point& point = points_.emplace_back(hit.ray, *hit.material, surface);
-  if (point.lobes.black()) {
-    points_.pop_back();
-  } else if (point.lit && delta_lights_) {
-    illumination_.add_point(hit.ray, *hit.material);
+/// Finds the surfaces on which point and directional lights fall.
+void Path::light_points(const Block& block) { find_surfaces(block); }
+
+void Path::continue_paths(const Block& block) {
+  const PathStream& stream = block.stream;
+  const std::size_t size = block.end - block.first;
+  LobePoints matte = matte_.view(), glossy = glossy_.view(), clear = clear_.view();
+  kernels_.find_points(
+      geometry_,
+      {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
+       kinds_.data(), part(stream.throughput, block.first), stream.sample + block.first},
+      matte, glossy, clear);
+  going_on_ = going_on_buffer_.view();
+  const std::size_t first_shadow = shadows_.size;
+  continue_points(block, matte, kernels_.continue_matte);
+  continue_points(block, glossy, kernels_.continue_glossy);
+  if (!ends(stream)) continue_points(block, clear, kernels_.continue_clear);
+  wavefront_.spawn(going_on_);
+  start_shadows_by_epsilon(first_shadow);
+}
+
+/// Samples a light for each point, and chooses the direction in which its path goes on.
+void Path::continue_points(const Block& block, const LobePoints& points, Continue kernel) {
+  if (points.size == 0) return;
+  const PathStream& stream = block.stream;
+  const bool lit = samples_lights_ && kernel != kernels_.continue_clear;
+  const bool last = ends(stream), may_end = stream.depth >= roulette_depth;
+  GivenLight given{};
+  if (lit) {
+    find_numbers(stream, points, Use::light, light_numbers_);
+    if (environment_share_ > 0) {
+      sample_environment(points);
+      given = given_light_.view();
+    }
+  }
+  if (!last) find_numbers(stream, points, Use::bounce, bounce_numbers_);
+  if (!last && may_end) find_numbers(stream, points, Use::roulette, roulette_numbers_);
+  const PathStep step{.material = lobes_.data(),
+                      .id = hits_.view().id + block.first,
+                      .first_ray = static_cast<std::uint32_t>(block.first),
+                      .samples_lights = lit,
+                      .goes_on = !last,
+                      .weighs = !last && settings_.light_sampling != LightSampling::lights,
+                      .lights = light_spheres_.data(),
+                      .light_count = light_spheres_.size(),
+                      .environment_share = environment_share_,
+                      .light = light_numbers_.view(),
+                      .bounce = bounce_numbers_.view(),
+                      .survival = may_end ? roulette_numbers_.view().u : nullptr,
+                      .given = given};
+  kernel(points, step, shadows_, going_on_);
+}
+
+/// Samples the environment for the points whose numbers pick it, and none of the spheres.
+void Path::sample_environment(const LobePoints& points) {
+  for (std::size_t i = 0; i < points.size; ++i) {
+    UnitPair numbers = light_numbers_.get(i);
+    if (!(numbers.u < environment_share_)) {
+      given_light_.set_none(i);
+      continue;
+    }
+    numbers.u /= environment_share_;
+    const auto [to_light, density] = scene_.environment.sample(numbers);
+    given_light_.set(i, to_light, environment_share_ * density,
+                     background_radiance(scene_.background, vec_cast<float>(to_light)));
   }
 }
 
-/// Picks a light for each point, the environment or one of the spheres, and a direction to it.
-void Path::sample_lights(const PathStream& stream) {
-  find_numbers(stream, Use::light);
-  picked_lights_.clear();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = points_[i];
-    if (!point.lit) continue;
-    UnitPair numbers = numbers_.get(i);
-    if (sample_environment(stream, point, numbers)) continue;
-    const AreaLight& light = scene_.area_lights.pick(numbers.u);
-    light_cones_.set(picked_lights_.size(), surfaces_.departure(point.ray).org, light.center,
-                     light.radius, numbers.u, numbers.v);
-    picked_lights_.push_back({&point, &light});
-  }
-  sample_spheres(stream);
-}
-
-/// Samples the environment if the numbers pick it. Else returns false, and the numbers become new
-/// ones for the spheres.
-bool Path::sample_environment(const PathStream& stream, const Point& point, UnitPair& numbers) {
-  if (!(numbers.u < environment_share_)) {
-    numbers.u = (numbers.u - environment_share_) / (1 - environment_share_);
-    return false;
-  }
-  numbers.u /= environment_share_;
-  const auto [to_light, density] = scene_.environment.sample(numbers);
-  const Departure departure = surfaces_.departure(point.ray);
-  const Ray ray{departure.org, vec_cast<float>(to_light)};
-  const Color radiance = background_radiance(scene_.background, ray.dir);
-  add_shadow_ray(stream, point, from_surface(ray, departure),
-                 {to_light, environment_share_ * density, radiance});
-  return true;
-}
-
-void Path::sample_spheres(const PathStream& stream) {
-  kernels_.sample_cones(light_cones_.view(picked_lights_.size()));
-  const double sphere_share = 1 - environment_share_;
-  for (std::size_t i = 0; i < picked_lights_.size(); ++i) {
-    const auto& [point, light] = picked_lights_[i];
-    const Departure departure = surfaces_.departure(point->ray);
-    const Vec3d direction = light_cones_.direction(i);
-    Ray ray{departure.org, vec_cast<float>(direction)};
-    ray.tmax = light_cones_.tmax(i);
-    add_shadow_ray(
-        stream, *point, from_surface(ray, departure),
-        {direction, sphere_share * light->share * light_cones_.density(i), light->radiance});
-  }
-}
-
-/// Adds the shadow ray that decides whether a sampled light arrives, unless its weight is 0.
-void Path::add_shadow_ray(const PathStream& stream, const Point& point, const Ray& ray,
-                          const LightSample& light) {
-  const double cosine = dot(point.surface.normal, light.direction);
-  if (!(cosine > 0) || !(light.density > 0)) return;
-  const double density = point.lobes.density(cosine, light.direction);
-  const double weight = weight_of_light(light.density, density, ends(stream));
-  const Color reflected = point.lobes.reflected(cosine, light.direction);
+/// If asked, shadow rays to sampled lights start as the lecture's do, from number `first` on.
+void Path::start_shadows_by_epsilon(std::size_t first) {
   const auto epsilon = this->epsilon();
-  shadow_rays_.set(
-      sampled_lights_.size(),
-      epsilon ? start_by_epsilon(ray, epsilon->points[point.ray], epsilon->length) : ray);
-  sampled_lights_.push_back(
-      {point.ray, multiply(reflected, light.radiance, weight / (elementary::pi * light.density))});
-}
-
-/// Spawns the rays with which paths go on, unless the roulette ends them.
-void Path::continue_paths(const PathStream& stream) {
-  choose_directions(stream);
-  const bool may_end = stream.depth >= roulette_depth;
-  if (may_end) find_numbers(stream, Use::roulette);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = points_[i];
-    Bounce bounce = point.lobes.bounce(choices_[i], directions_.direction(i));
-    if (is_black(bounce.weight)) continue;
-    if (may_end && !survives(stream, point, numbers_.get(i), bounce)) continue;
-    wavefront_.spawn(point.ray, leave(point.surface, bounce.side, bounce.direction), bounce.weight,
-                     static_cast<float>(bounce.density));
+  if (!epsilon) return;
+  for (std::size_t k = first; k < shadows_.size; ++k) {
+    const Vec3f& point = epsilon->points[shadows_.ray[k]];
+    shadow_buffer_.set_shadow_ray(
+        k, start_by_epsilon(shadow_buffer_.shadow_ray(k), point, epsilon->length));
   }
-}
-
-/// Chooses a lobe for each point, and a direction in it if the lobe has more than one.
-void Path::choose_directions(const PathStream& stream) {
-  find_numbers(stream, Use::bounce);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const LobeSampler& lobes = points_[i].lobes;
-    const LobeSampler::Choice& choice = choices_[i] = lobes.choose(numbers_.get(i));
-    directions_.set(i, lobes.axis(choice), choice.from.cosine, choice.from.sine, choice.turns);
-  }
-  kernels_.to_world(directions_.view(points_.size()));
-}
-
-/// Russian roulette: a path survives with some probability, by which its weight is divided.
-bool Path::survives(const PathStream& stream, const Point& point, UnitPair numbers,
-                    Bounce& bounce) {
-  const Color left = stream.throughput[point.ray] * bounce.weight;
-  const float survival = std::min(std::max({left.r, left.g, left.b}), largest_survival);
-  if (!(numbers.u < static_cast<double>(survival))) return false;
-  bounce.weight = bounce.weight * (1 / survival);
-  return true;
 }
 
 /// Finds the random numbers of all points for this use.
-void Path::find_numbers(const PathStream& stream, Use use) {
+void Path::find_numbers(const PathStream& stream, const LobePoints& points, Use use,
+                        RandomNumbers& numbers) {
   const RandomSet set = random_set(stream.depth, static_cast<unsigned>(use));
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const RandomKey& key = random_keys_[stream.sample[points_[i].ray]];
-    numbers_.ask(i, key.pixel, set, key.sample);
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const RandomKey& key = random_keys_[points.sample[i]];
+    numbers.ask(i, key.pixel, set, key.sample);
   }
-  numbers_.find(kernels_, points_.size());
+  numbers.find(kernels_, points.size);
 }
 
 void Path::add_more_light() {
-  if (sampled_lights_.empty()) return;
-  RayStream rays = shadow_rays_.view();
-  rays.size = sampled_lights_.size();
+  if (shadows_.size == 0) return;
+  RayStream rays = shadows_.rays;
+  rays.size = shadows_.size;
   const std::uint8_t* blocked = find_blocked(rays, Coherence::none);
-  for (std::size_t k = 0; k < sampled_lights_.size(); ++k) {
+  const ColorStream sum = radiance_.view(), &light = shadows_.radiance;
+  for (std::size_t k = 0; k < shadows_.size; ++k) {
     if (blocked[k] != 0) continue;
-    Color& sum = radiance(sampled_lights_[k].ray);
-    sum = sum + sampled_lights_[k].radiance;
+    const std::size_t ray = shadows_.ray[k];
+    sum.r[ray] += light.r[k];
+    sum.g[ray] += light.g[k];
+    sum.b[ray] += light.b[k];
   }
 }
 
@@ -276,41 +284,11 @@ Color Path::weighted_background(const PathStream& stream, std::uint32_t ray) con
   return radiance * static_cast<float>(weight_of_hit(density, environment_share_ * other));
 }
 
-/// The radiance of the sphere lights that a ray crosses before t. They are not objects, so the ray
-/// does not end there. Only rays from a diffuse lobe or a highlight see them, with the ray's
-/// density.
-Color Path::crossed_lights(const Ray& ray, double density, double t) const {
-  Color sum;
-  const AreaLights& lights = scene_.area_lights;
-  if (lights.sphere_light_count() == 0) return sum;
-  const Vec3d dir = vec_cast<double>(ray.dir);
-  const double size = length(dir);
-  for (std::size_t i = 0; i < lights.sphere_light_count(); ++i) {
-    const AreaLight& light = lights.sphere_lights()[i];
-    if (!may_meet(dir, light.center - ray.org, light.radius)) continue;
-    const LightCone cone(ray.org, light.center, light.radius);
-    if (!cone.meets(dir * (1 / size), t * size)) continue;
-    const double weight =
-        weight_of_hit(density, (1 - environment_share_) * light.share * cone.density());
-    sum = sum + light.radiance * static_cast<float>(weight);
-  }
-  return sum;
-}
-
 /// The weight of light that a path found by its direction, which was chosen with `density` (0: by
 /// the camera or a mirror). Light sampling would have chosen it with `light_density`.
 double Path::weight_of_hit(double density, double light_density) const {
-  if (!(density > 0) || !(light_density > 0)) return 1;
-  if (settings_.light_sampling == LightSampling::both)
-    return power_heuristic(density, light_density);
-  return settings_.light_sampling == LightSampling::paths ? 1 : 0;
-}
-
-/// The weight of light that was sampled with `light_density`. The path itself would have gone there
-/// with `density`; `last`: it does not go on.
-double Path::weight_of_light(double light_density, double density, bool last) const {
-  if (last || settings_.light_sampling == LightSampling::lights) return 1;
-  return power_heuristic(light_density, density);
+  if (!(density > 0) || !(light_density > 0) || hit_weight_ == HitWeight::full) return 1;
+  return hit_weight_ == HitWeight::none ? 0 : power_heuristic(density, light_density);
 }
 
 }  // namespace boule

@@ -36,6 +36,7 @@ class RandomNumbers {
   }
 
   [[nodiscard]] UnitPair get(std::size_t i) const { return {u_[i], v_[i]}; }
+  [[nodiscard]] UnitPairs view() const { return {u_.data(), v_.data()}; }
 
  private:
   AlignedArray<std::uint32_t> sample_, shuffle_, seed_u_, seed_v_;

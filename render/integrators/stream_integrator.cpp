@@ -15,11 +15,8 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       kernels_(kernels),
       settings_(settings),
       wavefront_(settings.stream_size),
-      materials_(scene),
       surfaces_(scene, kernels),
-      geometry_(scene.geometry.view()) {
-  scattering_hits_.reserve(StreamSurfaces::block_size);
-}
+      geometry_(scene.geometry.view()) {}
 
 void StreamIntegrator::use_light(const Light& light) {
   lights_.push_back({&light, shadow_target(light)});
@@ -46,10 +43,9 @@ bool StreamIntegrator::cancelled() const {
 void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& camera) {
   const std::size_t count = stream.rays->size(), room = std::bit_ceil(count);
   hits_.resize(room);
-  if (radiance_.size() < room) radiance_.resize(room);
+  radiance_.resize(room);
   surfaces_.resize(room);
   illumination_.start(count);
-  materials_.start(room);
   make_room(room);
   hits_.resize(count);
   const bool first_hits = stream.depth == 0;
@@ -58,15 +54,17 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
   if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
-    settings_.record->begin(stream.rays->get(0), hit(0), stream.throughput[0]);
+    settings_.record->begin(
+        stream.rays->get(0), hit(0),
+        {stream.throughput.r[0], stream.throughput.g[0], stream.throughput.b[0]});
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
   }
   for (const TargetedLight& light : lights_) add_light(light);
   add_more_light();
-  if (settings_.record != nullptr) settings_.record->finish(radiance_.front());
-  for (std::size_t k = 0; k < count; ++k) wavefront_.add(k, radiance_[k]);
+  if (settings_.record != nullptr) settings_.record->finish(radiance_.get(0));
+  wavefront_.add(radiance_.view());
 }
 
 /// The points of the stream's hits as floats have them, for shadow rays that start by an epsilon.
@@ -103,7 +101,7 @@ void StreamIntegrator::add_light(const TargetedLight& light) {
       illumination_.make_shadow_rays(kernels_, light.target, surfaces_, epsilon());
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
-  illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.data());
+  illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.view());
   if (settings_.record != nullptr) record_shadow(light, rays, blocked);
 }
 
@@ -114,7 +112,8 @@ void StreamIntegrator::record_shadow(const TargetedLight& light, const RayStream
   HitBuffer met(1);
   if (blocked[0] != 0) kernels_.closest_hit(geometry_, rays, query, met.view());
   Color arriving;
-  illumination_.add_unblocked(*light.light, surfaces_, blocked, &arriving);
+  illumination_.add_unblocked(*light.light, surfaces_, blocked,
+                              {&arriving.r, &arriving.g, &arriving.b});
   const auto index = static_cast<std::size_t>(light.light - scene_.lights.data());
   settings_.record->add_shadow(index, illumination_.shadow_ray(0),
                                blocked[0] != 0 ? met.get(0) : Hit{}, arriving);

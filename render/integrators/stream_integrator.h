@@ -8,10 +8,10 @@
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/shading/illumination.h"
-#include "render/shading/material_finder.h"
 #include "render/shading/stream_surfaces.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/aligned_array.h"
+#include "simd/stream/path_buffers.h"
 
 namespace boule {
 
@@ -31,12 +31,6 @@ class StreamIntegrator : public Integrator {
     std::size_t first, end;
   };
 
-  /// A ray of the block, and the material that it met, which sends light on.
-  struct ScatteringHit {
-    std::uint32_t ray;
-    const FlatMaterial* material;
-  };
-
   /// `scene` and `kernels` must outlive the integrator.
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                    const IntegratorSettings& settings);
@@ -49,7 +43,7 @@ class StreamIntegrator : public Integrator {
   /// Called before each stream, with room for how many rays to make.
   virtual void make_room(std::size_t) {}
 
-  /// Sets radiance(k) for every ray k of the block, adds the lit hits to illumination_, and spawns
+  /// Sets the radiance_ of every ray of the block, adds the lit hits to illumination_, and spawns
   /// the rays that go on, parents in order.
   virtual void shade(const Block& block) = 0;
 
@@ -64,7 +58,6 @@ class StreamIntegrator : public Integrator {
   const std::uint8_t* find_blocked(const RayStream& shadow_rays, Coherence coherence);
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
-  [[nodiscard]] Color& radiance(std::size_t ray) { return radiance_[ray]; }
   /// What a ray of the stream sees of the background: the camera's own rays see the backdrop.
   [[nodiscard]] Color seen_background(const PathStream& stream, std::size_t ray) const;
   /// How shadow rays start by the lecture's epsilon; none: by themselves.
@@ -78,9 +71,11 @@ class StreamIntegrator : public Integrator {
   IntegratorSettings settings_;
   Wavefront wavefront_;
   Illumination illumination_;
-  MaterialFinder materials_;
   StreamSurfaces surfaces_;
-  std::vector<ScatteringHit> scattering_hits_;  ///< working memory of one block
+  GeometryView geometry_;
+  // Working memory of one stream.
+  HitBuffer hits_;
+  ColorBuffer radiance_;  ///< by ray
 
  private:
   struct TargetedLight {
@@ -96,13 +91,10 @@ class StreamIntegrator : public Integrator {
                      const std::uint8_t* blocked);
   [[nodiscard]] bool cancelled() const;
 
-  GeometryView geometry_;
   std::vector<TargetedLight> lights_;
   std::uint64_t primary_ = 0, shadow_ = 0;
 
   // Working memory of one stream.
-  HitBuffer hits_;
-  std::vector<Color> radiance_;      ///< by ray
   std::vector<Vec3f> float_points_;  ///< by ray, where shadow rays start by an epsilon
   AlignedArray<std::uint8_t> blocked_;
 };

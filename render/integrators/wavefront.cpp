@@ -1,22 +1,27 @@
 #include "render/integrators/wavefront.h"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace boule {
 
 void Wavefront::start(RayBuffer& camera_rays) {
   const std::size_t samples = camera_rays.size();
-  while (camera_sample_.size() < samples) {
-    camera_sample_.push_back(static_cast<std::uint32_t>(camera_sample_.size()));
-    camera_throughput_.push_back(gray(1));
-    camera_density_.push_back(0);
+  if (samples > most_samples_) {
+    most_samples_ = std::bit_ceil(samples);
+    camera_throughput_.resize(most_samples_, 1);
+    camera_density_.resize(most_samples_);
+    camera_sample_.resize(most_samples_);
+    for (std::size_t k = 0; k < most_samples_; ++k)
+      camera_sample_[k] = static_cast<std::uint32_t>(k);
   }
   // A run that was cancelled or failed may have left streams.
   if (running_) spare_.push_back(std::move(running_));
   recycle(waiting_);
   recycle(children_);
   depth_sums_.start(samples);
-  current_ = {&camera_rays, camera_throughput_.data(), camera_sample_.data(),
+  current_ = {&camera_rays, camera_throughput_.view(), camera_sample_.data(),
               camera_density_.data(), 0};
   started_ = false;
 }
@@ -38,7 +43,7 @@ const PathStream* Wavefront::next() {
   running_ = std::move(waiting_.back());
   waiting_.pop_back();
   running_->rays.resize(running_->size);
-  use({&running_->rays, running_->throughput.data(), running_->sample.data(),
+  use({&running_->rays, running_->throughput.view(), running_->sample.data(),
        running_->density.data(), running_->depth});
   return &current_;
 }
@@ -48,20 +53,72 @@ void Wavefront::use(PathStream stream) {
   sums_ = depth_sums_.at_depth(stream.depth);
 }
 
-void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight, float density) {
-  const Color throughput = light_product(current_.throughput[parent], weight);
-  if (is_black(throughput)) return;
+namespace {
+
+/// light_product() of all of them, into `b`; without branches, so that it becomes vector code.
+void multiply_all(const float* a, float* b, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool none = (a[k] == 0) | (b[k] == 0);
+    const float product = a[k] * b[k];
+    b[k] = none ? 0 : product;
+  }
+}
+
+}  // namespace
+
+void Wavefront::add(const ColorStream& radiance) {
+  const std::size_t count = current_.rays->size();
+  multiply_all(current_.throughput.r, radiance.r, count);
+  multiply_all(current_.throughput.g, radiance.g, count);
+  multiply_all(current_.throughput.b, radiance.b, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    Color& sum = sums_[current_.sample[k]];
+    sum = sum + Color{radiance.r[k], radiance.g[k], radiance.b[k]};
+  }
+}
+
+/// The stream to which the next ray belongs.
+Wavefront::Stream& Wavefront::open_stream() {
   if (children_.empty() || children_.back()->size == stream_size_) {
     children_.push_back(take_stream());
     children_.back()->depth = current_.depth + 1;
   }
-  Stream& stream = *children_.back();
+  return *children_.back();
+}
+
+void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight) {
+  const ColorStream& before = current_.throughput;
+  const Color throughput =
+      light_product({before.r[parent], before.g[parent], before.b[parent]}, weight);
+  if (is_black(throughput)) return;
+  Stream& stream = open_stream();
   stream.rays.set(stream.size, ray);
-  stream.throughput[stream.size] = throughput;
+  stream.throughput.set(stream.size, throughput);
   stream.sample[stream.size] = current_.sample[parent];
-  stream.density[stream.size] = density;
+  stream.density[stream.size] = 0;
   ++stream.size;
   ++spawned_;
+}
+
+void Wavefront::spawn(const GoingOn& rays) {
+  for (std::size_t done = 0; done < rays.size;) {
+    Stream& stream = open_stream();
+    const std::size_t count = std::min(rays.size - done, stream_size_ - stream.size);
+    const auto copy = [&](const auto* from, auto* to) {
+      std::copy_n(from + done, count, to + stream.size);
+    };
+    RayStream to = stream.rays.view();
+    each_array(copy, rays.rays, to);
+    const ColorStream throughput = stream.throughput.view();
+    copy(rays.throughput.r, throughput.r);
+    copy(rays.throughput.g, throughput.g);
+    copy(rays.throughput.b, throughput.b);
+    copy(rays.sample, stream.sample.data());
+    copy(rays.density, stream.density.data());
+    stream.size += count;
+    done += count;
+  }
+  spawned_ += rays.size;
 }
 
 Wavefront::StreamPtr Wavefront::take_stream() {

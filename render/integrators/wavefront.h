@@ -8,6 +8,7 @@
 #include "core/math/color.h"
 #include "core/math/ray.h"
 #include "render/integrators/depth_sums.h"
+#include "simd/stream/path_buffers.h"
 #include "simd/stream/stream_buffer.h"
 
 namespace boule {
@@ -16,10 +17,11 @@ namespace boule {
 /// there.
 struct PathStream {
   RayBuffer* rays = nullptr;
-  const Color* throughput = nullptr;
+  ColorStream throughput{};
   const std::uint32_t* sample = nullptr;
-  const float* density = nullptr;  ///< with which each direction was chosen, as given to spawn()
-  int depth = 0;                   ///< number of bounces since the camera
+  const float* density =
+      nullptr;    ///< with which each direction was chosen, 0: of a mirror or camera
+  int depth = 0;  ///< number of bounces since the camera
 };
 
 /// The recursion of ray tracing as a loop over streams (lecture "Recursion"). An integrator takes a
@@ -38,16 +40,15 @@ class Wavefront {
   /// The next stream, or null when none is left. Ends the life of the stream before.
   const PathStream* next();
 
-  /// Adds radiance that a ray of the current stream found. Precondition: rays come in order.
-  void add(std::size_t ray, const Color& radiance) {
-    const std::uint32_t sample = current_.sample[ray];
-    sums_[sample] = sums_[sample] + light_product(current_.throughput[ray], radiance);
-  }
+  /// Adds the radiance that each ray of the current stream found. `radiance` is overwritten.
+  void add(const ColorStream& radiance);
 
   /// Adds a ray that goes on from ray `parent` of the current stream, unless its weight in the
-  /// sample is black. PathStream::density of the ray is `density`. Precondition: parents come in
-  /// order.
-  void spawn(std::size_t parent, const Ray& ray, const Color& weight, float density = 0);
+  /// sample is black. Its PathStream::density is 0. Precondition: parents come in order.
+  void spawn(std::size_t parent, const Ray& ray, const Color& weight);
+
+  /// Adds rays that go on from the current stream, parents in order or one to a sample.
+  void spawn(const GoingOn& rays);
 
   /// Writes the radiance of every sample. Precondition: next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
@@ -62,22 +63,24 @@ class Wavefront {
   /// What a PathStream points to. The first `size` entries are in use.
   struct Stream {
     RayBuffer rays;
-    std::vector<Color> throughput;
-    std::vector<std::uint32_t> sample;
-    std::vector<float> density;
+    ColorBuffer throughput;
+    AlignedArray<std::uint32_t> sample;
+    AlignedArray<float> density;
     std::size_t size = 0;
     int depth = 0;
   };
   using StreamPtr = std::unique_ptr<Stream>;
 
   StreamPtr take_stream();
+  Stream& open_stream();
   void recycle(std::vector<StreamPtr>& streams);
   void use(PathStream stream);
 
   std::size_t stream_size_;
-  std::vector<Color> camera_throughput_;      ///< all 1
-  std::vector<std::uint32_t> camera_sample_;  ///< 0, 1, 2 ...
-  std::vector<float> camera_density_;         ///< all 0
+  std::size_t most_samples_ = 0;               ///< of a camera's rays so far
+  ColorBuffer camera_throughput_;              ///< all 1
+  AlignedArray<std::uint32_t> camera_sample_;  ///< 0, 1, 2 ...
+  AlignedArray<float> camera_density_;         ///< all 0
   DepthSums depth_sums_;
   PathStream current_;
   Color* sums_ = nullptr;            ///< of the current depth

@@ -6,7 +6,8 @@ namespace boule {
 
 Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
                  const IntegratorSettings& settings)
-    : StreamIntegrator(scene, kernels, settings) {
+    : StreamIntegrator(scene, kernels, settings), materials_(scene) {
+  scattering_hits_.reserve(StreamSurfaces::block_size);
   for (const Light& light : scene.lights) use_light(light);
 }
 
@@ -19,11 +20,11 @@ void Whitted::shade(const Block& block) {
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const Hit met = hit(k);
     if (met.id == no_primitive) {
-      radiance(k) = seen_background(block.stream, k);
+      radiance_.set(k, seen_background(block.stream, k));
       continue;
     }
     const FlatMaterial& material = materials_.find(met);
-    radiance(k) = material.constant;
+    radiance_.set(k, material.constant);
     if (takes_direct_light(material)) {
       illumination_.add_point(k, material);
       any_lit = true;

@@ -10,9 +10,10 @@ namespace boule {
 /// Bytes that so many spheres take.
 constexpr std::uint64_t bytes_of_spheres(std::uint64_t count) { return count * sizeof(Sphere); }
 
-/// The most bytes that the tree over so many spheres takes, which is while it is built.
+/// The most bytes that spheres and the tree over them take at any time while it is built in their
+/// place, and afterwards (build_bvh()); the spheres have colours of their own or not.
 constexpr std::uint64_t bytes_of_tree(std::uint64_t spheres) {
-  constexpr std::uint64_t measured = 90;  // per sphere, of millions of them
+  constexpr std::uint64_t measured = 32;  // per sphere, of millions of them
   return spheres * measured;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/prepare/interval.h"
+#include "core/math/interval.h"
 
 namespace boule {
 namespace {
@@ -47,14 +47,6 @@ AreaLights::AreaLights(const std::vector<Light>& lights, const std::vector<Spher
 
 double AreaLights::share_of(const AreaLight& light) const {
   return 0.5 * (power_of(light) / power_ + 1 / static_cast<double>(lights_.size()));
-}
-
-const AreaLight& AreaLights::pick(double& u) const {
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u);
-  const auto index = static_cast<std::size_t>(found - cumulative_.begin());
-  const double before = index == 0 ? 0 : cumulative_[index - 1];
-  u = rescale(u, {.first = before, .size = lights_[index].share});
-  return lights_[index];
 }
 
 AreaLight AreaLights::light_of(const Sphere& sphere, const Color& radiance) const {

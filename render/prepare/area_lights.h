@@ -28,12 +28,13 @@ class AreaLights {
 
   [[nodiscard]] bool empty() const { return lights_.empty(); }
 
-  /// Picks a light by u in [0, 1), and makes u a new number that is evenly spread in [0, 1).
-  /// Precondition: there is a light.
-  [[nodiscard]] const AreaLight& pick(double& u) const;
+  [[nodiscard]] std::size_t size() const { return lights_.size(); }
+  /// Light i is picked by a number u in [0, 1) from before(i) on, and before that of the next one.
+  [[nodiscard]] const AreaLight& operator[](std::size_t i) const { return lights_[i]; }
+  [[nodiscard]] double before(std::size_t i) const { return i == 0 ? 0 : cumulative_[i - 1]; }
 
-  /// The sphere lights, in file order. They are not objects: rays pass through them.
-  [[nodiscard]] const AreaLight* sphere_lights() const { return lights_.data(); }
+  /// How many of them, the first ones, are sphere lights, in file order. They are not objects: rays
+  /// pass through them.
   [[nodiscard]] std::size_t sphere_light_count() const { return sphere_lights_; }
 
   /// An emissive sphere of the scene as a light. `radiance` is that of its material, and not black.

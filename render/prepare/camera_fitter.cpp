@@ -5,6 +5,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
+#include "render/prepare/fold_spheres.h"
 
 namespace boule {
 namespace {
@@ -51,23 +52,41 @@ CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, in
   y_.cosine = cosine_of(y * used);
 }
 
-void CameraFitter::add(const std::vector<Sphere>& spheres) {
+void CameraFitter::add(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
+  *this = fold_spheres(
+      spheres, parallel_for, *this,
+      [](CameraFitter& fitter, const Sphere& sphere) { fitter.add(sphere); },
+      [](CameraFitter& fitter, const CameraFitter& other) { fitter.add(other); });
+}
+
+void CameraFitter::add(const Sphere& s) {
   const auto narrow = [](Sides& sides, double across, double depth, double radius) {
     const double inward = depth * sides.sine - radius;
     sides.low = std::min(sides.low, inward + across * sides.cosine);
     sides.high = std::min(sides.high, inward - across * sides.cosine);
   };
-  for (const Sphere& s : spheres) {
-    const Vec3d center = vec_cast<double>(s.center);
-    const auto radius = static_cast<double>(s.radius);
-    const double depth = dot(center, forward_);
-    narrow(x_, dot(center, right_), depth, radius);
-    narrow(y_, dot(center, up_), depth, radius);
-    nearest_ = std::min(nearest_, depth - radius);
-    farthest_ = std::max(farthest_, depth + radius);
-    largest_ =
-        std::max({largest_, std::fabs(center.x), std::fabs(center.y), std::fabs(center.z), radius});
-  }
+  const Vec3d center = vec_cast<double>(s.center);
+  const auto radius = static_cast<double>(s.radius);
+  const double depth = dot(center, forward_);
+  narrow(x_, dot(center, right_), depth, radius);
+  narrow(y_, dot(center, up_), depth, radius);
+  nearest_ = std::min(nearest_, depth - radius);
+  farthest_ = std::max(farthest_, depth + radius);
+  largest_ =
+      std::max({largest_, std::fabs(center.x), std::fabs(center.y), std::fabs(center.z), radius});
+}
+
+/// Adds what a fitter for the same frame was given.
+void CameraFitter::add(const CameraFitter& other) {
+  const auto narrow = [](Sides& sides, const Sides& others) {
+    sides.low = std::min(sides.low, others.low);
+    sides.high = std::min(sides.high, others.high);
+  };
+  narrow(x_, other.x_);
+  narrow(y_, other.y_);
+  nearest_ = std::min(nearest_, other.nearest_);
+  farthest_ = std::max(farthest_, other.farthest_);
+  largest_ = std::max(largest_, other.largest_);
 }
 
 std::vector<SphereMeasure> CameraFitter::measures() const {

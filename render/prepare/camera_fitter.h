@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/camera.h"
 #include "core/scene/camera_fit.h"
 #include "core/scene/primitive.h"
@@ -19,7 +20,7 @@ class CameraFitter {
   /// `view` does not lie along its direction.
   CameraFitter(const CameraFit& fit, const View& view, int width, int height);
 
-  void add(const std::vector<Sphere>& spheres);
+  void add(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
 
   /// The camera depends on the spheres by these measures only, and by those for which one is least.
   [[nodiscard]] std::vector<SphereMeasure> measures() const;
@@ -41,6 +42,8 @@ class CameraFitter {
     double high = std::numeric_limits<double>::infinity();  ///< from the right or the upper one
   };
 
+  void add(const Sphere& sphere);
+  void add(const CameraFitter& other);
   [[nodiscard]] Camera pinhole() const;
   [[nodiscard]] Camera orthographic() const;
   [[nodiscard]] CameraPose pose_at(double x, double y, double depth) const;

@@ -66,12 +66,12 @@ SphereBounds bounds_of(const std::vector<Sphere>& spheres) {
   return {low, high};
 }
 
-Camera default_camera(const Scene& scene, int width, int height) {
+Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
   if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
   if (scene.spheres.empty()) return camera_without_spheres(scene, width, height);
-  const View view = default_view(scene.fit, scene.spheres, scene.planes);
+  const View view = default_view(scene.fit, scene.spheres, scene.planes, parallel_for);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(scene.spheres);
+  fitter.add(scene.spheres, parallel_for);
   return fitter.camera();
 }
 

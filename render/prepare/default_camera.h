@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/scene/scene.h"
 
 namespace boule {
@@ -18,7 +19,8 @@ SphereBounds bounds_of(const Scene& scene);
 /// pictures of `width` x `height` pixels (CameraFitter). If there are planes only, it is a pinhole
 /// that looks at the first one; if there is nothing, it looks along -z. Coordinates near the end of
 /// float's range can overflow here: find_problem() of the camera tells.
-Camera default_camera(const Scene& scene, int width, int height);
+Camera default_camera(const Scene& scene, int width, int height,
+                      const ParallelFor& parallel_for = serial_for);
 
 /// The sentence that tells the user of it.
 inline constexpr const char* camera_note = "the camera is fitted to the objects";

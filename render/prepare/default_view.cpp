@@ -1,11 +1,13 @@
 #include "render/prepare/default_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/math/geometry.h"
+#include "render/prepare/fold_spheres.h"
 
 namespace boule {
 namespace {
@@ -38,18 +40,41 @@ struct Extent {
   double spheres = 0, centers = 0;
 };
 
-Extent extent_along(const Vec3d& axis, const std::vector<Sphere>& spheres) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
+/// Where spheres lie along an axis.
+struct Range {
+  static constexpr double inf = std::numeric_limits<double>::infinity();
   double low = inf, high = -inf, lowest_center = inf, highest_center = -inf;
-  for (const Sphere& s : spheres) {
-    const double along = dot(vec_cast<double>(s.center), axis);
-    const auto radius = static_cast<double>(s.radius);
-    low = std::min(low, along - radius);
-    high = std::max(high, along + radius);
-    lowest_center = std::min(lowest_center, along);
-    highest_center = std::max(highest_center, along);
+
+  void add(const Vec3d& center, double radius, const Vec3d& axis) {
+    const double along = dot(center, axis);
+    add({along - radius, along + radius, along, along});
   }
-  return {std::max(high - low, 0.0), std::max(highest_center - lowest_center, 0.0)};
+  void add(const Range& range) {
+    low = std::min(low, range.low);
+    high = std::max(high, range.high);
+    lowest_center = std::min(lowest_center, range.lowest_center);
+    highest_center = std::max(highest_center, range.highest_center);
+  }
+  [[nodiscard]] Extent extent() const {
+    return {std::max(high - low, 0.0), std::max(highest_center - lowest_center, 0.0)};
+  }
+};
+
+using Ranges = std::array<Range, 3>;
+
+/// Along the three directions of a compass.
+Ranges ranges_of(const Compass& compass, const std::vector<Sphere>& spheres,
+                 const ParallelFor& parallel_for) {
+  const std::array<Vec3d, 3> axes{compass.right, compass.up, compass.front};
+  const auto add = [&](Ranges& ranges, const Sphere& sphere) {
+    const Vec3d center = vec_cast<double>(sphere.center);
+    for (std::size_t k = 0; k < 3; ++k)
+      ranges[k].add(center, static_cast<double>(sphere.radius), axes[k]);
+  };
+  const auto join = [](Ranges& ranges, const Ranges& others) {
+    for (std::size_t k = 0; k < 3; ++k) ranges[k].add(others[k]);
+  };
+  return fold_spheres(spheres, parallel_for, Ranges{}, add, join);
 }
 
 /// True if spheres are a sheet, one sphere thick, as simulations in two dimensions are.
@@ -63,11 +88,10 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : 1; }
 
 /// The direction from the spheres to the camera; a sheet is seen face on, unless it lies on a
 /// floor.
-Vec3d way_to_camera(Compass compass, const std::vector<Sphere>& spheres, bool has_floor) {
+Vec3d way_to_camera(Compass compass, const Ranges& ranges, bool has_floor) {
   // Tangents. They are those of 32 and 20 degrees, and of 50 for what is flat.
   constexpr double aside = 0.625, above = 0.371, above_flat = 1.19;
-  const Extent x = extent_along(compass.right, spheres), y = extent_along(compass.up, spheres),
-               z = extent_along(compass.front, spheres);
+  const Extent x = ranges[0].extent(), y = ranges[1].extent(), z = ranges[2].extent();
   if (is_sheet(y, x, z) && !has_floor) return compass.up;
   if (is_sheet(z, x, y)) return compass.front;
   if (is_sheet(x, y, z)) return compass.right;
@@ -92,12 +116,16 @@ bool are_parallel(const Vec3d& a, const Vec3d& b) { return length(cross(a, b)) <
 }  // namespace
 
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
-                  const std::vector<Plane>& planes) {
+                  const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
   View view;
   view.up = fit.up ? unit(*fit.up) : up_of(planes);
-  view.direction = fit.direction
-                       ? unit(*fit.direction)
-                       : way_to_camera(compass_of(view.up), spheres, !planes.empty()) * -1.0;
+  if (fit.direction) {
+    view.direction = unit(*fit.direction);
+  } else {
+    const Compass compass = compass_of(view.up);
+    const Ranges ranges = ranges_of(compass, spheres, parallel_for);
+    view.direction = way_to_camera(compass, ranges, !planes.empty()) * -1.0;
+  }
   if (!(fit.up && fit.direction) && are_parallel(view.up, view.direction)) {
     // Seen from above or below, what is behind is upward, as on a map.
     view.up = compass_of(view.up).front * -1.0;

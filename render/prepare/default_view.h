@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/math/vec.h"
 #include "core/scene/camera_fit.h"
 #include "core/scene/primitive.h"
@@ -22,7 +23,7 @@ struct View {
 /// Precondition: fit's vectors are finite and not zero. A fit whose up lies along its direction
 /// gives such a View.
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
-                  const std::vector<Plane>& planes);
+                  const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
 
 /// The directions across which default_view() measures the spheres: it depends on them by how far
 /// they and their centres reach along these, both ways.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/math/interval.h"
 #include "core/math/warp.h"
-#include "render/prepare/interval.h"
 
 namespace boule {
 namespace {

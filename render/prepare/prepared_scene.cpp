@@ -7,8 +7,10 @@
 #include "core/base/float_environment.h"
 #include "core/optics/cameras.h"
 #include "core/scene/instances.h"
+#include "core/scene/scene_check.h"
 #include "render/prepare/default_camera.h"
 #include "render/prepare/default_light.h"
+#include "render/prepare/fold_spheres.h"
 #include "render/prepare/placed_lights.h"
 #include "render/prepare/scene_geometry.h"
 
@@ -31,11 +33,14 @@ std::vector<Material> plain_materials(const Scene& scene) {
   return plain;
 }
 
-bool has_own_colors(const Scene& scene) {
+bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
   const auto colored = [](const auto& primitive) { return primitive.material.has_color(); };
   return (scene.packed && scene.packed->has_own_colors) ||
-         std::any_of(scene.spheres.begin(), scene.spheres.end(), colored) ||
-         std::any_of(scene.planes.begin(), scene.planes.end(), colored);
+         std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
+         fold_spheres(
+             scene.spheres, parallel_for, char{0},
+             [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
+             [](char& some, char other) { some |= other; }) != 0;
 }
 
 /// The spheres that give light, for path tracing.
@@ -70,9 +75,10 @@ Coherence central_coherence(CameraKind kind) {
 }
 
 /// Gives a scene without a camera one that frames its objects. An error where none can.
-Status add_camera(Scene& scene, int width, int height, std::vector<std::string>& notes) {
+Status add_camera(Scene& scene, int width, int height, const ParallelFor& parallel_for,
+                  std::vector<std::string>& notes) {
   if (scene.camera) return std::nullopt;
-  scene.camera = default_camera(scene, width, height);
+  scene.camera = default_camera(scene, width, height, parallel_for);
   if (const auto problem = find_problem(*scene.camera)) {
     return Diagnostic::about("camera",
                              "the scene has no camera, and its objects cannot be framed: camera." +
@@ -122,14 +128,14 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                               Method method) {
   const FloatEnvironment floats;
   if (auto bad = check_size(width, height)) return *bad;
-  if (auto bad = validate(scene)) return *bad;
+  if (auto bad = validate_in_parallel(scene, parallel_for)) return *bad;
   expand_instances(scene);
   std::vector<std::string> notes;
-  if (auto bad = add_camera(scene, width, height, notes)) return *bad;
+  if (auto bad = add_camera(scene, width, height, parallel_for, notes)) return *bad;
   const bool lit_by_default = lacks_light(scene, method);
   if (lit_by_default) notes.emplace_back(light_note(scene, method));
   EnvironmentLight environment = environment_light(scene, method);
-  const bool own_colors = has_own_colors(scene);
+  const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
   PreparedScene prepared{.geometry = build_geometry(scene, scene.planes, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them

@@ -26,8 +26,8 @@ struct BlockSetup {
   std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
   std::size_t stream_size;                ///< most camera rays in a stream, >= 1
   Alpha alpha;                            ///< whether films learn which samples are covered
-  PixelRect frame;
-  NoiseTarget noise;
+  PixelRect frame{};                      ///< of the picture, for noise
+  NoiseTarget noise{};
 };
 
 /// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not

@@ -19,7 +19,7 @@ int least_tile(const RenderOptions& options) {
 
 /// The most bytes that bands and the file's encoder take.
 std::uint64_t bytes_of_bands(const RenderOptions& options) {
-  constexpr std::uint64_t encoder = Bands::most_bytes;
+  constexpr std::uint64_t encoder = std::uint64_t{40} << 20;
   const std::uint64_t whole = rendered_rect(options).area() * (sizeof(Color) + sizeof(float));
   return std::min(whole, Bands::most_bytes) + std::min(whole, encoder);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "render/file/float32.h"
 #include "render/file/input_file.h"
@@ -16,6 +17,7 @@ namespace {
 
 /// The rows of a valid file: `columns` numbers of `width` bytes each.
 struct RowLayout {
+  std::uint64_t begin = 0;  ///< byte of the first one in the file
   std::uint64_t rows = 0;
   std::size_t columns = 4;
   std::size_t width = 4;
@@ -46,7 +48,7 @@ Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& reques
   if (shape[1] == 4 && has_radius) {
     return Diagnostic::of("has radii of its own in column 3: the key 'radius' contradicts them");
   }
-  const RowLayout layout{shape[0], static_cast<std::size_t>(shape[1]),
+  const RowLayout layout{header.size, shape[0], static_cast<std::size_t>(shape[1]),
                          npy_is_double(header) ? std::size_t{8} : std::size_t{4}};
   if (auto bad = check_npy_length(header, layout.bytes(), file_size)) return *bad;
   return layout;
@@ -58,29 +60,26 @@ class RowDecoder {
   RowDecoder(const RowLayout& layout, const NpySpheres& request)
       : layout_(layout), request_(request) {}
 
-  /// Appends the spheres of `count` rows, the first of which is row `first` of the file: nothing,
-  /// or what is wrong with the first bad one.
-  Status append(const unsigned char* rows, std::uint64_t first, std::size_t count,
-                std::vector<Sphere>& spheres) const {
-    const bool all_valid = layout_.width == sizeof(float)
-                               ? append_all<float>(rows, count, spheres)
-                               : append_all<double>(rows, count, spheres);
-    return all_valid ? std::nullopt : explain(rows, first, count);
+  /// Sets the spheres of some rows, the first of which is row `first` of the file: nothing, or what
+  /// is wrong with the first bad one.
+  Status decode(const unsigned char* rows, std::uint64_t first, std::span<Sphere> spheres) const {
+    const bool all_valid = layout_.width == sizeof(float) ? decode_all<float>(rows, spheres)
+                                                          : decode_all<double>(rows, spheres);
+    return all_valid ? std::nullopt : explain(rows, first, spheres.size());
   }
 
  private:
   template <class Number>
-  bool append_all(const unsigned char* rows, std::size_t count,
-                  std::vector<Sphere>& spheres) const {
+  bool decode_all(const unsigned char* rows, std::span<Sphere> spheres) const {
     if (!(request_.origin == Vec3d{})) {
-      return layout_.columns == 4 ? append_all<Number, 4, true>(rows, count, spheres)
-                                  : append_all<Number, 3, true>(rows, count, spheres);
+      return layout_.columns == 4 ? decode_all<Number, 4, true>(rows, spheres)
+                                  : decode_all<Number, 3, true>(rows, spheres);
     }
-    return layout_.columns == 4 ? append_all<Number, 4, false>(rows, count, spheres)
-                                : append_all<Number, 3, false>(rows, count, spheres);
+    return layout_.columns == 4 ? decode_all<Number, 4, false>(rows, spheres)
+                                : decode_all<Number, 3, false>(rows, spheres);
   }
   template <class Number, std::size_t columns, bool has_origin>
-  bool append_all(const unsigned char* rows, std::size_t count, std::vector<Sphere>& spheres) const;
+  bool decode_all(const unsigned char* rows, std::span<Sphere> spheres) const;
   Status explain(const unsigned char* rows, std::uint64_t first, std::size_t count) const;
   std::optional<std::string> find_problem_in(const unsigned char* row) const;
 
@@ -88,16 +87,15 @@ class RowDecoder {
   const NpySpheres& request_;
 };
 
-/// Appends rows of one kind; true if all are valid. If not, RowDecoder::explain() finds out why.
+/// Decodes rows of one kind; true if all are valid. If not, RowDecoder::explain() finds out why.
 template <class Number, std::size_t columns, bool has_origin>
-bool RowDecoder::append_all(const unsigned char* rows, std::size_t count,
-                            std::vector<Sphere>& spheres) const {
+bool RowDecoder::decode_all(const unsigned char* rows, std::span<Sphere> spheres) const {
   const float common_radius = request_.radius.value_or(0);
   const MaterialRef material = request_.material;
   const Vec3d& o = request_.origin;
   const double origin[4] = {o.x, o.y, o.z, 0};
   bool all_valid = true;
-  for (std::size_t row = 0; row < count; ++row, rows += columns * sizeof(Number)) {
+  for (Sphere& sphere : spheres) {
     float numbers[4] = {0, 0, 0, common_radius};
     for (std::size_t i = 0; i < columns; ++i) {
       const Number number = npy_number<Number>(rows + i * sizeof(Number));
@@ -107,9 +105,9 @@ bool RowDecoder::append_all(const unsigned char* rows, std::size_t count,
         numbers[i] = float32_or_nan(number);
       }
     }
-    const Sphere sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3], material};
+    sphere = {{numbers[0], numbers[1], numbers[2]}, numbers[3], material};
     all_valid &= is_valid(sphere);
-    spheres.push_back(sphere);
+    rows += columns * sizeof(Number);
   }
   return all_valid;
 }
@@ -144,25 +142,47 @@ std::optional<std::string> RowDecoder::find_problem_in(const unsigned char* row)
   return problem->field + " " + problem->message;
 }
 
-Status append_rows(InputFile& file, const RowLayout& layout, const NpySpheres& request,
-                   std::vector<Sphere>& spheres) {
+/// Reads a piece of the rows, from row `first` of the file on, block by block.
+Status read_piece(const InputFile& file, const RowLayout& layout, const RowDecoder& decoder,
+                  std::uint64_t first, std::span<Sphere> spheres) {
   constexpr std::size_t rows_per_block = 4096;
-  std::vector<unsigned char> block(rows_per_block * layout.bytes());
-  make_room(spheres, static_cast<std::size_t>(layout.rows));
+  std::vector<unsigned char> block(std::min(rows_per_block, spheres.size()) * layout.bytes());
+  while (!spheres.empty()) {
+    const std::size_t count = std::min(rows_per_block, spheres.size());
+    if (auto bad = read_npy_rows(file, layout.begin + first * layout.bytes(), block.data(),
+                                 count * layout.bytes())) {
+      return bad;
+    }
+    if (auto bad = decoder.decode(block.data(), first, spheres.first(count))) return bad;
+    first += count;
+    spheres = spheres.subspan(count);
+  }
+  return std::nullopt;
+}
+
+/// Threads read a piece each, into the place where the spheres stay.
+Status append_rows(const InputFile& file, const RowLayout& layout, const NpySpheres& request,
+                   std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
+  constexpr std::size_t rows_per_piece = std::size_t{1} << 16;
+  const std::size_t before = spheres.size(), rows = static_cast<std::size_t>(layout.rows);
+  append_blank(spheres, rows, parallel_for);
   const RowDecoder decoder(layout, request);
-  for (std::uint64_t row = 0; row < layout.rows;) {
-    const auto count =
-        static_cast<std::size_t>(std::min<std::uint64_t>(rows_per_block, layout.rows - row));
-    if (auto bad = read_npy_rows(file, block.data(), count * layout.bytes())) return bad;
-    if (auto bad = decoder.append(block.data(), row, count, spheres)) return bad;
-    row += count;
+  std::vector<Status> pieces((rows + rows_per_piece - 1) / rows_per_piece);
+  parallel_for(pieces.size(), [&](std::size_t i) {
+    const std::span<Sphere> rest = std::span(spheres).subspan(before + i * rows_per_piece);
+    pieces[i] = read_piece(file, layout, decoder, i * rows_per_piece,
+                           rest.first(std::min(rows_per_piece, rest.size())));
+  });
+  for (const Status& piece : pieces) {
+    if (piece) return piece;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres) {
+Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
+                      const ParallelFor& parallel_for) {
   const auto named = [&](Diagnostic error) {
     error.file = request.path;
     return error;
@@ -174,12 +194,13 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres) {
   const auto layout = check_layout(header.value(), request, file.value().size());
   if (!layout) return named(layout.error());
   const std::uint64_t rows = layout.value().rows;
-  if (auto bad = check_memory(bytes_of_spheres(rows) + bytes_of_tree(spheres.size() + rows),
-                              std::to_string(rows) + " spheres need")) {
+  if (auto bad =
+          check_memory(bytes_of_tree(spheres.size() + rows) - bytes_of_spheres(spheres.size()),
+                       std::to_string(rows) + " spheres need")) {
     return named(*bad);
   }
   const std::size_t before = spheres.size();
-  if (auto bad = append_rows(file.value(), layout.value(), request, spheres)) {
+  if (auto bad = append_rows(file.value(), layout.value(), request, spheres, parallel_for)) {
     spheres.resize(before);
     return named(*bad);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
@@ -21,7 +22,9 @@ struct NpySpheres {
 
 /// Appends the file's spheres: little-endian float32 or float64, C order, each number rounded to
 /// float once. Sizes are checked before anything is allocated; a bad sphere is named by its row,
-/// from 0 ("row 17"). On an error `spheres` is as it was.
-Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres);
+/// from 0 ("row 17"), the first one if there are several. On an error `spheres` is as it was. The
+/// same for any threads. Passes on what `parallel_for` throws; the spheres may then be longer.
+Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
+                      const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

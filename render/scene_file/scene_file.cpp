@@ -37,13 +37,13 @@ Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOpti
 }
 
 /// Spheres alone, of the default material.
-Result<LoadedScene> read_npy_scene(const std::string& path) {
+Result<LoadedScene> read_npy_scene(const std::string& path, const ParallelFor& parallel_for) {
   LoadedScene loaded;
   loaded.scene.materials.push_back({"default", Matte{}});
   NpySpheres request;
   request.path = path;
   request.is_scene = true;
-  if (auto bad = append_spheres(request, loaded.scene.spheres)) return *bad;
+  if (auto bad = append_spheres(request, loaded.scene.spheres, parallel_for)) return *bad;
   if (auto bad = validate_all_but_primitives(loaded.scene)) {
     bad->file = path;
     return *bad;
@@ -67,7 +67,7 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
     return Diagnostic::in_file(
         path, "not a scene file by its name, expected an extension .toml, .nff, .npy or .boule");
   }
-  return is_npy ? read_npy_scene(path) : read_text_scene(path, options);
+  return is_npy ? read_npy_scene(path, options.parallel_for) : read_text_scene(path, options);
 }
 
 /// Calls `read`, and refuses what does not fit into memory.

@@ -39,7 +39,7 @@ void read_keys(TomlTable& table, EnvironmentBackground& background) {
 
 }  // namespace
 
-ImageSettings read_image(TomlTable& table) {
+ImageSettings read_image_settings(TomlTable& table) {
   ImageSettings image;
   read_fields(table, image);
   table.finish();

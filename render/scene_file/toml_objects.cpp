@@ -180,7 +180,7 @@ void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
   request.path = table.file_path(name);
   request.origin = table.origin();
   const std::size_t before = spheres.size();
-  if (auto bad = append_spheres(request, spheres)) {
+  if (auto bad = append_spheres(request, spheres, options_.parallel_for)) {
     return table.report("file", quote(name) + ": " + bad->message);
   }
   if (colors.any()) color_bulk(table, colors, request.path, std::span(spheres).subspan(before));

@@ -74,7 +74,7 @@ Result<LoadedScene> TomlReader::read() {
 
   // What this file does not say comes from the packed one.
   if (packed_) scene_ = packed_->scene;
-  if (image) scene_.image = read_image(*image);
+  if (image) scene_.image = read_image_settings(*image);
   if (render) scene_.render = read_render(*render);
   TomlObjects reader(scene_, error_, options_);
   reader.read_materials(std::move(materials));

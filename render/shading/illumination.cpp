@@ -45,18 +45,21 @@ void Illumination::start_by(const Epsilon& epsilon, const ShadowTarget& light) {
 
 template <class AnyLight>
 void Illumination::add_light(const AnyLight& light, const StreamSurfaces& surfaces,
-                             const std::uint8_t* blocked, Color* radiance) const {
+                             const std::uint8_t* blocked, const ColorStream& radiance) const {
   for (std::size_t k = 0; k < shadow_count_; ++k) {
     if (blocked[k] != 0) continue;
     const std::size_t ray = rays_[k];
     const Color intensity = intensity_at(light, surfaces.point(ray));
-    radiance[ray] = radiance[ray] + direct_light(*materials_[ray], cosines_[k], to_light_.get(k),
-                                                 surfaces.mirrored(ray), intensity);
+    const Color light_sent = direct_light(*materials_[ray], cosines_[k], to_light_.get(k),
+                                          surfaces.mirrored(ray), intensity);
+    radiance.r[ray] += light_sent.r;
+    radiance.g[ray] += light_sent.g;
+    radiance.b[ray] += light_sent.b;
   }
 }
 
 void Illumination::add_unblocked(const Light& light, const StreamSurfaces& surfaces,
-                                 const std::uint8_t* blocked, Color* radiance) const {
+                                 const std::uint8_t* blocked, const ColorStream& radiance) const {
   std::visit([&](const auto& any) { add_light(any, surfaces, blocked, radiance); }, light);
 }
 

@@ -9,6 +9,7 @@
 #include "core/scene/light.h"
 #include "render/prepare/flat_material.h"
 #include "render/shading/stream_surfaces.h"
+#include "simd/abi/paths.h"
 #include "simd/stream/aligned_array.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -45,12 +46,12 @@ class Illumination {
   /// Adds the light to radiance[ray] for every shadow ray k with blocked[k] = 0, where the shadow
   /// ray belongs to ray `ray`. The light is that of the last shadow rays.
   void add_unblocked(const Light& light, const StreamSurfaces& surfaces,
-                     const std::uint8_t* blocked, Color* radiance) const;
+                     const std::uint8_t* blocked, const ColorStream& radiance) const;
 
  private:
   template <class AnyLight>
   void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
-                 Color* radiance) const;
+                 const ColorStream& radiance) const;
   void start_by(const Epsilon& epsilon, const ShadowTarget& light);
 
   std::size_t size_ = 0;  ///< number of rays

@@ -6,6 +6,7 @@
 #include "core/optics/camera_view.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/isa.h"
+#include "simd/abi/paths.h"
 #include "simd/abi/shading.h"
 #include "simd/abi/stream.h"
 
@@ -51,10 +52,25 @@ struct KernelTable {
   std::size_t (*make_shadow_rays)(const ShadowTarget& light, const LitStream& points,
                                   const ShadowRayStream& shadows);
 
-  /// Random numbers, and directions made of them: the streams say how.
+  /// Random numbers: the stream says how.
   void (*sobol_points)(const SobolStream& points);
-  void (*to_world)(const LocalDirectionStream& directions);
-  void (*sample_cones)(const LightConeStream& cones);
+
+  // Path tracing, a block of rays at a time; what the streams say.
+
+  /// Finds the light that rays see by their direction.
+  void (*see_light)(const SeenLight& seen, const SeeingRays& rays);
+
+  /// Adds the points that rays met to those of their kind.
+  void (*find_points)(const GeometryView& geometry, const PathRays& paths, LobePoints& matte,
+                      LobePoints& glossy, LobePoints& clear);
+
+  /// Adds the rays to sampled lights, and those with which paths go on, of the points of one kind.
+  void (*continue_matte)(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                         GoingOn& spawned);
+  void (*continue_glossy)(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                          GoingOn& spawned);
+  void (*continue_clear)(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                         GoingOn& spawned);
 };
 
 }  // namespace boule

@@ -73,30 +73,4 @@ struct SobolStream {
   std::size_t size;
 };
 
-/// Directions in a local frame, to be turned into the world's: at an angle from the frame's axis,
-/// given by its cosine and sine, and so many turns around it, 0 <= turns <= 1. direction_about() of
-/// core/math/warp.h. Arrays as in RayStream.
-struct LocalDirectionStream {
-  VectorStream axis;
-  const double* cosine;
-  const double* sine;
-  const double* turns;
-  VectorStream direction;  ///< written
-  std::size_t size;
-};
-
-/// Spheres whose light is sampled from points, each in a direction by two numbers: LightCone of
-/// core/math/light_cone.h. Arrays as in RayStream.
-struct LightConeStream {
-  VectorStream org;
-  VectorStream center;
-  const double* radius;
-  const double* u;
-  const double* v;
-  VectorStream direction;  ///< written: unit length; anything where the density is 0
-  double* density;         ///< written
-  float* tmax;             ///< written: of the shadow ray in that direction
-  std::size_t size;
-};
-
 }  // namespace boule

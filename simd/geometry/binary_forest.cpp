@@ -1,7 +1,9 @@
 #include "simd/geometry/binary_forest.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 #include "core/base/memory_pages.h"
 #include "simd/abi/bvh.h"
@@ -13,7 +15,8 @@ namespace {
 /// Part of a run: what one thread bins or moves at a time.
 struct Chunk {
   std::size_t run, begin, end;
-  std::size_t lefts = 0;  ///< of its spheres
+  std::size_t lefts = 0;                         ///< of its spheres
+  BuildBox left_extent = {}, right_extent = {};  ///< of these, and of the others
 };
 
 /// Some spheres that follow each other.
@@ -46,13 +49,27 @@ void list_exchanges(const std::vector<Piece>& a, const std::vector<Piece>& b,
   }
 }
 
+/// The extent of spheres, found by all threads.
+BuildBox extent_of(std::span<const BuildSphere> spheres, const ParallelFor& parallel_for) {
+  constexpr std::size_t size = tuning::chunk_size;
+  std::vector<BuildBox> extents((spheres.size() + size - 1) / size);
+  parallel_for(extents.size(), [&](std::size_t i) {
+    const auto rest = spheres.subspan(i * size);
+    extents[i] = boule::extent_of(rest.first(std::min(size, rest.size())));
+  });
+  BuildBox all;
+  for (const BuildBox& extent : extents) all.add(extent);
+  return all;
+}
+
 }  // namespace
 
 /// The runs of one level, and how each of them is to be divided.
 struct BinaryForest::Level {
   Level(std::span<BuildSphere> all, const std::vector<Run>& all_runs)
-      : spheres(all), runs(all_runs), grids(runs.size()), cuts(runs.size()), middles(runs.size()) {
+      : spheres(all), runs(all_runs), grids(runs.size()), divisions(runs.size()) {
     for (std::size_t run = 0; run < runs.size(); ++run) {
+      grids[run] = BinGrid(runs[run].extent);
       for (std::size_t i = runs[run].begin; i < runs[run].end; i += tuning::chunk_size)
         chunks.push_back({run, i, std::min(i + tuning::chunk_size, runs[run].end)});
     }
@@ -64,32 +81,26 @@ struct BinaryForest::Level {
 
   /// Finds the best cut of each run, and how many spheres go left.
   void find_cuts(const ParallelFor& parallel_for) {
-    std::vector<BuildBox> extents(chunks.size()), run_extents(runs.size());
-    parallel_for(chunks.size(),
-                 [&](std::size_t i) { extents[i] = extent_of(spheres_of(chunks[i])); });
-    for (std::size_t i = 0; i < chunks.size(); ++i) run_extents[chunks[i].run].add(extents[i]);
-    for (std::size_t run = 0; run < runs.size(); ++run) grids[run] = BinGrid(run_extents[run]);
     std::vector<Bins> bins(chunks.size()), run_bins(runs.size());
     parallel_for(chunks.size(),
                  [&](std::size_t i) { bins[i].add(grids[chunks[i].run], spheres_of(chunks[i])); });
     for (std::size_t i = 0; i < chunks.size(); ++i) run_bins[chunks[i].run].add(bins[i]);
     for (std::size_t run = 0; run < runs.size(); ++run) {
-      cuts[run] = best_cut(run_bins[run], grids[run].axes());
-      if (cuts[run].axis >= 0) middles[run] = count_left(run_bins[run], cuts[run]);
+      Division& division = divisions[run];
+      for (const BuildBox& box : run_bins[run].boxes[0]) division.box.add(box);
+      division.cut = best_cut(run_bins[run], grids[run].axes());
+      if (division.cut.axis >= 0) division.middle = count_left(run_bins[run], division.cut);
     }
   }
 
   /// Divides the runs that have a cut. First each chunk by itself; then the right spheres that lie
   /// before the middle of their run and the left ones behind it change places.
   void divide(const ParallelFor& parallel_for) {
-    parallel_for(chunks.size(), [&](std::size_t i) {
-      Chunk& chunk = chunks[i];
-      if (cuts[chunk.run].axis < 0) return;
-      const std::size_t size = chunk.end - chunk.begin;
-      const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(size);
-      chunk.lefts =
-          partition(spheres_of(chunk), grids[chunk.run], cuts[chunk.run], {scratch.get(), size});
-    });
+    parallel_for(chunks.size(), [&](std::size_t i) { divide(chunks[i]); });
+    for (const Chunk& chunk : chunks) {
+      divisions[chunk.run].left_extent.add(chunk.left_extent);
+      divisions[chunk.run].right_extent.add(chunk.right_extent);
+    }
     const std::vector<Exchange> exchanges = find_exchanges();
     parallel_for(exchanges.size(), [&](std::size_t i) {
       const auto first = spheres.begin() + static_cast<std::ptrdiff_t>(exchanges[i].a);
@@ -98,13 +109,25 @@ struct BinaryForest::Level {
     });
   }
 
+  /// The extents are found while the spheres are in the cache.
+  void divide(Chunk& chunk) const {
+    const Cut& cut = divisions[chunk.run].cut;
+    if (cut.axis < 0) return;
+    const std::span<BuildSphere> own = spheres_of(chunk);
+    const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(own.size());
+    chunk.lefts = partition(own, grids[chunk.run], cut, {scratch.get(), own.size()});
+    chunk.left_extent = boule::extent_of(own.first(chunk.lefts));
+    chunk.right_extent = boule::extent_of(own.subspan(chunk.lefts));
+  }
+
   [[nodiscard]] std::vector<Exchange> find_exchanges() const {
     std::vector<Exchange> exchanges;
     std::vector<Piece> rights, lefts;  // of one run, that lie on the wrong side
     for (std::size_t i = 0; i < chunks.size(); ++i) {
       const Chunk& chunk = chunks[i];
-      if (cuts[chunk.run].axis < 0) continue;
-      const std::size_t middle = runs[chunk.run].begin + middles[chunk.run];
+      const Division& division = divisions[chunk.run];
+      if (division.cut.axis < 0) continue;
+      const std::size_t middle = runs[chunk.run].begin + division.middle;
       const std::size_t first_right = chunk.begin + chunk.lefts;
       const Piece right{first_right, std::min(chunk.end, middle)};
       const Piece left{std::max(chunk.begin, middle), first_right};
@@ -118,11 +141,18 @@ struct BinaryForest::Level {
     return exchanges;
   }
 
+  /// How a run is divided.
+  struct Division {
+    Cut cut = {};
+    std::size_t middle = 0;  ///< spheres that go left
+    BuildBox left_extent = {}, right_extent = {};
+    BuildBox box = {};  ///< around all spheres, to weigh by
+  };
+
   std::span<BuildSphere> spheres;
   const std::vector<Run>& runs;
   std::vector<BinGrid> grids;
-  std::vector<Cut> cuts;
-  std::vector<std::size_t> middles;  ///< spheres of each run that go left
+  std::vector<Division> divisions;
   std::vector<Chunk> chunks;
 };
 
@@ -131,28 +161,42 @@ BinaryForest::BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& pa
     : spheres_(spheres),
       subtree_size_(std::max(tuning::least_subtree, spheres.size() / tuning::most_subtrees)) {
   std::vector<Run> runs;
-  const Run whole{0, spheres.size(), depth, ForestNode::upper, false};
-  whole.end <= subtree_size_ ? add_subtree(whole) : runs.push_back(whole);
-  const ParallelFor level_for = spheres.size() < tuning::parallel_size ? serial_for : parallel_for;
-  while (!runs.empty()) runs = divide(runs, level_for);
-  order_.resize(subtrees_.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
-    return subtrees_[a].begin < subtrees_[b].begin;
-  });
-  parallel_for(order_.size(), [&](std::size_t i) { build(subtrees_[order_[i]]); });
-  finish_upper();
+  Run whole{0, spheres.size(), depth, ForestNode::upper, false};
+  if (whole.end <= subtree_size_) {
+    add_subtree(whole);
+  } else {
+    const ParallelFor level_for =
+        spheres.size() < tuning::parallel_size ? serial_for : parallel_for;
+    whole.extent = extent_of(spheres, level_for);
+    runs.push_back(whole);
+    while (!runs.empty()) runs = divide(runs, level_for);
+    sort_subtrees();
+  }
 }
 
-void BinaryForest::build(Subtree& subtree) {
-  const std::size_t size = subtree.end - subtree.begin;
-  const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(size);
-  subtree.tree = build_binary_tree(spheres_.subspan(subtree.begin, size), {scratch.get(), size},
-                                   subtree.depth);
-  subtree.tree.nodes.shrink_to_fit();
+bool BinaryForest::is_twig(std::size_t subtree) const {
+  const Subtree& one = subtrees_[subtree];
+  return root_.is_upper() && (one.end - one.begin) * tuning::twigs < subtree_size_;
 }
 
-void BinaryForest::drop(std::uint32_t subtree) {
+void BinaryForest::build(std::size_t index, std::vector<std::int32_t>* ids) {
+  Subtree& subtree = subtrees_[index];
+  const std::span<BuildSphere> own = spheres_.subspan(subtree.begin, subtree.end - subtree.begin);
+  std::span<const std::int32_t> known;
+  if (ids != nullptr) {
+    ids->reserve(own.size());
+    for (BuildSphere& sphere : own) {
+      const auto place = static_cast<std::int32_t>(ids->size());
+      ids->push_back(std::exchange(sphere.id, place));
+    }
+    known = *ids;
+  }
+  const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(own.size());
+  subtree.tree = build_binary_tree(own, {scratch.get(), own.size()}, subtree.depth, known);
+  subtree.root = subtree.tree.nodes[0];
+}
+
+void BinaryForest::drop(std::size_t subtree) {
   std::vector<BinaryNode>& nodes = subtrees_[subtree].tree.nodes;
   // The allocator keeps blocks of this size for later, and would keep their pages.
   release_pages(nodes.data(), nodes.size() * sizeof(BinaryNode));
@@ -181,22 +225,25 @@ std::vector<BinaryForest::Run> BinaryForest::divide(const std::vector<Run>& runs
   level.divide(parallel_for);
   std::vector<Run> next;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (level.cuts[i].axis < 0) {
+    if (level.divisions[i].cut.axis < 0) {
       add_subtree(runs[i]);
     } else {
-      add_children(next, runs[i], level.middles[i]);
+      add_children(next, level, i);
     }
   }
   return next;
 }
 
-/// Makes an upper node of `run`, which is divided.
-void BinaryForest::add_children(std::vector<Run>& next, const Run& run, std::size_t middle) {
+/// Makes an upper node of a run that is divided.
+void BinaryForest::add_children(std::vector<Run>& next, const Level& level, std::size_t index) {
+  const Run& run = level.runs[index];
+  const Level::Division& division = level.divisions[index];
   const auto node = static_cast<std::uint32_t>(upper_.size());
-  upper_.emplace_back();
+  upper_.emplace_back().node.set_box(division.box);
   attach(run, {ForestNode::upper, node});
-  const Run left{run.begin, run.begin + middle, run.depth + 1, node, false};
-  const Run right{run.begin + middle, run.end, run.depth + 1, node, true};
+  const std::size_t middle = run.begin + division.middle;
+  const Run left{run.begin, middle, run.depth + 1, node, false, division.left_extent};
+  const Run right{middle, run.end, run.depth + 1, node, true, division.right_extent};
   for (const Run& child : {left, right}) {
     const std::size_t size = child.end - child.begin;
     const bool deep = child.depth + halving_levels(size) > bvh_max_depth;
@@ -204,39 +251,63 @@ void BinaryForest::add_children(std::vector<Run>& next, const Run& run, std::siz
   }
 }
 
-/// Numbers the leaves and finds the boxes and shares of the upper nodes, the last one first:
-/// children come after their parents.
-void BinaryForest::finish_upper() {
-  for (const std::uint32_t i : order_) {
-    subtrees_[i].first_leaf = static_cast<std::uint32_t>(leaves_);
-    leaves_ += subtrees_[i].tree.leaves;
+/// Brings the subtrees into the order of their spheres.
+void BinaryForest::sort_subtrees() {
+  std::vector<std::uint32_t> order(subtrees_.size()), places(subtrees_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return subtrees_[a].begin < subtrees_[b].begin;
+  });
+  std::vector<Subtree> sorted;
+  sorted.reserve(subtrees_.size());
+  for (const std::uint32_t i : order) {
+    places[i] = static_cast<std::uint32_t>(sorted.size());
+    sorted.push_back(std::move(subtrees_[i]));
   }
+  subtrees_ = std::move(sorted);
+  const auto renumber = [&](ForestNode& node) {
+    if (!node.is_upper()) node.tree = places[node.tree];
+  };
+  renumber(root_);
+  for (UpperNode& upper : upper_) {
+    renumber(upper.left);
+    renumber(upper.right);
+  }
+}
+
+/// The last one first, because children come after their parents. Other subtrees than twigs count
+/// as leaves: each becomes a wide node of its own in any case.
+void BinaryForest::weigh() {
   std::vector<CollapseCosts> costs(upper_.size());
   const auto costs_of = [&](ForestNode node) {
-    return node.tree == ForestNode::upper ? costs[node.node] : subtrees_[node.tree].tree.costs;
+    if (node.is_upper()) return costs[node.node];
+    return is_twig(node.tree) ? subtrees_[node.tree].tree.costs : CollapseCosts{};
   };
+  for (std::size_t i = upper_.size(); i-- > 0;)
+    costs[i] = choose_shares(upper_[i].node, costs_of(upper_[i].left), costs_of(upper_[i].right));
+}
+
+void BinaryForest::finish() {
   for (std::size_t i = upper_.size(); i-- > 0;) {
     UpperNode& upper = upper_[i];
     BuildBox box = (*this)[upper.left].box();
     box.add((*this)[upper.right].box());
     upper.node.set_box(box);
-    costs[i] = choose_shares(upper.node, costs_of(upper.left), costs_of(upper.right));
   }
 }
 
 const BinaryNode& BinaryForest::operator[](ForestNode node) const {
-  if (node.tree == ForestNode::upper) return upper_[node.node].node;
-  return subtrees_[node.tree].tree.nodes[node.node];
+  if (node.is_upper()) return upper_[node.node].node;
+  const Subtree& subtree = subtrees_[node.tree];
+  return node.node == 0 ? subtree.root : subtree.tree.nodes[node.node];
 }
 
 ForestNode BinaryForest::left(ForestNode node) const {
-  if (node.tree == ForestNode::upper) return upper_[node.node].left;
-  return {node.tree, node.node + 1};
+  return node.is_upper() ? upper_[node.node].left : ForestNode{node.tree, node.node + 1};
 }
 
 ForestNode BinaryForest::right(ForestNode node) const {
-  if (node.tree == ForestNode::upper) return upper_[node.node].right;
-  return {node.tree, (*this)[node].right};
+  return node.is_upper() ? upper_[node.node].right : ForestNode{node.tree, (*this)[node].right};
 }
 
 }  // namespace boule

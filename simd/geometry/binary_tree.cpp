@@ -11,14 +11,20 @@ namespace boule {
 namespace {
 
 /// Of copies of one sphere, brings the kept_copies of the lowest ids to the front.
-void bring_first(std::span<BuildSphere> copies) {
-  const auto by_id = [](const BuildSphere& a, const BuildSphere& b) { return a.id < b.id; };
+void bring_first(std::span<BuildSphere> copies, std::span<const std::int32_t> ids) {
+  const auto id_of = [ids](const BuildSphere& sphere) {
+    return ids.empty() ? sphere.id : ids[static_cast<std::size_t>(sphere.id)];
+  };
+  const auto by_id = [&](const BuildSphere& a, const BuildSphere& b) {
+    return id_of(a) < id_of(b);
+  };
   std::partial_sort(copies.begin(), copies.begin() + kept_copies, copies.end(), by_id);
 }
 
 class Builder {
  public:
-  explicit Builder(std::span<BuildSphere> scratch) : scratch_(scratch) {
+  Builder(std::span<BuildSphere> scratch, std::span<const std::int32_t> ids)
+      : scratch_(scratch), ids_(ids) {
     tree_.nodes.reserve(2 * leaves_of(scratch.size()) + scratch.size() / 16);
   }
 
@@ -39,7 +45,7 @@ class Builder {
     const bool deep = depth + halving_levels(spheres.size()) > bvh_max_depth;
     const std::size_t middle = deep ? halve(spheres, extent_of(spheres)) : split(spheres, scratch_);
     if (middle == 0) {
-      bring_first(spheres);
+      bring_first(spheres, ids_);
       set_leaf(tree_.nodes[index], spheres.first(kept_copies));
       tree_.nodes[index].set_copies(spheres.size() - kept_copies);
       return {};
@@ -65,6 +71,7 @@ class Builder {
 
   BinaryTree tree_;
   std::span<BuildSphere> scratch_;
+  std::span<const std::int32_t> ids_;
 };
 
 }  // namespace
@@ -94,8 +101,8 @@ int halving_levels(std::size_t spheres) {
 }
 
 BinaryTree build_binary_tree(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch,
-                             int depth) {
-  return Builder(scratch).build(spheres, depth);
+                             int depth, std::span<const std::int32_t> ids) {
+  return Builder(scratch, ids).build(spheres, depth);
 }
 
 }  // namespace boule

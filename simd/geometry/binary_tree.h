@@ -71,8 +71,9 @@ struct BinaryTree {
 int halving_levels(std::size_t spheres);
 
 /// Builds the tree whose root lies at `depth`: by split(), but by halve() where more splits might
-/// lead below bvh_max_depth. Reorders the spheres; `scratch` has room for as many.
+/// lead below bvh_max_depth. Reorders the spheres; `scratch` has room for as many. If there are
+/// `ids`, the spheres hold indices in these in place of their own.
 BinaryTree build_binary_tree(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch,
-                             int depth);
+                             int depth, std::span<const std::int32_t> ids = {});
 
 }  // namespace boule

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "simd/abi/isa.h"
@@ -35,17 +37,34 @@ bool are_alike(const std::vector<Sphere>& spheres, const ParallelFor& parallel_f
   return alike;
 }
 
+enum class Materials { alike, by_slot };
+
 /// The arrays of a Bvh, filled part by part.
 class Filler {
  public:
-  /// `materials`: by id; null where all are made of the same.
-  Filler(std::size_t scanned, std::size_t leaves, const MaterialRef* materials)
-      : materials_(materials) {
+  Filler(std::size_t scanned, Materials materials)
+      : has_materials_(materials == Materials::by_slot) {
     bvh_.scanned = scanned;
-    const std::size_t slots = padded(scanned) + leaves * bvh_leaf_size;
-    bvh_.slots = LargeArray<std::int32_t>(slots);
-    bvh_.blocks = LargeArray<SphereBlock>(slots / bvh_leaf_size);
-    if (materials != nullptr) slot_materials_ = LargeArray<MaterialRef>(slots);
+    set_leaves(0);
+  }
+
+  /// Room for so many leaves in all, which are filled later.
+  void set_leaves(std::size_t leaves) {
+    const std::size_t slots = padded(bvh_.scanned) + leaves * bvh_leaf_size;
+    bvh_.slots.resize(slots);
+    bvh_.blocks.resize(slots / bvh_leaf_size);
+    if (has_materials_) materials_.resize(slots);
+  }
+  void set_nodes(std::size_t nodes) { bvh_.nodes.resize(nodes); }
+  BvhNode* nodes() { return bvh_.nodes.data(); }
+
+  /// Room for what a tree over so many spheres usually takes, so that little moves later.
+  void expect(std::size_t spheres) {
+    constexpr std::size_t usual_leaf = 10, usual_node = 8;
+    const std::size_t leaves = spheres / usual_leaf + 1;
+    set_leaves(leaves);
+    bvh_.nodes.reserve(leaves / usual_node + 1);
+    set_leaves(0);
   }
 
   /// Fills the slots from the first one on, each with one of these spheres, and the rest of the
@@ -58,50 +77,72 @@ class Filler {
         const Sphere& s = spheres[first + k];
         some[k] = {{s.center.x, s.center.y, s.center.z, s.radius}, ids[first + k]};
       }
-      fill_block(first / bvh_leaf_size, some, size);
+      fill_block(first / bvh_leaf_size, {some, size});
+      if (!has_materials_) continue;
+      for (std::size_t k = 0; k < size; ++k) materials_[first + k] = spheres[first + k].material;
     }
   }
+
+  /// Where the leaves of a subtree go, and what is known of its spheres by their indices in it,
+  /// which they hold in place of their ids; `materials` is null where all are made of the same.
+  struct LeafSource {
+    std::size_t first_leaf;
+    const std::int32_t* ids;
+    const MaterialRef* materials;
+  };
 
   /// Fills the leaves of one subtree. Threads may fill those of different ones.
-  void fill_leaves(const BinaryForest& forest, const BinaryForest::Subtree& subtree) {
-    const BuildSphere* from = forest.spheres_of(subtree).data();
-    std::size_t block = padded(bvh_.scanned) / bvh_leaf_size + subtree.first_leaf;
+  void fill_leaves(const BinaryForest& forest, const BinaryForest::Subtree& subtree,
+                   const LeafSource& source) {
+    std::span<const BuildSphere> from = forest.spheres_of(subtree);
+    std::size_t block = padded(bvh_.scanned) / bvh_leaf_size + source.first_leaf;
     for (const BinaryNode& node : subtree.tree.nodes) {
       if (node.size == 0) continue;
-      fill_block(block++, from, node.size);
-      from += node.size + node.copies();
+      fill_block(block, from.first(node.size));
+      if (has_materials_) name_spheres(block, node.size, source);
+      ++block;
+      from = from.subspan(node.size + node.copies());
     }
   }
-
-  void set_nodes(LargeArray<BvhNode> nodes) { bvh_.nodes = std::move(nodes); }
 
   /// `all`: what all spheres are made of, if they are made of the same.
   Bvh finish(MaterialRef all) {
-    bvh_.materials =
-        materials_ == nullptr ? SlotMaterials(all) : SlotMaterials(std::move(slot_materials_));
+    bvh_.slots.shrink_to_fit();
+    bvh_.blocks.shrink_to_fit();
+    bvh_.nodes.shrink_to_fit();
+    materials_.shrink_to_fit();
+    bvh_.materials = has_materials_ ? SlotMaterials(std::move(materials_)) : SlotMaterials(all);
     return std::move(bvh_);
   }
 
  private:
-  void fill_block(std::size_t index, const BuildSphere* spheres, std::size_t size) {
+  void fill_block(std::size_t index, std::span<const BuildSphere> spheres) {
     SphereBlock block = empty_block();
     std::int32_t* const ids = bvh_.slots.data() + index * bvh_leaf_size;
     std::fill_n(ids, bvh_leaf_size, empty_slot);
-    for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
       set_sphere(block, k, spheres[k].at);
       ids[k] = spheres[k].id;
     }
     bvh_.blocks[index] = block;
-    if (materials_ == nullptr) return;
-    MaterialRef* const materials = slot_materials_.data() + index * bvh_leaf_size;
-    std::fill_n(materials, bvh_leaf_size, MaterialRef());
-    for (std::size_t k = 0; k < size; ++k)
-      materials[k] = materials_[static_cast<std::size_t>(spheres[k].id)];
+    if (has_materials_)
+      std::fill_n(materials_.data() + index * bvh_leaf_size, bvh_leaf_size, MaterialRef());
   }
 
-  const MaterialRef* materials_;
+  /// Puts ids and materials in the place of indices.
+  void name_spheres(std::size_t block, std::size_t size, const LeafSource& source) {
+    std::int32_t* const ids = bvh_.slots.data() + block * bvh_leaf_size;
+    MaterialRef* const materials = materials_.data() + block * bvh_leaf_size;
+    for (std::size_t k = 0; k < size; ++k) {
+      const auto place = static_cast<std::size_t>(ids[k]);
+      ids[k] = source.ids[place];
+      materials[k] = source.materials[place];
+    }
+  }
+
+  bool has_materials_;
   Bvh bvh_;
-  LargeArray<MaterialRef> slot_materials_;
+  LargeArray<MaterialRef> materials_;
 };
 
 std::vector<Sphere> spheres_of(const std::vector<std::int32_t>& ids,
@@ -112,30 +153,96 @@ std::vector<Sphere> spheres_of(const std::vector<std::int32_t>& ids,
   return some;
 }
 
-/// Makes the nodes and fills the leaves, some subtrees at a time. What these were made of is given
-/// back at once: the spheres in order, the binary nodes subtree by subtree.
-void fill_tree(BinaryForest& forest, LargeArray<BuildSphere>& spheres,
-               const ParallelFor& parallel_for, Filler& filler) {
-  const Collapse collapse(forest, parallel_for);
-  LargeArray<BvhNode> nodes(collapse.size());
-  // They lie far apart: written now, they would touch the pages of nearly all others.
-  const std::vector<Collapse::PlacedNode> upper = collapse.make_upper();
-  ConsumedPages consumed(spheres.data());
-  const std::vector<std::uint32_t>& order = forest.order();
-  constexpr std::size_t at_once = tuning::subtrees_at_once;
-  for (std::size_t first = 0; first < order.size(); first += at_once) {
-    const std::size_t end = std::min(first + at_once, order.size());
-    parallel_for(end - first, [&](std::size_t i) {
-      const std::uint32_t subtree = order[first + i];
-      collapse.make_subtree(subtree, nodes.data());
-      filler.fill_leaves(forest, forest.subtrees()[subtree]);
-      forest.drop(subtree);
-    });
-    consumed.consume(spheres.data() + forest.subtrees()[order[end - 1]].end);
-  }
-  for (const auto& [index, node] : upper) nodes[index] = node;
-  filler.set_nodes(std::move(nodes));
+/// The materials of spheres in the order of these.
+LargeArray<MaterialRef> by_place(const LargeArray<MaterialRef>& by_id,
+                                 std::span<const BuildSphere> spheres,
+                                 const ParallelFor& parallel_for) {
+  if (by_id.empty()) return {};
+  LargeArray<MaterialRef> materials(spheres.size());
+  constexpr std::size_t chunk = tuning::chunk_size;
+  parallel_for((spheres.size() + chunk - 1) / chunk, [&](std::size_t i) {
+    const std::size_t end = std::min((i + 1) * chunk, spheres.size());
+    for (std::size_t at = i * chunk; at < end; ++at)
+      materials[at] = by_id[static_cast<std::size_t>(spheres[at].id)];
+  });
+  return materials;
 }
+
+/// Builds the subtrees, makes the nodes and fills the leaves, some subtrees at a time. What these
+/// were made of is given back at once: the spheres and their materials in order, and the binary
+/// nodes. `materials` are by the spheres' places; none: all are made of the same.
+class TreeFiller {
+ public:
+  TreeFiller(BinaryForest& forest, std::span<BuildSphere> spheres,
+             LargeArray<MaterialRef> materials, Filler& filler)
+      : forest_(forest),
+        spheres_(spheres),
+        materials_(std::move(materials)),
+        filler_(filler),
+        parts_(forest.subtrees().size()),
+        used_spheres_(spheres.data()),
+        used_materials_(materials_.data()) {}
+
+  void fill(const ParallelFor& parallel_for) {
+    filler_.expect(spheres_.size());
+    parallel_for(parts_.size(), [&](std::size_t i) {
+      if (forest_.is_twig(i)) build(i);
+    });
+    forest_.weigh();
+    collapse_.emplace(forest_);
+    const std::size_t at_once = std::max(parts_.size() / tuning::portions, std::size_t{1});
+    for (std::size_t first = 0; first < parts_.size(); first += at_once)
+      fill_portion(first, std::min(first + at_once, parts_.size()), parallel_for);
+    forest_.finish();
+    collapse_->make_upper(filler_.nodes());
+  }
+
+ private:
+  /// What is known of a subtree until its leaves are filled.
+  struct Part {
+    std::size_t nodes = 0;
+    std::vector<std::int32_t> ids{};
+  };
+
+  void fill_portion(std::size_t first, std::size_t end, const ParallelFor& parallel_for) {
+    const std::vector<BinaryForest::Subtree>& subtrees = forest_.subtrees();
+    parallel_for(end - first, [&](std::size_t i) {
+      if (!forest_.is_twig(first + i)) build(first + i);
+      parts_[first + i].nodes = collapse_->count_nodes(first + i);
+    });
+    for (std::size_t i = first; i < end; ++i)
+      collapse_->place_next(parts_[i].nodes, subtrees[i].tree.leaves);
+    filler_.set_leaves(collapse_->leaf_count());
+    filler_.set_nodes(collapse_->node_count());
+    parallel_for(end - first, [&](std::size_t i) { fill_subtree(first + i); });
+    const std::size_t used = subtrees[end - 1].end;
+    used_spheres_.consume(spheres_.data() + used);
+    if (!materials_.empty()) used_materials_.consume(materials_.data() + used);
+  }
+
+  void build(std::size_t subtree) {
+    forest_.build(subtree, materials_.empty() ? nullptr : &parts_[subtree].ids);
+  }
+
+  void fill_subtree(std::size_t index) {
+    const BinaryForest::Subtree& subtree = forest_.subtrees()[index];
+    const MaterialRef* const materials =
+        materials_.empty() ? nullptr : materials_.data() + subtree.begin;
+    collapse_->make_subtree(index, filler_.nodes());
+    filler_.fill_leaves(forest_, subtree,
+                        {collapse_->first_leaf(index), parts_[index].ids.data(), materials});
+    std::vector<std::int32_t>().swap(parts_[index].ids);
+    if (!forest_.is_twig(index)) forest_.drop(index);
+  }
+
+  BinaryForest& forest_;
+  std::span<BuildSphere> spheres_;
+  LargeArray<MaterialRef> materials_;
+  Filler& filler_;
+  std::optional<Collapse> collapse_;  ///< once the twigs are built
+  std::vector<Part> parts_;           ///< by subtree
+  ConsumedPages used_spheres_, used_materials_;
+};
 
 }  // namespace
 
@@ -152,32 +259,24 @@ Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for,
   const std::vector<std::int32_t> scanned = without_copies(apart, spheres);
   const std::vector<Sphere> scanned_spheres = spheres_of(scanned, spheres);
   const MaterialRef first_material = spheres.empty() ? MaterialRef() : spheres[0].material;
-  LargeArray<MaterialRef> materials;
-  if (!are_alike(spheres, parallel_for)) materials = LargeArray<MaterialRef>(spheres.size());
-  LargeArray<BuildSphere> others(spheres.size() - apart.size());
-  gather_others(spheres, apart, others.data(), materials.data(), parallel_for);
-  std::vector<Sphere>().swap(spheres);
-  if (others.empty()) {
-    Filler filler(padded(scanned.size()), 0, materials.data());
-    filler.fill_scanned(scanned_spheres, scanned);
-    return filler.finish(first_material);
-  }
-  const ParallelFor fill_for = others.size() <= tuning::chunk_size ? serial_for : parallel_for;
-  BinaryForest forest({others.data(), others.size()}, parallel_for, place.depth);
-  Filler filler(padded(scanned.size()), forest.leaves(), materials.data());
+  const bool alike = are_alike(spheres, parallel_for);
+  Filler filler(padded(scanned.size()), alike ? Materials::alike : Materials::by_slot);
   filler.fill_scanned(scanned_spheres, scanned);
-  fill_tree(forest, others, fill_for, filler);
+  LargeArray<MaterialRef> materials(alike ? 0 : spheres.size());
+  const std::span<BuildSphere> others = take_others(spheres, apart, materials.data(), parallel_for);
+  if (others.empty()) return filler.finish(first_material);
+  BinaryForest forest(others, parallel_for, place.depth);
+  materials = by_place(materials, others, parallel_for);
+  const ParallelFor fill_for = others.size() <= tuning::chunk_size ? serial_for : parallel_for;
+  TreeFiller(forest, others, std::move(materials), filler).fill(fill_for);
   return filler.finish(first_material);
 }
 
 Bvh no_bvh(const std::vector<Sphere>& spheres) {
   std::vector<std::int32_t> ids(spheres.size());
   std::iota(ids.begin(), ids.end(), 0);
-  std::vector<MaterialRef> materials;
-  if (!are_alike(spheres, serial_for)) {
-    for (const Sphere& sphere : spheres) materials.push_back(sphere.material);
-  }
-  Filler filler(spheres.size(), 0, materials.empty() ? nullptr : materials.data());
+  const bool alike = are_alike(spheres, serial_for);
+  Filler filler(spheres.size(), alike ? Materials::alike : Materials::by_slot);
   filler.fill_scanned(spheres, ids);
   return filler.finish(spheres.empty() ? MaterialRef() : spheres[0].material);
 }

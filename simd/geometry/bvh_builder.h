@@ -42,7 +42,7 @@ struct TreePlace {
 /// depth is bounded by bvh_max_depth.
 ///
 /// The spheres' memory is given back while the tree takes their place, so that both together need
-/// little more than the tree: 26 bytes a sphere, and 8 more while they are not all made of the
+/// little more than the tree: 26 bytes a sphere, and 5 more where they are not all made of the
 /// same. Throws std::bad_alloc, and what `parallel_for` throws; the spheres are lost then.
 Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for = serial_for,
               const TreePlace& place = {});

@@ -4,51 +4,59 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/parallel.h"
 #include "simd/abi/bvh.h"
 #include "simd/geometry/binary_forest.h"
+#include "simd/geometry/large_array.h"
 
 namespace boule {
 
 /// The nodes of a forest as nodes of sixteen children, as the shares of its nodes say: the root
-/// first, in depth-first order. It is planned as a whole, and then made subtree by subtree, so that
-/// threads can share it and no subtree is needed once its nodes are made.
+/// first, in depth-first order. The subtrees get their places one after the other, each once it was
+/// built. Then threads can make the nodes of those that have a place, and none is needed after
+/// that.
 class Collapse {
  public:
-  /// Plans it. `forest` must outlive it.
-  Collapse(const BinaryForest& forest, const ParallelFor& parallel_for);
+  /// Plans the upper part, twigs included, which was weighed. `forest` must outlive it.
+  explicit Collapse(const BinaryForest& forest);
 
-  /// How many nodes there will be.
-  [[nodiscard]] std::size_t size() const { return size_; }
+  /// How many wide nodes are within a subtree that was built: none in a twig, and in a single leaf.
+  /// (Where that is all, the root has one child and belongs to the upper part.)
+  [[nodiscard]] std::size_t count_nodes(std::size_t subtree) const;
+  /// Gives the next subtree its place. To be called for each of them, in their order.
+  void place_next(std::size_t nodes, std::size_t leaves);
+  /// The nodes and the leaves so far, and so all of them at the end.
+  [[nodiscard]] std::size_t node_count() const { return node_count_; }
+  [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
+  /// Where the leaves of a subtree begin that has its place.
+  [[nodiscard]] std::size_t first_leaf(std::size_t subtree) const {
+    return places_[subtree].first_leaf;
+  }
 
-  /// A node and where it belongs.
-  struct PlacedNode {
-    std::size_t index;
-    BvhNode node;
-  };
-  /// The nodes that belong to no subtree, few. To be made before any of these is dropped.
-  [[nodiscard]] std::vector<PlacedNode> make_upper() const;
-  /// Makes the nodes that lie within a subtree. Threads may make those of different ones.
-  void make_subtree(std::uint32_t subtree, BvhNode* nodes) const;
+  /// Makes the nodes of a subtree that has its place. Threads may make those of different ones.
+  void make_subtree(std::size_t subtree, BvhNode* nodes) const;
+  /// Makes the nodes that belong to no subtree, few. Precondition: all subtrees have their places,
+  /// and the forest is finished.
+  void make_upper(BvhNode* nodes) const;
 
  private:
-  /// The wide node that is made of `at`. Of one within a subtree also all nodes below it.
-  struct Part {
-    ForestNode at;
-    std::size_t first = 0, count = 1;  ///< of its nodes
+  /// The first of a subtree's nodes and leaves.
+  struct Place {
+    std::size_t first_node, first_leaf;
   };
-  /// The parts that lie in one subtree: they follow each other.
-  struct Parts {
-    std::size_t begin = 0, end = 0;
+  /// A node of the upper part that becomes a wide one, and the subtree that comes next.
+  struct UpperPart {
+    ForestNode at;
+    std::uint32_t next_subtree;
   };
 
-  void plan(ForestNode at);
-  void make_upper(ForestNode at, std::size_t& part, std::vector<PlacedNode>& nodes) const;
+  void plan(ForestNode at, std::uint32_t& next_subtree);
+  void place_upper(std::size_t next_subtree);
 
   const BinaryForest& forest_;
-  std::vector<Part> parts_;  ///< in depth-first order
-  std::vector<Parts> of_subtrees_;
-  std::size_t size_ = 0;
+  std::vector<UpperPart> upper_;           ///< in depth-first order
+  std::vector<std::size_t> upper_places_;  ///< so far
+  std::vector<Place> places_;              ///< by subtree, so far
+  std::size_t node_count_ = 0, leaf_count_ = 0;
 };
 
 }  // namespace boule

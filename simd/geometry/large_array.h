@@ -1,7 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <memory>
+#include <cstring>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -21,50 +22,94 @@ class LargeArray {
 
  public:
   LargeArray() = default;
-  explicit LargeArray(std::size_t size) : data_(allocate(size)), size_(size) {}
-  /// A view of others' memory, which must live longer and is only read.
+  explicit LargeArray(std::size_t size) : data_(take(size)), size_(size), capacity_(size) {}
+  /// A view of others' memory, which must live longer and is only read. It has no room of its own.
   static LargeArray borrowed(const T* data, std::size_t size) {
     LargeArray view;
-    view.data_ = {const_cast<T*>(data), Release{.is_own = false}};
+    view.data_ = const_cast<T*>(data);
     view.size_ = size;
     return view;
   }
-  LargeArray(LargeArray&& other) noexcept
-      : data_(std::move(other.data_)), size_(std::exchange(other.size_, 0)) {}
+  LargeArray(LargeArray&& other) noexcept { swap(other); }
   LargeArray& operator=(LargeArray&& other) noexcept {
-    data_ = std::move(other.data_);
-    size_ = std::exchange(other.size_, 0);
+    LargeArray(std::move(other)).swap(*this);
     return *this;
   }
+  ~LargeArray() { give_back(data_, capacity_); }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-  T& operator[](std::size_t i) { return data_.get()[i]; }
-  const T& operator[](std::size_t i) const { return data_.get()[i]; }
-  T* begin() { return data(); }
-  T* end() { return data() + size_; }
-  const T* begin() const { return data(); }
-  const T* end() const { return data() + size_; }
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+  T* begin() { return data_; }
+  T* end() { return data_ + size_; }
+  const T* begin() const { return data_; }
+  const T* end() const { return data_ + size_; }
 
- private:
-  static T* allocate(std::size_t size) {
-    if (size == 0) return nullptr;
-    if (size > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
-    void* memory = ::operator new (size * sizeof(T), std::align_val_t{stream_alignment});
-    prefer_huge_pages(memory, size * sizeof(T));
-    return static_cast<T*>(memory);
+  /// Makes room for so many values, or more. Those that are there stay, though perhaps elsewhere.
+  /// Room that is not used is cheap: large arrays take memory only where they are written.
+  void reserve(std::size_t capacity) {
+    if (capacity > capacity_) set_capacity(std::max(capacity, capacity_ + capacity_ / 2));
+  }
+  /// New values are not set.
+  void resize(std::size_t size) {
+    reserve(size);
+    size_ = size;
+  }
+  /// Gives back the room that is not used.
+  void shrink_to_fit() {
+    if (size_ < capacity_) set_capacity(size_);
   }
 
-  struct Release {
-    bool is_own = true;
-    void operator()(T* data) const {
-      if (is_own) ::operator delete (data, std::align_val_t{stream_alignment});
+ private:
+  static std::size_t bytes_of(std::size_t size) {
+    if (size > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
+    return size * sizeof(T);
+  }
+  /// Whether an array of this size has pages of its own.
+  static bool is_large(std::size_t size) { return bytes_of(size) >= std::size_t{2} << 20; }
+
+  static T* take(std::size_t size) {
+    if (size == 0) return nullptr;
+    if (!is_large(size)) {
+      return static_cast<T*>(::operator new (bytes_of(size), std::align_val_t{stream_alignment}));
     }
-  };
-  std::unique_ptr<T, Release> data_;
-  std::size_t size_ = 0;
+    void* const memory = take_pages(bytes_of(size));
+    if (memory == nullptr) throw std::bad_alloc();
+    return static_cast<T*>(memory);
+  }
+  static void give_back(T* data, std::size_t size) {
+    if (size == 0) return;  // no array, or a borrowed one
+    if (is_large(size)) {
+      give_back_pages(data, bytes_of(size));
+    } else {
+      ::operator delete (data, std::align_val_t{stream_alignment});
+    }
+  }
+
+  void set_capacity(std::size_t capacity) {
+    if (is_large(capacity) && is_large(capacity_)) {
+      void* const memory = resize_pages(data_, bytes_of(capacity_), bytes_of(capacity));
+      if (memory == nullptr) throw std::bad_alloc();
+      data_ = static_cast<T*>(memory);
+    } else {
+      T* const data = take(capacity);
+      if (size_ > 0) std::memcpy(data, data_, bytes_of(size_));
+      give_back(data_, capacity_);
+      data_ = data;
+    }
+    capacity_ = capacity;
+  }
+  void swap(LargeArray& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  T* data_ = nullptr;
+  std::size_t size_ = 0, capacity_ = 0;
 };
 
 /// Gives the memory of an array back from its front on, as it is consumed: in steps that are whole

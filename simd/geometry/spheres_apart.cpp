@@ -5,10 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "simd/geometry/binary_tree.h"
-#include "simd/geometry/large_array.h"
 #include "simd/geometry/tuning.h"
 
 namespace boule {
@@ -121,32 +122,24 @@ std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
   return ids;
 }
 
-void gather_others(std::vector<Sphere>& spheres, const std::vector<std::int32_t>& apart,
-                   BuildSphere* target, MaterialRef* materials, const ParallelFor& parallel_for) {
-  const auto gather = [&](std::size_t first, std::size_t end) {
-    auto next = std::lower_bound(apart.begin(), apart.end(), static_cast<std::int32_t>(first));
-    const auto skipped = static_cast<std::size_t>(next - apart.begin());
-    BuildSphere* other = target + (first - skipped);
+std::span<BuildSphere> take_others(std::vector<Sphere>& spheres,
+                                   const std::vector<std::int32_t>& apart, MaterialRef* materials,
+                                   const ParallelFor& parallel_for) {
+  static_assert(sizeof(BuildSphere) == sizeof(Sphere) && alignof(BuildSphere) <= alignof(Sphere));
+  static_assert(std::is_trivially_destructible_v<Sphere>);
+  auto* const others = reinterpret_cast<BuildSphere*>(spheres.data());
+  for_chunks(parallel_for, spheres.size(), [&](auto, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
-      const auto id = static_cast<std::int32_t>(i);
-      const Sphere& s = spheres[i];
+      const Sphere s = spheres[i];
       if (materials != nullptr) materials[i] = s.material;
-      if (next != apart.end() && *next == id) {
-        ++next;
-      } else {
-        *other++ = {{s.center.x, s.center.y, s.center.z, s.radius}, id};
-      }
+      new (others + i)
+          BuildSphere{{s.center.x, s.center.y, s.center.z, s.radius}, static_cast<std::int32_t>(i)};
     }
-  };
-  ConsumedPages consumed(spheres.data());
-  constexpr std::size_t at_once = 64 * tuning::chunk_size;  // before memory is given back
-  for (std::size_t begin = 0; begin < spheres.size(); begin += at_once) {
-    const std::size_t size = std::min(at_once, spheres.size() - begin);
-    for_chunks(parallel_for, size, [&](auto, std::size_t first, std::size_t end) {
-      gather(begin + first, begin + end);
-    });
-    consumed.consume(spheres.data() + begin + size);
-  }
+  });
+  std::size_t size = spheres.size();
+  for (auto id = apart.rbegin(); id != apart.rend(); ++id)
+    others[static_cast<std::size_t>(*id)] = others[--size];
+  return {others, size};
 }
 
 }  // namespace boule

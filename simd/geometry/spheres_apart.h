@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -21,10 +22,11 @@ std::vector<std::int32_t> find_spheres_apart(const std::vector<Sphere>& spheres,
 std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
                                          const std::vector<Sphere>& spheres);
 
-/// Moves all spheres but those of the ids `apart`, which are in order, to `target`. The memory of
-/// the spheres is given back meanwhile: what they hold afterwards is undefined. Their materials go
-/// to materials[id], unless `materials` is null.
-void gather_others(std::vector<Sphere>& spheres, const std::vector<std::int32_t>& apart,
-                   BuildSphere* target, MaterialRef* materials, const ParallelFor& parallel_for);
+/// Makes all spheres but those of the ids `apart`, which are in order, spheres of the build: they
+/// lie where the spheres were, as long as `spheres` is not used. Their materials go to
+/// materials[id], unless `materials` is null.
+std::span<BuildSphere> take_others(std::vector<Sphere>& spheres,
+                                   const std::vector<std::int32_t>& apart, MaterialRef* materials,
+                                   const ParallelFor& parallel_for);
 
 }  // namespace boule

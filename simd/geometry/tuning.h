@@ -35,16 +35,20 @@ inline constexpr std::size_t most_giants = 16;
 inline constexpr std::size_t chunk_size = 16'384;
 inline constexpr std::size_t parallel_size = 65'536;
 
-/// A thread builds a whole subtree of at most so many spheres: a 512th of all, which leaves enough
+/// A thread builds a whole subtree of at most so many spheres: a 2048th of all, which leaves enough
 /// of them for many threads, but no fewer than 4096. The tree's shape does not depend on the number
 /// of threads, but on these. Set by trial.
 /// Again: bench_build 1000000 10000000
 inline constexpr std::size_t least_subtree = 4096;
-inline constexpr std::size_t most_subtrees = 512;
+inline constexpr std::size_t most_subtrees = 2048;
 
-/// So many subtrees become leaves before their spheres' memory is given back: enough for as many
-/// threads, and a thirtieth of the memory. Set by trial.
+/// A subtree of less than so large a part of the largest is a twig: it counts to the upper part.
+/// Again: BvhVisits.DoublingDistancesAreNotScanned, and bench_tree
+inline constexpr std::size_t twigs = 6;
+
+/// The subtrees are built and become leaves in so many portions: enough for as many threads in
+/// each, while the binary nodes of one take half a percent of the memory. Set by trial.
 /// Again: bench_build 10000000
-inline constexpr std::size_t subtrees_at_once = 16;
+inline constexpr std::size_t portions = 64;
 
 }  // namespace boule::tuning

@@ -10,8 +10,11 @@
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/scattered_stream.h"
-#include "simd/kernel/shading/directions.h"
+#include "simd/kernel/shading/lobe_points.h"
+#include "simd/kernel/shading/path_step.h"
+#include "simd/kernel/shading/seen_light.h"
 #include "simd/kernel/shading/shadow_rays.h"
+#include "simd/kernel/shading/sobol_points.h"
 #include "simd/kernel/shading/surfaces.h"
 
 namespace boule::BOULE_KERNEL_ISA {
@@ -79,14 +82,32 @@ std::size_t shadow_rays(const ShadowTarget& light, const LitStream& points,
 }
 
 void numbers(const SobolStream& points) { sobol_points(points); }
-void directions(const LocalDirectionStream& local) { to_world(local); }
-void light_cones(const LightConeStream& cones) { sample_cones(cones); }
+void light_by_direction(const SeenLight& seen, const SeeingRays& rays) { see_light(seen, rays); }
+
+void points_by_kind(const GeometryView& geometry, const PathRays& paths, LobePoints& matte,
+                    LobePoints& glossy, LobePoints& clear) {
+  find_points(geometry, paths, matte, glossy, clear);
+}
+
+void matte_paths(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                 GoingOn& spawned) {
+  continue_points<LobeKind::matte>(points, step, shadows, spawned);
+}
+void glossy_paths(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                  GoingOn& spawned) {
+  continue_points<LobeKind::glossy>(points, step, shadows, spawned);
+}
+void clear_paths(const LobePoints& points, const PathStep& step, SampledLights& shadows,
+                 GoingOn& spawned) {
+  continue_points<LobeKind::clear>(points, step, shadows, spawned);
+}
 
 }  // namespace
 
 extern const KernelTable kernel_table;
 const KernelTable kernel_table = {
-    Isa::BOULE_KERNEL_ISA, width,       camera_rays, closest_hit, any_hit,
-    surfaces_of_hits,      shadow_rays, numbers,     directions,  light_cones};
+    Isa::BOULE_KERNEL_ISA, width,        camera_rays, closest_hit,        any_hit,
+    surfaces_of_hits,      shadow_rays,  numbers,     light_by_direction, points_by_kind,
+    matte_paths,           glossy_paths, clear_paths};
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -159,4 +159,11 @@ template <bool any>
 inline constexpr float steps_a_visit = any ? (width < 16 ? 3.7F : 5.9F)
                                            : (width < 16 ? 3.6F : 5.7F);
 
+// ---- Path tracing: shading/path_step.h --------------------------------------------------------
+
+/// Up to so many lights are compared with every packet's numbers; of more each lane looks up its
+/// own. Set by trial.
+/// Again: bench_path scenes/soft_light.toml
+inline constexpr std::size_t most_compared_lights = 6;
+
 }  // namespace boule::BOULE_KERNEL_ISA::tuning

@@ -28,5 +28,11 @@ BOULE_INLINE bool all(Mask m) {
 BOULE_INLINE WideMask select(const WideMask& m, const WideMask& a, const WideMask& b) {
   return (m & a) | (~m & b);
 }
+BOULE_INLINE RealMask select(const RealMask& m, const RealMask& a, const RealMask& b) {
+  return (m & a) | (~m & b);
+}
+
+BOULE_INLINE WideMask complement(const WideMask& m) { return ~m; }
+BOULE_INLINE RealMask complement(const RealMask& m) { return ~m; }
 
 }  // namespace boule::BOULE_KERNEL_ISA

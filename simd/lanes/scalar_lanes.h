@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/base/platform.h"
+#include "core/math/number.h"
 
 /// One lane of plain float and double, with the same functions as xsimd_lanes.h, which documents
 /// them: every kernel can also run, and be checked, without SIMD.
@@ -98,6 +99,7 @@ BOULE_INLINE Wide operator/(Wide a, Wide b) { return a.v / b.v; }
 
 BOULE_INLINE RealMask operator<(Real a, Real b) { return {a.v < b.v}; }
 BOULE_INLINE RealMask operator<=(Real a, Real b) { return {a.v <= b.v}; }
+BOULE_INLINE RealMask operator==(Real a, Real b) { return {a.v == b.v}; }
 BOULE_INLINE WideMask operator<(Wide a, Wide b) { return {a.v < b.v}; }
 BOULE_INLINE WideMask operator<=(Wide a, Wide b) { return {a.v <= b.v}; }
 BOULE_INLINE WideMask operator==(Wide a, Wide b) { return {a.v == b.v}; }
@@ -122,6 +124,9 @@ BOULE_INLINE Wide sqrt(Wide a) { return std::sqrt(a.v); }
 BOULE_INLINE Real abs(Real a) { return std::fabs(a.v); }
 BOULE_INLINE Wide abs(Wide a) { return std::fabs(a.v); }
 BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) { return std::copysign(magnitude.v, sign.v); }
+BOULE_INLINE Wide biased_exponent(Wide a) { return boule::biased_exponent(a.v); }
+BOULE_INLINE Wide mantissa(Wide a) { return boule::mantissa(a.v); }
+BOULE_INLINE Wide power_of_two(Wide k) { return boule::power_of_two(k.v); }
 BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return a.v * b.v + c.v; }
 
 BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) { return c.v - a.v * b.v; }

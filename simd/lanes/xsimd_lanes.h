@@ -14,22 +14,51 @@ namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr int width = static_cast<int>(Floats::size);
 
+// All lanes are copied by registers: GCC 12 would copy structs of them piece by piece, through
+// memory.
+
 struct RealMask {
   FloatMask m;
+  RealMask() = default;
+  BOULE_INLINE RealMask(FloatMask a) : m(a) {}
+  BOULE_INLINE RealMask(const RealMask& a) : m(a.m.data) {}
+  BOULE_INLINE RealMask& operator=(const RealMask& a) {
+    m.data = a.m.data;
+    return *this;
+  }
 };
 struct WideMask {
   DoubleMask lo, hi;
+  WideMask() = default;
+  BOULE_INLINE WideMask(DoubleMask l, DoubleMask h) : lo(l), hi(h) {}
+  BOULE_INLINE WideMask(const WideMask& a) : lo(a.lo.data), hi(a.hi.data) {}
+  BOULE_INLINE WideMask& operator=(const WideMask& a) {
+    lo.data = a.lo.data;
+    hi.data = a.hi.data;
+    return *this;
+  }
 };
 
 struct Real {
   Floats v;
   Real() = default;
+  BOULE_INLINE Real(const Real& a) : v(a.v.data) {}
+  BOULE_INLINE Real& operator=(const Real& a) {
+    v.data = a.v.data;
+    return *this;
+  }
   BOULE_INLINE Real(float x) : v(x) {}
   BOULE_INLINE Real(Floats x) : v(x) {}
 };
 struct Wide {
   Doubles lo, hi;
   Wide() = default;
+  BOULE_INLINE Wide(const Wide& a) : lo(a.lo.data), hi(a.hi.data) {}
+  BOULE_INLINE Wide& operator=(const Wide& a) {
+    lo.data = a.lo.data;
+    hi.data = a.hi.data;
+    return *this;
+  }
   BOULE_INLINE Wide(double x) : lo(x), hi(x) {}
   BOULE_INLINE Wide(Doubles l, Doubles h) : lo(l), hi(h) {}
 };
@@ -38,6 +67,11 @@ struct Wide {
 struct Bits {
   Integers v;
   Bits() = default;
+  BOULE_INLINE Bits(const Bits& a) : v(a.v.data) {}
+  BOULE_INLINE Bits& operator=(const Bits& a) {
+    v.data = a.v.data;
+    return *this;
+  }
   BOULE_INLINE explicit Bits(std::uint32_t x) : v(x) {}
   BOULE_INLINE explicit Bits(std::int32_t x) : v(static_cast<std::uint32_t>(x)) {}
   BOULE_INLINE Bits(Integers x) : v(x) {}
@@ -140,6 +174,7 @@ BOULE_INLINE Wide operator/(Wide a, Wide b) { return {a.lo / b.lo, a.hi / b.hi};
 // Ordered comparisons: false where either side is NaN.
 BOULE_INLINE RealMask operator<(Real a, Real b) { return {a.v < b.v}; }
 BOULE_INLINE RealMask operator<=(Real a, Real b) { return {a.v <= b.v}; }
+BOULE_INLINE RealMask operator==(Real a, Real b) { return {a.v == b.v}; }
 BOULE_INLINE WideMask operator<(Wide a, Wide b) { return {a.lo < b.lo, a.hi < b.hi}; }
 BOULE_INLINE WideMask operator<=(Wide a, Wide b) { return {a.lo <= b.lo, a.hi <= b.hi}; }
 BOULE_INLINE WideMask operator==(Wide a, Wide b) { return {a.lo == b.lo, a.hi == b.hi}; }
@@ -171,6 +206,15 @@ BOULE_INLINE Real abs(Real a) { return xsimd::abs(a.v); }
 BOULE_INLINE Wide abs(Wide a) { return {xsimd::abs(a.lo), xsimd::abs(a.hi)}; }
 BOULE_INLINE Wide copysign(Wide magnitude, Wide sign) {
   return {xsimd::copysign(magnitude.lo, sign.lo), xsimd::copysign(magnitude.hi, sign.hi)};
+}
+
+// Parts of doubles by their bits: as in core/math/number.h.
+BOULE_INLINE Wide biased_exponent(Wide a) {
+  return {gaps::biased_exponent(a.lo), gaps::biased_exponent(a.hi)};
+}
+BOULE_INLINE Wide mantissa(Wide a) { return {gaps::mantissa(a.lo), gaps::mantissa(a.hi)}; }
+BOULE_INLINE Wide power_of_two(Wide k) {
+  return {gaps::power_of_two(k.lo), gaps::power_of_two(k.hi)};
 }
 
 /// a b + c and c - a b, fused where the instruction set can. They are for filters and for the fast

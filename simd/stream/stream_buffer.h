@@ -101,63 +101,6 @@ class VectorBuffer {
   AlignedArray<double> x_, y_, z_;
 };
 
-/// Memory for a LocalDirectionStream, likewise.
-class LocalDirectionBuffer {
- public:
-  void resize(std::size_t size) {
-    vectors_.resize(size);
-    for (auto* numbers : {&cosine_, &sine_, &turns_}) numbers->resize(size);
-  }
-  void set(std::size_t i, const Vec3d& axis, double cosine, double sine, double turns) {
-    vectors_.set(i, axis);
-    cosine_[i] = cosine;
-    sine_[i] = sine;
-    turns_[i] = turns;
-  }
-  /// What the kernels made of axis i.
-  [[nodiscard]] Vec3d direction(std::size_t i) const { return vectors_.get(i); }
-  /// The first `size`; directions are written over their axes.
-  LocalDirectionStream view(std::size_t size) {
-    return {vectors_.view(), cosine_.data(), sine_.data(), turns_.data(), vectors_.view(), size};
-  }
-
- private:
-  VectorBuffer vectors_;
-  AlignedArray<double> cosine_, sine_, turns_;
-};
-
-/// Memory for a LightConeStream, likewise.
-class LightConeBuffer {
- public:
-  void resize(std::size_t size) {
-    org_.resize(size);
-    center_.resize(size);
-    for (auto* numbers : {&radius_, &u_, &v_, &density_}) numbers->resize(size);
-    tmax_.resize(size);
-  }
-  void set(std::size_t i, const Vec3d& org, const Vec3d& center, double radius, double u,
-           double v) {
-    org_.set(i, org);
-    center_.set(i, center);
-    radius_[i] = radius;
-    u_[i] = u;
-    v_[i] = v;
-  }
-  [[nodiscard]] Vec3d direction(std::size_t i) const { return center_.get(i); }
-  [[nodiscard]] double density(std::size_t i) const { return density_[i]; }
-  [[nodiscard]] float tmax(std::size_t i) const { return tmax_[i]; }
-  /// The first `size`; directions are written over the centres.
-  LightConeStream view(std::size_t size) {
-    return {org_.view(),    center_.view(),  radius_.data(), u_.data(), v_.data(),
-            center_.view(), density_.data(), tmax_.data(),   size};
-  }
-
- private:
-  VectorBuffer org_, center_;
-  AlignedArray<double> radius_, u_, v_, density_;
-  AlignedArray<float> tmax_;
-};
-
 /// Memory for a SampleStream, likewise.
 class SampleBuffer {
  public:

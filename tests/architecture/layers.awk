@@ -9,7 +9,7 @@ BEGIN {
   kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
   # Formulas, each a template that scalar code and kernels share: always inlined, and headers only,
   # or a kernel would call code that was compiled for another instruction set.
-  formulas = "^core/(base/platform|math/(elementary|geometry|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|film_point|incidence|lens_disc|lens_rays|lens_view))\\.h$"
+  formulas = "^core/(base/platform|math/(elementary|geometry|interval|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|dielectric|film_point|incidence|lens_disc|lens_rays|lens_view|lobes|reflectance))\\.h$"
   narrow = "^(core|simd/(abi|geometry|stream|dispatch))/"
 
   layer(formulas, formulas, kernel_std)
@@ -20,7 +20,7 @@ BEGIN {
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(image|renderer|scene_file))/", any)
+  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(frame|image|renderer|scene_file))/", any)
   layer("^render/memory/", "^(core|render/memory)/", any)
   layer("^render/file/", "^(core|render/(memory|file))/", any)
   layer("^render/particle_file/", "^(core|render/(memory|file|particle_file))/", any)

@@ -10,6 +10,7 @@
 #include "core/base/float_environment.h"
 #include "core/math/geometry.h"
 #include "core/optics/camera_builder.h"
+#include "simd/stream/path_buffers.h"
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/odd_float_environment.h"
@@ -73,8 +74,15 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
   kernels->primary_rays(build_camera(PinholeCamera{}, 4, 3), {}, rays);
   EXPECT_EQ(kernels->make_shadow_rays({}, {}, {}), 0U);
   kernels->sobol_points({});
-  kernels->to_world({});
-  kernels->sample_cones({});
+  kernels->see_light({}, {});
+  LobePoints points{};
+  SampledLights shadows{};
+  GoingOn going_on{};
+  kernels->find_points(geometry.view(), {}, points, points, points);
+  kernels->continue_matte(points, {}, shadows, going_on);
+  kernels->continue_glossy(points, {}, shadows, going_on);
+  kernels->continue_clear(points, {}, shadows, going_on);
+  EXPECT_EQ(points.size + shadows.size + going_on.size, 0U);
 }
 
 TEST_P(KernelBadInput, EnumeratorsWithoutANameAreRobustAndAutomatic) {
@@ -162,18 +170,37 @@ TEST_P(KernelBadInput, RaysOfOddCamerasMissOrAreRays) {
   }
 }
 
-TEST_P(KernelBadInput, LightsAndSpheresThatAreNoneGiveNothing) {
+TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
   constexpr std::size_t count = 20;
-  LightConeBuffer seek;
-  seek.resize(count);
   const double odd[] = {double{nan}, double{inf}, 0};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double bad = odd[i % 3];
-    if (i % 2 == 0) seek.set(i, {0, 0, 5}, {0, 0, 0}, bad, 0.5, 0.5);
-    if (i % 2 == 1) seek.set(i, {0, 0, i % 3 == 2 ? 0 : bad}, {0, 0, 0}, 1, 0.5, 0.5);
+  const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false};
+  std::vector<const LobeMaterial*> materials(count, &white);
+  const AlignedArray<double> half(count, 0.5);
+  const AlignedArray<std::int32_t> ids(count, 0);
+  LobePointBuffer buffer(count);
+  SampledLightBuffer shadow_buffer;
+  shadow_buffer.resize(count);
+  for (const double bad : odd) {
+    LobePoints points = buffer.view();
+    points.size = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      points.ray[i] = static_cast<std::uint32_t>(i);
+      points.org.z[i] = i % 2 == 0 ? bad : 5;
+      points.normal.z[i] = -1;
+    }
+    const LightSphere light{{0, 0, 0}, bad, 1, 0, {1, 1, 1}};
+    PathStep step{};
+    step.material = materials.data();
+    step.id = ids.data();
+    step.samples_lights = true;
+    step.lights = &light;
+    step.light_count = 1;
+    step.light = step.bounce = {half.data(), half.data()};
+    SampledLights shadows = shadow_buffer.view();
+    GoingOn going_on{};
+    kernels->continue_matte(points, step, shadows, going_on);
+    EXPECT_EQ(shadows.size, 0U) << bad;
   }
-  kernels->sample_cones(seek.view(count));
-  for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(seek.density(i), 0) << i;
 }
 
 /// A FloatEnvironment is enough, whatever the caller has set, traps included.

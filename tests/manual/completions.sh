@@ -66,7 +66,7 @@ boule render --solv|--solver
 boule render --solver |fast reference robust
 boule render --solver=f|fast
 boule render a.toml -o |d.png e.film sub
-boule render a.toml --aov depth,n|normal
+boule render a.toml --aov depth,nor|normal
 boule render --legend |f.svg sub
 boule merge e.film |e.film sub
 boule trace a.toml --rays |b.npy sub

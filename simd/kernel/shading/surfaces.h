@@ -85,9 +85,15 @@ class MetPrimitives {
   unsigned spheres_ = 0, planes_met_ = 0;
 };
 
-BOULE_INLINE void find_surfaces_of_packet(const MetPrimitives& primitives, const RayStream& rays,
-                                          const HitStream& hits, std::size_t first,
-                                          const SurfaceStream& surfaces) {
+/// The surfaces of a packet.
+struct MetSurfaces {
+  Vec3<Wide> point, view, normal;
+  Wide cosine, reach;
+  WideMask inner, sphere;
+};
+
+BOULE_INLINE MetSurfaces surfaces_of_packet(const MetPrimitives& primitives, const RayStream& rays,
+                                            const HitStream& hits, std::size_t first) {
   const VectorStream orgs{rays.org_x, rays.org_y, rays.org_z};
   const Real tmin = load(rays.tmin + first);
   const Bits ids = load_integers(hits.id + first);
@@ -100,23 +106,30 @@ BOULE_INLINE void find_surfaces_of_packet(const MetPrimitives& primitives, const
   arrived.point = arrived.org + arrived.dir * load(hits.t + first);
   const Contacts met = primitives.meet(arrived, ids);
   const Vec3<Wide> view = normalize(arrived.dir), normal = facing_normal(met, view);
-  const Wide cosine = facing_cosine(normal, view);
-  store(surfaces.point, first, arrived.point);
-  store(surfaces.normal, first, normal);
-  store(surfaces.view, first, view);
-  store(surfaces.mirrored, first, mirror(view, normal, cosine));
-  store(surfaces.org, first, move_off(arrived.point, normal, met.reach));
-  store(surfaces.cosine + first, cosine);
-  store(surfaces.reach + first, met.reach);
-  store(surfaces.inner + first, met.inner);
-  store(surfaces.inside + first, met.inner & primitives.is_sphere(ids));
+  return {arrived.point,
+          view,
+          normal,
+          facing_cosine(normal, view),
+          met.reach,
+          met.inner,
+          primitives.is_sphere(ids)};
 }
 
 BOULE_INLINE void find_surfaces(const GeometryView& geometry, const RayStream& rays,
                                 const HitStream& hits, const SurfaceStream& surfaces) {
   for (std::size_t first = 0; first < rays.size; first += width) {
     const MetPrimitives primitives(geometry, hits, first, rays.size - first);
-    if (!primitives.none()) find_surfaces_of_packet(primitives, rays, hits, first, surfaces);
+    if (primitives.none()) continue;
+    const MetSurfaces met = surfaces_of_packet(primitives, rays, hits, first);
+    store(surfaces.point, first, met.point);
+    store(surfaces.normal, first, met.normal);
+    store(surfaces.view, first, met.view);
+    store(surfaces.mirrored, first, mirror(met.view, met.normal, met.cosine));
+    store(surfaces.org, first, move_off(met.point, met.normal, met.reach));
+    store(surfaces.cosine + first, met.cosine);
+    store(surfaces.reach + first, met.reach);
+    store(surfaces.inner + first, met.inner);
+    store(surfaces.inside + first, met.inner & met.sphere);
   }
 }
 

@@ -20,6 +20,11 @@ TEST(ModuleSearch, AnInstalledOrCopiedProgramLooksAroundItselfOnly) {
   EXPECT_EQ(folders[1].filename(), "boule");
 }
 
+TEST(ModuleSearch, AnInstalledLibraryLooksInItsOwnFolders) {
+  const fs::path library = module_folders("/opt/boule/bin").at(1).parent_path();
+  EXPECT_EQ(module_folders(library), (std::vector<fs::path>{library, library / "boule"}));
+}
+
 TEST(ModuleSearch, ABareCopyLooksBesideItselfOnly) {
   EXPECT_EQ(module_folders("/tmp/mine"), std::vector<fs::path>{"/tmp/mine"});
 }

@@ -96,6 +96,18 @@ TEST_F(WriteImage, ThreadsDoNotShowInTheFile) {
   EXPECT_TRUE(test::read_bytes(at("one.exr")) == test::read_bytes(at("four.exr")));
 }
 
+/// A TIFF has strips of 32 rows, which several threads pack: each must come in one piece.
+TEST_F(WriteImage, ThreadsDoNotShowInATallTiff) {
+  const Image image = test::noise(3000, 300);
+  ImageFileOptions options;
+  ASSERT_EQ(reason(image, at("one.tif"), options), "");
+  for (const int threads : {2, 7, 16}) {
+    options.threads = threads;
+    ASSERT_EQ(reason(image, at("more.tif"), options), "") << threads;
+    EXPECT_TRUE(test::read_bytes(at("one.tif")) == test::read_bytes(at("more.tif"))) << threads;
+  }
+}
+
 TEST_F(WriteImage, FullDiskKeepsTheOldFile) {
   const Image image = test::noise(64, 64);
   for (const std::string extension : extensions) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 
@@ -55,6 +57,68 @@ TEST(Renderer, RefusesWrongOptionsByName) {
     ASSERT_FALSE(renderer) << c.key;
     EXPECT_EQ(renderer.error().key, c.key);
   }
+}
+
+/// The bands of a picture, put together again.
+Result<Image> from_bands(Renderer& renderer) {
+  Image whole(renderer.rect().width(), renderer.rect().height(), alpha_of(renderer.options()));
+  std::size_t pixels = 0;
+  const Status bad = renderer.render_bands([&](const Image& band) -> Status {
+    if (band.width != whole.width) return Diagnostic::of("a band of another width");
+    std::copy(band.pixels.begin(), band.pixels.end(),
+              whole.pixels.begin() + static_cast<std::ptrdiff_t>(pixels));
+    std::copy(band.alpha.begin(), band.alpha.end(),
+              whole.alpha.begin() + static_cast<std::ptrdiff_t>(band.alpha.empty() ? 0 : pixels));
+    pixels += band.pixels.size();
+    return std::nullopt;
+  });
+  if (bad) return *bad;
+  if (pixels != whole.pixels.size()) return Diagnostic::of("other rows than the picture has");
+  return whole;
+}
+
+TEST(Renderer, BandsAreThePictureForAnyThreads) {
+  const Scene scene = mixed_scene(150, 130);
+  RenderOptions options = options_of(scene);
+  options.transparent = true;
+  options.outline = 2;
+  options.crop = PixelRect{3, 5, 149, 128};
+  for (const int tile : {16, 64}) {
+    options.tile = tile;
+    auto whole = Renderer::create(scene, options);
+    ASSERT_TRUE(whole);
+    const auto expected = whole.value().render();
+    ASSERT_TRUE(expected);
+    for (const unsigned threads : {1U, 2U, 5U}) {
+      options.threads = threads;
+      auto renderer = Renderer::create(scene, options);
+      ASSERT_TRUE(renderer);
+      const auto picture = from_bands(renderer.value());
+      ASSERT_TRUE(picture);
+      EXPECT_EQ(picture.value().pixels, expected.value().pixels);
+      EXPECT_EQ(picture.value().alpha, expected.value().alpha);
+    }
+  }
+}
+
+TEST(Renderer, WhatTakesBandsEndsTheRendering) {
+  const Scene scene = mixed_scene(64, 640);
+  RenderOptions options = options_of(scene);
+  options.tile = 16;
+  options.threads = 3;
+  auto renderer = Renderer::create(scene, options);
+  ASSERT_TRUE(renderer);
+  int taken = 0;
+  const Status bad = renderer.value().render_bands([&](const Image&) -> Status {
+    return ++taken == 2 ? Status(Diagnostic::of("enough")) : std::nullopt;
+  });
+  ASSERT_TRUE(bad);
+  EXPECT_EQ(bad->message, "enough");
+  EXPECT_EQ(taken, 2);
+  const Status thrown = renderer.value().render_bands(
+      [](const Image&) -> Status { throw std::runtime_error("thrown"); });
+  ASSERT_TRUE(thrown);
+  EXPECT_EQ(thrown->message, "thrown");
 }
 
 TEST(Renderer, RefusesAPictureLargerThanTheMemory) {

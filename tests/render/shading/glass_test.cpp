@@ -2,8 +2,8 @@
 // both worked out in double from the impact parameter alone.
 #include "core/optics/camera_builder.h"
 #include "core/optics/camera_ray.h"
+#include "core/optics/dielectric.h"
 #include "render/shading/bsdf.h"
-#include "render/shading/dielectric.h"
 #include "tests/render/picture_comparison.h"
 #include "tests/render/prepared.h"
 #include "tests/support/kernel_runs.h"

@@ -4,8 +4,8 @@
 // day).
 #include <cstdio>
 
+#include "core/optics/dielectric.h"
 #include "core/surface.h"
-#include "render/shading/dielectric.h"
 #include "tests/render/prepared.h"
 #include "tests/support/kernel_runs.h"
 #include "tests/support/test_size.h"

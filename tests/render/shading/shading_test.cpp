@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "core/math/geometry.h"
+#include "core/optics/dielectric.h"
 #include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
-#include "render/shading/dielectric.h"
 #include "render/shading/lights.h"
 #include "tests/support/case_random.h"
 

@@ -208,6 +208,9 @@ void last_first(std::size_t size, const std::function<void(std::size_t)>& body) 
 /// Bit for bit, of what is used.
 void expect_same(const Bvh& a, const Bvh& b) {
   EXPECT_EQ(a.scanned, b.scanned);
+  ASSERT_EQ(a.materials.by_slot() == nullptr, b.materials.by_slot() == nullptr);
+  for (std::size_t slot = 0; a.materials.by_slot() != nullptr && slot < a.slots.size(); ++slot)
+    ASSERT_EQ(a.materials.by_slot()[slot], b.materials.by_slot()[slot]) << "slot " << slot;
   ASSERT_TRUE(std::equal(a.slots.begin(), a.slots.end(), b.slots.begin(), b.slots.end()));
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
@@ -234,6 +237,29 @@ TEST(BvhBuilder, IsTheSameTreeForAnyThreads) {
     for (const unsigned threads : {2U, 3U, 7U})
       expect_same(serial, build_bvh(spheres, on_threads(threads)));
   }
+}
+
+/// Clusters that are halved again and again from one side: their subtrees are of all sizes, and the
+/// small ones are twigs. Each sphere is made of something else.
+TEST(BvhBuilder, IsTheSameTreeForAnyThreadsWithTwigsAndMaterials) {
+  std::vector<Sphere> spheres = cloud(70'000);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    Sphere& s = spheres[i];
+    const float far = std::ldexp(1.0F, static_cast<int>(i % 97) - 50);
+    if (i % 7 != 0) s = {{far + s.center.x * far, far, s.center.z * far}, far * 0.01F, {}};
+    s.material = static_cast<std::uint32_t>(i % 1000);
+  }
+  spheres[123].radius = inf;
+  const Bvh serial = build_bvh(spheres);
+  check(serial, spheres);
+  for (std::size_t slot = 0; slot < serial.slots.size(); ++slot) {
+    const std::int32_t id = serial.slots[slot];
+    if (id < 0) continue;
+    ASSERT_EQ(serial.materials[static_cast<std::uint32_t>(slot)],
+              spheres[static_cast<std::size_t>(id)].material);
+  }
+  expect_same(serial, build_bvh(spheres, last_first));
+  expect_same(serial, build_bvh(spheres, on_threads(3)));
 }
 
 }  // namespace

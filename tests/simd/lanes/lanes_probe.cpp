@@ -61,6 +61,11 @@ void probe_arithmetic(const test::LaneInputs& in, test::LaneOutputs& out) {
   store(out.wide_copysign, copysign(x, y));
   store(out.wide_select, select(x < y, x, y));
   store(out.widen, widen(a));
+  store(out.exponent, biased_exponent(abs(x)));
+  store(out.mantissa, mantissa(x));
+  alignas(64) double exponents[width];
+  for (int i = 0; i < width; ++i) exponents[i] = static_cast<double>(in.i[i] % 2046) - 1022;
+  store(out.power_of_two, power_of_two(load(exponents)));
 }
 
 void probe_rows(const test::LaneInputs& in, test::LaneOutputs& out) {
@@ -80,6 +85,7 @@ void probe_masks(const test::LaneInputs& in, test::LaneOutputs& out) {
   const Wide x = load(in.x), y = load(in.y);
   out.less = bits(a < b);
   out.less_equal = bits(a <= b);
+  out.equal = bits(a == b);
   out.wide_less = bits(x < y);
   out.wide_less_equal = bits(x <= y);
   out.wide_equal = bits(x == y);
@@ -89,6 +95,7 @@ void probe_masks(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.wide_and = bits((x < y) & (x <= y));
   out.wide_or = bits((x < y) | (x == y));
   out.wide_not = bits(~(x < y));
+  out.mask_select = bits(select(a < b, a < c, b <= c));
   out.widened_mask = bits(widen(a < b));
   out.narrowed_mask = bits(narrow(x < y));
   out.uniform_true = bits(uniform(true));

@@ -26,7 +26,9 @@ struct LaneOutputs {
   alignas(64) double wide_add[most_lanes], wide_sub[most_lanes], wide_mul[most_lanes];
   alignas(64) double wide_div[most_lanes], wide_sqrt[most_lanes], wide_abs[most_lanes];
   alignas(64) double wide_copysign[most_lanes], wide_select[most_lanes], widen[most_lanes];
-  alignas(64) std::uint32_t counted[most_lanes];  ///< from 77 on
+  alignas(64) double exponent[most_lanes], mantissa[most_lanes];  ///< of |x| and of x
+  alignas(64) double power_of_two[most_lanes];                    ///< of i % 2046 - 1022
+  alignas(64) std::uint32_t counted[most_lanes];                  ///< from 77 on
   alignas(64) std::uint32_t integer_sum[most_lanes], integer_product[most_lanes];
   alignas(64) std::uint32_t integer_and[most_lanes], integer_or[most_lanes],
       integer_xor[most_lanes];
@@ -43,9 +45,10 @@ struct LaneOutputs {
   alignas(64) std::uint32_t anywhere[most_lanes + 1];  ///< i from index 1 on
   alignas(64) float rows[4 * most_lanes];              ///< from a, b, c and a + b, lane by lane
   alignas(64) float columns[4][most_lanes];            ///< from these rows, the last one first
-  unsigned less, less_equal, wide_less, wide_less_equal, wide_equal;
+  unsigned less, less_equal, equal, wide_less, wide_less_equal, wide_equal;
   unsigned integer_equal, integer_less_equal, set_bytes;
-  unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, widened_mask, narrowed_mask;
+  unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, mask_select, widened_mask,
+      narrowed_mask;
   unsigned uniform_true, uniform_false;
   std::size_t least_of_sixteen;
   bool any_less, all_less, any_none, all_all;

@@ -160,6 +160,18 @@ TEST_P(Lanes, DoubleArithmetic) {
   });
 }
 
+TEST_P(Lanes, PartsOfDoubles) {
+  for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
+    const double x = in.x[i];
+    ASSERT_TRUE(same(out.power_of_two[i], std::ldexp(1, static_cast<int>(in.i[i] % 2046) - 1022)));
+    if (!std::isnormal(x)) return;
+    int exponent = 0;
+    const double half = std::frexp(std::fabs(x), &exponent);
+    ASSERT_TRUE(same(out.exponent[i], exponent - 1 + 1023));
+    ASSERT_TRUE(same(out.mantissa[i], 2 * half));
+  });
+}
+
 TEST_P(Lanes, FilterFmaIsFusedWhereTheIsaCan) {
   const bool fused = GetParam().fused;
   for_all_lanes([fused](const LaneInputs& in, const LaneOutputs& out, int i) {
@@ -242,6 +254,8 @@ TEST_P(Lanes, ComparisonsAreOrdered) {
     const double x = in.x[i], y = in.y[i];
     ASSERT_EQ(bit(out.less, i), a < b);
     ASSERT_EQ(bit(out.less_equal, i), a <= b);
+    ASSERT_EQ(bit(out.equal, i), a == b);
+    ASSERT_EQ(bit(out.mask_select, i), a < b ? a < in.c[i] : b <= in.c[i]);
     ASSERT_EQ(bit(out.wide_less, i), x < y);
     ASSERT_EQ(bit(out.wide_less_equal, i), x <= y);
     ASSERT_EQ(bit(out.wide_equal, i), x == y);

@@ -7,7 +7,10 @@
 #include "render/prepare/flat_material.h"
 #include "render/shading/bsdf.h"
 
-namespace boule {
+namespace boule::test {
+
+/// The formulas of core/optics/lobes.h once more, for one surface, with branches, and as they were
+/// before there were kernels of them: what judges the kernels.
 
 /// A random direction in which a path goes on from a surface.
 struct Bounce {
@@ -16,6 +19,9 @@ struct Bounce {
   Color weight;        ///< of light from there: reflectance times cosine over density
   double density = 0;  ///< per solid angle; 0 for the one direction of a mirror or of refraction
 };
+
+/// The weights of the reflected and the refracted ray.
+Scatter scatter_twin(const FlatMaterial& material, const Surface& surface);
 
 /// Chooses directions by a surface's lobes: the diffuse one, the highlight around the mirrored view
 /// direction, the reflected direction and the refracted one. The probability of a lobe is its share
@@ -38,9 +44,7 @@ class LobeSampler {
 
   /// The reflectance of the diffuse lobe and the highlight for light from `to_light`, times
   /// `cosine`, which is n.l, times pi. Precondition: cosine > 0.
-  [[nodiscard]] Color reflected(double cosine, const Vec3d& to_light) const {
-    return direct_light(*material_, cosine, to_light, mirrored_, gray(1));
-  }
+  [[nodiscard]] Color reflected(double cosine, const Vec3d& to_light) const;
 
   /// The density with which the diffuse lobe and the highlight choose this direction; `cosine` is
   /// n.l.
@@ -68,4 +72,4 @@ class LobeSampler {
   double sum_;
 };
 
-}  // namespace boule
+}  // namespace boule::test

@@ -1,10 +1,9 @@
-#include "render/shading/lobe_sampler.h"
-
 #include <gtest/gtest.h>
 
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/math/warp.h"
+#include "tests/render/shading/lobe_twin.h"
 #include "tests/support/test_scenes.h"
 
 namespace boule::test {

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# release.sh: whether what is committed can be released, in what form, and by which commands it is tagged.
+# It tags and pushes nothing. docs/versions.md says what a version means.
+# release.sh --check: the checks of numbers and dates alone.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+fail() {
+  echo "release: $1" >&2
+  exit 1
+}
+
+version=$(sed -n 's/^project(boule VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
+[[ "$version" =~ ^([0-9]+\.[0-9]+)\.[0-9]+$ ]] || fail "CMakeLists.txt names no version like 1.2.3"
+interface=${BASH_REMATCH[1]}
+section=$(grep -m 1 '^## \[' CHANGELOG.md)
+[[ "$section" =~ ^##\ \[$version\]\ -\ [0-9]{4}-[0-9]{2}-[0-9]{2}$ ]] ||
+  fail "the newest section of CHANGELOG.md is '$section', not that of $version with a date"
+grep -q "^Package: libboule$interface\$" packaging/debian/control ||
+  fail "packaging/debian/control has no package libboule$interface"
+[[ "${1:-}" != --check ]] || { echo "release: $version can be released"; exit 0; }
+
+[[ -z "$(git status --porcelain)" ]] || fail "not all is committed: git status"
+[[ -z "$(git tag --list "v$version")" ]] || fail "there is a tag v$version already"
+./bootstrap.sh package
+tarball=build/package/boule-$version.tar.gz
+git archive --format=tar --prefix="boule-$version/" HEAD | gzip -9n | cmp - "$tarball" ||
+  fail "the same commit makes another tarball"
+(./bootstrap.sh test) || fail "a test has failed"
+
+echo "release: $(sha256sum "$tarball")"
+echo "release: boule $version is ready. It is tagged by"
+echo "  git tag -a v$version -m 'Boule $version' $(git rev-parse HEAD)"
+echo "  git push origin v$version"

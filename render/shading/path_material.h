@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/optics/lobes.h"
+#include "render/prepare/flat_material.h"
+#include "simd/abi/paths.h"
+
+namespace boule {
+
+/// The kind of a material of flatten_for_paths(), by which its points are sorted.
+inline LobeKind lobe_kind(const FlatMaterial& m) {
+  if (!takes_direct_light(m)) return scatters(m) ? LobeKind::clear : LobeKind::none;
+  return scatters(m) || m.highlight > 0 ? LobeKind::glossy : LobeKind::matte;
+}
+
+/// A material as path tracing reads it.
+struct PathMaterial {
+  FlatMaterial flat;  ///< of flatten_for_paths()
+  LobeMaterial lobes;
+  LobeKind kind;
+
+  explicit PathMaterial(const FlatMaterial& m)
+      : flat(m),
+        lobes{{m.diffuse.r, m.diffuse.g, m.diffuse.b, 0},
+              {m.mirror.r, m.mirror.g, m.mirror.b, 0},
+              {m.transmission.r, m.transmission.g, m.transmission.b, 0},
+              m.highlight,
+              m.shininess,
+              m.ior,
+              m.fresnel},
+        kind(is_black(m.constant) ? lobe_kind(m) : LobeKind::none) {}
+};
+
+}  // namespace boule

@@ -1,0 +1,34 @@
+# cmake -DHEADERS=FILE;... -DOUTPUT=FILE -P version_script.cmake: what the shared library shows. It is
+# what the public headers declare outside of classes, and the members of their classes; all else is
+# hidden. Declarations begin in the first column, as clang-format has them.
+set(names)
+foreach(header IN LISTS HEADERS)
+  file(READ ${header} text)
+  string(REGEX REPLACE "[][;]" "@" text "${text}")  # lists of CMake cannot hold them
+  string(REPLACE "\n" ";" lines "${text}")
+  set(scope boule)
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^namespace (boule[a-z_:]*) {")
+      set(scope ${CMAKE_MATCH_1})
+    elseif(line MATCHES "^namespace ([a-z_]+) {")
+      set(scope boule::${CMAKE_MATCH_1})
+    elseif(line MATCHES "^}  // namespace")
+      set(scope boule)
+    elseif(line MATCHES "^(inline|constexpr|template|using|BOULE_INLINE)")
+      continue()  # in every program that uses it
+    elseif(line MATCHES "^(class|struct) (.* )?([A-Za-z0-9_]+) (final )?(: .*)?{")
+      list(APPEND names "${scope}::${CMAKE_MATCH_3}::*")
+    elseif(line MATCHES "^([A-Za-z@][^(]*[ &*])?([A-Za-z0-9_]+)\\(")
+      list(APPEND names "${scope}::${CMAKE_MATCH_2}(")
+    endif()
+  endforeach()
+endforeach()
+list(REMOVE_DUPLICATES names)
+list(SORT names)
+set(shown)
+foreach(name IN LISTS names)
+  # Then comes the parameter list, or first [abi:cxx11]; the linker takes no parenthesis.
+  string(REPLACE "(" "[!A-Za-z0-9_]*" pattern "${name}")
+  string(APPEND shown "      ${pattern};\n")
+endforeach()
+file(WRITE ${OUTPUT} "{\n  global:\n    extern \"C++\" {\n${shown}    };\n  local: *;\n};\n")

@@ -1,0 +1,287 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "core/math/light_cone.h"
+#include "core/optics/lobes.h"
+#include "simd/abi/paths.h"
+#include "simd/kernel/camera/look_up.h"
+#include "simd/kernel/shading/lobe_points.h"
+#include "simd/kernel/tuning.h"
+#include "simd/kernel/vectors.h"
+
+/// How paths go on, W points at a time: a shadow ray to a sampled light, and a ray in a random
+/// direction.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The materials of W points. Lanes behind the last point have that of the first.
+template <LobeKind kind>
+BOULE_INLINE CoefficientsOf<Wide> load_materials(const PathStep& step, const std::uint32_t* ray,
+                                                 std::size_t live) {
+  const float *diffuse[width], *mirror[width], *transmission[width];
+  alignas(64) double numbers[3][width];
+  std::uint8_t fresnel[width];
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const LobeMaterial& material = *step.material[ray[lane < live ? lane : 0]];
+    diffuse[lane] = material.diffuse;
+    if constexpr (kind != LobeKind::matte) {
+      mirror[lane] = material.mirror;
+      transmission[lane] = material.transmission;
+      numbers[0][lane] = material.highlight;
+      numbers[1][lane] = material.shininess;
+      numbers[2][lane] = material.ior;
+      fresnel[lane] = material.fresnel ? 1 : 0;
+    }
+  }
+  CoefficientsOf<Wide> loaded{};
+  const auto color = [](const float* const* rows) {
+    const Columns columns = load_rows(rows);
+    return Vec3<Real>{columns.x, columns.y, columns.z};
+  };
+  if constexpr (kind != LobeKind::clear) loaded.diffuse = color(diffuse);
+  if constexpr (kind != LobeKind::matte) {
+    loaded.mirror = color(mirror);
+    loaded.transmission = color(transmission);
+    loaded.highlight = load(numbers[0]);
+    loaded.shininess = load(numbers[1]);
+    loaded.ior = load(numbers[2]);
+    loaded.fresnel = load_set(fresnel);
+  }
+  return loaded;
+}
+
+template <LobeKind kind>
+BOULE_INLINE IncidenceOf<Wide> load_incidence(const LobePoints& points, std::size_t first) {
+  IncidenceOf<Wide> met{};
+  met.normal = load(points.normal, first);
+  if constexpr (kind != LobeKind::matte) {
+    met.view = load(points.view, first);
+    met.cosine = load(points.cosine + first);
+    met.mirrored = mirror(met.view, met.normal, met.cosine);
+    const Bits side = load_integers(points.side + first) & Bits(side_inner);
+    met.inner = widen(side == Bits(side_inner));
+  }
+  return met;
+}
+
+/// Lights that were picked for W points, and new numbers in place of those that picked them.
+struct PickedSpheres {
+  Vec3<Wide> center;
+  Wide radius, share;
+  Vec3<Real> radiance;
+  Wide u;
+};
+
+/// For look_up(): a sphere of many, found by its number. Found are the 9 numbers of LightSphere.
+struct FindSphere {
+  const LightSphere* lights;
+  std::size_t count;
+
+  BOULE_INLINE void operator()(const SpacedNumbers& given, const SpacedNumbers& found) const {
+    std::size_t first = 0, last = count - 1;  // the light is one of first .. last
+    while (first < last) {
+      const std::size_t middle = (first + last) / 2;
+      const bool later = lights[middle + 1].before <= given[0];
+      first = later ? middle + 1 : first;
+      last = later ? last : middle;
+    }
+    const LightSphere& light = lights[first];
+    for (std::size_t k = 0; k < 3; ++k) {
+      found[k] = light.center[k];
+      found[6 + k] = static_cast<double>(light.radiance[k]);
+    }
+    found[3] = light.radius;
+    found[4] = light.share;
+    found[5] = light.before;
+  }
+};
+
+/// Few lights are compared one after the other; of many each lane looks up its own.
+BOULE_INLINE PickedSpheres pick_spheres(const PathStep& step, const Wide& u) {
+  const LightSphere* light = step.lights;
+  PickedSpheres picked{{light->center[0], light->center[1], light->center[2]},
+                       light->radius,
+                       light->share,
+                       {light->radiance[0], light->radiance[1], light->radiance[2]},
+                       u};
+  Wide before = light->before;
+  if (step.light_count > tuning::most_compared_lights) {
+    const Numbers<Wide, 9> found =
+        look_up<9>(Numbers<Wide, 1>{{u}}, FindSphere{light, step.light_count});
+    picked.center = {found.at[0], found.at[1], found.at[2]};
+    picked.radius = found.at[3];
+    picked.share = found.at[4];
+    picked.radiance = {narrow(found.at[6]), narrow(found.at[7]), narrow(found.at[8])};
+    before = found.at[5];
+  } else {
+    for (std::size_t k = 1; k < step.light_count; ++k) {
+      ++light;
+      const WideMask later = Wide(light->before) <= u;
+      picked.center =
+          select(later, {light->center[0], light->center[1], light->center[2]}, picked.center);
+      picked.radius = select(later, light->radius, picked.radius);
+      picked.share = select(later, light->share, picked.share);
+      before = select(later, light->before, before);
+      picked.radiance =
+          select(narrow(later), {light->radiance[0], light->radiance[1], light->radiance[2]},
+                 picked.radiance);
+    }
+  }
+  picked.u = rescale<Wide>(u, {before, picked.share});
+  return picked;
+}
+
+/// Light from directions that were chosen with a density.
+struct LightSamples {
+  Vec3<Wide> direction;
+  Wide density;
+  Vec3<Real> radiance;
+  Real tmax;  ///< of the shadow rays
+};
+
+BOULE_INLINE LightSamples sample_spheres(const PathStep& step, const Vec3<Wide>& org, const Wide& u,
+                                         const Wide& v) {
+  const Wide sphere_share = 1 - step.environment_share;
+  const PickedSpheres picked =
+      pick_spheres(step, (u - Wide(step.environment_share)) / sphere_share);
+  const LightConeOf<Wide> cone(org, picked.center, picked.radius);
+  const Vec3<Wide> direction = cone.direction({picked.u, v});
+  return {direction, sphere_share * picked.share * cone.density(), picked.radiance,
+          narrow(cone.free_distance(direction))};
+}
+
+BOULE_INLINE LightSamples sample_lights(const PathStep& step, const Vec3<Wide>& org,
+                                        std::size_t first) {
+  const Wide u = load(step.light.u + first), v = load(step.light.v + first);
+  LightSamples samples{};
+  if (step.light_count > 0) samples = sample_spheres(step, org, u, v);
+  if (step.given.given == nullptr) return samples;
+  const WideMask given = load_set(step.given.given + first);
+  const RealMask narrow_given = narrow(given);
+  return {select(given, load(step.given.direction, first), samples.direction),
+          select(given, load(step.given.density + first), samples.density),
+          select(narrow_given, load(step.given.radiance, first), samples.radiance),
+          select(narrow_given, Real(std::numeric_limits<float>::infinity()), samples.tmax)};
+}
+
+/// a b scale, in double: a product of two of them could overflow or underflow in float.
+BOULE_INLINE Vec3<Real> multiply(const Vec3<Real>& a, const Vec3<Real>& b, const Wide& scale) {
+  const auto product = [&scale](const Real& x, const Real& y) {
+    return narrow(widen(x) * widen(y) * scale);
+  };
+  return {product(a.x, b.x), product(a.y, b.y), product(a.z, b.z)};
+}
+
+/// a b, but 0 where one of them is 0: light_product() of render/integrators/sample_faults.h.
+BOULE_INLINE Real light_product(const Real& a, const Real& b) {
+  const Real zero(0.0F);
+  return select((a == zero) | (b == zero), zero, a * b);
+}
+
+/// Adds the shadow rays that decide whether sampled light arrives, unless its weight is 0.
+template <LobeKind kind>
+BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, unsigned live,
+                                  const LobesOf<Wide, kind>& lobes, const Vec3<Wide>& normal,
+                                  const PathStep& step, SampledLights& shadows) {
+  const Vec3<Wide> org = load(points.org, first);
+  const LightSamples light = sample_lights(step, org, first);
+  const Wide cosine = dot(normal, light.direction);
+  const unsigned chosen =
+      live & bits((Wide(0.0) < cosine) & (Wide(0.0) < light.density) & lobes.shine());
+  if (chosen == 0) return;
+  const auto response = lobes.respond(cosine, light.direction);
+  const Wide weight = step.weighs ? power_heuristic(light.density, response.density) : Wide(1.0);
+  const Vec3<Real> arriving =
+      multiply(response.reflected, light.radiance, weight / (Wide(elementary::pi) * light.density));
+  const RayStream& rays = shadows.rays;
+  std::size_t at = shadows.size;
+  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
+  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(light.direction),
+               chosen);
+  store_anywhere(rays.tmin + at, Real(0.0F));
+  store_chosen(rays.tmax + at, light.tmax, chosen);
+  store_chosen(shadows.radiance, at, arriving, chosen);
+  for (unsigned left = chosen; left != 0; left &= left - 1) {
+    const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
+    const std::uint32_t ray = points.ray[i];
+    rays.source[at] = step.id[ray];
+    rays.inside[at] = points.side[i] & side_inside;
+    shadows.ray[at] = step.first_ray + ray;
+    ++at;
+  }
+  shadows.size = at;
+}
+
+/// Russian roulette: a path survives with some probability, by which its weight is divided.
+BOULE_INLINE RealMask play_roulette(const Vec3<Real>& throughput, const Wide& u,
+                                    Vec3<Real>& weight) {
+  const Vec3<Real> left = product(throughput, weight);
+  Real largest = select(left.x < left.y, left.y, left.x);
+  largest = select(largest < left.z, left.z, largest);
+  const Real survival = select(Real(largest_survival) < largest, Real(largest_survival), largest);
+  weight = weight * (Real(1.0F) / survival);
+  return narrow(u < widen(survival));
+}
+
+/// Adds the rays with which paths go on, unless the roulette ends them.
+template <LobeKind kind>
+BOULE_INLINE void add_rays(const LobePoints& points, std::size_t first, unsigned live,
+                           const LobesOf<Wide, kind>& lobes, const PathStep& step,
+                           GoingOn& spawned) {
+  BounceOf<Wide> bounce = lobes.bounce({load(step.bounce.u + first), load(step.bounce.v + first)});
+  const Vec3<Real> before = load(points.throughput, first);
+  unsigned chosen = live & bits(lobes.shine());
+  if (step.survival != nullptr)
+    chosen &= bits(play_roulette(before, load(step.survival + first), bounce.weight));
+  const Vec3<Real> throughput{light_product(before.x, bounce.weight.x),
+                              light_product(before.y, bounce.weight.y),
+                              light_product(before.z, bounce.weight.z)};
+  chosen &= bits(~is_black_in<Wide>(throughput));
+  if (chosen == 0) return;
+  Vec3<Wide> org = load(points.org, first);
+  Bits side = load_integers(points.side + first);
+  if constexpr (kind != LobeKind::matte) {
+    org = select(bounce.beyond, load(points.beyond, first), org);
+    side = select(narrow(bounce.beyond), side >> 1, side);
+  }
+  const RayStream& rays = spawned.rays;
+  std::size_t at = spawned.size;
+  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
+  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(bounce.direction),
+               chosen);
+  store_anywhere(rays.tmin + at, Real(0.0F));
+  store_anywhere(rays.tmax + at, Real(std::numeric_limits<float>::infinity()));
+  store_chosen(spawned.throughput, at, throughput, chosen);
+  store_chosen(spawned.sample + at, load_integers(points.sample + first), chosen);
+  store_chosen(spawned.density + at, narrow(bounce.density), chosen);
+  alignas(64) std::uint32_t sides[width];
+  store(sides, side);
+  for (unsigned lanes = chosen; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+    rays.source[at] = step.id[points.ray[first + lane]];
+    rays.inside[at] = static_cast<std::uint8_t>(sides[lane] & side_inside);
+    ++at;
+  }
+  spawned.size = at;
+}
+
+template <LobeKind kind>
+BOULE_INLINE void continue_points(const LobePoints& points, const PathStep& step,
+                                  SampledLights& shadows, GoingOn& spawned) {
+  for (std::size_t first = 0; first < points.size; first += width) {
+    const std::size_t live = points.size - first;
+    const unsigned lanes = live < width ? (1U << live) - 1 : all_lanes;
+    const CoefficientsOf<Wide> material = load_materials<kind>(step, points.ray + first, live);
+    const IncidenceOf<Wide> met = load_incidence<kind>(points, first);
+    const LobesOf<Wide, kind> lobes(material, met);
+    if constexpr (kind != LobeKind::clear) {
+      if (step.samples_lights)
+        add_shadow_rays(points, first, lanes, lobes, met.normal, step, shadows);
+    }
+    if (step.goes_on) add_rays(points, first, lanes, lobes, step, spawned);
+  }
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/math/light_cone.h"
+#include "core/optics/lobes.h"
+#include "simd/abi/paths.h"
+#include "simd/kernel/shading/lobe_points.h"
+#include "simd/kernel/vectors.h"
+
+/// Light that paths find by their direction alone, W rays at a time.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The weight of light that a path found by its direction, which was chosen with `density`; light
+/// sampling would have chosen it with `light_density`.
+BOULE_INLINE Wide weight_of_hit(HitWeight weight, const Wide& density, const Wide& light_density) {
+  if (weight == HitWeight::full) return 1.0;
+  const WideMask found_twice = (Wide(0.0) < density) & (Wide(0.0) < light_density);
+  const Wide share =
+      weight == HitWeight::none ? Wide(0.0) : power_heuristic(density, light_density);
+  return select(found_twice, share, Wide(1.0));
+}
+
+/// The radiance of the sphere lights that rays cross before t.
+BOULE_INLINE Vec3<Real> crossed_lights(const SeenLight& seen, const Vec3<Wide>& org,
+                                       const Vec3<Wide>& dir, const Wide& t, const Wide& density) {
+  Vec3<Real> sum{0.0F, 0.0F, 0.0F};
+  const WideMask chosen = Wide(0.0) < density;
+  if (!any(chosen)) return sum;
+  const Wide size = length(dir);
+  const Vec3<Wide> unit = dir * (Wide(1.0) / size);
+  for (const LightSphere* light = seen.lights; light != seen.lights + seen.light_count; ++light) {
+    const Vec3<Wide> center{light->center[0], light->center[1], light->center[2]};
+    const Wide radius = light->radius;
+    if (!any(chosen & may_meet(dir, center - org, radius))) continue;
+    const LightConeOf<Wide> cone(org, center, radius);
+    const WideMask met = chosen & may_meet(dir, center - org, radius) & cone.meets(unit, t * size);
+    if (!any(met)) continue;
+    const Wide weight = weight_of_hit(seen.weight, density,
+                                      Wide(seen.sphere_share * light->share) * cone.density());
+    const Vec3<Real> radiance{light->radiance[0], light->radiance[1], light->radiance[2]};
+    sum = select(narrow(met), sum + radiance * narrow(weight), sum);
+  }
+  return sum;
+}
+
+BOULE_INLINE Vec3<Real> background_of(const SeenBackground& background, const Vec3<Wide>& dir) {
+  const Vec3<Real> bottom{background.bottom[0], background.bottom[1], background.bottom[2]};
+  if (background.kind == SeenBackground::Kind::constant) return bottom;
+  const Vec3<Real> top{background.top[0], background.top[1], background.top[2]};
+  const Vec3<Wide> up{background.up[0], background.up[1], background.up[2]};
+  return gradient_color<Wide>(bottom, top, dot(normalize(dir), up));
+}
+
+BOULE_INLINE void see_light(const SeenLight& seen, const SeeingRays& rays) {
+  const RayStream& r = rays.rays;
+  const bool sees_background = seen.background.kind != SeenBackground::Kind::other;
+  for (std::size_t first = 0; first < r.size; first += width) {
+    const Vec3<Wide> dir =
+        widen(Vec3<Real>{load(r.dir_x + first), load(r.dir_y + first), load(r.dir_z + first)});
+    Vec3<Real> sum{0.0F, 0.0F, 0.0F};
+    if (seen.light_count > 0) {
+      const Vec3<Wide> org = load(VectorStream{r.org_x, r.org_y, r.org_z}, first);
+      sum = crossed_lights(seen, org, dir, load(rays.hits.t + first),
+                           widen(load(rays.density + first)));
+    }
+    const RealMask missed = load_integers(rays.hits.id + first) == Bits(no_primitive);
+    if (sees_background && any(missed))
+      sum = select(missed, sum + background_of(seen.background, dir), sum);
+    store(rays.radiance.r + first, sum.x);
+    store(rays.radiance.g + first, sum.y);
+    store(rays.radiance.b + first, sum.z);
+  }
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/color.h"
+#include "simd/abi/paths.h"
+#include "simd/stream/aligned_array.h"
+#include "simd/stream/stream_buffer.h"
+
+namespace boule {
+
+/// Memory for the streams of simd/abi/paths.h, kept from use to use, as that of RayBuffer.
+
+class ColorBuffer {
+ public:
+  /// New memory is filled with grey of this value.
+  void resize(std::size_t size, float fill = 0) {
+    for (auto* numbers : {&r_, &g_, &b_}) numbers->resize(size, fill);
+  }
+  void set(std::size_t i, const Color& c) {
+    r_[i] = c.r;
+    g_[i] = c.g;
+    b_[i] = c.b;
+  }
+  [[nodiscard]] Color get(std::size_t i) const { return {r_[i], g_[i], b_[i]}; }
+  void add(std::size_t i, const Color& c) { set(i, get(i) + c); }
+  ColorStream view() { return {r_.data(), g_.data(), b_.data()}; }
+
+ private:
+  AlignedArray<float> r_, g_, b_;
+};
+
+/// For LobePoints.
+class LobePointBuffer {
+ public:
+  explicit LobePointBuffer(std::size_t size) {
+    const std::size_t room = size + max_width;
+    for (auto* vectors : {&point_, &normal_, &org_, &view_, &beyond_}) vectors->resize(room);
+    cosine_.resize(room);
+    for (auto* numbers : {&side_, &ray_, &sample_}) numbers->resize(room);
+    throughput_.resize(room);
+  }
+  /// Room for points; there are none.
+  LobePoints view() {
+    return {point_.view(),
+            normal_.view(),
+            org_.view(),
+            view_.view(),
+            beyond_.view(),
+            cosine_.data(),
+            side_.data(),
+            ray_.data(),
+            throughput_.view(),
+            sample_.data(),
+            0};
+  }
+
+ private:
+  VectorBuffer point_, normal_, org_, view_, beyond_;
+  AlignedArray<double> cosine_;
+  AlignedArray<std::uint32_t> side_, ray_, sample_;
+  ColorBuffer throughput_;
+};
+
+/// For SampledLights.
+class SampledLightBuffer {
+ public:
+  void resize(std::size_t size) {
+    rays_.resize(size + max_width);
+    ray_.resize(size + max_width);
+    radiance_.resize(size + max_width);
+  }
+  [[nodiscard]] Ray shadow_ray(std::size_t k) const { return rays_.get(k); }
+  void set_shadow_ray(std::size_t k, const Ray& ray) { rays_.set(k, ray); }
+  /// Room for shadow rays; there are none.
+  SampledLights view() { return {rays_.view(), ray_.data(), radiance_.view(), 0}; }
+
+ private:
+  RayBuffer rays_;
+  AlignedArray<std::uint32_t> ray_;
+  ColorBuffer radiance_;
+};
+
+/// For GoingOn.
+class GoingOnBuffer {
+ public:
+  void resize(std::size_t size) {
+    rays_.resize(size + max_width);
+    throughput_.resize(size + max_width);
+    sample_.resize(size + max_width);
+    density_.resize(size + max_width);
+  }
+  /// Room for rays; there are none.
+  GoingOn view() { return {rays_.view(), throughput_.view(), sample_.data(), density_.data(), 0}; }
+
+ private:
+  RayBuffer rays_;
+  ColorBuffer throughput_;
+  AlignedArray<std::uint32_t> sample_;
+  AlignedArray<float> density_;
+};
+
+/// For GivenLight.
+class GivenLightBuffer {
+ public:
+  void resize(std::size_t size) {
+    given_.resize(size);
+    direction_.resize(size);
+    density_.resize(size);
+    radiance_.resize(size);
+  }
+  void set(std::size_t i, const Vec3d& direction, double density, const Color& radiance) {
+    given_[i] = 1;
+    direction_.set(i, direction);
+    density_[i] = density;
+    radiance_.set(i, radiance);
+  }
+  void set_none(std::size_t i) { given_[i] = 0; }
+  GivenLight view() {
+    return {given_.data(), direction_.view(), density_.data(), radiance_.view()};
+  }
+
+ private:
+  AlignedArray<std::uint8_t> given_;
+  VectorBuffer direction_;
+  AlignedArray<double> density_;
+  ColorBuffer radiance_;
+};
+
+}  // namespace boule

@@ -1,0 +1,385 @@
+// The kernels of path tracing, of every table, against the scalar formulas, bit for bit.
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "core/math/geometry.h"
+#include "core/math/light_cone.h"
+#include "render/prepare/area_lights.h"
+#include "render/prepare/prepared_scene.h"
+#include "render/shading/background_radiance.h"
+#include "render/shading/path_material.h"
+#include "simd/stream/path_buffers.h"
+#include "tests/render/shading/lobe_twin.h"
+#include "tests/support/case_random.h"
+#include "tests/support/kernel_runs.h"
+#include "tests/support/test_scenes.h"
+
+namespace boule::test {
+namespace {
+
+constexpr std::size_t count = 251;  // the last packet is not whole
+
+const Material materials[] = {Matte{{0.2f, 0.5f, 0.8f}},
+                              Matte{{0, 0, 1e-20f}},
+                              Plastic{{0.1f, 0.3f, 0.5f}, 0.3f, 12, 0.1f},
+                              Plastic{{0.8f, 0.8f, 0.8f}, 0.6f, 3.25f, 0},
+                              Plastic{{0.4f, 0.4f, 0.4f}, 0, 0, 0.2f},
+                              Phong{{0, 0, 0}, 0, 0, 0.9f, 5000, 0, 1},
+                              Metal{{0.9f, 0.5f, 0.1f}},
+                              Glass{{0.9f, 1, 0.9f}, 1.5f},
+                              Phong{{0.5f, 0.4f, 0.3f}, 0, 0.6f, 0.2f, 8, 0.3f, 1.3f},
+                              Phong{{0, 0, 0}, 0, 0, 0.2f, 0, 0.7f, 1.2f},
+                              Matte{{0, 0, 0}}};
+
+/// Spheres and planes of all these materials.
+PreparedScene scene_of_all(CaseRandom& random) {
+  Scene scene = empty_scene(4, 4);
+  std::vector<MaterialRef> refs;
+  for (const Material& material : materials) refs.push_back(add_material(scene, material));
+  for (std::size_t i = 0; i < 120; ++i) {
+    const Vec3f center = vec_cast<float>(random.direction() * random.uniform(2, 9));
+    scene.spheres.push_back(
+        {center, static_cast<float>(random.uniform(0.2, 1.5)), refs[i % refs.size()]});
+  }
+  scene.planes = {{{0, -9, 0}, {0, 1, 0}, refs[2]}, {{9, 0, 0}, {-2, 1, 0}, refs[7]}};
+  scene.render.method = Method::path;
+  return prepare(scene, 4, 4, serial_for, Method::path).value();
+}
+
+double unit_number(CaseRandom& random) {
+  if (random.chance(0.05)) return 0;
+  return random.chance(0.05) ? 1 - 0x1p-32 : random.uniform(0, 1);
+}
+
+std::vector<LightSphere> some_lights(CaseRandom& random, std::size_t number) {
+  std::vector<LightSphere> lights;
+  const double share = 1 / static_cast<double>(number);
+  for (std::size_t i = 0; i < number; ++i) {
+    const Vec3d center = random.direction() * random.uniform(1, 12);
+    lights.push_back({{center.x, center.y, center.z},
+                      random.uniform(0.1, 2),
+                      share,
+                      share * static_cast<double>(i),
+                      {static_cast<float>(random.uniform(0, 9)), 2, 1e-3F}});
+  }
+  return lights;
+}
+
+/// A ray and what else is known of it, as the kernels write it.
+struct Written {
+  Ray ray;
+  std::uint32_t index = 0;  ///< of the ray that a shadow ray belongs to; of a sample
+  Color color;              ///< the light, or the throughput
+  float density = 0;
+};
+
+void expect_same_color(const Color& a, const Color& b) {
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(a.r), std::bit_cast<std::uint32_t>(b.r));
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(a.g), std::bit_cast<std::uint32_t>(b.g));
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(a.b), std::bit_cast<std::uint32_t>(b.b));
+}
+
+void expect_same_rays(const std::vector<Written>& written, const std::vector<Written>& expected) {
+  ASSERT_EQ(written.size(), expected.size());
+  for (std::size_t k = 0; k < written.size() && !testing::Test::HasFailure(); ++k) {
+    SCOPED_TRACE(k);
+    const auto& [ray, index, color, density] = written[k];
+    const Written& other = expected[k];
+    EXPECT_EQ(ray.org, other.ray.org);
+    EXPECT_EQ(ray.dir, other.ray.dir);
+    EXPECT_EQ(ray.tmin, other.ray.tmin);
+    EXPECT_EQ(ray.tmax, other.ray.tmax);
+    EXPECT_EQ(ray.source, other.ray.source);
+    EXPECT_EQ(ray.inside, other.ray.inside);
+    EXPECT_EQ(index, other.index);
+    expect_same_color(color, other.color);
+    EXPECT_EQ(density, other.density);
+  }
+}
+
+Color product_in_double(const Color& a, const Color& b, double scale) {
+  const auto product = [scale](float x, float y) {
+    return static_cast<float>(double{x} * double{y} * scale);
+  };
+  return {product(a.r, b.r), product(a.g, b.g), product(a.b, b.b)};
+}
+
+double heuristic(double a, double b) {
+  const double ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// Rays of a block, what they met, and how their paths shall go on.
+class PathKernels : public OnEachIsa {
+ protected:
+  struct Options {
+    std::size_t lights = 2;
+    double environment_share = 0;
+    bool weighs = true, roulette = false;
+  };
+
+  void make_rays() {
+    std::vector<Ray> shot;
+    for (std::size_t i = 0; i < count; ++i) {
+      Ray ray{random.direction() * random.uniform(0, 3), vec_cast<float>(random.direction())};
+      if (i % 9 == 0) ray.dir = ray.dir * 40.0F;
+      shot.push_back(ray);
+    }
+    rays = to_stream(shot);
+    hits.resize(count);
+    kernels->closest_hit(scene.geometry.view(), rays.view(), {}, hits.view());
+    throughput.resize(count);
+    density.resize(count);
+    kinds.resize(count);
+    sample.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      throughput.set(i, {static_cast<float>(random.uniform(0, 1)), i % 7 == 0 ? 0.0F : 0.5F, 1});
+      sample[i] = static_cast<std::uint32_t>(3 * i);
+      density[i] = i % 3 == 0 ? 0 : static_cast<float>(random.uniform(0, 4));
+    }
+    meet();
+  }
+
+  void meet() {
+    met.clear();
+    for (const FlatMaterial& flat : scene.materials) met.emplace_back(flat);
+    lobes.assign(count, nullptr);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (hits.get(i).id == no_primitive) continue;
+      const PathMaterial& material = met[scene.material_ref(hits.get(i)).index()];
+      lobes[i] = &material.lobes;
+      kinds[i] = static_cast<std::uint32_t>(material.kind);
+    }
+  }
+
+  struct Numbers {
+    AlignedArray<double> u, v;
+    Numbers(CaseRandom& random, double last) : u(count), v(count) {
+      for (std::size_t i = 0; i < count; ++i) {
+        u[i] = unit_number(random) * last;
+        v[i] = unit_number(random);
+      }
+    }
+    [[nodiscard]] UnitPairs view() const { return {u.data(), v.data()}; }
+  };
+
+  GivenLightBuffer given_by_chance(const AlignedArray<double>& picked, double share) {
+    GivenLightBuffer given;
+    given.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      given.set_none(i);
+      if (picked[i] < share)
+        given.set(i, random.direction(), i % 5 == 0 ? 0 : random.uniform(0, 3), {1, 2, 0.5F});
+    }
+    return given;
+  }
+
+  void check(const Options& options);
+  void expect_point(std::size_t point, std::size_t ray, const PathStep& step);
+  void expect_light(std::size_t point, std::size_t ray, const Surface& surface,
+                    const LobeSampler& twin, const PathStep& step);
+  void expect_bounce(std::size_t point, std::size_t ray, const Surface& surface,
+                     const LobeSampler& twin, const PathStep& step);
+  static std::vector<Written> written(const RayStream& from, std::size_t size,
+                                      const std::uint32_t* index, const ColorStream& color,
+                                      const float* densities);
+
+  CaseRandom random{3};
+  PreparedScene scene = scene_of_all(random);
+  RayBuffer rays;
+  HitBuffer hits;
+  ColorBuffer throughput;
+  AlignedArray<float> density;
+  AlignedArray<std::uint32_t> kinds, sample;
+  std::vector<PathMaterial> met;
+  std::vector<const LobeMaterial*> lobes;
+  std::vector<Written> shadows, bounces;  ///< expected
+};
+
+std::vector<Written> PathKernels::written(const RayStream& from, std::size_t size,
+                                          const std::uint32_t* index, const ColorStream& color,
+                                          const float* densities) {
+  std::vector<Written> all;
+  for (std::size_t k = 0; k < size; ++k)
+    all.push_back({get_ray(from, k),
+                   index[k],
+                   {color.r[k], color.g[k], color.b[k]},
+                   densities == nullptr ? 0 : densities[k]});
+  return all;
+}
+
+/// What the scalar formulas make of a point: a shadow ray, and a ray that goes on.
+void PathKernels::expect_point(std::size_t point, std::size_t ray, const PathStep& step) {
+  const Surface surface = find_surface(scene, rays.get(ray), hits.get(ray));
+  const FlatMaterial flat = scene.material_of(hits.get(ray));
+  const LobeSampler twin(flat, surface);
+  if (twin.black()) return;
+  if (takes_direct_light(flat)) expect_light(point, ray, surface, twin, step);
+  expect_bounce(point, ray, surface, twin, step);
+}
+
+void PathKernels::expect_light(std::size_t point, std::size_t ray, const Surface& surface,
+                               const LobeSampler& twin, const PathStep& step) {
+  const Departure departure = depart(surface, Side::viewer);
+  Vec3d direction;
+  double light_density = 0;
+  Color radiance;
+  float tmax = std::numeric_limits<float>::infinity();
+  if (step.given.given != nullptr && step.given.given[point] != 0) {
+    const GivenLight& given = step.given;
+    direction = {given.direction.x[point], given.direction.y[point], given.direction.z[point]};
+    light_density = given.density[point];
+    radiance = {given.radiance.r[point], given.radiance.g[point], given.radiance.b[point]};
+  } else {
+    const double share = step.environment_share;
+    double u = (step.light.u[point] - share) / (1 - share);
+    std::size_t picked = 0;
+    while (picked + 1 < step.light_count && step.lights[picked + 1].before <= u) ++picked;
+    const LightSphere& light = step.lights[picked];
+    u = std::clamp((u - light.before) / light.share, 0.0, below_one);
+    const LightCone cone(departure.org, {light.center[0], light.center[1], light.center[2]},
+                         light.radius);
+    direction = cone.direction({u, step.light.v[point]});
+    light_density = (1 - share) * light.share * cone.density();
+    radiance = {light.radiance[0], light.radiance[1], light.radiance[2]};
+    tmax = static_cast<float>(cone.free_distance(direction));
+  }
+  const double cosine = dot(surface.normal, direction);
+  if (!(cosine > 0) || !(light_density > 0)) return;
+  const double weight = step.weighs ? heuristic(light_density, twin.density(cosine, direction)) : 1;
+  Ray shadow{departure.org, vec_cast<float>(direction)};
+  shadow.tmax = tmax;
+  shadows.push_back({from_surface(shadow, departure),
+                     step.first_ray + static_cast<std::uint32_t>(ray),
+                     product_in_double(twin.reflected(cosine, direction), radiance,
+                                       weight / (elementary::pi * light_density))});
+}
+
+void PathKernels::expect_bounce(std::size_t point, std::size_t ray, const Surface& surface,
+                                const LobeSampler& twin, const PathStep& step) {
+  const LobeSampler::Choice choice = twin.choose({step.bounce.u[point], step.bounce.v[point]});
+  Bounce bounce =
+      twin.bounce(choice, direction_about(twin.axis(choice), choice.from, choice.turns));
+  const Color before = throughput.get(ray);
+  if (is_black(bounce.weight)) return;
+  if (step.survival != nullptr) {
+    const Color left = before * bounce.weight;
+    const float survival = std::min(std::max({left.r, left.g, left.b}), 0.95F);
+    if (!(step.survival[point] < static_cast<double>(survival))) return;
+    bounce.weight = bounce.weight * (1 / survival);
+  }
+  const Color after = before * bounce.weight;
+  if (is_black(after)) return;
+  bounces.push_back({leave(surface, bounce.side, bounce.direction), sample[ray], after,
+                     static_cast<float>(bounce.density)});
+}
+
+void PathKernels::check(const Options& options) {
+  make_rays();
+  const std::vector<LightSphere> lights = some_lights(random, options.lights);
+  const Numbers light(random, 1), bounce(random, 1), roulette(random, 0.6);
+  GivenLightBuffer given = given_by_chance(light.u, options.environment_share);
+  const PathStep step{.material = lobes.data(),
+                      .id = hits.view().id,
+                      .first_ray = 512,
+                      .samples_lights = true,
+                      .goes_on = true,
+                      .weighs = options.weighs,
+                      .lights = lights.data(),
+                      .light_count = lights.size(),
+                      .environment_share = options.environment_share,
+                      .light = light.view(),
+                      .bounce = bounce.view(),
+                      .survival = options.roulette ? roulette.u.data() : nullptr,
+                      .given = options.environment_share > 0 ? given.view() : GivenLight{}};
+  LobePointBuffer buffers[3]{LobePointBuffer(count), LobePointBuffer(count),
+                             LobePointBuffer(count)};
+  LobePoints points[3] = {buffers[0].view(), buffers[1].view(), buffers[2].view()};
+  kernels->find_points(scene.geometry.view(),
+                       {rays.view(), hits.view(), kinds.data(), throughput.view(), sample.data()},
+                       points[0], points[1], points[2]);
+  SampledLightBuffer shadow_buffer;
+  shadow_buffer.resize(count);
+  GoingOnBuffer going_on_buffer;
+  going_on_buffer.resize(count);
+  SampledLights sampled = shadow_buffer.view();
+  GoingOn going_on = going_on_buffer.view();
+  kernels->continue_matte(points[0], step, sampled, going_on);
+  kernels->continue_glossy(points[1], step, sampled, going_on);
+  kernels->continue_clear(points[2], step, sampled, going_on);
+  for (std::uint32_t kind = 1; kind <= 3; ++kind) {
+    std::size_t point = 0;
+    for (std::size_t ray = 0; ray < count; ++ray) {
+      if (kinds[ray] == kind) expect_point(point++, ray, step);
+    }
+    EXPECT_EQ(points[kind - 1].size, point);
+    EXPECT_GT(point, std::size_t{20});
+  }
+  EXPECT_GT(shadows.size(), count / 8);
+  EXPECT_GT(bounces.size(), count / 8);
+  expect_same_rays(written(sampled.rays, sampled.size, sampled.ray, sampled.radiance, nullptr),
+                   shadows);
+  expect_same_rays(
+      written(going_on.rays, going_on.size, going_on.sample, going_on.throughput, going_on.density),
+      bounces);
+}
+
+TEST_P(PathKernels, PathsGoOnAsTheScalarOnesDo) { check({}); }
+TEST_P(PathKernels, AmongManyLights) { check({.lights = 40}); }
+TEST_P(PathKernels, WithALightThatIsAlwaysPicked) { check({.lights = 1, .weighs = false}); }
+TEST_P(PathKernels, UnderTheSkyAndByRoulette) {
+  check({.environment_share = 0.5, .roulette = true});
+}
+
+/// The light that a ray finds by its direction, by the scalar formulas.
+Color seen_by(const Ray& ray, const Hit& hit, double density, const SeenLight& seen,
+              const Background& background) {
+  Color sum;
+  const Vec3d dir = vec_cast<double>(ray.dir);
+  const double size = length(dir);
+  for (std::size_t i = 0; density > 0 && i < seen.light_count; ++i) {
+    const LightSphere& light = seen.lights[i];
+    const LightCone cone(ray.org, {light.center[0], light.center[1], light.center[2]},
+                         light.radius);
+    if (!cone.meets(dir * (1 / size), hit.t * size)) continue;
+    const double other = seen.sphere_share * light.share * cone.density();
+    double weight = 1;
+    if (seen.weight != HitWeight::full && other > 0)
+      weight = seen.weight == HitWeight::none ? 0 : heuristic(density, other);
+    sum = sum + Color{light.radiance[0], light.radiance[1], light.radiance[2]} *
+                    static_cast<float>(weight);
+  }
+  if (hit.id == no_primitive) sum = sum + background_radiance(background, ray.dir);
+  return sum;
+}
+
+TEST_P(PathKernels, RaysSeeWhatTheScalarOnesDo) {
+  make_rays();
+  const std::vector<LightSphere> lights = some_lights(random, 9);
+  const GradientBackground gradient{{0.1f, 0.2f, 0.3f}, {0.9f, 0.7f, 0.5f}, {1, 2, -0.5f}};
+  const Vec3d up = normalize(vec_cast<double>(gradient.up));
+  const SeenBackground slope{
+      SeenBackground::Kind::gradient, {0.1f, 0.2f, 0.3f}, {0.9f, 0.7f, 0.5f}, {up.x, up.y, up.z}};
+  const SeenBackground flat{SeenBackground::Kind::constant, {0.5f, 0.25f, 1}, {}, {}};
+  for (const HitWeight weight : {HitWeight::heuristic, HitWeight::full, HitWeight::none}) {
+    for (const bool sloped : {true, false}) {
+      const SeenLight seen{sloped ? slope : flat, lights.data(), lights.size(), 0.5, weight};
+      ColorBuffer radiance;
+      radiance.resize(count);
+      kernels->see_light(seen, {rays.view(), hits.view(), density.data(), radiance.view()});
+      const Background background =
+          sloped ? Background{gradient} : Background{ConstantBackground{{0.5f, 0.25f, 1}}};
+      for (std::size_t k = 0; k < count && !HasFailure(); ++k) {
+        SCOPED_TRACE(k);
+        expect_same_color(radiance.get(k),
+                          seen_by(rays.get(k), hits.get(k), double{density[k]}, seen, background));
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, PathKernels, each_isa(), isa_name);
+
+}  // namespace
+}  // namespace boule::test
