@@ -51,7 +51,7 @@ CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, in
   y_.cosine = cosine_of(y * used);
 }
 
-void CameraFitter::add(const std::vector<Sphere>& spheres) {
+void CameraFitter::add(std::span<const Sphere> spheres) {
   const auto narrow = [](Sides& sides, double across, double depth, double radius) {
     const double inward = depth * sides.sine - radius;
     sides.low = std::min(sides.low, inward + across * sides.cosine);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <limits>
-#include <vector>
+#include <span>
 
 #include "core/scene/camera.h"
 #include "core/scene/camera_fit.h"
@@ -18,7 +18,7 @@ class CameraFitter {
   /// `view` does not lie along its direction.
   CameraFitter(const CameraFit& fit, const View& view, int width, int height);
 
-  void add(const std::vector<Sphere>& spheres);
+  void add(std::span<const Sphere> spheres);
 
   /// The camera. It looks at the middle of the spheres' depths. Its coordinates are floats: the
   /// spheres are taken as larger by 2^-20 of the largest coordinate and of the eye's distance, so

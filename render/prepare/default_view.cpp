@@ -38,19 +38,28 @@ struct Extent {
   double spheres = 0, centers = 0;
 };
 
-Extent extent_along(const Vec3d& axis, const std::vector<Sphere>& spheres) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  double low = inf, high = -inf, lowest_center = inf, highest_center = -inf;
-  for (const Sphere& s : spheres) {
-    const double along = dot(vec_cast<double>(s.center), axis);
+/// Finds the extent of spheres along an axis.
+class ExtentFinder {
+ public:
+  explicit ExtentFinder(const Vec3d& axis) : axis_(axis) {}
+
+  void add(const Sphere& s) {
+    const double along = dot(vec_cast<double>(s.center), axis_);
     const auto radius = static_cast<double>(s.radius);
-    low = std::min(low, along - radius);
-    high = std::max(high, along + radius);
-    lowest_center = std::min(lowest_center, along);
-    highest_center = std::max(highest_center, along);
+    low_ = std::min(low_, along - radius);
+    high_ = std::max(high_, along + radius);
+    lowest_center_ = std::min(lowest_center_, along);
+    highest_center_ = std::max(highest_center_, along);
   }
-  return {std::max(high - low, 0.0), std::max(highest_center - lowest_center, 0.0)};
-}
+  [[nodiscard]] Extent extent() const {
+    return {std::max(high_ - low_, 0.0), std::max(highest_center_ - lowest_center_, 0.0)};
+  }
+
+ private:
+  static constexpr double inf = std::numeric_limits<double>::infinity();
+  Vec3d axis_;
+  double low_ = inf, high_ = -inf, lowest_center_ = inf, highest_center_ = -inf;
+};
 
 /// True if spheres are a sheet, one sphere thick, as simulations in two dimensions are.
 bool is_sheet(const Extent& thick, const Extent& a, const Extent& b) {
@@ -63,11 +72,18 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : 1; }
 
 /// The direction from the spheres to the camera; a sheet is seen face on, unless it lies on a
 /// floor.
-Vec3d way_to_camera(Compass compass, const std::vector<Sphere>& spheres, bool has_floor) {
+Vec3d way_to_camera(Compass compass, const SphereRuns& spheres, bool has_floor) {
   // Tangents. They are those of 32 and 20 degrees, and of 50 for what is flat.
   constexpr double aside = 0.625, above = 0.371, above_flat = 1.19;
-  const Extent x = extent_along(compass.right, spheres), y = extent_along(compass.up, spheres),
-               z = extent_along(compass.front, spheres);
+  ExtentFinder along_x(compass.right), along_y(compass.up), along_z(compass.front);
+  spheres([&](SphereRun run) {
+    for (const Sphere& sphere : run) {
+      along_x.add(sphere);
+      along_y.add(sphere);
+      along_z.add(sphere);
+    }
+  });
+  const Extent x = along_x.extent(), y = along_y.extent(), z = along_z.extent();
   if (is_sheet(y, x, z) && !has_floor) return compass.up;
   if (is_sheet(z, x, y)) return compass.front;
   if (is_sheet(x, y, z)) return compass.right;
@@ -92,6 +108,14 @@ bool are_parallel(const Vec3d& a, const Vec3d& b) { return length(cross(a, b)) <
 }  // namespace
 
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
+                  const std::vector<Plane>& planes) {
+  const SphereRuns one_run = [&spheres](const std::function<void(SphereRun)>& function) {
+    function(spheres);
+  };
+  return default_view(fit, one_run, planes);
+}
+
+View default_view(const CameraFit& fit, const SphereRuns& spheres,
                   const std::vector<Plane>& planes) {
   View view;
   view.up = fit.up ? unit(*fit.up) : up_of(planes);
