@@ -45,6 +45,10 @@ double linear_from_srgb(double s) {
   return s <= 0.04045 ? s / 12.92 : elementary::pow((s + 0.055) / 1.055, 2.4);
 }
 
+double srgb_from_linear(double v) {
+  return v <= 0.0031308 ? v * 12.92 : 1.055 * elementary::pow(v, 1 / 2.4) - 0.055;
+}
+
 SrgbTable::SrgbTable() {
   const FloatEnvironment environment;  // the table serves later calls, too
   step_[0] = 0;

@@ -27,6 +27,8 @@ std::string hex_text(SrgbColor color);
 /// The linear value of a value `s` of the sRGB curve, for 0..1 the exact one. The curve goes on
 /// outside of 0..1. Same bits on every machine.
 double linear_from_srgb(double s);
+/// The other way round, for 0..1.
+double srgb_from_linear(double v);
 
 /// From linear values to codes and back by tables, without a power for each. The upper 16 bits of a
 /// float below 1 choose a bucket, whose relative width is 2^-7. Any two steps from code to code are

@@ -28,6 +28,8 @@ inline constexpr WholeRule image_side{.low = 1, .high = max_image_side};
 inline constexpr WholeRule samples{.low = 1, .high = max_count};
 inline constexpr NumberRule outline{.low = 0, .high = 100, .unit = " pixels"};
 inline constexpr WholeRule bounces{.low = 0, .high = max_count};
+inline constexpr NumberRule noise{.low = 0, .high = 1};
+inline constexpr WholeRule least_samples{.low = 16, .high = max_count};
 }  // namespace rule
 
 /// How a pixel is made of the samples around it. box: the mean over the pixel itself. tent: a mean
@@ -63,13 +65,19 @@ inline constexpr std::array<std::string_view, 2> names<Method>{"whitted", "path"
 struct RenderSettings {
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
   Method method = Method::whitted;
+  /// Pixels get samples, min_spp to image.spp of them, until the half-widths of their 95 %
+  /// confidence intervals are this, 0 .. 1, in displayed values; 0: all get image.spp.
+  float noise = 0;
+  int min_spp = 32;  ///< >= 16
 };
 
 /// In the order in which scene files and `boule info` name them.
 template <>
 inline constexpr auto fields<RenderSettings> =
     field_list("render", field("method", &RenderSettings::method),
-               field("max_depth", &RenderSettings::max_depth, rule::bounces));
+               field("max_depth", &RenderSettings::max_depth, rule::bounces),
+               field("noise", &RenderSettings::noise, rule::noise),
+               field("min_spp", &RenderSettings::min_spp, rule::least_samples));
 
 /// The first Problem of the settings: a field against its rule.
 std::optional<Problem> find_problem(const ImageSettings& image);

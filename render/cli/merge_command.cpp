@@ -9,6 +9,7 @@
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/picture_header.h"
 #include "render/cli/run_report.h"
 #include "render/cli/source_date.h"
 #include "render/frame/scheduler.h"
@@ -61,12 +62,8 @@ Status Merging::add(const std::string& file) {
   }
   if (auto bad = reader.value().read(*sheet_)) return bad;
   for (const PixelRect& block : head.blocks) {
-    for (int y = block.y0; y < block.y1; ++y) {
-      for (const FilmPixel& pixel : sheet_->film().row(block.x0, block.x1, y)) {
-        if (pixel.samples < head.spp)
-          return Diagnostic::in_file(file, "is a checkpoint that is not finished");
-      }
-    }
+    if (!sheet_->is_finished(block, head.spp))
+      return Diagnostic::in_file(file, "is a checkpoint that is not finished");
     head_.blocks.push_back(block);
   }
   return std::nullopt;
@@ -103,6 +100,10 @@ ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
     file.crop = {head.frame_width, head.frame_height, head.rect.x0, head.rect.y0};
   file.date_time = date;
   file.metadata = head.metadata;
+  if (head.kinds.measured) {
+    for (auto& entry : noise_header(noise_reached(merging.sheet().measured(), head.spp)))
+      file.metadata.push_back(std::move(entry));
+  }
   file.channels = merging.sheet().release_channels();
   file.threads = static_cast<int>(Scheduler(command.threads).workers());
   file.stop = [] { return WriteGuard::interrupted(); };

@@ -55,6 +55,17 @@ void add_size(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--spp", command.spp, rule::samples.low, rule::samples.high, "Samples per pixel");
 }
 
+void add_noise(CLI::App& app, RenderCommand& command) {
+  add_parsed(
+      app, "--noise", command.noise,
+      [](const std::string& text) { return parse_number(text, 0.0F, 1.0F); },
+      "a number from 0 to 1", "X",
+      "Samples until each pixel is right to X of 0..1 as it is shown (95 %), --spp at most "
+      "(4096); 0.004 is a step of 8 bits; 0: --spp for all");
+  add_whole(app, "--min-spp", command.min_spp, rule::least_samples.low, rule::least_samples.high,
+            "With --noise: the fewest samples of a pixel (32)");
+}
+
 void add_order(CLI::App& app, RenderCommand& command, const std::string& help) {
   add_choice(app, "--order", command.order, choices<PixelOrder>(), help);
 }
@@ -63,6 +74,7 @@ void add_order(CLI::App& app, RenderCommand& command, const std::string& help) {
 void add_picture_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Picture");
   add_size(app, command);
+  add_noise(app, command);
   add_choice(app, "--filter", command.filter, choices<PixelFilter>(),
              "How a pixel is made of samples: the pixel alone, or with its surroundings");
   add_parsed(app, "--background", command.background, parse_background,

@@ -83,6 +83,8 @@ struct RenderCommand : RunOptions {
   std::optional<int> frame;  ///< the frame that is rendered; the names have its number
   std::optional<Size> size;
   std::optional<int> spp;
+  std::optional<float> noise;  ///< 0..1; 0: all pixels get the same samples
+  std::optional<int> min_spp;
   std::optional<PixelFilter> filter;
   std::optional<BackgroundChoice> background;
   std::optional<float> outline;  ///< pixels

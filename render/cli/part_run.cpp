@@ -8,20 +8,6 @@
 #include "render/cli/time_span.h"
 
 namespace boule::cli {
-namespace {
-
-/// The fewest samples that a pixel of the block has.
-int least_samples(const Film& film, const PixelRect& block) {
-  int least = film.row(block.x0, block.x1, block.y0).front().samples;
-  for (int y = block.y0; y < block.y1; ++y) {
-    for (const FilmPixel& pixel : film.row(block.x0, block.x1, y))
-      least = std::min(least, pixel.samples);
-  }
-  return least;
-}
-
-}  // namespace
-
 /// Takes what the checkpoint holds, if there is one, and begins its first interval.
 Status PartRun::load() {
   if (checkpoint_ == nullptr) return std::nullopt;
@@ -71,8 +57,9 @@ Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
 /// Lines and AOVs first: where all pixels have samples, they are known.
 bool PartRun::render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
   const int spp = renderer_.options().spp;
-  int until = least_samples(sheet.film(), block);
+  int until = sheet.least_samples(block);
   if (until == 0) find_extras(tools, block, sheet);
+  if (sheet.kinds().measured) return tools.measure(block, sheet.measured());
   while (until < spp) {
     if (is_due()) return false;
     until += std::min(spp - until, tools.worthwhile_samples(block));
@@ -87,7 +74,7 @@ void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& 
     tools.find_lines(block, lines);
     sheet.set_lines(block, lines);
   }
-  if (sheet.kinds().aovs.any()) {
+  if (sheet.kinds().aovs.any_traced()) {
     AovChannels channels(sheet.kinds().aovs, block);
     tools.find_aovs(block, channels);
     sheet.set_channels(block, channels.release(), block);
@@ -95,7 +82,7 @@ void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& 
 }
 
 bool PartRun::is_finished(const PixelRect& block) const {
-  return least_samples(sheet_.film(), block) >= renderer_.options().spp;
+  return sheet_.is_finished(block, renderer_.options().spp);
 }
 
 bool PartRun::is_due() const { return Clock::now() >= due_; }
@@ -107,11 +94,6 @@ Status PartRun::save() {
   return std::nullopt;
 }
 
-double PartRun::share() const {
-  double pixels = 0;
-  for (const PixelRect& block : head_.blocks) pixels += static_cast<double>(block.area());
-  const double all = pixels * renderer_.options().spp;
-  return all > 0 ? static_cast<double>(sheet_.film().total_samples()) / all : 0;
-}
+double PartRun::share() const { return sheet_.share(head_.blocks, renderer_.options().spp); }
 
 }  // namespace boule::cli

@@ -31,11 +31,21 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
   const bool distorted = renderer.scene().camera_view.distortion.st != nullptr;
   if (matrices.world_to_screen && !distorted)
     header.emplace_back("worldtoscreen", *matrices.world_to_screen);
+  if (options.noise > 0) {
+    header.emplace_back("boule:noise", fmt::format("{}", options.noise));
+    header.emplace_back("boule:min_spp", options.min_spp);
+  }
   if (partial) {
-    header.emplace_back("ImageDescription",
-                        fmt::format("partial: {} of {} samples", partial->done, partial->all));
+    header.emplace_back("ImageDescription", fmt::format("partial: {} of {} {}", partial->done,
+                                                        partial->all, partial->what));
   }
   return header;
+}
+
+Metadata noise_header(const NoiseReached& reached) {
+  return {{"boule:noise_reached", static_cast<float>(reached.half_width)},
+          {"boule:mean_samples", static_cast<float>(reached.mean_samples)},
+          {"boule:settled", static_cast<float>(reached.share)}};
 }
 
 }  // namespace boule::cli

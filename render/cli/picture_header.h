@@ -8,9 +8,10 @@
 
 namespace boule::cli {
 
-/// How many samples an unfinished picture has.
+/// How many samples an unfinished picture has, or how many pixels with all their samples.
 struct PartialSamples {
   std::uint64_t done, all;
+  const char* what = "samples";  ///< or "pixels"
 
   /// Rounded down to a tenth, so that 100 means all.
   [[nodiscard]] double percent() const;
@@ -18,11 +19,16 @@ struct PartialSamples {
 
 /// A picture file's metadata: worldtocamera, worldtoscreen (CameraMatrices),
 /// samplesPerPixel, boule:solver, boule:method, boule:filter, boule:max_depth, boule:seed, and
-/// boule:scene_hash in 16 hexadecimal digits.
+/// boule:scene_hash in 16 hexadecimal digits; boule:noise and boule:min_spp where noise was asked
+/// for, and then samplesPerPixel is the most samples.
 /// None of it depends on ISA, threads or time: equal pictures are equal files.
 /// A partial picture has an ImageDescription as well, "partial: 1234 of 5678 samples", which PNG,
 /// JPEG and TIFF files can hold too.
 Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
                         const std::optional<PartialSamples>& partial = {});
+
+/// What the header says of a measured picture besides: boule:noise_reached, boule:mean_samples and
+/// boule:settled (NoiseReached).
+Metadata noise_header(const NoiseReached& reached);
 
 }  // namespace boule::cli

@@ -124,7 +124,9 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
     options.width = command.size->width;
     options.height = command.size->height;
   }
-  options.spp = command.spp.value_or(options.spp);
+  choose_samples(command.spp, command.noise, options);
+  options.min_spp = command.min_spp.value_or(options.min_spp);
+  options.exposure_stops = command.exposure_stops;
   options.filter = command.filter.value_or(options.filter);
   options.method = command.method.value_or(options.method);
   options.max_depth = command.max_depth.value_or(options.max_depth);
@@ -148,7 +150,8 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
 /// scene; a size from the command line is wrong usage.
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
-  const bool of_scene = error.key == "instance" || (error.key == "image.size" && !command.size);
+  const bool of_scene = error.key == "instance" || (error.key == "image.size" && !command.size) ||
+                        (error.key == "image.spp" && !command.spp && !command.min_spp);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
   return refuse(std::move(error), command,
@@ -213,7 +216,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   }
   if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
     return refuse(*bad, command_, failed);
-  options.in_bands = options.in_bands && team_ == nullptr;
+  // The header, which comes first in a file, says which noise was reached.
+  options.in_bands = options.in_bands && team_ == nullptr && !(options.noise > 0);
   if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   options.live = &live_.progress();
@@ -267,6 +271,9 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.crop = crop_window(options);
   file.date_time = date_;
   file.metadata = picture_header(renderer, scene_hash_, partial_);
+  if (noise_) {
+    for (auto& entry : noise_header(*noise_)) file.metadata.push_back(std::move(entry));
+  }
   file.threads = static_cast<int>(renderer.statistics().threads);
   return file;
 }
@@ -278,32 +285,34 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   stats_.work_seconds = rendering.render_seconds;
   stats_.rays = rendering.rays.total();
   const int spp = renderer.options().spp;
-  stats_.picture = {{image.width, image.height}, spp, rendering.rays, rendering.faults};
+  stats_.picture = {{image.width, image.height}, spp, rendering.rays, rendering.faults, noise_};
+  stats_.picture->noise_target = renderer.options().noise;
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
   try {
     report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
-    tell_end(renderer, image);
+    tell_end(image);
     for (const std::string& text : fault_notes(rendering.faults)) report_.note(text);
   } catch (const std::bad_alloc&) {  // the picture is written: a missing line is no failure
   }
   return report_.finish(stats_);
 }
 
-void Rendering::tell_end(const Renderer& renderer, const Image& image) const {
+void Rendering::tell_end(const Image& image) const {
   const std::string cause = StopGuard::caught() != 0
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");
   if (partial_) {  // even if quiet: the exit code does not tell that the picture is partial
-    print_note(fmt::format("boule: {}: partial, {:.1f} % of its samples, {}",
-                           shown_output(command_.output), partial_->percent(), cause));
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, {}",
+                           shown_output(command_.output), partial_->percent(), partial_->what,
+                           cause));
     return;
   }
   if (!tells_of_itself()) return;
   const std::string ranks = team_ != nullptr ? fmt::format(", {} ranks", team_->size()) : "";
-  report_.note(fmt::format("boule: {}: {} x {} pixels, {} spp, {:.2f} s, {:.1f} Mray/s ({}, {}{})",
+  report_.note(fmt::format("boule: {}: {} x {} pixels, {}, {:.2f} s, {:.1f} Mray/s ({}, {}{})",
                            shown_output(command_.output), image.width, image.height,
-                           renderer.options().spp, stats_.work_seconds, mrays_per_s(stats_),
+                           samples_text(*stats_.picture), stats_.work_seconds, mrays_per_s(stats_),
                            stats_.isa, counted(stats_.threads, "thread"), ranks));
   if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");
 }

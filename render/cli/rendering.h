@@ -51,6 +51,8 @@ class Rendering {
   Result<LoadedScene> load();
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
+  /// The same where its noise is asked for; also which AOVs tell of it, into `channels`.
+  Result<Image> make_measured_image(Renderer& renderer, std::vector<ImageChannel>& channels);
   ExitCode render_whole(Renderer& renderer);
   /// The same for a picture that is written while it is rendered.
   ExitCode render_bands(Renderer& renderer);
@@ -71,7 +73,7 @@ class Rendering {
   template <class Write>
   Status guarded_write(ImageFileOptions options, const Write& write);
   ExitCode finish(const Renderer& renderer, const Image& image);
-  void tell_end(const Renderer& renderer, const Image& image) const;
+  void tell_end(const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;
   [[nodiscard]] ImageFileOptions file_options(const Renderer& renderer) const;
 
@@ -87,6 +89,7 @@ class Rendering {
   std::string date_;  ///< the file's time stamp
   std::uint64_t scene_hash_ = 0;
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  std::optional<NoiseReached> noise_;      ///< none: it was not measured
   std::optional<Checkpoint> checkpoint_;
   std::optional<RenderStatistics> of_team_;  ///< what all ranks traced
   std::optional<ImageStart> image_start_;    ///< loads the image module while the scene is prepared

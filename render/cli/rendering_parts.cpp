@@ -130,6 +130,7 @@ ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead
     size.height = head.rect.height();
     return finish(renderer, size);
   }
+  if (head.kinds.measured) noise_ = noise_reached(run.sheet().measured(), head.spp);
   const Image image = run.sheet().image(alpha_of(renderer.options()));
   ImageFileOptions options = file_options(renderer);
   options.channels = run.sheet().release_channels();

@@ -24,14 +24,15 @@ ImageForm form_of(const RenderOptions& options) {
 
 ExitCode Rendering::render_whole(Renderer& renderer) {
   std::vector<ImageChannel> channels;
-  if (command_.aovs.any()) {  // first: a picture that is stopped has them too
+  if (command_.aovs.any_traced()) {  // first: a picture that is stopped has them too
     live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
     auto aovs = renderer.render_aovs();
     if (!aovs) return explain(aovs.error());
     channels = std::move(aovs).value();
   }
   live_.start_pass("pixels");
-  const auto image = make_image(renderer);
+  const bool is_measured = renderer.options().noise > 0;
+  const auto image = is_measured ? make_measured_image(renderer, channels) : make_image(renderer);
   live_.end_pass();
   live_.end_time_limit();
   if (!image) return explain(image.error());
@@ -62,6 +63,27 @@ Result<Image> Rendering::make_image(Renderer& renderer) {
   if (!StopGuard::flag() || samples.done == 0) return *status;
   partial_ = samples;
   return with_lines(partial_picture(film, renderer.options().order, alpha));
+}
+
+/// With --partial each pixel has a sample before any gets all, so that there is something to see.
+Result<Image> Rendering::make_measured_image(Renderer& renderer,
+                                             std::vector<ImageChannel>& channels) {
+  const RenderOptions& options = renderer.options();
+  const auto lines = renderer.render_outline();
+  if (!lines) return lines.error();
+  MeasuredPicture measured(renderer.rect());
+  Film film(command_.partial ? renderer.rect() : PixelRect{});
+  Status status = command_.partial ? renderer.render_pass(film, 1) : std::nullopt;
+  if (!status) status = renderer.render_measured(measured);
+  if (status && (!StopGuard::flag() || film.total_samples() == 0)) return *status;
+  if (status) partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
+  noise_ = noise_reached(measured, options.spp);
+  for (ImageChannel& channel : measured_channels(options.aovs, measured))
+    channels.push_back(std::move(channel));
+  Image image = partial_ ? partial_picture(film, measured, options.order, alpha_of(options))
+                         : measured.image(alpha_of(options));
+  if (options.outline > 0) lines.value().draw(image);
+  return image;
 }
 
 template <class Write>

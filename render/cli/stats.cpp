@@ -28,6 +28,15 @@ std::string picture_text(const PictureStats& picture) {
                      picture.spp);
 }
 
+std::string noise_text(const Stats& s) {
+  if (!s.picture || !s.picture->noise) return {};
+  const NoiseReached& noise = *s.picture->noise;
+  return fmt::format(
+      "boule: stats: noise: {} asked for, {:.4f} reached in 95 % of the pixels, {:.1f} samples a "
+      "pixel, {:.2f} % of the pixels settled\n",
+      s.picture->noise_target, noise.half_width, noise.mean_samples, noise.share * 100);
+}
+
 std::string rays_text(const Stats& s) {
   if (!s.picture) return std::to_string(s.rays);
   const RayCounts& rays = s.picture->rays;
@@ -48,12 +57,12 @@ std::string as_text(const Stats& s) {
       "boule: stats: load {:.3f} s, prepare {:.3f} s, {} {:.3f} s, write {:.3f} s, "
       "total {:.3f} s\n"
       "boule: stats: rays: {}, {:.1f} Mray/s\n"
-      "{}"
+      "{}{}"
       "boule: stats: peak memory {:.1f} MiB",
       s.isa, counted(static_cast<std::size_t>(s.width), "lane"), name_of(s.solver),
       counted(s.threads, "thread"), s.picture ? picture_text(*s.picture) : "", s.load_seconds,
       s.prepare_seconds, work_name(s), s.work_seconds, s.write_seconds, s.total_seconds,
-      rays_text(s), mrays_per_s(s), faults_text(s), peak_rss_mib());
+      rays_text(s), mrays_per_s(s), faults_text(s), noise_text(s), peak_rss_mib());
 }
 
 Json rays_json(const Stats& s) {
@@ -78,6 +87,13 @@ std::string as_json(const Stats& s) {
   if (s.picture) {
     json["samples_not_finite"] = s.picture->faults.not_finite;
     json["samples_too_bright"] = s.picture->faults.too_bright;
+    if (s.picture->noise) {
+      const NoiseReached& noise = *s.picture->noise;
+      json["noise"] = {{"target", s.picture->noise_target},
+                       {"reached", noise.half_width},
+                       {"mean_spp", noise.mean_samples},
+                       {"settled", noise.share}};
+    }
   }
   json["mrays_per_s"] = mrays_per_s(s);
   json["peak_rss_mib"] = peak_rss_mib();
@@ -89,6 +105,12 @@ std::string as_json(const Stats& s) {
 double mrays_per_s(const Stats& stats) {
   const double seconds = stats.work_seconds;
   return seconds > 0 ? static_cast<double>(stats.rays) / seconds * 1e-6 : 0;
+}
+
+std::string samples_text(const PictureStats& picture) {
+  if (!picture.noise) return fmt::format("{} spp", picture.spp);
+  return fmt::format("{:.1f} spp on average, noise {:.3g}", picture.noise->mean_samples,
+                     picture.noise->half_width);
 }
 
 std::vector<std::string> fault_notes(const SampleFaults& faults) {

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "render/cli/options.h"
+#include "render/frame/measured_picture.h"
 #include "render/integrators/integrator.h"
 #include "render/renderer/run_statistics.h"
 
@@ -18,6 +19,8 @@ struct PictureStats {
   int spp = 1;
   RayCounts rays;
   SampleFaults faults;
+  std::optional<NoiseReached> noise{};  ///< none: it was not measured
+  float noise_target = 0;
 };
 
 /// The statistics of a render or a trace. Times are wall-clock seconds.
@@ -32,6 +35,9 @@ struct Stats : RunStatistics {
 
 /// Millions of rays per second of work, 0 where it took no time.
 double mrays_per_s(const Stats& stats);
+
+/// "16 spp", or "143.2 spp on average, noise 0.019".
+std::string samples_text(const PictureStats& picture);
 
 /// A note for each kind of sample that the picture does not show as it was.
 std::vector<std::string> fault_notes(const SampleFaults& faults);

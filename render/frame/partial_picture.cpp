@@ -161,4 +161,14 @@ Image partial_picture(const Film& film, PixelOrder order, Alpha alpha) {
   return image;
 }
 
+Image partial_picture(const Film& film, const MeasuredPicture& measured, PixelOrder order,
+                      Alpha alpha) {
+  Image image = partial_picture(film, order, alpha);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const MeasuredPixel& pixel = measured.pixels()[i];
+    if (pixel.samples > 0) image.set(i, pixel.color, pixel.alpha);
+  }
+  return image;
+}
+
 }  // namespace boule

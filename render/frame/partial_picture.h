@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/frame/film.h"
+#include "render/frame/measured_picture.h"
 #include "render/frame/pixel_order.h"
 #include "render/image/image.h"
 
@@ -15,5 +16,10 @@ namespace boule {
 ///   those the upper one. Black if no pixel has samples.
 /// - rows, tiles: black.
 Image partial_picture(const Film& film, PixelOrder order, Alpha alpha = Alpha::none);
+
+/// The same, but for the pixels that were measured: those are as they were. Precondition: both are
+/// of the same pixels.
+Image partial_picture(const Film& film, const MeasuredPicture& measured, PixelOrder order,
+                      Alpha alpha);
 
 }  // namespace boule

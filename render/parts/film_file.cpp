@@ -16,7 +16,7 @@ namespace {
 
 constexpr char magic[8] = {'b', 'o', 'u', 'l', 'f', 'i', 'l', 'm'};
 constexpr std::uint32_t format_version = 1;
-constexpr std::uint32_t transparent_flag = 1, outline_flag = 2;
+constexpr std::uint32_t transparent_flag = 1, outline_flag = 2, measured_flag = 4;
 
 /// The numbers of a file's head, as they stand in it.
 struct Numbers {
@@ -56,7 +56,8 @@ Numbers numbers_of(const FilmHead& head, std::size_t text_bytes) {
   n.frame_height = head.frame_height;
   n.rect = head.rect;
   n.spp = head.spp;
-  n.flags = (head.transparent ? transparent_flag : 0) | (head.kinds.outline ? outline_flag : 0);
+  n.flags = (head.transparent ? transparent_flag : 0) | (head.kinds.outline ? outline_flag : 0) |
+            (head.kinds.measured ? measured_flag : 0);
   n.aovs = bits_of(head.kinds.aovs);
   n.pixel_bytes = static_cast<std::uint32_t>(head.kinds.pixel_bytes());
   return n;
@@ -203,7 +204,7 @@ std::string Reader::parse() {
   std::string cut_off = parse_blocks(n.text_bytes, n.blocks);
   if (!cut_off.empty()) return cut_off;
   const char* const changed = "was changed: its checksum is wrong";
-  head_.kinds = {(n.flags & outline_flag) != 0, aovs_of(n.aovs)};
+  head_.kinds = {(n.flags & outline_flag) != 0, aovs_of(n.aovs), (n.flags & measured_flag) != 0};
   if (!are_possible(n) || n.pixel_bytes != head_.kinds.pixel_bytes()) return changed;
   const std::uint64_t expected = expected_bytes(n, head_.blocks, all.size());
   if (expected > all.size()) {

@@ -1,15 +1,18 @@
 #include "render/parts/part_sheet.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 namespace boule {
 namespace {
 
 static_assert(std::endian::native == std::endian::little && sizeof(FilmPixel) == 32 &&
-              std::is_trivially_copyable_v<FilmPixel>);
+              std::is_trivially_copyable_v<FilmPixel> && sizeof(MeasuredPixel) == 24 &&
+              std::is_trivially_copyable_v<MeasuredPixel>);
 
 /// Appends count values.
 template <class T>
@@ -32,17 +35,66 @@ bool is_possible(const FilmPixel& pixel) {
   return pixel.samples >= 0 && pixel.covered <= static_cast<std::uint32_t>(pixel.samples);
 }
 
+bool is_possible(const MeasuredPixel& pixel) {
+  for (const float number : {pixel.color.r, pixel.color.g, pixel.color.b, pixel.noise}) {
+    if (!(std::isfinite(number) && number >= 0)) return false;
+  }
+  return pixel.alpha >= 0 && pixel.alpha <= 1 &&
+         pixel.samples <= static_cast<std::uint32_t>(std::numeric_limits<int>::max());
+}
+
+int samples_of(const FilmPixel& pixel) { return pixel.samples; }
+int samples_of(const MeasuredPixel& pixel) { return static_cast<int>(pixel.samples); }
+
+/// The pixels of a block in a film or a measured picture, from their text. False if one cannot be.
+template <class Pixels>
+bool take_pixels(const PixelRect& block, Pixels& pixels, std::string_view& text) {
+  for (int y = block.y0; y < block.y1; ++y) {
+    const auto row = pixels.row(block.x0, block.x1, y);
+    take_bytes(row.data(), row.size(), text);
+    for (const auto& pixel : row) {
+      if (!is_possible(pixel)) return false;
+    }
+  }
+  return true;
+}
+
+template <class Pixels>
+void append_pixels(const PixelRect& block, const Pixels& pixels, std::string& text) {
+  for (int y = block.y0; y < block.y1; ++y) {
+    const auto row = pixels.row(block.x0, block.x1, y);
+    append_bytes(row.data(), row.size(), text);
+  }
+}
+
+template <class Pixels>
+int least_of(const PixelRect& block, const Pixels& pixels) {
+  int least = std::numeric_limits<int>::max();
+  for (int y = block.y0; y < block.y1; ++y) {
+    for (const auto& pixel : pixels.row(block.x0, block.x1, y))
+      least = std::min(least, samples_of(pixel));
+  }
+  return least;
+}
+
 }  // namespace
 
 std::size_t PartKinds::pixel_bytes() const {
-  return sizeof(FilmPixel) + (outline ? 1 : 0) + AovChannels::names(aovs).size() * sizeof(float);
+  return (measured ? sizeof(MeasuredPixel) : sizeof(FilmPixel)) + (outline ? 1 : 0) +
+         AovChannels::traced(aovs) * sizeof(float);
 }
 
-PartKinds kinds_of(const RenderOptions& options) { return {options.outline > 0, options.aovs}; }
+PartKinds kinds_of(const RenderOptions& options) {
+  return {options.outline > 0, options.aovs, options.noise > 0};
+}
 
-PartSheet::PartSheet(const PixelRect& rect, const PartKinds& kinds) : kinds_(kinds), film_(rect) {
+PartSheet::PartSheet(const PixelRect& rect, const PartKinds& kinds)
+    : rect_(rect),
+      kinds_(kinds),
+      film_(kinds.measured ? PixelRect{} : rect),
+      measured_(kinds.measured ? rect : PixelRect{}) {
   if (kinds.outline) lines_.emplace(rect);
-  if (kinds.aovs.any()) channels_ = AovChannels(kinds.aovs, rect).release();
+  if (kinds.aovs.any_traced()) channels_ = AovChannels(kinds.aovs, rect).release();
 }
 
 void PartSheet::set_lines(const PixelRect& block, const Outline& outline) {
@@ -67,10 +119,7 @@ void PartSheet::set_channels(const PixelRect& block, const std::vector<ImageChan
 }
 
 void PartSheet::append(const PixelRect& block, std::string& text) const {
-  for (int y = block.y0; y < block.y1; ++y) {
-    const auto row = film_.row(block.x0, block.x1, y);
-    append_bytes(row.data(), row.size(), text);
-  }
+  kinds_.measured ? append_pixels(block, measured_, text) : append_pixels(block, film_, text);
   for (int y = block.y0; lines_ && y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) text += static_cast<char>(lines_->points(x, y));
   }
@@ -85,13 +134,9 @@ void PartSheet::append(const PixelRect& block, std::string& text) const {
 }
 
 bool PartSheet::take(const PixelRect& block, std::string_view text) {
-  for (int y = block.y0; y < block.y1; ++y) {
-    const auto row = film_.row(block.x0, block.x1, y);
-    take_bytes(row.data(), row.size(), text);
-    for (const FilmPixel& pixel : row) {
-      if (!is_possible(pixel)) return false;
-    }
-  }
+  const bool good =
+      kinds_.measured ? take_pixels(block, measured_, text) : take_pixels(block, film_, text);
+  if (!good) return false;
   constexpr int most_points = outline_grid * outline_grid;
   for (int y = block.y0; lines_ && y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) {
@@ -113,12 +158,34 @@ bool PartSheet::take(const PixelRect& block, std::string_view text) {
 }
 
 Image PartSheet::image(Alpha alpha) const {
-  Image image = film_.to_image(alpha);
+  Image image = kinds_.measured ? measured_.image(alpha) : film_.to_image(alpha);
   if (lines_) lines_->draw(image);
   return image;
 }
 
-std::vector<ImageChannel> PartSheet::release_channels() { return std::exchange(channels_, {}); }
+std::vector<ImageChannel> PartSheet::release_channels() {
+  for (ImageChannel& channel : measured_channels(kinds_.aovs, measured_))
+    channels_.push_back(std::move(channel));
+  return std::exchange(channels_, {});
+}
+
+int PartSheet::least_samples(const PixelRect& block) const {
+  return kinds_.measured ? least_of(block, measured_) : least_of(block, film_);
+}
+
+bool PartSheet::is_finished(const PixelRect& block, int spp) const {
+  return least_samples(block) >= (kinds_.measured ? 1 : spp);
+}
+
+double PartSheet::share(const std::vector<PixelRect>& blocks, int spp) const {
+  double pixels = 0, done = 0;
+  for (const PixelRect& block : blocks) {
+    pixels += static_cast<double>(block.area());
+    if (kinds_.measured && is_finished(block, spp)) done += static_cast<double>(block.area());
+  }
+  if (!kinds_.measured) done = static_cast<double>(film_.total_samples()) / spp;
+  return pixels > 0 ? done / pixels : 0;
+}
 
 std::uint64_t PartSheet::bytes(const PixelRect& rect, const PartKinds& kinds) {
   return rect.area() * kinds.pixel_bytes();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/frame/film.h"
+#include "render/frame/measured_picture.h"
 #include "render/image/write_image.h"
 #include "render/renderer/aov_channels.h"
 #include "render/renderer/outline.h"
@@ -18,6 +19,7 @@ namespace boule {
 struct PartKinds {
   bool outline = false;
   AovSelection aovs{};
+  bool measured = false;  ///< MeasuredPixels, with noise, in place of samples
 
   /// Bytes of a pixel in a part's text.
   [[nodiscard]] std::size_t pixel_bytes() const;
@@ -28,16 +30,27 @@ PartKinds kinds_of(const RenderOptions& options);
 
 /// All that is known of a picture's pixels, or of a part of them: samples, lines and AOVs. Parts
 /// travel as text, from process to process and into files, by blocks: of each block first the
-/// samples of its pixels, then the lines, then each AOV's channel; row by row, little-endian.
+/// samples of its pixels (FilmPixel or MeasuredPixel), then the lines, then the channel of each AOV
+/// that needs rays of its own; row by row, little-endian.
 class PartSheet {
  public:
   /// Nothing is known yet of the frame's pixels in `rect`.
   PartSheet(const PixelRect& rect, const PartKinds& kinds);
 
-  [[nodiscard]] const PixelRect& rect() const { return film_.rect(); }
+  [[nodiscard]] const PixelRect& rect() const { return rect_; }
   [[nodiscard]] const PartKinds& kinds() const { return kinds_; }
+  /// The samples: without pixels if kinds().measured holds, or else the other one is.
   [[nodiscard]] Film& film() { return film_; }
   [[nodiscard]] const Film& film() const { return film_; }
+  [[nodiscard]] MeasuredPicture& measured() { return measured_; }
+  [[nodiscard]] const MeasuredPicture& measured() const { return measured_; }
+
+  /// The fewest samples that a pixel of the block has. Precondition: the block lies in rect().
+  [[nodiscard]] int least_samples(const PixelRect& block) const;
+  /// Whether all pixels of the block are finished, in a picture of so many samples per pixel.
+  [[nodiscard]] bool is_finished(const PixelRect& block, int spp) const;
+  /// The share of the samples, or of the measured pixels, that these blocks have.
+  [[nodiscard]] double share(const std::vector<PixelRect>& blocks, int spp) const;
 
   /// Takes the lines, or the AOVs, of a block from what holds them. Precondition: both have it.
   void set_lines(const PixelRect& block, const Outline& outline);
@@ -60,8 +73,10 @@ class PartSheet {
   static std::uint64_t bytes(const PixelRect& rect, const PartKinds& kinds);
 
  private:
+  PixelRect rect_;
   PartKinds kinds_;
   Film film_;
+  MeasuredPicture measured_;
   std::optional<Outline> lines_;
   std::vector<ImageChannel> channels_;
 };

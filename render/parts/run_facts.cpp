@@ -40,19 +40,25 @@ std::string in_words(const std::string& name, const std::string& found, const st
 
 RunFacts facts_of(const RenderOptions& options, std::uint64_t scene_hash,
                   const std::string& version) {
-  return {{version_name, version},
-          {scene_name, fmt::format("{:016x}", scene_hash)},
-          {"size", fmt::format("{}x{}", options.width, options.height)},
-          {"crop", rect_text(rendered_rect(options))},
-          {"spp", std::to_string(options.spp)},
-          {"filter", std::string(name_of(options.filter))},
-          {"seed", std::to_string(options.seed)},
-          {"method", std::string(name_of(options.method))},
-          {"max-depth", std::to_string(options.max_depth)},
-          {"solver", std::string(solver_names[static_cast<std::size_t>(options.solver)])},
-          {"background", options.transparent ? "transparent" : "opaque"},
-          {"outline", fmt::format("{}", options.outline)},
-          {"aov", aov_text(options.aovs)}};
+  RunFacts facts{{version_name, version},
+                 {scene_name, fmt::format("{:016x}", scene_hash)},
+                 {"size", fmt::format("{}x{}", options.width, options.height)},
+                 {"crop", rect_text(rendered_rect(options))},
+                 {"spp", std::to_string(options.spp)},
+                 {"filter", std::string(name_of(options.filter))},
+                 {"seed", std::to_string(options.seed)},
+                 {"method", std::string(name_of(options.method))},
+                 {"max-depth", std::to_string(options.max_depth)},
+                 {"solver", std::string(solver_names[static_cast<std::size_t>(options.solver)])},
+                 {"background", options.transparent ? "transparent" : "opaque"},
+                 {"outline", fmt::format("{}", options.outline)},
+                 {"aov", aov_text(options.aovs)}};
+  if (options.noise > 0) {
+    facts.emplace_back("noise", fmt::format("{}", options.noise));
+    facts.emplace_back("min-spp", std::to_string(options.min_spp));
+    facts.emplace_back("exposure", fmt::format("{}", options.exposure_stops));
+  }
+  return facts;
 }
 
 std::string find_difference(const RunFacts& found, const RunFacts& wanted) {

@@ -132,6 +132,11 @@ py::dict stats_of(const Picture& picture) {
   values["threads"] = all.threads;
   values["solver"] = std::string(name_of(all.solver));
   values["spp"] = parts.spp;
+  if (parts.noise) {
+    values["noise_reached"] = parts.noise->half_width;
+    values["mean_spp"] = parts.noise->mean_samples;
+    values["settled"] = parts.noise->share;
+  }
   values["scene_hash"] = fmt::format("{:016x}", parts.scene_hash);
   return values;
 }

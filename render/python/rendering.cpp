@@ -29,12 +29,12 @@ using Clock = std::chrono::steady_clock;
 /// What the arguments of a render say; what is not given comes from the scene.
 struct Wishes {
   std::optional<std::array<int, 2>> size;
-  std::optional<int> spp, max_depth, tile, threads;
+  std::optional<int> spp, min_spp, max_depth, tile, threads;
   std::optional<PixelFilter> filter;
   std::optional<Method> method;
   std::optional<Solver> solver;
   std::optional<PixelOrder> order;
-  std::optional<double> outline, shadow_epsilon, time_limit;
+  std::optional<double> noise, exposure, outline, shadow_epsilon, time_limit;
   std::optional<std::uint64_t> seed;
   std::optional<std::array<int, 4>> crop;
   std::optional<cli::BackgroundChoice> background;
@@ -94,6 +94,9 @@ Wishes wishes_of(const py::dict& dictionary) {
   Wishes wishes;
   wishes.size = given.wholes<2>("size", rule::image_side);
   wishes.spp = given.whole("spp", rule::samples);
+  wishes.noise = given.number("noise", rule::noise);
+  wishes.min_spp = given.whole("min_spp", rule::least_samples);
+  wishes.exposure = given.number("exposure", {.low = -100, .high = 100});
   wishes.filter = given.choice<PixelFilter>("filter");
   wishes.background = background_of(given);
   wishes.outline = given.number("outline", rule::outline);
@@ -120,7 +123,11 @@ RenderOptions combine(const Scene& scene, const Wishes& wishes) {
   RenderOptions options = options_of(scene);
   if (wishes.size)
     std::tie(options.width, options.height) = std::tuple((*wishes.size)[0], (*wishes.size)[1]);
-  options.spp = wishes.spp.value_or(options.spp);
+  std::optional<float> noise;
+  if (wishes.noise) noise = static_cast<float>(*wishes.noise);
+  choose_samples(wishes.spp, noise, options);
+  options.min_spp = wishes.min_spp.value_or(options.min_spp);
+  options.exposure_stops = static_cast<float>(wishes.exposure.value_or(0));
   options.filter = wishes.filter.value_or(options.filter);
   options.method = wishes.method.value_or(options.method);
   options.max_depth = wishes.max_depth.value_or(options.max_depth);
@@ -166,6 +173,8 @@ class Run {
 
  private:
   Status render(Renderer& renderer, PictureParts& parts, const Call& call);
+  Status render_measured(Renderer& renderer, PictureParts& parts, const Outline& lines,
+                         const Call& call) const;
   void describe(const Renderer& renderer, PictureParts& parts) const;
 
   SceneRequest request_;
@@ -200,13 +209,14 @@ Status Run::work(Call& call) {
 
 /// Renders the extra channels and the lines first: a picture that is stopped has them too.
 Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
-  if (wishes_.aovs.any()) {
+  if (wishes_.aovs.any_traced()) {
     auto aovs = renderer.render_aovs();
     if (!aovs) return aovs.error();
     parts.channels = std::move(aovs).value();
   }
   auto lines = renderer.render_outline();
   if (!lines) return lines.error();
+  if (renderer.options().noise > 0) return render_measured(renderer, parts, lines.value(), call);
   Film film(renderer.rect());
   Status status = renderer.render_live(film);
   const Alpha alpha = alpha_of(renderer.options());
@@ -223,9 +233,31 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
   return std::nullopt;
 }
 
+Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outline& lines,
+                            const Call& call) const {
+  const RenderOptions& options = renderer.options();
+  MeasuredPicture measured(renderer.rect());
+  Film film(renderer.rect());
+  Status status = wishes_.partial ? renderer.render_pass(film, 1) : std::nullopt;
+  if (!status) status = renderer.render_measured(measured);
+  if (status && (!call.cancel || film.total_samples() == 0)) return status;
+  if (status)
+    parts.partial = cli::PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
+  parts.noise = noise_reached(measured, options.spp);
+  parts.image = status ? partial_picture(film, measured, options.order, alpha_of(options))
+                       : measured.image(alpha_of(options));
+  if (options.outline > 0) lines.draw(parts.image);
+  for (ImageChannel& channel : measured_channels(options.aovs, measured))
+    parts.channels.push_back(std::move(channel));
+  return std::nullopt;
+}
+
 void Run::describe(const Renderer& renderer, PictureParts& parts) const {
   const RenderOptions& options = renderer.options();
   parts.header = cli::picture_header(renderer, parts.scene_hash, parts.partial);
+  if (parts.noise) {
+    for (auto& entry : cli::noise_header(*parts.noise)) parts.header.push_back(std::move(entry));
+  }
   if (options.crop) {
     parts.crop = {options.width, options.height, options.crop->x0, options.crop->y0};
   }

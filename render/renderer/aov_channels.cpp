@@ -31,6 +31,8 @@ constexpr Kind kinds[] = {
 
 }  // namespace
 
+bool AovSelection::any_traced() const { return AovChannels::traced(*this) > 0; }
+
 bool AovSelection::any() const {
   return std::any_of(aov_names.begin(), aov_names.end(),
                      [this](const AovName& aov) { return this->*aov.wanted; });
@@ -69,13 +71,27 @@ std::vector<std::string> AovChannels::names(const AovSelection& selection) {
   for (const Kind& kind : kinds) {
     if (selection.*kind.wanted) names.emplace_back(kind.name);
   }
+  if (selection.noise) names.emplace_back("noise");
+  if (selection.samples) names.emplace_back("samples");
   return names;
 }
 
+std::size_t AovChannels::traced(const AovSelection& selection) {
+  return static_cast<std::size_t>(
+      std::count_if(std::begin(kinds), std::end(kinds),
+                    [&](const Kind& kind) { return selection.*kind.wanted; }));
+}
+
 std::uint64_t AovChannels::bytes(const AovSelection& selection, const PixelRect& rect) {
-  std::uint64_t numbers = 0;
-  for (const Kind& kind : kinds) numbers += selection.*kind.wanted ? 1 : 0;
-  return rect.area() * numbers * sizeof(float);
+  return rect.area() * names(selection).size() * sizeof(float);
+}
+
+std::vector<ImageChannel> measured_channels(const AovSelection& selection,
+                                            const MeasuredPicture& picture) {
+  std::vector<ImageChannel> channels;
+  if (selection.noise) channels.push_back({"noise", picture.noise()});
+  if (selection.samples) channels.push_back({"samples", picture.samples()});
+  return channels;
 }
 
 }  // namespace boule

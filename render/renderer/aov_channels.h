@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/frame/measured_picture.h"
 #include "render/frame/pixel_rect.h"
 #include "render/image/write_image.h"
 #include "render/integrators/aovs.h"
@@ -15,12 +16,16 @@ namespace boule {
 
 /// Which AOVs are wanted. Their channels, in this order: depth has Z; normal has N.X, N.Y, N.Z;
 /// position has P.X, P.Y, P.Z; id has id (uint32); albedo has albedo.R, albedo.G, albedo.B; z has
-/// view.Z.
+/// view.Z; noise has noise; samples has samples (uint32). The last two are told where a picture's
+/// noise is measured, the others are those of rays through the pixels' centres.
 struct AovSelection {
   bool depth = false, normal = false, position = false, id = false, albedo = false, z = false;
+  bool noise = false, samples = false;
 
   /// True if any AOV is wanted.
   [[nodiscard]] bool any() const;
+  /// True if any is wanted that needs rays through the pixels' centres.
+  [[nodiscard]] bool any_traced() const;
 };
 
 /// One AOV: its name, and the member that says whether it is wanted.
@@ -30,15 +35,17 @@ struct AovName {
 };
 
 /// All AOVs.
-inline constexpr std::array<AovName, 6> aov_names{{{"depth", &AovSelection::depth},
+inline constexpr std::array<AovName, 8> aov_names{{{"depth", &AovSelection::depth},
                                                    {"normal", &AovSelection::normal},
                                                    {"position", &AovSelection::position},
                                                    {"id", &AovSelection::id},
                                                    {"albedo", &AovSelection::albedo},
-                                                   {"z", &AovSelection::z}}};
+                                                   {"z", &AovSelection::z},
+                                                   {"noise", &AovSelection::noise},
+                                                   {"samples", &AovSelection::samples}}};
 
-/// The wanted AOVs of every pixel of a picture, each number in a channel of its own. Two threads
-/// may set different pixels at the same time.
+/// The wanted AOVs of every pixel of a picture that need rays of their own, each number in a
+/// channel of its own. Two threads may set different pixels at the same time.
 class AovChannels {
  public:
   /// For the frame's pixels in `rect`, which is not empty.
@@ -51,8 +58,10 @@ class AovChannels {
   /// Gives the channels away, in the order of AovSelection. Afterwards there are none.
   std::vector<ImageChannel> release();
 
-  /// The names of the selected channels, in the order of AovSelection.
+  /// The names of all selected channels, in the order of AovSelection.
   static std::vector<std::string> names(const AovSelection& selection);
+  /// How many of them need rays of their own.
+  static std::size_t traced(const AovSelection& selection);
 
   /// Bytes that the selected channels of the pixels in `rect` take.
   static std::uint64_t bytes(const AovSelection& selection, const PixelRect& rect);
@@ -62,5 +71,9 @@ class AovChannels {
   std::vector<std::size_t> kinds_;  ///< by channel: which of the numbers it holds
   std::vector<ImageChannel> channels_;
 };
+
+/// Those of the selected channels that a measured picture has.
+std::vector<ImageChannel> measured_channels(const AovSelection& selection,
+                                            const MeasuredPicture& picture);
 
 }  // namespace boule

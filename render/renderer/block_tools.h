@@ -23,6 +23,11 @@ class BlockTools {
   bool render(const PixelRect& block, int until, Film& film) {
     return worker_.render(block, until, film);
   }
+  /// Renders a block until its noise is that of the options. False if it was cancelled; then pixels
+  /// without samples are to be rendered again. Precondition: the options ask for noise.
+  bool measure(const PixelRect& block, MeasuredPicture& picture) {
+    return worker_.measure(block, picture);
+  }
   /// Finds the AOVs of a block.
   void find_aovs(const PixelRect& block, AovChannels& channels);
   /// Finds the outline's lines in a block.

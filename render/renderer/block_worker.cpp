@@ -13,6 +13,13 @@ Color weighed(const Color& radiance, float weight, SampleFaults& faults) {
   return settled(radiance * (std::isfinite(weight) ? weight : std::nanf("")), faults);
 }
 
+void add(Film& film, const SampleId& id, const Color& sample, std::uint8_t covered) {
+  film.add(id.x, id.y, sample, covered);
+}
+void add(NoiseBlock& noise, const SampleId& id, const Color& sample, std::uint8_t covered) {
+  noise.add(id, sample, covered);
+}
+
 }  // namespace
 
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
@@ -50,21 +57,55 @@ bool BlockWorker::render(const PixelRect& block, const LivePass& pass, Film& fil
 }
 
 bool BlockWorker::render(const PixelRect& block, int until, Image& image, const PixelRect& rect) {
+  if (setup_.noise.half_width > 0) {
+    MeasuredPicture measured(block);
+    const bool is_whole = measure(block, measured);
+    measured.copy_to(image, rect);
+    return is_whole;
+  }
   block_film_.restart(block);
   const bool whole = render(block, until, block_film_);
   block_film_.copy_to(image, rect);
   return whole;
 }
 
-/// Traces the samples that were gathered and adds them to the film.
-bool BlockWorker::trace(Film& film) {
+bool BlockWorker::measure(const PixelRect& block, MeasuredPicture& picture) {
+  if (!noise_) noise_.emplace(setup_.noise);
+  const BlockOrder parts(block, NoiseBlock::largest, PixelOrder::tiles);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!measure_part(parts[i], picture)) return false;
+  }
+  return true;
+}
+
+bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) {
+  NoiseBlock& noise = *noise_;
+  noise.begin(part, setup_.frame);
+  pixels_.clear();
+  do {
+    for (const NoiseBlock::Pixel& pixel : noise.wanted()) {
+      for (const int x : {int{pixel.x}, pixel.x + NoiseBlock::half_distance}) {
+        for (int sample = noise.first(); sample < noise.end(); ++sample) {
+          pixels_.push_back({x, pixel.y, sample});
+          if (pixels_.size() == setup_.stream_size && !trace(noise)) return false;
+        }
+      }
+    }
+    if (!trace(noise)) return false;
+  } while (noise.look(picture));
+  return true;
+}
+
+/// Traces the samples that were gathered and adds them to the film, or to what measures noise.
+template <class Target>
+bool BlockWorker::trace(Target& target) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
   position_samples();
   rays_.resize(count);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
-  if (!(camera.weighs ? trace_weighted(film) : trace_all(film))) return false;
+  if (!(camera.weighs ? trace_weighted(target) : trace_all(target))) return false;
   pixels_.clear();
   return true;
 }
@@ -78,8 +119,9 @@ void BlockWorker::position_samples() {
   if (!sampler.single()) find_numbers(RandomSet::film);
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const SampleId& id = pixels_[k];
-    const RasterPoint point =
-        sampler.single() ? sampler.position(id) : sampler.position(id.x, id.y, numbers_.get(k));
+    const RasterPoint point = sampler.single()
+                                  ? sampler.position(id)
+                                  : sampler.position(NoiseBlock::column(id), id.y, numbers_.get(k));
     samples_.set(k, point.x, point.y);
   }
   if (!has_lens(camera.kind)) return;
@@ -103,17 +145,19 @@ CameraRays BlockWorker::camera_rays(const SampleId* samples) {
   return {rays_, setup_.scene.coherence, samples, covered_.empty() ? nullptr : covered_.data()};
 }
 
-bool BlockWorker::trace_all(Film& film) {
+template <class Target>
+bool BlockWorker::trace_all(Target& target) {
   if (!integrator_->trace(camera_rays(pixels_.data()), radiance_.data())) return false;
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    film.add(pixels_[k].x, pixels_[k].y, radiance_[k], covered(k));
+    add(target, pixels_[k], radiance_[k], covered(k));
   }
   return true;
 }
 
 /// Traces the samples that have a ray. One without a ray counts as a black sample that nothing
 /// covers.
-bool BlockWorker::trace_weighted(Film& film) {
+template <class Target>
+bool BlockWorker::trace_weighted(Target& target) {
   keep_live_rays(samples_, rays_);
   live_.clear();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
@@ -124,10 +168,9 @@ bool BlockWorker::trace_weighted(Film& film) {
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const float weight = samples_.weight(k);
     if (weight == 0) {
-      film.add(pixels_[k].x, pixels_[k].y, Color{}, 0);
+      add(target, pixels_[k], Color{}, 0);
     } else {
-      film.add(pixels_[k].x, pixels_[k].y, weighed(radiance_[ray], weight, weighing_),
-               covered(ray));
+      add(target, pixels_[k], weighed(radiance_[ray], weight, weighing_), covered(ray));
       ++ray;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/frame/film.h"
@@ -11,6 +12,7 @@
 #include "render/integrators/integrator.h"
 #include "render/integrators/random_numbers.h"
 #include "render/prepare/prepared_scene.h"
+#include "render/renderer/noise_block.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -24,6 +26,8 @@ struct BlockSetup {
   std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
   std::size_t stream_size;                ///< most camera rays in a stream, >= 1
   Alpha alpha;                            ///< whether films learn which samples are covered
+  PixelRect frame;
+  NoiseTarget noise;
 };
 
 /// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not
@@ -40,9 +44,14 @@ class BlockWorker {
   /// The same for the pixels that a pass picks, and for the samples of that pass.
   bool render(const PixelRect& block, const LivePass& pass, Film& film);
 
-  /// Renders all samples of a block and writes their means into `image`, a picture of the frame's
-  /// pixels in `rect`. The samples are in a film of this block alone, which stays in the cache.
+  /// Renders all samples of a block, or those that `setup.noise` asks for, and writes their means
+  /// into `image`, a picture of the frame's pixels in `rect`. The samples are in a film of this
+  /// block alone, which stays in the cache.
   bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
+
+  /// Gives the pixels of a block samples until their noise is that of `setup.noise`. False if it
+  /// was cancelled; then pixels without samples are to be rendered again.
+  bool measure(const PixelRect& block, MeasuredPicture& picture);
 
   /// All rays that this worker traced.
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
@@ -58,13 +67,17 @@ class BlockWorker {
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
   void position_samples();
   void find_numbers(RandomSet set);
-  bool trace(Film& film);
+  bool measure_part(const PixelRect& part, MeasuredPicture& picture);
+  template <class Target>
+  bool trace(Target& target);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
   [[nodiscard]] std::uint8_t covered(std::size_t ray) const {
     return covered_.empty() ? std::uint8_t{1} : covered_[ray];
   }
-  bool trace_all(Film& film);
-  bool trace_weighted(Film& film);
+  template <class Target>
+  bool trace_all(Target& target);
+  template <class Target>
+  bool trace_weighted(Target& target);
 
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
@@ -77,6 +90,7 @@ class BlockWorker {
   std::vector<std::uint8_t> covered_;  ///< by ray; empty without alpha
   SampleFaults weighing_;              ///< of samples that were finite before they were weighed
   Film block_film_{PixelRect{0, 0, 1, 1}};
+  std::optional<NoiseBlock> noise_;
 };
 
 }  // namespace boule

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/frame/measured_picture.h"
 #include "render/image/image.h"
 #include "render/memory/available_memory.h"
 #include "render/renderer/outline.h"
@@ -27,7 +28,8 @@ std::uint64_t bytes_of_whole(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t alpha_bytes = options.transparent ? rect.area() * sizeof(float) : 0;
   const std::uint64_t line_bytes = options.outline > 0 ? Outline::bytes(rect) : 0;
-  return Film::bytes(rect) + rect.area() * sizeof(Color) + alpha_bytes + line_bytes +
+  const std::uint64_t sums = options.noise > 0 ? MeasuredPicture::bytes(rect) : Film::bytes(rect);
+  return sums + rect.area() * sizeof(Color) + alpha_bytes + line_bytes +
          AovChannels::bytes(options.aovs, rect);
 }
 
@@ -42,6 +44,26 @@ Status check_picture_memory(const RenderOptions& options) {
                       "image.size");
 }
 
+/// The noise, which limits the numbers of samples.
+Status validate_noise(const RenderOptions& options) {
+  if (!rule::noise.allows(double{options.noise}))
+    return Diagnostic::about("render.noise", "must be " + describe(rule::noise));
+  if (auto bad = check_range("render.min_spp", options.min_spp, rule::least_samples)) return bad;
+  if (options.noise > 0 && options.spp < options.min_spp) {
+    return Diagnostic::about("image.spp",
+                             "is the most samples where noise is asked for, and must "
+                             "be at least min_spp, which is " +
+                                 std::to_string(options.min_spp));
+  }
+  if (!(options.noise > 0) && (options.aovs.noise || options.aovs.samples)) {
+    return Diagnostic::about("aov", "noise and samples are told where noise is asked for only");
+  }
+  constexpr NumberRule stops{.low = -126, .high = 126};
+  if (!stops.allows(double{options.exposure_stops}))
+    return Diagnostic::about("exposure_stops", "must be " + describe(stops));
+  return std::nullopt;
+}
+
 }  // namespace
 
 RenderOptions options_of(const Scene& scene) {
@@ -54,7 +76,20 @@ RenderOptions options_of(const Scene& scene) {
   options.outline = scene.image.outline;
   options.method = scene.render.method;
   options.max_depth = scene.render.max_depth;
+  options.noise = scene.render.noise;
+  options.min_spp = scene.render.min_spp;
+  if (options.noise > 0 && options.spp == 1) options.spp = usual_max_spp;
   return options;
+}
+
+void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options) {
+  if (noise && *noise > 0) options.spp = usual_max_spp;
+  options.spp = spp.value_or(options.spp);
+  options.noise = noise.value_or(spp ? 0 : options.noise);
+}
+
+NoiseTarget noise_target(const RenderOptions& options) {
+  return {options.noise, options.min_spp, options.spp, options.exposure_stops, options.transparent};
 }
 
 PixelRect rendered_rect(const RenderOptions& options) {
@@ -85,6 +120,7 @@ Status validate(const RenderOptions& options) {
   if (auto bad = check_range("image.spp", options.spp, rule::samples)) return bad;
   if (auto bad = check_range("render.max_depth", options.max_depth, rule::bounces)) return bad;
   if (auto bad = check_range("tile", options.tile, {.low = 0, .high = max_tile})) return bad;
+  if (auto bad = validate_noise(options)) return bad;
   if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
     return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
   }

@@ -10,6 +10,7 @@
 #include "core/scene/scene.h"
 #include "render/frame/bands.h"
 #include "render/frame/film.h"
+#include "render/frame/pixel_noise.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/frame/progress.h"
@@ -23,7 +24,12 @@ namespace boule {
 struct RenderOptions {
   int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
   int height = 720;  ///< likewise
-  int spp = 1;       ///< samples per pixel, >= 1
+  int spp = 1;       ///< samples per pixel, >= 1; with `noise` the most of them
+  /// Pixels get min_spp to spp samples until their noise is this (NoiseTarget), 0 .. 1; 0: all get
+  /// spp. Of films, which Renderer::render_pass() and its like render, all pixels get spp.
+  float noise = 0;
+  int min_spp = 32;          ///< >= 16
+  float exposure_stops = 0;  ///< at which noise is seen, -126 .. 126
   PixelFilter filter = PixelFilter::box;
   std::uint64_t seed = 0;  ///< of all random numbers
   Method method = Method::whitted;
@@ -58,6 +64,15 @@ RenderOptions options_of(const Scene& scene);
 inline Alpha alpha_of(const RenderOptions& options) {
   return options.transparent ? Alpha::coverage : Alpha::none;
 }
+
+/// The noise that these options ask for.
+NoiseTarget noise_target(const RenderOptions& options);
+
+/// The most samples of a pixel where noise is asked for and nobody says how many.
+inline constexpr int usual_max_spp = 4096;
+
+/// Sets what somebody wishes beside the scene: each of the two sets the scene's other one aside.
+void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options);
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);

@@ -29,7 +29,8 @@ Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedS
       setup_(std::make_unique<const BlockSetup>(
           BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
                      block_pixels(options.tile),
-                     fitting_stream_size(scene_->geometry.sphere_count()), alpha_of(options)})),
+                     fitting_stream_size(scene_->geometry.sphere_count()), alpha_of(options),
+                     PixelRect{0, 0, options.width, options.height}, noise_target(options)})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -95,6 +96,15 @@ Result<Image> Renderer::render() {
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory for the picture");
   }
+}
+
+Status Renderer::render_measured(MeasuredPicture& picture) {
+  if (!scene_) return moved_away();
+  const FloatEnvironment environment;
+  const auto task = [&](BlockWorker& worker, const PixelRect& block) {
+    return worker.measure(block, picture);
+  };
+  return run_blocks(std::cref(task), {});
 }
 
 Status Renderer::check_film(const Film& film) const {
@@ -178,7 +188,7 @@ Result<std::vector<ImageChannel>> Renderer::render_aovs() {
   const Stopwatch watch;
   try {
     AovChannels channels(options_.aovs, rect());
-    const Status status = options_.aovs.any() ? find_aovs(channels) : std::nullopt;
+    const Status status = options_.aovs.any_traced() ? find_aovs(channels) : std::nullopt;
     render_seconds_ += watch.seconds();
     if (status) return *status;
     return channels.release();

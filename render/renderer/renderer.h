@@ -9,6 +9,7 @@
 #include "core/scene/scene.h"
 #include "render/frame/film.h"
 #include "render/frame/live_passes.h"
+#include "render/frame/measured_picture.h"
 #include "render/frame/scheduler.h"
 #include "render/image/image.h"
 #include "render/integrators/integrator.h"
@@ -53,6 +54,11 @@ class Renderer {
   /// after render_pass(), without the memory of a film.
   Result<Image> render();
 
+  /// The same with the noise and the number of samples of each pixel, and without the outline, into
+  /// a picture without samples. An error if it was cancelled; the picture keeps the pixels that
+  /// were finished. Preconditions: options().noise > 0, and the picture is of rect().
+  Status render_measured(MeasuredPicture& picture);
+
   /// Renders the same picture in bands of rows from the top, so that only some of them are in
   /// memory (Bands::most_bytes). Calls take(band) for each of them in order, on the threads that
   /// render, one call at a time, while the others go on with the next ones. A Diagnostic of `take`
@@ -80,7 +86,8 @@ class Renderer {
   /// The share of all samples that are done.
   [[nodiscard]] double share_done(const LivePosition& position) const;
 
-  /// The AOVs that options.aovs selects, as extra channels for write_image(). They are those of the
+  /// The AOVs that options.aovs selects and that need rays of their own (the others are
+  /// measured_channels()), as extra channels for write_image(). They are those of the
   /// rays through the pixels' centres, without a filter. These rays count as primary rays. An error
   /// if it was cancelled.
   Result<std::vector<ImageChannel>> render_aovs();

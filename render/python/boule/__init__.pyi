@@ -336,11 +336,15 @@ class ImageSettings:
 class RenderSettings:
     method: _Method
     max_depth: int
+    noise: float
+    min_spp: int
     def __init__(
         self,
         *,
         method: _Method = ...,
         max_depth: int = ...,
+        noise: float = ...,
+        min_spp: int = ...,
     ) -> None: ...
 
 class Sphere:
@@ -679,6 +683,9 @@ def render(
     *,
     size: Sequence[int] | None = ...,
     spp: int | None = ...,
+    noise: float | None = ...,
+    min_spp: int | None = ...,
+    exposure: float = ...,
     filter: _Filter | None = ...,
     background: str | None = ...,
     outline: float | None = ...,

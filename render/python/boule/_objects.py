@@ -308,7 +308,8 @@ class ImageSettings(Table):
 
 @_of("render", "render", type_key=False)
 class RenderSettings(Table):
-    """How a scene asks to be rendered: method "whitted" or "path", max_depth bounces."""
+    """How a scene asks to be rendered: method "whitted" or "path", max_depth bounces;
+    noise, if it is above 0, is asked of each pixel, which gets min_spp samples or more."""
 
 
 @_of("sphere", "sphere", type_key=False)

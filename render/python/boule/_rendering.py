@@ -21,7 +21,7 @@ class Interrupted(KeyboardInterrupt):
 
 @with_look()
 def render(
-    scene, *, size=None, spp=None, filter=None, background=None, outline=None, seed=0, crop=None,
+    scene, *, size=None, spp=None, noise=None, min_spp=None, exposure=0.0, filter=None, background=None, outline=None, seed=0, crop=None,
     aov=None, method=None, max_depth=None, shadow_epsilon=None, time_limit=None, partial=False,
     order=None, tile=None, solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None, **look,
 ):  # fmt: skip
@@ -30,10 +30,12 @@ def render(
     scene: a Scene, or the name of a file that load() would read; then frame, polygons and look are
         as there.
     size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
+    noise: each pixel gets samples, min_spp to spp of them, until it is right to so much of 0..1 as
+        it is shown with this exposure, with a probability of 95 %; 0: all pixels get spp.
     background: what shows where nothing is: "#rrggbb" or "transparent". outline: in pixels.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
-        albedo, z).
+        albedo, z; with noise also noise, samples).
     method: "whitted" or "path". max_depth: bounces after the first hit.
     shadow_epsilon: for teaching: where shadow rays begin, a length or "none", in place of Boule's way
         without an epsilon. It makes false shadows.
@@ -56,7 +58,7 @@ def render(
         )
     keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
     options = {
-        "size": size, "spp": spp, "filter": filter, "background": background, "outline": outline,
+        "size": size, "spp": spp, "noise": noise, "min_spp": min_spp, "exposure": exposure, "filter": filter, "background": background, "outline": outline,
         "seed": seed, "crop": crop, "aov": aov, "method": method, "max_depth": max_depth,
         "shadow_epsilon": shadow_epsilon, "time_limit": time_limit, "partial": partial, "order": order, "tile": tile,
         "solver": solver, "threads": threads, "isa": isa,

@@ -42,6 +42,17 @@ TEST_F(CheckpointRuns, APictureIsThatOfARunWithoutAndNothingIsLeft) {
   }
 }
 
+TEST_F(CheckpointRuns, APictureWhoseNoiseIsAskedForGoesOnToo) {
+  ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
+  const std::vector<std::string> saved = {"--checkpoint", path("run.film"), "--resume"};
+  std::vector<std::string> stopped = saved;
+  stopped.insert(stopped.end(), {"--time-limit", "1ms"});
+  boule_run(render_noise("out.exr", stopped));  // finished where the machine is fast
+  const ProgramRun run = boule_run(render_noise("out.exr", saved));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("out.exr"), read("whole.exr"));
+}
+
 TEST_F(CheckpointRuns, TheFirstSignalSavesAndSaysSo) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const ProgramRun run = stopped_run(signal);

@@ -123,6 +123,13 @@ TEST_P(MpiTest, AnyNumberOfRanksMakesTheSamePicture) {
   }
 }
 
+TEST_P(MpiTest, APictureWhoseNoiseIsAskedForToo) {
+  ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
+  const ProgramRun run = mpirun(ranks(3, render_noise("a.exr")));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("a.exr"), read("whole.exr"));
+}
+
 TEST_P(MpiTest, AShardToo) {
   const ProgramRun run = mpirun(ranks(3, render("a.film", {"--shard", "1/2", "-t", "1"})));
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -57,6 +57,20 @@ TEST_F(Shards, CropsAndOtherFormatsToo) {
   }
 }
 
+/// Each pixel with the samples that its noise needs: no shard knows the pixels of the others.
+TEST_F(Shards, PicturesWhoseNoiseIsAskedForToo) {
+  ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
+  std::vector<std::string> films;
+  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
+    const std::string film = "p" + shard.substr(0, 1) + ".film";
+    films.push_back(path(film));
+    ASSERT_EQ(boule_run(render_noise(film, {"--shard", shard})).exit_code, 0);
+  }
+  const ProgramRun run = boule_run(merge(films));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("merged.exr"), read("whole.exr"));
+}
+
 /// Every second block along the Morton curve is every second column.
 TEST_F(Shards, MissingAndDoubledBlocksAreNamed) {
   const std::string a = shard(1, 2), b = shard(2, 2);

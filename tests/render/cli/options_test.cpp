@@ -135,7 +135,9 @@ TEST(Help, OptionsStandInGroups) {
   const std::string text = told("help render");
   EXPECT_THAT(text, Not(HasSubstr("\n\n\n")));
   const std::vector<std::pair<std::string, std::vector<std::string>>> groups = {
-      {"Picture", {"--size", "--spp", "--filter", "--seed", "--crop", "--aov", "--polygons"}},
+      {"Picture",
+       {"--size", "--spp", "--noise", "--min-spp", "--filter", "--seed", "--crop", "--aov",
+        "--polygons"}},
       {"Camera and light", {"--method", "--max-depth", "--exposure"}},
       {"Work", {"--frames", "--skip-existing", "--time-limit", "--partial", "--order", "--tile"}},
       {"Output", {"--output", "--compression", "--progress", "--stats", "--quiet", "--verbose"}},

@@ -26,6 +26,35 @@ class PartTest : public ProgramTest {
       words.insert(words.end(), list.begin(), list.end());
     return words;
   }
+  /// `render` of a picture whose noise is asked for, with everything that its film holds.
+  std::vector<std::string> render_noise(const std::string& output,
+                                        const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"render",
+                                      small_scene(),
+                                      "-o",
+                                      path(output),
+                                      "--size",
+                                      "97x61",
+                                      "--noise",
+                                      "0.1",
+                                      "--min-spp",
+                                      "16",
+                                      "--spp",
+                                      "64",
+                                      "--outline",
+                                      "1",
+                                      "--aov",
+                                      "id,noise,samples",
+                                      "--method",
+                                      "path",
+                                      "--background",
+                                      "transparent",
+                                      "--tile",
+                                      "16",
+                                      "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
   /// The bytes of the picture of one run without interruption.
   std::string whole_picture(const std::string& spp = "20") const {
     const ProgramRun run = boule_run(render("whole.exr", {}, spp));

@@ -65,6 +65,33 @@ class FilmFile : public testing::Test {
   FilmHead head_;
 };
 
+TEST_F(FilmFile, HoldsMeasuredPixelsToo) {
+  head_.kinds = {};
+  head_.kinds.measured = true;
+  head_.blocks = {{3, 4, 19, 20}};
+  PartSheet sheet(head_.rect, head_.kinds);
+  sheet.measured().at(5, 6) = {{1, 2, 3}, 0.5F, 0.25F, 77};
+  EXPECT_EQ(sheet.least_samples({5, 6, 6, 7}), 77);
+  EXPECT_TRUE(sheet.is_finished({5, 6, 6, 7}, 1000));
+  EXPECT_FALSE(sheet.is_finished(head_.blocks[0], 1000));
+  EXPECT_EQ(sheet.share({{5, 6, 6, 7}, {6, 6, 7, 7}}, 1000), 0.5);
+  ASSERT_FALSE(film_file::write(path_, head_, sheet, {}));
+  const auto reader = film_file::Reader::open(path_);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_TRUE(reader.value().head().kinds.measured);
+  PartSheet found(head_.rect, head_.kinds);
+  EXPECT_FALSE(reader.value().read(found));
+  const MeasuredPixel pixel = found.measured().at(5, 6);
+  EXPECT_EQ(pixel.color, (Color{1, 2, 3}));
+  EXPECT_EQ(pixel.alpha, 0.5F);
+  EXPECT_EQ(pixel.noise, 0.25F);
+  EXPECT_EQ(pixel.samples, 77U);
+  EXPECT_EQ(found.measured().at(6, 6).samples, 0U);
+  sheet.measured().at(5, 6).noise = -1;  // which cannot be
+  ASSERT_FALSE(film_file::write(path_, head_, sheet, {}));
+  EXPECT_TRUE(film_file::Reader::open(path_).value().read(found));
+}
+
 TEST_F(FilmFile, WhatIsReadIsWhatWasWritten) {
   const std::string bytes = written();
   const auto reader = film_file::Reader::open(path_);

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/color.h"
+
+namespace boule {
+
+/// The noise that a picture may have. Each pixel gets samples until the half-width of its 95 %
+/// confidence interval is at most `half_width` in each channel as it is displayed: multiplied by
+/// 2^exposure_stops, clamped to 0..1 and with the sRGB curve; alpha, which has no curve, counts
+/// where pictures have it.
+struct NoiseTarget {
+  float half_width = 0;  ///< 0..1; 0: none is asked for, all pixels get the same samples
+  int min_spp = 32;      ///< the fewest samples of a pixel, >= 16
+  int max_spp = 4096;    ///< the most, >= min_spp
+  float exposure_stops = 0;
+  bool alpha = false;
+};
+
+/// One number for each of red, green, blue and coverage.
+using PixelNumbers = std::array<double, 4>;
+
+/// Half of a pixel's samples: a sequence of its own, whose sums are kept in batches of samples that
+/// follow each other. When there are 16 batches, two and two become one. Samples of a sequence that
+/// is spread evenly differ more than their means do; so the spread of batches tells the error of
+/// the mean, where that of single samples would not.
+class SampleHalf {
+ public:
+  static constexpr int least_batches = 8;
+
+  /// Adds the next sample. Precondition: there are fewer than 2^30.
+  void add(const Color& sample, std::uint8_t covered);
+
+  [[nodiscard]] int count() const { return count_; }
+  /// The number of complete batches; from 8 samples on it is 8 to 16.
+  [[nodiscard]] int batches() const { return count_ / length_; }
+  /// Precondition: there are samples.
+  [[nodiscard]] PixelNumbers mean() const;
+  /// Estimates the variance of the mean, times the number of samples. Precondition: there are two
+  /// batches.
+  [[nodiscard]] PixelNumbers variance() const;
+
+ private:
+  static constexpr int most_batches = 2 * least_batches;
+
+  std::array<std::array<float, 4>, most_batches> sums_{};
+  PixelNumbers total_{};
+  int count_ = 0;
+  int length_ = 1;  ///< of a batch, in samples
+};
+
+/// The 0.975 quantile of Student's t distribution, for any degrees of freedom from 1 on.
+double student_quantile(int degrees);
+
+/// How the half-width of an interval about a linear value shows: the longer of its two parts in
+/// displayed values, 0..1. Preconditions: neither is negative.
+double displayed_half_width(double value, double half_width);
+
+/// The number of samples after `count` at which a half is looked at again: four times as the number
+/// doubles. Precondition: count >= 4.
+int next_look(int count);
+
+}  // namespace boule

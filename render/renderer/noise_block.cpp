@@ -1,0 +1,143 @@
+#include "render/renderer/noise_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/elementary.h"
+
+namespace boule {
+namespace {
+
+/// How many samples of a pixel's own the variance around it counts for.
+constexpr double samples_around = 32;
+
+float as_float(double number) {
+  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
+  return static_cast<float>(std::min(number, largest));
+}
+
+}  // namespace
+
+NoiseBlock::NoiseBlock(const NoiseTarget& target)
+    : target_(target),
+      scale_(elementary::pow(2, static_cast<double>(target.exposure_stops))),
+      order_(block_pixels(largest + 2 * rim)) {}
+
+void NoiseBlock::begin(const PixelRect& block, const PixelRect& frame) {
+  block_ = block;
+  area_ = {std::max(block.x0 - rim, frame.x0), std::max(block.y0 - rim, frame.y0),
+           std::min(block.x1 + rim, frame.x1), std::min(block.y1 + rim, frame.y1)};
+  states_.assign(static_cast<std::size_t>(area_.area()), {});
+  wanted_.clear();
+  for (const PixelOffset& offset : order_) {
+    const int x = area_.x0 + offset.x, y = area_.y0 + offset.y;
+    if (x >= area_.x1 || y >= area_.y1) continue;
+    wanted_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+  }
+  first_ = 0;
+  end_ = target_.min_spp / 2;
+}
+
+bool NoiseBlock::look(MeasuredPicture& picture) {
+  if (first_ == 0) look_around();
+  const auto is_done = [&](const Pixel& pixel) {
+    State& state = at(pixel.x, pixel.y);
+    if (!settle(state)) return false;
+    picture.at(pixel.x, pixel.y) = measured(state);
+    return true;
+  };
+  wanted_.erase(std::remove_if(wanted_.begin(), wanted_.end(), is_done), wanted_.end());
+  first_ = end_;
+  end_ = std::min(next_look(end_), target_.max_spp / 2);
+  return !wanted_.empty();
+}
+
+/// The rim's pixels have served when their variance is known.
+void NoiseBlock::look_around() {
+  for (int y = block_.y0; y < block_.y1; ++y) {
+    for (int x = block_.x0; x < block_.x1; ++x) at(x, y).around = variance_around(x, y);
+  }
+  const auto is_of_rim = [this](const Pixel& p) {
+    return p.x < block_.x0 || p.x >= block_.x1 || p.y < block_.y0 || p.y >= block_.y1;
+  };
+  wanted_.erase(std::remove_if(wanted_.begin(), wanted_.end(), is_of_rim), wanted_.end());
+}
+
+PixelNumbers NoiseBlock::variance_around(int x, int y) {
+  PixelNumbers sum{};
+  int halves = 0;
+  for (int at_y = std::max(y - rim, area_.y0); at_y < std::min(y + rim + 1, area_.y1); ++at_y) {
+    for (int at_x = std::max(x - rim, area_.x0); at_x < std::min(x + rim + 1, area_.x1); ++at_x) {
+      if (at_x == x && at_y == y) continue;
+      for (const SampleHalf& half : at(at_x, at_y).halves) {
+        const PixelNumbers variance = half.variance();
+        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += variance[c];
+        ++halves;
+      }
+    }
+  }
+  for (double& number : sum) number /= std::max(halves, 1);
+  return sum;
+}
+
+/// What a half says, or, if that is more, the same together with a few samples of the pixels
+/// around: a pixel whose first samples all miss what is rare there does not end too early.
+PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) const {
+  const double count = state.halves[half].count();
+  PixelNumbers variance = state.halves[half].variance();
+  for (std::size_t c = 0; c < variance.size(); ++c) {
+    const double with_others =
+        (count * variance[c] + samples_around * state.around[c]) / (count + samples_around);
+    variance[c] = std::max(variance[c], with_others);
+  }
+  return variance;
+}
+
+/// The greatest half-width of the channels as they are displayed.
+double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_width) const {
+  double greatest = target_.alpha ? half_width[3] : 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    greatest = std::max(greatest, displayed_half_width(mean[c] * scale_, half_width[c] * scale_));
+  return greatest;
+}
+
+/// Whether a half says that the pixel, with as many samples in both halves, has enough.
+bool NoiseBlock::is_enough(const State& state, std::size_t half) const {
+  const SampleHalf& samples = state.halves[half];
+  const double factor = student_quantile(samples.batches() - 1);
+  PixelNumbers half_width = careful_variance(state, half);
+  for (double& number : half_width) number = factor * std::sqrt(number / (2 * samples.count()));
+  return displayed(samples.mean(), half_width) <= static_cast<double>(target_.half_width);
+}
+
+/// Settles the halves that have enough samples. True if both have.
+bool NoiseBlock::settle(State& state) const {
+  for (std::size_t half = 0; half < 2; ++half) {
+    Settled& settled = state.settled[half];
+    const SampleHalf& samples = state.halves[half];
+    const bool is_last = samples.count() >= target_.max_spp / 2;
+    if (settled.count == 0 && (is_last || is_enough(state, 1 - half)))
+      settled = {samples.mean(), samples.count()};
+  }
+  return state.settled[0].count > 0 && state.settled[1].count > 0;
+}
+
+MeasuredPixel NoiseBlock::measured(const State& state) const {
+  const auto& [a, b] = state.settled;
+  const PixelNumbers variance_a = careful_variance(state, 0),
+                     variance_b = careful_variance(state, 1);
+  const double factor = student_quantile(state.halves[0].batches() - 1);
+  PixelNumbers mean{}, half_width{};
+  for (std::size_t c = 0; c < mean.size(); ++c) {
+    mean[c] = (a.mean[c] + b.mean[c]) / 2;
+    const double variance = (variance_a[c] + variance_b[c]) / 2;
+    half_width[c] = factor * std::sqrt(variance * (1.0 / a.count + 1.0 / b.count)) / 2;
+  }
+  return {{as_float(mean[0]), as_float(mean[1]), as_float(mean[2])},
+          as_float(mean[3]),
+          static_cast<float>(displayed(mean, half_width) / interval_in_errors),
+          static_cast<std::uint32_t>(a.count + b.count)};
+}
+
+}  // namespace boule

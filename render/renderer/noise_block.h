@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/math/color.h"
+#include "core/math/sample_id.h"
+#include "render/frame/measured_picture.h"
+#include "render/frame/pixel_noise.h"
+#include "render/frame/pixel_order.h"
+#include "render/frame/pixel_rect.h"
+
+namespace boule {
+
+/// Decides how many samples the pixels of a block get. Each pixel has two halves of samples, which
+/// are independent. How many samples one half has, the other half decides, together with the first
+/// samples of the pixels around; so the mean of either half is that of a number of samples which
+/// does not depend on them, and it is unbiased, however rare the bright ones are. A pixel is the
+/// mean of its halves' means. A pixel depends on nothing beyond `rim` pixels around it: blocks are
+/// rendered with that rim, and the picture does not show where they end.
+class NoiseBlock {
+ public:
+  static constexpr int largest = 64;  ///< side of a block, in pixels
+  static constexpr int rim = 1;
+
+  /// The second half has the random numbers of pixels that far to the right, beyond any frame.
+  static constexpr int half_distance = 65536;
+  /// The column of the sample's pixel.
+  static int column(const SampleId& id) { return id.x & (half_distance - 1); }
+
+  explicit NoiseBlock(const NoiseTarget& target);
+
+  /// Begins a block of the frame. Precondition: its sides are at most `largest`.
+  void begin(const PixelRect& block, const PixelRect& frame);
+  /// The samples that are wanted next: those of the pixels at `wanted()`, of both halves, from
+  /// first() up to end().
+  struct Pixel {
+    std::uint16_t x, y;  ///< of the frame
+  };
+  [[nodiscard]] const std::vector<Pixel>& wanted() const { return wanted_; }
+  [[nodiscard]] int first() const { return first_; }
+  [[nodiscard]] int end() const { return end_; }
+  void add(const SampleId& id, const Color& sample, std::uint8_t covered) {
+    State& state = at(column(id), id.y);
+    state.halves[id.x < half_distance ? 0 : 1].add(sample, covered);
+  }
+  /// To be called when all wanted samples were added. Sets the pixels that have enough of them, and
+  /// wants more of the others. False if there are none: the block is done.
+  bool look(MeasuredPicture& picture);
+
+ private:
+  /// A half that has all its samples.
+  struct Settled {
+    PixelNumbers mean{};
+    int count = 0;  ///< 0: it has not
+  };
+  struct State {
+    std::array<SampleHalf, 2> halves;
+    std::array<Settled, 2> settled;
+    PixelNumbers around{};  ///< mean variance of the first samples of the pixels around
+  };
+
+  State& at(int x, int y) { return states_[area_.index(x, y)]; }
+  void look_around();
+  [[nodiscard]] PixelNumbers variance_around(int x, int y);
+  [[nodiscard]] PixelNumbers careful_variance(const State& state, std::size_t half) const;
+  [[nodiscard]] double displayed(const PixelNumbers& mean, const PixelNumbers& error) const;
+  [[nodiscard]] bool is_enough(const State& state, std::size_t half) const;
+  bool settle(State& state) const;
+  [[nodiscard]] MeasuredPixel measured(const State& state) const;
+
+  const NoiseTarget target_;
+  const double scale_;  ///< of the exposure
+  const std::vector<PixelOffset> order_;
+  PixelRect block_, area_;  ///< area: the block with its rim
+  std::vector<State> states_;
+  std::vector<Pixel> wanted_;
+  int first_ = 0, end_ = 0;
+};
+
+}  // namespace boule

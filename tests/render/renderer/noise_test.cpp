@@ -1,0 +1,185 @@
+// Pictures whose noise was asked for: the same bits however they are rendered, unbiased means.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/math/random.h"
+#include "render/renderer/noise_block.h"
+#include "render/renderer/renderer.h"
+#include "tests/render/path_scenes.h"
+#include "tests/support/bit_hash.h"
+
+namespace boule::test {
+namespace {
+
+constexpr int width = 40, height = 28;
+
+RenderOptions noisy_options(const Scene& scene) {
+  RenderOptions options = options_of(scene);
+  options.noise = 0.06F;
+  options.min_spp = 16;
+  options.spp = 200;
+  options.threads = 2;
+  return options;
+}
+
+MeasuredPicture measured(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer = Renderer::create(scene, options).value();
+  MeasuredPicture picture(renderer.rect());
+  EXPECT_FALSE(renderer.render_measured(picture));
+  return picture;
+}
+
+/// Of the pixels in `rect`.
+std::uint64_t hash_of(const MeasuredPicture& picture, const PixelRect& rect) {
+  BitHash hash;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (const MeasuredPixel& pixel : picture.row(rect.x0, rect.x1, y)) {
+      for (const float x : {pixel.color.r, pixel.color.g, pixel.color.b, pixel.alpha, pixel.noise})
+        hash.add(x);
+      hash.add(static_cast<float>(pixel.samples));
+    }
+  }
+  return hash.value();
+}
+
+std::uint64_t hash_of(const MeasuredPicture& picture) { return hash_of(picture, picture.rect()); }
+
+TEST(Noise, APictureHasTheSameBitsForAnyThreadsTilesAndOrders) {
+  const Scene scene = path_scene(width, height);
+  const RenderOptions options = noisy_options(scene);
+  const std::uint64_t expected = hash_of(measured(scene, options));
+  for (const int tile : {1, 5, 16, 64, 1024}) {
+    RenderOptions other = options;
+    other.tile = tile;
+    other.threads = tile == 5 ? 1 : 7;
+    other.order = tile == 16 ? PixelOrder::frameless : PixelOrder::rows;
+    EXPECT_EQ(hash_of(measured(scene, other)), expected) << tile;
+  }
+}
+
+TEST(Noise, ACropIsThatPartOfThePicture) {
+  const Scene scene = path_scene(width, height);
+  RenderOptions options = noisy_options(scene);
+  const MeasuredPicture whole = measured(scene, options);
+  for (const PixelRect& crop : {PixelRect{7, 3, 31, 20}, PixelRect{39, 27, 40, 28}}) {
+    options.crop = crop;
+    EXPECT_EQ(hash_of(measured(scene, options)), hash_of(whole, crop));
+  }
+}
+
+TEST(Noise, OtherWaysToRenderGiveTheSamePicture) {
+  const Scene scene = path_scene(width, height);
+  RenderOptions options = noisy_options(scene);
+  options.tile = 8;
+  const Image expected = measured(scene, options).image(Alpha::none);
+  Renderer renderer = Renderer::create(scene, options).value();
+  const auto whole = renderer.render();
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole.value().pixels, expected.pixels);
+  std::vector<Color> rows;
+  EXPECT_FALSE(renderer.render_bands([&rows](const Image& band) -> Status {
+    rows.insert(rows.end(), band.pixels.begin(), band.pixels.end());
+    return std::nullopt;
+  }));
+  EXPECT_EQ(rows, expected.pixels);
+}
+
+TEST(Noise, SamplesStayWithinTheirBoundsAndNoisyPixelsGetMore) {
+  const Scene scene = path_scene(width, height);
+  RenderOptions options = noisy_options(scene);
+  const MeasuredPicture picture = measured(scene, options);
+  std::uint32_t fewest = 1000, most = 0;
+  for (const MeasuredPixel& pixel : picture.pixels()) {
+    fewest = std::min(fewest, pixel.samples);
+    most = std::max(most, pixel.samples);
+    if (pixel.samples == 16) {
+      EXPECT_LT(pixel.noise, 0.06F);
+    }
+  }
+  EXPECT_EQ(fewest, 16U);
+  EXPECT_EQ(most, 200U);
+  options.noise = 1;
+  const MeasuredPicture coarse = measured(scene, options);
+  for (const MeasuredPixel& pixel : coarse.pixels()) EXPECT_EQ(pixel.samples, 16U);
+}
+
+TEST(Noise, ABrighterExposureNeedsMoreSamplesOfWhatIsDark) {
+  Scene scene = path_scene(width, height);
+  RenderOptions options = noisy_options(scene);
+  options.spp = 1000;
+  options.exposure_stops = -6;
+  const double dark = noise_reached(measured(scene, options), options.spp).mean_samples;
+  options.exposure_stops = -1;
+  const double bright = noise_reached(measured(scene, options), options.spp).mean_samples;
+  EXPECT_LT(dark, bright);
+}
+
+TEST(Noise, OptionsOutOfRangeAreRefusedByName) {
+  const Scene scene = path_scene(width, height);
+  const auto key_of = [&](const auto& change) {
+    RenderOptions options = noisy_options(scene);
+    change(options);
+    const auto renderer = Renderer::create(scene, options);
+    return renderer ? std::string() : renderer.error().key;
+  };
+  EXPECT_EQ(key_of([](RenderOptions&) {}), "");
+  EXPECT_EQ(key_of([](RenderOptions& o) { o.noise = -1; }), "render.noise");
+  EXPECT_EQ(key_of([](RenderOptions& o) { o.min_spp = 15; }), "render.min_spp");
+  EXPECT_EQ(key_of([](RenderOptions& o) { o.spp = 15; }), "image.spp");
+  EXPECT_EQ(key_of([](RenderOptions& o) { o.exposure_stops = 127; }), "exposure_stops");
+  const auto without_noise = [](RenderOptions& o) {
+    o.noise = 0;
+    o.aovs.samples = true;
+  };
+  EXPECT_EQ(key_of(without_noise), "aov");
+}
+
+/// Renders blocks whose samples are 1 with a probability, else 0: the mean of all pixels.
+double mean_of_rare_samples(double probability, int blocks, double* samples) {
+  NoiseBlock noise({.half_width = 0.1F, .min_spp = 16, .max_spp = 512});
+  double sum = 0;
+  *samples = 0;
+  for (int block = 0; block < blocks; ++block) {
+    const PixelRect frame{0, 0, 32, 32};
+    MeasuredPicture picture(frame);
+    noise.begin(frame, frame);
+    do {
+      for (const NoiseBlock::Pixel& pixel : noise.wanted()) {
+        for (const int x : {int{pixel.x}, pixel.x + NoiseBlock::half_distance}) {
+          for (int sample = noise.first(); sample < noise.end(); ++sample) {
+            const auto bits = philox(
+                {static_cast<std::uint32_t>(x), pixel.y, static_cast<std::uint32_t>(sample), 0},
+                {static_cast<std::uint32_t>(block), 5});
+            const bool is_bright = unit_interval(bits[0]) < probability;
+            noise.add({x, pixel.y, sample}, gray(is_bright ? 1.0F : 0.0F), 1);
+          }
+        }
+      }
+    } while (noise.look(picture));
+    for (const MeasuredPixel& pixel : picture.pixels()) {
+      sum += static_cast<double>(pixel.color.g) / frame.area() / blocks;
+      *samples += pixel.samples / static_cast<double>(frame.area()) / blocks;
+    }
+  }
+  return sum;
+}
+
+TEST(Noise, TheMeanOfRareBrightSamplesIsUnbiased) {
+  constexpr int blocks = 10;
+  for (const double probability : {0.02, 0.3}) {
+    double samples = 0;
+    const double mean = mean_of_rare_samples(probability, blocks, &samples);
+    EXPECT_GT(samples, 20);
+    // A pixel of n samples in either half has the variance p (1 - p) / 2n, which is greatest where
+    // n is 8. Five standard errors: pixels that stop by their own samples are off by 5.8 and 9.8.
+    const double variance = probability * (1 - probability) / 16 / (1024.0 * blocks);
+    EXPECT_NEAR(mean, probability, 5 * std::sqrt(variance)) << probability;
+  }
+}
+
+}  // namespace
+}  // namespace boule::test
