@@ -60,6 +60,15 @@ inline constexpr double beam = 16;
 /// remains, 3 u |x|, pays for the rounding of origins and plane tests.
 inline constexpr double box_step = 0x1p-22;
 
+// ---- Parts: simd/kernel/search/parts.h, simd/geometry/parts.cpp -------------------------------
+
+/// A box of a part's tree is moved by its centre and by half its size, in float, and grows on each
+/// side by moved_box u (|shift| + scale |R| m), m being the greatest coordinates of the box, of
+/// which rounding, that of the spheres among it, takes 21 u. Half sizes grow by moved_least
+/// besides: below 2^-126 roundings lose up to 2^-150, which scales of 1e38 make something of.
+inline constexpr double moved_box = 32;
+inline constexpr float moved_least = 0x1p-145F;
+
 // ---- Bundles: simd/kernel/search/bundle_*.h ---------------------------------------------------
 
 /// Rays that share an origin O, or a direction, in the orthonormal frame (U, V, W) of a ray d0 amid

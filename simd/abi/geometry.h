@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/math/vec.h"
 #include "simd/abi/bvh.h"
 
 namespace boule {
@@ -38,11 +39,43 @@ struct PlaneView {
   std::int32_t first_id;
 };
 
+/// Where the spheres of a part are: at p -> scale (R p) + shift of where the part has them
+/// (core/math/similarity.h). The radius is scaled. Every number is computed in double and rounded
+/// to float once, as transformed() of core/scene/group.h does it.
+struct PlacementView {
+  Vec3d row_x, row_y, row_z;  ///< of R
+  double scale;
+  Vec3d shift;
+  bool moves;  ///< false: the spheres are where the part has them, bit for bit
+};
+
+/// A tree over spheres, somewhere in the scene. Parts may share the tree. All spheres, moved or
+/// not, are within the range of the filters.
+struct PartView {
+  PlacementView placement;
+  const BvhNode* nodes;           ///< null: all spheres are scanned
+  const SphereBlock* blocks;      ///< as in SphereView
+  const std::int32_t* id;         ///< in the part, by its slots; in the scene more by first_id
+  std::uint32_t scanned;          ///< slots in no leaf, whole blocks
+  std::uint32_t scanned_spheres;  ///< of these, those in front that hold a sphere
+  std::uint32_t slots;            ///< of all blocks
+  std::uint32_t first_slot;       ///< a slot in the scene is more than one in the part by this
+  std::int32_t first_id;
+};
+
+/// Spheres in several parts. Slots and ids count on from part to part. A tree of their boxes leads
+/// to them: BvhView, whose leaves, of size 1, are parts, in place of a tree over spheres.
+struct PartsView {
+  const PartView* parts;
+  std::size_t size;  ///< 0: the spheres are those of GeometryView::spheres
+};
+
 /// All that rays can meet.
 struct GeometryView {
-  SphereView spheres;
+  SphereView spheres;  ///< none where there are parts
   PlaneView planes;
   BvhView bvh;
+  PartsView parts;
 };
 
 }  // namespace boule

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/reference.h"
+#include "core/scene/group.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {
@@ -10,6 +11,17 @@ namespace {
 Plane get_plane(const PlaneView& p, std::size_t i) {
   return {
       {p.point_x[i], p.point_y[i], p.point_z[i]}, {p.normal_x[i], p.normal_y[i], p.normal_z[i]}, 0};
+}
+
+/// The sphere in a slot of a part, where the part shows it.
+Sphere get_sphere(const PartView& part, std::size_t slot) {
+  const SphereBlock& block = part.blocks[slot / bvh_leaf_size];
+  const std::size_t k = slot % bvh_leaf_size;
+  const Vec3f center{block.center_x[k], block.center_y[k], block.center_z[k]};
+  const Sphere own{center, block.radius[k], 0};
+  const PlacementView& p = part.placement;
+  if (!p.moves) return own;
+  return transformed(own, {p.row_x, p.row_y, p.row_z, p.scale, p.shift}, std::nullopt);
 }
 
 /// The geometry back as plain primitives in the order of their ids: what the reference path reads.
@@ -22,18 +34,26 @@ struct Primitives {
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
     const Sphere nowhere{{0, 0, 0}, std::numeric_limits<float>::quiet_NaN(), 0};
-    spheres.resize(static_cast<std::size_t>(view.planes.first_id), nowhere);
+    spheres.resize(static_cast<std::uint32_t>(view.planes.first_id), nowhere);
     slots.resize(spheres.size());
-    for (std::size_t slot = 0; slot < s.block_count * bvh_leaf_size; ++slot) {
-      if (s.id[slot] < 0) continue;
-      const SphereBlock& block = s.blocks[slot / bvh_leaf_size];
-      const std::size_t k = slot % bvh_leaf_size;
-      const auto id = static_cast<std::size_t>(s.id[slot]);
-      spheres[id] = {{block.center_x[k], block.center_y[k], block.center_z[k]}, block.radius[k], 0};
-      slots[id] = static_cast<std::uint32_t>(slot);
-    }
+    PartView whole{};
+    whole.blocks = s.blocks;
+    whole.id = s.id;
+    whole.slots = static_cast<std::uint32_t>(s.block_count * bvh_leaf_size);
+    if (view.parts.size == 0) add(whole);
+    for (std::size_t part = 0; part < view.parts.size; ++part) add(view.parts.parts[part]);
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) planes.push_back(get_plane(p, i));
+  }
+
+  void add(const PartView& part) {
+    for (std::uint32_t slot = 0; slot < part.slots; ++slot) {
+      if (part.id[slot] < 0) continue;
+      const std::size_t id =
+          static_cast<std::uint32_t>(part.first_id) + static_cast<std::size_t>(part.id[slot]);
+      spheres[id] = get_sphere(part, slot);
+      slots[id] = part.first_slot + slot;
+    }
   }
 };
 
@@ -44,7 +64,7 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
     const Hit hit = reference::closest_hit(get_ray(rays, i), all.spheres, all.planes);
     hits.t[i] = hit.t;
     hits.id[i] = hit.id;
-    const auto id = static_cast<std::size_t>(hit.id);
+    const auto id = static_cast<std::uint32_t>(hit.id);
     if (id < all.slots.size()) hits.slot[i] = all.slots[id];
   }
 }

@@ -88,7 +88,15 @@ Geometry::Geometry(Bvh bvh, std::size_t spheres, const std::vector<Plane>& plane
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
 }
 
+Geometry Geometry::of_parts(std::vector<GeometryPart> parts, const std::vector<Plane>& planes) {
+  Geometry geometry(no_bvh({}), 0, planes);
+  geometry.parts_ = std::make_shared<const GeometryParts>(std::move(parts));
+  geometry.sphere_count_ = geometry.parts_->sphere_count();
+  return geometry;
+}
+
 Sphere Geometry::sphere(std::uint32_t slot) const {
+  if (parts_) return parts_->sphere(slot);
   const SphereBlock& block = bvh_.blocks[slot / bvh_leaf_size];
   const std::size_t k = slot % bvh_leaf_size;
   return {{block.center_x[k], block.center_y[k], block.center_z[k]},
@@ -141,8 +149,12 @@ GeometryView Geometry::view() const {
                  .normal_y = normal_y_.data(),
                  .normal_z = normal_z_.data(),
                  .size = plane_count_,
-                 .first_id = static_cast<std::int32_t>(sphere_count_)};
+                 .first_id = static_cast<std::int32_t>(static_cast<std::uint32_t>(sphere_count_))};
   view.bvh = {bvh_.nodes.data(), bvh_.nodes.size(), extent_};
+  if (parts_) {
+    view.parts = parts_->view();
+    view.bvh = parts_->bvh();
+  }
   return view;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
 #include "simd/geometry/bvh_builder.h"
+#include "simd/geometry/parts.h"
 #include "simd/geometry/slot_materials.h"
 #include "simd/stream/aligned_array.h"
 
@@ -31,13 +33,21 @@ class Geometry {
            Structure structure = Structure::automatic,
            const ParallelFor& parallel_for = serial_for);
 
+  /// Of several parts, whose ids and slots count on from part to part, and planes. Any hit is, bit
+  /// for bit, that of a geometry of all their spheres. Preconditions: those of GeometryParts.
+  static Geometry of_parts(std::vector<GeometryPart> parts, const std::vector<Plane>& planes);
+
   /// What the kernels see; valid as long as this object, and not of one that was moved away.
   [[nodiscard]] GeometryView view() const;
 
   /// How many spheres it was built of; planes have the ids from here on.
   [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
-  /// What the spheres are made of, by slot.
+  /// What the spheres are made of, by slot. Precondition: it is not made of parts.
   [[nodiscard]] const SlotMaterials& materials() const { return bvh_.materials; }
+  /// What the sphere in a slot is made of. Precondition: there is one.
+  [[nodiscard]] MaterialRef material(std::uint32_t slot) const {
+    return parts_ ? parts_->material(slot) : bvh_.materials[slot];
+  }
   /// The sphere in a slot. Precondition: there is one, as in that of a hit.
   [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
 
@@ -49,6 +59,7 @@ class Geometry {
   void set_plane(std::size_t i, const Plane& plane);
 
   Bvh bvh_;
+  std::shared_ptr<const GeometryParts> parts_;  ///< null: bvh_ has the spheres
   float extent_;
   std::size_t sphere_count_, plane_count_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;

@@ -4,7 +4,8 @@
 //   bundles    the caller promises a common origin, direction or end and leaves the form open
 //   scattered  nothing is promised, there is a tree, and the solver is robust: in flight, or as
 //              packets, whichever a trial finds faster
-//   packets    everything else: a scan, the fast solver, or a form that was asked for
+//   packets    everything else: a scan, the fast solver, a form that was asked for, or several
+//   parts
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/camera/primary_rays.h"
 #include "simd/kernel/search/bundle_stream.h"
@@ -23,31 +24,54 @@ namespace {
 bool may_bundle(const GeometryView& geometry, const Query& query) {
   return query.form == Form::automatic && geometry.spheres.block_count <= no_slot / bvh_leaf_size;
 }
+bool may_bundle(const PartsGeometry& /*geometry*/, const Query& query) {
+  return query.form == Form::automatic;
+}
 
 bool may_fly(const GeometryView& geometry, const Query& query) {
   const bool asked = query.form == Form::automatic || query.form == Form::flight;
   return asked && query.solver == Solver::robust && geometry.bvh.size > 0;
 }
 
-void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
-                 const HitStream& hits) {
+/// Rays of which nothing is promised. Answers: HitStream, or std::uint8_t*.
+template <class Answers>
+void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Query& query,
+               const Answers& answers) {
+  if (may_fly(geometry, query)) {
+    trace_scattered(geometry, stream, query.form, answers);
+  } else if (query.solver == Solver::fast) {
+    trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
+  } else {
+    trace_groups<Solver::robust>(geometry, stream, 0, stream.rays().size, query.form, answers);
+  }
+}
+template <class Answers>
+void trace_any(const PartsGeometry& geometry, const PaddedStream& stream, const Query& query,
+               const Answers& answers) {
+  if (query.solver == Solver::fast) {
+    trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
+  } else {
+    trace_groups<Solver::robust>(geometry, stream, 0, stream.rays().size, query.form, answers);
+  }
+}
+
+template <class Geometry>
+void closest_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
+                    const HitStream& hits) {
   const PaddedStream stream(rays);
   const bool bundled = may_bundle(geometry, query);
   if (bundled && query.coherence == Coherence::common_origin) {
     closest_hit_bundled<Common::origin>(geometry, stream, hits);
   } else if (bundled && query.coherence == Coherence::common_direction) {
     closest_hit_bundled<Common::direction>(geometry, stream, hits);
-  } else if (may_fly(geometry, query)) {
-    trace_scattered(geometry, stream, query.form, hits);
-  } else if (query.solver == Solver::fast) {
-    trace_groups<Solver::fast>(geometry, stream, 0, rays.size, query.form, hits);
   } else {
-    trace_groups<Solver::robust>(geometry, stream, 0, rays.size, query.form, hits);
+    trace_any(geometry, stream, query, hits);
   }
 }
 
-void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
-             std::uint8_t* occluded) {
+template <class Geometry>
+void any_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
+                std::uint8_t* occluded) {
   const PaddedStream stream(rays);
   const bool bundled = may_bundle(geometry, query);
   if (bundled && query.coherence == Coherence::common_origin) {
@@ -56,12 +80,26 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
     any_hit_bundled<Common::direction>(geometry, stream, occluded);
   } else if (bundled && query.coherence == Coherence::common_end) {
     any_hit_bundled<Common::end>(geometry, stream, occluded);
-  } else if (may_fly(geometry, query)) {
-    trace_scattered(geometry, stream, query.form, occluded);
-  } else if (query.solver == Solver::fast) {
-    trace_groups<Solver::fast>(geometry, stream, 0, rays.size, query.form, occluded);
   } else {
-    trace_groups<Solver::robust>(geometry, stream, 0, rays.size, query.form, occluded);
+    trace_any(geometry, stream, query, occluded);
+  }
+}
+
+void closest_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
+                 const HitStream& hits) {
+  if (geometry.parts.size != 0) {
+    closest_hit_in(PartsGeometry(geometry), rays, query, hits);
+  } else {
+    closest_hit_in(geometry, rays, query, hits);
+  }
+}
+
+void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
+             std::uint8_t* occluded) {
+  if (geometry.parts.size != 0) {
+    any_hit_in(PartsGeometry(geometry), rays, query, occluded);
+  } else {
+    any_hit_in(geometry, rays, query, occluded);
   }
 }
 
@@ -73,7 +111,11 @@ void camera_rays(const CameraView& camera, const SampleStream& samples, const Ra
 
 void surfaces_of_hits(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
                       const SurfaceStream& surfaces) {
-  find_surfaces(geometry, rays, hits, surfaces);
+  if (geometry.parts.size != 0) {
+    find_surfaces(PartsGeometry(geometry), rays, hits, surfaces);
+  } else {
+    find_surfaces(geometry, rays, hits, surfaces);
+  }
 }
 
 std::size_t shadow_rays(const ShadowTarget& light, const LitStream& points,

@@ -41,6 +41,8 @@ beam 0
 spread 0
 box 0
 box_step 0
+moved_box 0
+moved_least 0
 bundle_axis 0
 bundle_square 0
 bundle_depth 0

@@ -54,6 +54,11 @@ inline RayBuffer to_stream(const std::vector<Ray>& rays) {
 /// Whether a hit of a sphere names the slot where that sphere lies.
 inline bool names_its_slot(const GeometryView& geometry, const Hit& hit) {
   if (hit.id < 0 || hit.id >= geometry.planes.first_id) return true;
+  for (std::size_t i = 0; i < geometry.parts.size; ++i) {
+    const PartView& part = geometry.parts.parts[i];
+    const std::uint32_t slot = hit.slot - part.first_slot;
+    if (slot < part.slots) return part.first_id + part.id[slot] == hit.id;
+  }
   return hit.slot < geometry.spheres.block_count * bvh_leaf_size &&
          geometry.spheres.id[hit.slot] == hit.id;
 }

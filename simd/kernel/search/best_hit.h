@@ -71,7 +71,8 @@ struct ClosestHit {
     if (any(better)) take(roots.t, primitive, in_slot, better, rays);
   }
   /// Solves the pending hits by one double solve, each lane against its own sphere.
-  BOULE_INLINE void settle(const SphereView& spheres, const RayLanes& rays) {
+  template <class Spheres>
+  BOULE_INLINE void settle(const Spheres& spheres, const RayLanes& rays) {
     if (bits(is_pending) == 0) return;
     const SphereLanes each = gather_spheres(spheres, pending);
     const Roots roots = solve_robust(rays.exact, each);
@@ -118,7 +119,8 @@ struct AnyHit {
   BOULE_INLINE void offer(const Roots& roots, const Bits&, const Bits&, const RayLanes&) {
     hit |= bits(roots.hit);
   }
-  static void settle(const SphereView&, const RayLanes&) {}
+  template <class Spheres>
+  static void settle(const Spheres&, const RayLanes&) {}
   [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
   static constexpr bool ordered = false;
   static constexpr std::size_t chunk = tuning::any_chunk;

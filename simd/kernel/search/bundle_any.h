@@ -22,12 +22,12 @@ BOULE_INLINE int count_bits(unsigned bits) {
   return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);
 }
 
-template <Common common, class Source>
+template <Common common, class Source, class Spheres>
 class BundleAny {
  public:
   static constexpr Sought sought = Sought::any;
 
-  BundleAny(const Source& source, const SphereView& spheres, const BundleRays& rays)
+  BundleAny(const Source& source, const Spheres& spheres, const BundleRays& rays)
       : source_(source), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p);
     for (int group = 0; group < bundle_groups; ++group) update(group);
@@ -171,7 +171,7 @@ class BundleAny {
               {load(begin_ + ray), load(end_low_ + ray), load(end_high_ + ray)}, disc, q);
     const unsigned open = verdict.open & ~hit_[p];
     if (open == 0) return false;
-    const unsigned own = own_sphere(ray, spheres_.id[slot]);
+    const unsigned own = own_sphere(ray, id_of(spheres_, slot));
     hit_[p] |= verdict.certain & open & ~own;
     const unsigned unclear = open & ~hit_[p] & ~leaves_outside(ray, own);
     if (unclear != 0) {
@@ -237,7 +237,7 @@ class BundleAny {
     for (unsigned left = open; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
       const std::uint32_t slot = spheres.slot(at + k);
-      const bool own = spheres_.id[slot] == source;
+      const bool own = id_of(spheres_, slot) == source;
       if (own && source_.insides(p * width)[lane] == 0) continue;  // never met again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
@@ -282,7 +282,7 @@ class BundleAny {
   static_assert(group_size <= 32);  // bits of an unsigned
 
   const Source& source_;
-  const SphereView& spheres_;
+  const Spheres& spheres_;
   const BundleRays& rays_;
   tuning::Few few_ = tuning::few_at_first;
   int unclear_ = 0;  ///< how often float could not tell

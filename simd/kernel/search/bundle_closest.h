@@ -13,14 +13,13 @@
 /// id) wins, as everywhere.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The nearest hits of a bundle.
-template <Common common>
+/// The nearest hits of a bundle. Spheres: SphereView, or PartSpheres (parts.h).
+template <Common common, class Spheres>
 class BundleClosest {
  public:
   static constexpr Sought sought = Sought::nearest;
 
-  BundleClosest(const RaysInOrder<common>& source, const SphereView& spheres,
-                const BundleRays& rays)
+  BundleClosest(const RaysInOrder<common>& source, const Spheres& spheres, const BundleRays& rays)
       : source_(source), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p * width);
     for (int group = 0; group < bundle_groups; ++group) update(group);
@@ -129,7 +128,8 @@ class BundleClosest {
       if (!(v < low_[i]) && slot_[i] != no_slot) {
         if (!settled) settle(ray, rays);
         settled = true;
-        const bool tie = t[lane] == t_[i] && spheres_.id[slot] < spheres_.id[slot_[i]];
+        const bool tie =
+            t[lane] == t_[i] && is_lower(id_of(spheres_, slot), id_of(spheres_, slot_[i]));
         if (!(t[lane] < t_[i] || tie)) continue;
       }
       t_[i] = t[lane];
@@ -202,12 +202,12 @@ class BundleClosest {
   }
   BOULE_INLINE void find_ids(int ray, std::int32_t* id) const {
     if (uniform_[ray / width]) {
-      store(id, Bits(spheres_.id[slot_[ray]]));
+      store(id, Bits(id_of(spheres_, slot_[ray])));
       return;
     }
     for (int lane = 0; lane < width; ++lane) {
       const std::uint32_t slot = slot_[ray + lane];
-      id[lane] = slot == no_slot ? no_primitive : spheres_.id[slot];
+      id[lane] = slot == no_slot ? no_primitive : id_of(spheres_, slot);
     }
   }
 
@@ -228,7 +228,7 @@ class BundleClosest {
   }
 
   const RaysInOrder<common>& source_;
-  const SphereView& spheres_;
+  const Spheres& spheres_;
   const BundleRays& rays_;
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];

@@ -16,11 +16,8 @@ class BlockSpheres {
  public:
   static constexpr int size = bvh_leaf_size;
 
-  /// `count` spheres from slot `first` on, a multiple of sixteen.
-  BOULE_INLINE BlockSpheres(const SphereView& spheres, std::size_t first, unsigned count)
-      : block_(spheres.blocks[first / bvh_leaf_size]),
-        first_(static_cast<std::uint32_t>(first)),
-        count_(count) {}
+  BOULE_INLINE BlockSpheres(const LeafRef& block, unsigned count)
+      : block_(block.block), first_(static_cast<std::uint32_t>(block.first_slot)), count_(count) {}
 
   /// Bit k is set if there is a k-th sphere.
   [[nodiscard]] BOULE_INLINE unsigned there() const { return (1U << count_) - 1; }

@@ -103,7 +103,8 @@ BOULE_INLINE void load_exact(const PacketRef& packet, const BundleRays& bundle, 
 
 /// The spheres in W slots, without their ids; any sphere where there is no_slot. (Gather
 /// instructions are slower.)
-BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const std::uint32_t* slots) {
+template <class Spheres>
+BOULE_INLINE SphereLanes gather_slots(const Spheres& s, const std::uint32_t* slots) {
   alignas(64) float x[width], y[width], z[width], r[width];
   for (int lane = 0; lane < width; ++lane) {
     const SlotSphere sphere = get_slot(s, slots[lane] == no_slot ? 0 : slots[lane]);
@@ -116,9 +117,10 @@ BOULE_INLINE SphereLanes gather_slots(const SphereView& s, const std::uint32_t* 
 }
 
 /// The sphere in one slot, in every lane.
-BOULE_INLINE SphereLanes broadcast_slot(const SphereView& s, std::uint32_t slot) {
+template <class Spheres>
+BOULE_INLINE SphereLanes broadcast_slot(const Spheres& s, std::uint32_t slot) {
   const SlotSphere sphere = get_slot(s, slot);
-  return {{sphere.x, sphere.y, sphere.z}, sphere.radius, Bits(s.id[slot])};
+  return {{sphere.x, sphere.y, sphere.z}, sphere.radius, Bits(id_of(s, slot))};
 }
 
 /// The first root of spheres that are simple for the bundle and certainly hit: what solve_robust()

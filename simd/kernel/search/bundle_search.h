@@ -11,6 +11,7 @@
 #include "simd/kernel/search/bundle_grid.h"
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/search/bundle_sides.h"
+#include "simd/kernel/search/parts.h"
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/search/visit_stack.h"
 #include "simd/kernel/tuning.h"
@@ -53,67 +54,123 @@ BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factor
   if (changed) hits.update();
 }
 
-/// Meets the spheres that are in no leaf.
-template <Common common, class Hits>
-BOULE_INLINE void meet_scanned(const BundleRays& rays, const DiscFactors& factors,
-                               const SphereView& spheres, Hits& hits) {
-  const auto count_from = [&](std::size_t first) {
-    const std::size_t rest = spheres.scanned - first;
-    return static_cast<unsigned>(rest < bvh_leaf_size ? rest : bvh_leaf_size);
-  };
-  for (std::size_t first = 0; first < spheres.scanned && !hits.done(); first += bvh_leaf_size) {
-    const BlockSpheres block(spheres, first, count_from(first));
-    meet_spheres<common>(rays, factors, block, hits);
-  }
-}
-
 /// How many leaves a bundle has visited, and how many it may visit.
 struct Effort {
   std::size_t most_leaves = ~std::size_t{0};
   std::size_t leaves = 0;
 };
 
-/// Meets the spheres of the tree, near nodes first. Returns false if it gave up because that takes
-/// too many leaves, or too many double solves.
+/// A bundle on its way through trees. Hits: BundleClosest or BundleAny.
 template <Common common, class Hits>
-BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
-                            const GeometryView& geometry, Effort& effort, Hits& hits) {
-  if (geometry.bvh.size == 0) return true;
-  const BundleSides<common> sides(rays);
-  const SphereView& spheres = geometry.spheres;
-  const TreeBlocks blocks(geometry);
-  VisitStack stack;
-  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
-  RayGrid grid;
-  std::size_t fill_at =
-      static_cast<std::size_t>(rays.packets * width) / tuning::rays_per_leaf_if_sparse;
-  while (!stack.empty() && !hits.done()) {
-    const Visit visit = stack.pop();
-    if (hits.limit() < visit.near) continue;
-    if (visit.leaf_size != 0) {
-      if (effort.leaves++ >= effort.most_leaves || hits.too_close()) return false;
-      const std::size_t first =
-          spheres.scanned + std::size_t{index_of(visit.child)} * bvh_leaf_size;
-      const BlockSpheres leaf(spheres, first, visit.leaf_size);
-      meet_spheres<common>(rays, factors, leaf, hits);
-      continue;
-    }
-    const BvhNode& node = geometry.bvh.nodes[visit.child];
+class BundleWalk {
+ public:
+  BundleWalk(const BundleRays& rays, const DiscFactors& factors, Effort& effort, Hits& hits)
+      : rays_(rays),
+        factors_(factors),
+        effort_(effort),
+        hits_(hits),
+        sides_(rays),
+        fill_at_(static_cast<std::size_t>(rays.packets * width) / tuning::rays_per_leaf_if_sparse) {
+  }
+
+  /// Adds the children of a node that rays may enter, and fetches what their visits will read.
+  template <class Tree>
+  BOULE_INLINE void visit_children(const BvhNode& node, const Tree& tree, VisitStack& stack) {
     alignas(64) float near[Discs::size];
-    unsigned in = ~sides.find_missed(node, hits.limit(), near) & ((1U << node.size) - 1);
+    unsigned in = ~sides_.find_missed(node, hits_.limit(), near) & ((1U << node.size) - 1);
     if constexpr (Hits::sought == Sought::any) {
-      if (effort.leaves >= fill_at) {
-        hits.fill(grid);
-        fill_at += effort.leaves;
+      if (effort_.leaves >= fill_at_) {
+        hits_.fill(grid_);
+        fill_at_ += effort_.leaves;
       }
-      if (grid.known()) in = sides.meet_rays(node, grid, near, in);
+      if (grid_.known()) in = sides_.meet_rays(node, grid_, near, in);
     }
     const int base = stack.count();
     for (; in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);
       stack.push({near[k], node.child[k], node.leaf_size[k]}, base);
-      blocks.fetch(node.child[k]);
+      tree.fetch(node.child[k]);
     }
+  }
+
+  /// Meets the spheres of a tree, near nodes first. Returns false if it gave up because that takes
+  /// too many leaves, or too many double solves.
+  template <class Tree>
+  BOULE_INLINE bool meet_tree(const Tree& tree) {
+    VisitStack stack;
+    stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+    while (!stack.empty() && !hits_.done()) {
+      const Visit visit = stack.pop();
+      if (hits_.limit() < visit.near) continue;
+      if (visit.leaf_size == 0) {
+        visit_children(tree.node(visit.child), tree, stack);
+        continue;
+      }
+      if (effort_.leaves++ >= effort_.most_leaves || hits_.too_close()) return false;
+      meet_block(tree.leaf(visit.child), visit.leaf_size);
+    }
+    return true;
+  }
+
+  /// Meets up to sixteen spheres.
+  BOULE_INLINE void meet_block(const LeafRef& block, std::size_t spheres) {
+    const std::size_t count = spheres < bvh_leaf_size ? spheres : bvh_leaf_size;
+    meet_spheres<common>(rays_, factors_, BlockSpheres(block, static_cast<unsigned>(count)), hits_);
+  }
+
+ private:
+  const BundleRays& rays_;
+  const DiscFactors& factors_;
+  Effort& effort_;
+  Hits& hits_;
+  BundleSides<common> sides_;
+  RayGrid grid_;
+  std::size_t fill_at_;
+};
+
+/// Meets the spheres of a geometry without parts: first those that are in no leaf.
+template <Common common, class Hits>
+BOULE_INLINE bool meet_all(const BundleRays& rays, const DiscFactors& factors,
+                           const GeometryView& geometry, Effort& effort, Hits& hits) {
+  const SphereView& spheres = geometry.spheres;
+  BundleWalk<common, Hits> walk(rays, factors, effort, hits);
+  for (std::size_t slot = 0; slot < spheres.scanned && !hits.done(); slot += bvh_leaf_size) {
+    walk.meet_block({spheres.blocks[slot / bvh_leaf_size], spheres.id + slot, slot},
+                    spheres.scanned - slot);
+  }
+  return geometry.bvh.size == 0 || walk.meet_tree(WholeTree(geometry));
+}
+
+/// Meets the spheres of a part: first those that are in no leaf.
+template <Common common, class Hits>
+BOULE_INLINE bool meet_part(const PartTree& tree, BundleWalk<common, Hits>& walk, Hits& hits) {
+  const std::uint32_t scanned = tree.part().scanned_spheres;
+  for (std::uint32_t slot = 0; slot < scanned && !hits.done(); slot += bvh_leaf_size)
+    walk.meet_block(tree.block(slot), scanned - slot);
+  return tree.part().nodes == nullptr || walk.meet_tree(tree);
+}
+
+/// What a bundle fetches of the tree over the parts: nothing.
+struct NoFetch {
+  BOULE_INLINE void fetch(std::uint32_t /*child*/) const {}
+};
+
+/// Meets the spheres of all parts, near parts first.
+template <Common common, class Hits>
+BOULE_INLINE bool meet_all(const BundleRays& rays, const DiscFactors& factors,
+                           const PartsGeometry& geometry, Effort& effort, Hits& hits) {
+  BundleWalk<common, Hits> walk(rays, factors, effort, hits);
+  VisitStack stack;
+  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  while (!stack.empty() && !hits.done()) {
+    const Visit visit = stack.pop();
+    if (hits.limit() < visit.near) continue;
+    if (visit.leaf_size == 0) {
+      walk.visit_children(geometry.bvh.nodes[visit.child], NoFetch(), stack);
+      continue;
+    }
+    const PartTree tree(geometry.spheres.part(index_of(visit.child)));
+    if (!meet_part<common>(tree, walk, hits)) return false;
   }
   return true;
 }
@@ -123,29 +180,27 @@ BOULE_INLINE bool meet_tree(const BundleRays& rays, const DiscFactors& factors,
 enum class Outcome { traced, no_bundle, gave_up };
 
 /// Finds the nearest hits of a bundle of rays.
-template <Common common>
-BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const RaysInOrder<common>& source,
+template <Common common, class Geometry>
+BOULE_NOINLINE Outcome trace_bundle(const Geometry& geometry, const RaysInOrder<common>& source,
                                     Effort& effort, const HitStream& hits) {
   BundleRays rays;
   if (!load_bundle<common, Sought::nearest>(source, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
-  BundleClosest<common> nearest(source, geometry.spheres, rays);
-  meet_scanned<common>(rays, factors, geometry.spheres, nearest);
-  if (!meet_tree<common>(rays, factors, geometry, effort, nearest)) return Outcome::gave_up;
+  BundleClosest<common, SpheresOf<Geometry>> nearest(source, geometry.spheres, rays);
+  if (!meet_all<common>(rays, factors, geometry, effort, nearest)) return Outcome::gave_up;
   nearest.finish(geometry.planes, hits);
   return Outcome::traced;
 }
 
 /// Finds which rays of a bundle hit anything.
-template <Common common, class Source>
-BOULE_NOINLINE Outcome trace_bundle(const GeometryView& geometry, const Source& source,
-                                    Effort& effort, std::uint8_t* occluded) {
+template <Common common, class Geometry, class Source>
+BOULE_NOINLINE Outcome trace_bundle(const Geometry& geometry, const Source& source, Effort& effort,
+                                    std::uint8_t* occluded) {
   BundleRays rays;
   if (!load_bundle<common, Sought::any>(source, rays)) return Outcome::no_bundle;
   const DiscFactors factors(rays, common);
-  BundleAny<common, Source> any(source, geometry.spheres, rays);
-  meet_scanned<common>(rays, factors, geometry.spheres, any);
-  if (!meet_tree<common>(rays, factors, geometry, effort, any)) return Outcome::gave_up;
+  BundleAny<common, Source, SpheresOf<Geometry>> any(source, geometry.spheres, rays);
+  if (!meet_all<common>(rays, factors, geometry, effort, any)) return Outcome::gave_up;
   any.finish(geometry.planes, occluded);
   return Outcome::traced;
 }

@@ -14,16 +14,17 @@
 /// well, and then sorted (ray_pool.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Traces rays that fit into no bundle, as packets.
-template <class Answers>
-BOULE_INLINE void trace_rest(const GeometryView& geometry, const PaddedStream& stream,
+/// Traces rays that fit into no bundle, as packets. Geometry, here and below: GeometryView, or
+/// PartsGeometry.
+template <class Geometry, class Answers>
+BOULE_INLINE void trace_rest(const Geometry& geometry, const PaddedStream& stream,
                              std::size_t begin, std::size_t end, Answers answers) {
   trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
 }
 
 /// Traces `count` rays of the stream as one bundle.
-template <Common common, class Answers>
-BOULE_INLINE Outcome trace_in_order(const GeometryView& geometry, const PaddedStream& stream,
+template <Common common, class Geometry, class Answers>
+BOULE_INLINE Outcome trace_in_order(const Geometry& geometry, const PaddedStream& stream,
                                     std::size_t first, std::size_t count, Effort& effort,
                                     Answers answers) {
   return trace_bundle<common>(geometry, RaysInOrder<common>(stream, first, count), effort, answers);
@@ -31,8 +32,8 @@ BOULE_INLINE Outcome trace_in_order(const GeometryView& geometry, const PaddedSt
 
 /// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they are one, or
 /// as packets where they are few or their bundle gave up.
-template <Common common, class Answers>
-void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+template <Common common, class Geometry, class Answers>
+void trace_halved(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
                   std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
   if (count >= tuning::fewest_bundle_rays) {
@@ -50,8 +51,8 @@ void trace_halved(const GeometryView& geometry, const PaddedStream& stream, std:
 }
 
 /// Finds the nearest hits of all rays.
-template <Common common>
-BOULE_INLINE void closest_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
+template <Common common, class Geometry>
+BOULE_INLINE void closest_hit_bundled(const Geometry& geometry, const PaddedStream& stream,
                                       const HitStream& hits) {
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += bundle_size) {
@@ -62,8 +63,8 @@ BOULE_INLINE void closest_hit_bundled(const GeometryView& geometry, const Padded
 
 /// Finds whether rays begin .. end - 1 hit anything, in their order, as long as that goes well.
 /// Returns the first ray that has no answer yet.
-template <Common common>
-BOULE_INLINE std::size_t any_hit_in_order(const GeometryView& geometry, const PaddedStream& stream,
+template <Common common, class Geometry>
+BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const PaddedStream& stream,
                                           std::size_t begin, std::size_t end,
                                           std::uint8_t* occluded) {
   while (end - begin >= tuning::fewest_bundle_rays) {
@@ -78,8 +79,8 @@ BOULE_INLINE std::size_t any_hit_in_order(const GeometryView& geometry, const Pa
 
 /// Traces rays first .. first + count - 1 of a pool, whose bundle had this outcome: halved if they
 /// were no bundle, else as packets.
-template <Common common>
-BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<common>& pool,
+template <Common common, class Geometry>
+BOULE_NOINLINE void trace_gathered(const Geometry& geometry, const RayPool<common>& pool,
                                    std::size_t first, std::size_t count, Outcome outcome,
                                    std::uint8_t* occluded) {
   GatheredRays<bundle_size> rays;
@@ -96,8 +97,8 @@ BOULE_NOINLINE void trace_gathered(const GeometryView& geometry, const RayPool<c
 
 /// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted by where they lie for
 /// their light.
-template <Common common>
-BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStream& stream,
+template <Common common, class Geometry>
+BOULE_NOINLINE void any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
                                    std::size_t begin, std::size_t end, std::uint8_t* occluded) {
   const RayPool<common> pool(stream, begin, end);
   for (std::size_t done = 0; done < pool.size(); done += bundle_size) {
@@ -114,8 +115,8 @@ BOULE_NOINLINE void any_hit_sorted(const GeometryView& geometry, const PaddedStr
 
 /// Finds whether rays hit anything: in their order, and sorted from where neighbours have too
 /// little in common.
-template <Common common>
-BOULE_INLINE void any_hit_bundled(const GeometryView& geometry, const PaddedStream& stream,
+template <Common common, class Geometry>
+BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& stream,
                                   std::uint8_t* occluded) {
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += tuning::pool_size) {

@@ -74,7 +74,7 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
   store(slot, best.slot);
   std::size_t nearest = 0;
   for (std::size_t lane = 1; lane < width; ++lane) {
-    const bool tie = t[lane] == t[nearest] && id[lane] < id[nearest];
+    const bool tie = t[lane] == t[nearest] && is_lower(id[lane], id[nearest]);
     if (t[lane] < t[nearest] || tie) nearest = lane;
   }
   hits.t[index] = t[nearest];
@@ -83,8 +83,8 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
 }
 
 /// Finds the nearest hits of rays begin .. end - 1. Returns how many nodes and leaves were visited.
-template <Solver solver>
-BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+template <Solver solver, class Geometry>
+BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,
                                         const HitStream& hits) {
   std::size_t visits = 0;
@@ -104,8 +104,8 @@ BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const Padd
 }
 
 /// Finds whether they hit anything. Returns the same.
-template <Solver solver>
-BOULE_NOINLINE std::size_t trace_groups(const GeometryView& geometry, const PaddedStream& stream,
+template <Solver solver, class Geometry>
+BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,
                                         std::uint8_t* occluded) {
   std::size_t visits = 0;

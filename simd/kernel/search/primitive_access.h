@@ -53,8 +53,18 @@ BOULE_INLINE SlotSphere get_slot(const SphereView& s, std::size_t slot) {
   return {block.center_x[k], block.center_y[k], block.center_z[k], block.radius[k]};
 }
 
-/// The spheres of W slots. (Gather instructions are slower.)
-BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Bits& slots) {
+/// Whether an id comes before another: ids are 32 bits without a sign, no_primitive the last.
+BOULE_INLINE bool is_lower(std::int32_t a, std::int32_t b) {
+  return static_cast<std::uint32_t>(a) < static_cast<std::uint32_t>(b);
+}
+
+/// The id of the sphere in a slot.
+BOULE_INLINE std::int32_t id_of(const SphereView& s, std::size_t slot) { return s.id[slot]; }
+
+/// The spheres of W slots. (Gather instructions are slower.) Spheres: SphereView, or PartSpheres
+/// (parts.h).
+template <class Spheres>
+BOULE_INLINE SphereLanes gather_spheres(const Spheres& s, const Bits& slots) {
   alignas(64) std::uint32_t slot[width];
   alignas(64) float x[width], y[width], z[width], r[width];
   alignas(64) std::int32_t id[width];
@@ -65,7 +75,7 @@ BOULE_INLINE SphereLanes gather_spheres(const SphereView& s, const Bits& slots) 
     y[lane] = sphere.y;
     z[lane] = sphere.z;
     r[lane] = sphere.radius;
-    id[lane] = s.id[slot[lane]];
+    id[lane] = id_of(s, slot[lane]);
   }
   return {{load(x), load(y), load(z)}, load(r), load_integers(id)};
 }
@@ -99,6 +109,13 @@ struct ScannedSpheres {
   }
 };
 
+/// Where the spheres of a leaf, or of another block, are.
+struct LeafRef {
+  const SphereBlock& block;
+  const std::int32_t* ids;
+  std::size_t first_slot;
+};
+
 /// The spheres of one leaf, step by step. All are within the range of the filters.
 template <class Access>
 struct LeafSpheres {
@@ -107,11 +124,8 @@ struct LeafSpheres {
   std::size_t first_slot;
   std::uint32_t size;
 
-  BOULE_INLINE LeafSpheres(const SphereView& spheres, std::uint32_t index, std::uint32_t leaf_size)
-      : leaf(spheres.blocks[spheres.scanned / bvh_leaf_size + index]),
-        ids(spheres.id + spheres.scanned + std::size_t{index} * bvh_leaf_size),
-        first_slot(spheres.scanned + std::size_t{index} * bvh_leaf_size),
-        size(leaf_size) {}
+  BOULE_INLINE LeafSpheres(const LeafRef& at, std::uint32_t leaf_size)
+      : leaf(at.block), ids(at.ids), first_slot(at.first_slot), size(leaf_size) {}
 
   [[nodiscard]] BOULE_INLINE Vec3<Real> center(std::size_t step) const {
     return {Access::get(leaf.center_x, step), Access::get(leaf.center_y, step),

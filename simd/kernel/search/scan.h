@@ -95,10 +95,10 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
 }
 
 /// Solver robust on survivors: first what float can decide, then the double solves that are left.
-template <class Spheres, class Best, std::size_t capacity>
-BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
-                                  const Spheres& spheres, std::size_t begin,
-                                  const Survivors<capacity>& survivors, Best& best) {
+template <class All, class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void solve_survivors(const RayLanes& rays, const All& all, const Spheres& spheres,
+                                  std::size_t begin, const Survivors<capacity>& survivors,
+                                  Best& best) {
   Candidates<capacity> candidates;
   list_candidates(rays, spheres, begin, survivors, candidates, best);
   for (std::size_t k = 0; k < candidates.count; ++k) {
@@ -110,12 +110,12 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const SphereView& all,
   }
 }
 
-/// Meets the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: the
-/// view that they are a part of.
-template <Solver solver, class Spheres, class Best, std::size_t capacity>
-BOULE_INLINE void meet_survivors(const RayLanes& rays, const SphereView& all,
-                                 const Spheres& spheres, std::size_t begin,
-                                 const Survivors<capacity>& survivors, Best& best) {
+/// Meets the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: what
+/// has the spheres of all slots.
+template <Solver solver, class All, class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void meet_survivors(const RayLanes& rays, const All& all, const Spheres& spheres,
+                                 std::size_t begin, const Survivors<capacity>& survivors,
+                                 Best& best) {
   if constexpr (solver == Solver::robust) {
     solve_survivors(rays, all, spheres, begin, survivors, best);
   } else {

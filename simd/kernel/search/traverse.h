@@ -6,8 +6,10 @@
 
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/beam.h"
+#include "simd/kernel/search/parts.h"
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
+#include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/search/visit_stack.h"
 
 /// Packets and single rays on their way through the tree: depth first, near children first. Chosen
@@ -136,35 +138,59 @@ BOULE_INLINE float limit_of_all(const Real& limit) {
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
-/// Searches the tree. Returns how many nodes and leaves were visited.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
-                                          Best& best) {
-  if (geometry.bvh.size == 0) return 0;
+/// How packets, or single rays, go through a tree.
+template <class Access, class Best>
+using WalkOf = std::conditional_t<Access::one_ray, SingleWalk, PacketWalk<Best::ordered>>;
+
+/// Whether all of `visit` lies certainly beyond `limit`.
+BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
+  const float slack = static_cast<float>(filter::box * filter::u);
+  const float size = visit.near < 0 ? -visit.near : visit.near;
+  return limit < visit.near - size * slack;
+}
+
+/// Meets up to sixteen spheres. `all`: what has the spheres of all slots.
+template <Solver solver, class Access, bool origins_exact, class All, class Best>
+BOULE_INLINE void meet_leaf(const RayLanes& rays, const WalkOf<Access, Best>& walk, const All& all,
+                            const LeafRef& at, std::uint32_t size, float& limit, Best& best) {
+  const LeafSpheres<Access> leaf(at, size);
+  Survivors<bvh_leaf_size> survivors;
+  walk.template list_survivors<origins_exact>(leaf, size, limit, survivors);
+  if (survivors.count == 0) return;
+  meet_survivors<solver>(rays, all, leaf, 0, survivors, best);
+  limit = limit_of_all<Access>(best.limit());
+}
+
+/// Searches a tree. Returns how many nodes and leaves were visited.
+template <Solver solver, class Access, bool origins_exact, class Tree, class All, class Best>
+BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, const WalkOf<Access, Best>& walk,
+                                       const Tree& tree, const All& all, Best& best) {
   std::size_t visits = 0;
-  const std::conditional_t<Access::one_ray, SingleWalk, PacketWalk<Best::ordered>> walk(
-      rays, geometry.bvh.extent);
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
   float limit = limit_of_all<Access>(best.limit());
   while (!stack.empty() && !best.done()) {
     const Visit visit = stack.pop();
-    const float slack = static_cast<float>(filter::box * filter::u);
-    const float size = visit.near < 0 ? -visit.near : visit.near;
-    if (limit < visit.near - size * slack) continue;
+    if (is_beyond(visit, limit)) continue;
     ++visits;
     if (visit.leaf_size == 0) {
-      walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
-      continue;
+      walk.visit_children(tree.node(visit.child), best.limit(), limit, stack);
+    } else {
+      meet_leaf<solver, Access, origins_exact>(rays, walk, all, tree.leaf(visit.child),
+                                               visit.leaf_size, limit, best);
     }
-    const LeafSpheres<Access> leaf(geometry.spheres, index_of(visit.child), visit.leaf_size);
-    Survivors<bvh_leaf_size> survivors;
-    walk.template list_survivors<origins_exact>(leaf, visit.leaf_size, limit, survivors);
-    if (survivors.count == 0) continue;
-    meet_survivors<solver>(rays, geometry.spheres, leaf, 0, survivors, best);
-    limit = limit_of_all<Access>(best.limit());
   }
   return visits;
+}
+
+/// Searches the tree of a geometry without parts.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
+                                          Best& best) {
+  if (geometry.bvh.size == 0) return 0;
+  const WalkOf<Access, Best> walk(rays, geometry.bvh.extent);
+  return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
+                                                      geometry.spheres, best);
 }
 
 /// Searches all spheres: those in no leaf first, then the tree.
@@ -172,17 +198,65 @@ template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
                                         Best& best) {
   scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
-  const std::size_t visits = traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+  return traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+}
+
+/// Searches a part: its spheres that are in no leaf first, then its tree.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t search_part(const RayLanes& rays, const WalkOf<Access, Best>& walk,
+                                     const PartTree& tree, const PartSpheres& all, Best& best) {
+  float limit = limit_of_all<Access>(best.limit());
+  const std::uint32_t scanned = tree.part().scanned_spheres;
+  for (std::uint32_t slot = 0; slot < scanned && !best.done(); slot += bvh_leaf_size) {
+    const std::uint32_t rest = scanned - slot;
+    meet_leaf<solver, Access, origins_exact>(
+        rays, walk, all, tree.block(slot),
+        rest < bvh_leaf_size ? rest : static_cast<std::uint32_t>(bvh_leaf_size), limit, best);
+  }
+  if (tree.part().nodes == nullptr) return 0;
+  return traverse_tree<solver, Access, origins_exact>(rays, walk, tree, all, best);
+}
+
+/// Searches all parts, near ones first.
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
+                                        Best& best) {
+  const WalkOf<Access, Best> walk(rays, geometry.bvh.extent);
+  std::size_t visits = 0;
+  VisitStack stack;
+  stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
+  while (!stack.empty() && !best.done()) {
+    const Visit visit = stack.pop();
+    const float limit = limit_of_all<Access>(best.limit());
+    if (is_beyond(visit, limit)) continue;
+    ++visits;
+    if (visit.leaf_size == 0) {
+      walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
+    } else {
+      const PartTree tree(geometry.spheres.part(index_of(visit.child)));
+      visits +=
+          search_part<solver, Access, origins_exact>(rays, walk, tree, geometry.spheres, best);
+    }
+  }
+  return visits;
+}
+
+/// The same, and solves what is still to be solved. A function of its own for each kind of origin.
+template <Solver solver, class Access, bool origins_exact, class Geometry, class Best>
+BOULE_INLINE std::size_t search_and_settle(const RayLanes& rays, const Geometry& geometry,
+                                           Best& best) {
+  const std::size_t visits = search_spheres<solver, Access, origins_exact>(rays, geometry, best);
   best.settle(geometry.spheres, rays);
   return visits;
 }
 
-/// Searches all primitives. Returns how many nodes and leaves were visited.
-template <Solver solver, class Access, class Best>
-BOULE_NOINLINE std::size_t search(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+/// Searches all primitives. Returns how many nodes and leaves were visited. Geometry: GeometryView,
+/// or PartsGeometry.
+template <Solver solver, class Access, class Geometry, class Best>
+BOULE_NOINLINE std::size_t search(const RayLanes& rays, const Geometry& geometry, Best& best) {
   const std::size_t visits = rays.filter.origins_exact
-                                 ? search_spheres<solver, Access, true>(rays, geometry, best)
-                                 : search_spheres<solver, Access, false>(rays, geometry, best);
+                                 ? search_and_settle<solver, Access, true>(rays, geometry, best)
+                                 : search_and_settle<solver, Access, false>(rays, geometry, best);
   scan_planes<solver, Access>(rays, geometry.planes, best);
   return visits;
 }

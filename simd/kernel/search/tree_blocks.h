@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "simd/abi/geometry.h"
+#include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
@@ -52,6 +53,28 @@ class TreeBlocks {
   const char* first_[2];  ///< the first node, and the first leaf
   const char* ids_[2];  ///< the first leaf's ids; for nodes, which have none, the first node again
   bool is_far_;
+};
+
+/// The tree of a geometry without parts. PartTree (parts.h) is another.
+class WholeTree {
+ public:
+  BOULE_INLINE explicit WholeTree(const GeometryView& geometry)
+      : spheres_(geometry.spheres), nodes_(geometry.bvh.nodes), blocks_(geometry) {}
+
+  [[nodiscard]] BOULE_INLINE const BvhNode& node(std::uint32_t child) const {
+    return nodes_[child];
+  }
+  [[nodiscard]] BOULE_INLINE LeafRef leaf(std::uint32_t child) const {
+    const std::size_t index = index_of(child), slot = spheres_.scanned + index * bvh_leaf_size;
+    return {spheres_.blocks[spheres_.scanned / bvh_leaf_size + index], spheres_.id + slot, slot};
+  }
+  /// Fetches what a visit of the child will read, where the tree is far.
+  BOULE_INLINE void fetch(std::uint32_t child) const { blocks_.fetch(child); }
+
+ private:
+  const SphereView& spheres_;
+  const BvhNode* nodes_;
+  TreeBlocks blocks_;
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

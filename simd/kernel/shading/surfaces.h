@@ -7,6 +7,7 @@
 #include "core/optics/incidence.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/shading.h"
+#include "simd/kernel/search/parts.h"
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
@@ -34,13 +35,14 @@ BOULE_INLINE Contacts meet_plane(const Arrivals& rays, const PlaneView& planes, 
 /// the other.
 class MetPrimitives {
  public:
-  /// The first `live` hits, up to W, from `first` on.
-  MetPrimitives(const GeometryView& geometry, const HitStream& hits, std::size_t first,
+  /// The first `live` hits, up to W, from `first` on. Geometry: GeometryView, or PartsGeometry.
+  template <class Geometry>
+  MetPrimitives(const Geometry& geometry, const HitStream& hits, std::size_t first,
                 std::size_t live)
       : planes_(geometry.planes), id_(hits.id + first) {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
       const std::int32_t primitive = lane < live ? id_[lane] : no_primitive;
-      const bool sphere = primitive >= 0 && primitive < planes_.first_id;
+      const bool sphere = is_lower(primitive, planes_.first_id);
       const SlotSphere met =
           sphere ? get_slot(geometry.spheres, hits.slot[first + lane]) : SlotSphere{0, 0, 0, 1};
       x_[lane] = met.x;
@@ -48,7 +50,7 @@ class MetPrimitives {
       z_[lane] = met.z;
       radius_[lane] = met.radius;
       spheres_ |= static_cast<unsigned>(sphere) << lane;
-      planes_met_ |= static_cast<unsigned>(primitive >= planes_.first_id) << lane;
+      planes_met_ |= static_cast<unsigned>(!sphere && primitive != no_primitive) << lane;
     }
   }
 
@@ -62,7 +64,8 @@ class MetPrimitives {
       const std::int32_t id = id_[__builtin_ctz(left)];
       const WideMask same = widen(ids == Bits(id));
       const Contacts plane =
-          meet_plane(rays, planes_, static_cast<std::size_t>(id - planes_.first_id));
+          meet_plane(rays, planes_,
+                     static_cast<std::uint32_t>(id) - static_cast<std::uint32_t>(planes_.first_id));
       met.outward = select(same, plane.outward, met.outward);
       met.reach = select(same, plane.reach, met.reach);
       met.inner = select(same, plane.inner, met.inner);
@@ -112,7 +115,8 @@ BOULE_INLINE MetSurfaces surfaces_of_packet(const MetPrimitives& primitives, con
           primitives.is_sphere(ids)};
 }
 
-BOULE_INLINE void find_surfaces(const GeometryView& geometry, const RayStream& rays,
+template <class Geometry>
+BOULE_INLINE void find_surfaces(const Geometry& geometry, const RayStream& rays,
                                 const HitStream& hits, const SurfaceStream& surfaces) {
   for (std::size_t first = 0; first < rays.size; first += width) {
     const MetPrimitives primitives(geometry, hits, first, rays.size - first);
