@@ -1,7 +1,9 @@
 #include "core/scene/instances.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace boule {
 namespace {
@@ -13,7 +15,8 @@ constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
 
 /// The sum of two counts. It stops at `most`, because nested groups multiply counts beyond 64 bits.
 PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
-  return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most)};
+  return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most),
+          std::min(a.placements + b.placements, most)};
 }
 
 /// Goes through all groups, each once and inner ones first. It counts the spheres and planes in
@@ -41,7 +44,7 @@ class GroupSurvey {
     states_[group] = State::open;
     way_.push_back(group);
     const Group& own = scene_.groups[group];
-    PrimitiveCount count{own.spheres.size(), own.planes.size()};
+    PrimitiveCount count{own.spheres.size(), own.planes.size(), own.spheres.empty() ? 0U : 1U};
     std::size_t depth = 1;
     for (std::size_t i = 0; i < own.instances.size() && !problem_; ++i) {
       const std::size_t inner = own.instances[i].group;
@@ -106,8 +109,8 @@ struct Kind<Plane> {
   static std::uint64_t count(const PrimitiveCount& count) { return count.planes; }
 };
 
-/// Calls function(primitive) with all primitives of one kind that instances show. It recurses at
-/// most max_nesting deep, and skips groups without primitives of that kind.
+/// Calls function(shown) for all groups with primitives of one kind, of their own or of their
+/// instances', that instances show. It recurses at most max_nesting deep.
 template <class Primitive, class Function>
 class Walk {
  public:
@@ -121,9 +124,7 @@ class Walk {
       const Group& group = scene_.groups[instance.group];
       const Similarity transform = compose(outer, transform_of(instance));
       const Replacement inside = material ? material : instance.material;
-      for (const Primitive& one : Kind<Primitive>::of(group)) {
-        function_(transformed(one, transform, inside));
-      }
+      if (!Kind<Primitive>::of(group).empty()) function_({instance.group, transform, inside});
       visit(group.instances, transform, inside);
     }
   }
@@ -134,12 +135,21 @@ class Walk {
   const Function& function_;
 };
 
+template <class Primitive, class Function>
+void walk_groups(const Scene& scene, const std::vector<PrimitiveCount>& counts,
+                 const std::vector<Instance>& instances, const Function& function) {
+  Walk<Primitive, Function>(scene, counts, function).visit(instances, {}, {});
+}
+
 /// Calls function(primitive) with all primitives of one kind that these instances of the scene
 /// show.
 template <class Primitive, class Function>
 void walk(const Scene& scene, const std::vector<PrimitiveCount>& counts,
           const std::vector<Instance>& instances, const Function& function) {
-  Walk<Primitive, Function>(scene, counts, function).visit(instances, {}, {});
+  walk_groups<Primitive>(scene, counts, instances, [&](const ShownGroup& shown) {
+    for (const Primitive& one : Kind<Primitive>::of(scene.groups[shown.group]))
+      function(transformed(one, shown.transform, shown.material));
+  });
 }
 
 /// The first Problem of an instance by itself, or of its references to a group and a material.
@@ -165,15 +175,64 @@ std::optional<InstanceProblem> find_own_problem(const Scene& scene,
   return std::nullopt;
 }
 
+/// The range of a group's own spheres.
+struct SphereRange {
+  float largest = 0;  ///< of all coordinates and radii, without their signs
+  float smallest_radius = std::numeric_limits<float>::infinity();
+
+  /// True if all numbers are certainly below `limit` where the spheres are shown, and radii neither
+  /// vanish nor lose digits.
+  [[nodiscard]] bool stays_below(double limit, const Similarity& transform) const {
+    const Vec3d& s = transform.shift;
+    const double farthest = std::max({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
+    const double size = 2 * transform.scale * double{largest};  // no row is longer than sqrt(3)
+    return size + farthest < limit && transform.scale * double{smallest_radius} > 1e-37;
+  }
+};
+
+SphereRange range_of(const std::vector<Sphere>& spheres) {
+  SphereRange range;
+  for (const Sphere& s : spheres) {
+    range.largest = std::max({range.largest, std::fabs(s.center.x), std::fabs(s.center.y),
+                              std::fabs(s.center.z), s.radius});
+    range.smallest_radius = std::min(range.smallest_radius, s.radius);
+  }
+  return range;
+}
+
+std::vector<SphereRange> ranges_of(const std::vector<Group>& groups) {
+  std::vector<SphereRange> ranges;
+  ranges.reserve(groups.size());
+  for (const Group& group : groups) ranges.push_back(range_of(group.spheres));
+  return ranges;
+}
+
 /// True if every sphere and plane that an instance shows is still valid after rounding to float.
+/// Groups that certainly stay in range are not gone through.
 bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& counts,
-                    const Instance& instance) {
+                    const std::vector<SphereRange>& ranges, const Instance& instance) {
   bool good = true;
-  walk<Sphere>(scene, counts, {instance},
-               [&good](const Sphere& sphere) { good = good && is_valid(sphere); });
+  walk_groups<Sphere>(scene, counts, {instance}, [&](const ShownGroup& shown) {
+    if (!good || ranges[shown.group].stays_below(1e38, shown.transform)) return;
+    for (const Sphere& sphere : scene.groups[shown.group].spheres)
+      good = good && is_valid(transformed(sphere, shown.transform, {}));
+  });
   walk<Plane>(scene, counts, {instance},
               [&good](const Plane& plane) { good = good && !find_problem(plane); });
   return good;
+}
+
+/// Bytes that a sphere takes in a tree, and what it costs to show a tree once more.
+constexpr std::uint64_t bytes_of_sphere = 26, bytes_of_placement = 512;
+
+/// Whether it takes half the memory, or less, to keep the groups.
+bool saves_memory(const Scene& scene, const PrimitiveCount& count) {
+  constexpr std::uint64_t fewest = 1U << 17;
+  const std::uint64_t shown = count.spheres - scene.spheres.size();
+  std::uint64_t kept = 0;
+  for (const Group& group : scene.groups) kept += group.spheres.size();
+  return shown >= fewest && shown * bytes_of_sphere / 2 >=
+                                kept * bytes_of_sphere + count.placements * bytes_of_placement;
 }
 
 }  // namespace
@@ -188,9 +247,15 @@ std::optional<InstanceProblem> find_reference_problem(const Scene& scene) {
   PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     count = add(count, survey.counts()[scene.instances[i].group]);
-    if (count.total() <= max_primitives) continue;
+    const bool many = count.total() > max_primitives;
+    if (!many || (saves_memory(scene, count) && count.total() <= max_shown_primitives)) continue;
     return InstanceProblem{
-        {}, i, {"group", "with it the scene has more than 2147483647 primitives"}};
+        {},
+        i,
+        {"group",
+         "with it the scene has more than " +
+             std::to_string(saves_memory(scene, count) ? max_shown_primitives : max_primitives) +
+             " primitives"}};
   }
   return std::nullopt;
 }
@@ -198,12 +263,16 @@ std::optional<InstanceProblem> find_reference_problem(const Scene& scene) {
 std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
   if (auto bad = find_reference_problem(scene)) return bad;
   const GroupSurvey survey(scene);
+  const std::vector<SphereRange> ranges = ranges_of(scene.groups);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    if (stays_in_range(scene, survey.counts(), scene.instances[i])) continue;
+    if (stays_in_range(scene, survey.counts(), ranges, scene.instances[i])) continue;
     return InstanceProblem{
         {}, i, {"scale", "takes a sphere or plane of the group out of a 32-bit float's range"}};
   }
-  return std::nullopt;
+  const bool many = count_with(scene, survey.counts()).total() > max_primitives;
+  if (!many || groups_to_share(scene)) return std::nullopt;
+  return InstanceProblem{
+      {}, 0, {"group", "shows more than 2147483647 primitives, some of them beyond 1e17"}};
 }
 
 PrimitiveCount count_primitives(const Scene& scene) {
@@ -221,6 +290,67 @@ void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& fu
   if (scene.instances.empty()) return;
   const GroupSurvey survey(scene);
   walk<Plane>(scene, survey.counts(), scene.instances, function);
+}
+
+void visit_shown_groups(const Scene& scene,
+                        const std::function<void(const ShownGroup&)>& function) {
+  if (scene.instances.empty()) return;
+  const GroupSurvey survey(scene);
+  walk_groups<Sphere>(scene, survey.counts(), scene.instances, function);
+}
+
+void visit_spheres(const Scene& scene, const std::function<void(SphereRun)>& function) {
+  constexpr std::size_t most_together = 4096;
+  if (!scene.spheres.empty()) function(scene.spheres);
+  std::vector<Sphere> some;
+  visit_shown_groups(scene, [&](const ShownGroup& shown) {
+    const SphereRun own = scene.groups[shown.group].spheres;
+    for (std::size_t first = 0; first < own.size(); first += most_together) {
+      some.clear();
+      for (const Sphere& one : own.subspan(first, std::min(most_together, own.size() - first)))
+        some.push_back(transformed(one, shown.transform, shown.material));
+      function(some);
+    }
+  });
+}
+
+SphereRuns runs_of(const Scene& scene) {
+  return
+      [&scene](const std::function<void(SphereRun)>& function) { visit_spheres(scene, function); };
+}
+
+std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene) {
+  if (scene.instances.empty()) return std::nullopt;
+  const GroupSurvey survey(scene);
+  const PrimitiveCount count = count_with(scene, survey.counts());
+  if (!saves_memory(scene, count)) return std::nullopt;
+  const std::vector<SphereRange> ranges = ranges_of(scene.groups);
+  std::vector<ShownGroup> groups;
+  groups.reserve(static_cast<std::size_t>(count.placements));
+  bool fits = double{range_of(scene.spheres).largest} < most_shared_coordinate;
+  walk_groups<Sphere>(scene, survey.counts(), scene.instances, [&](const ShownGroup& shown) {
+    const SphereRange& range = ranges[shown.group];
+    fits = fits && double{range.largest} < most_shared_coordinate &&
+           range.stays_below(most_shared_coordinate, shown.transform);
+    groups.push_back(shown);
+  });
+  return fits ? std::optional(std::move(groups)) : std::nullopt;
+}
+
+void expand_planes(Scene& scene) {
+  if (scene.instances.empty()) return;
+  const GroupSurvey survey(scene);
+  std::vector<Plane> planes = std::move(scene.planes);
+  walk<Plane>(scene, survey.counts(), scene.instances,
+              [&planes](const Plane& plane) { planes.push_back(plane); });
+  scene.planes = std::move(planes);
+  for (Group& group : scene.groups) group.planes = {};
+}
+
+std::optional<std::vector<ShownGroup>> share_or_expand(Scene& scene) {
+  auto groups = groups_to_share(scene);
+  groups ? expand_planes(scene) : expand_instances(scene);
+  return groups;
 }
 
 void expand_instances(Scene& scene) {

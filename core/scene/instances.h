@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -31,9 +31,15 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene);
 /// since it does not go through the spheres and planes that the instances show.
 std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 
+/// The most spheres and planes of a scene, with those of groups that are shared
+/// (groups_to_share()): ids are 32 bits, those from 2^31 on negative as std::int32_t, and two are
+/// no id. In one tree max_primitives.
+inline constexpr std::uint64_t max_shown_primitives = 4294967293;
+
 /// How many spheres and planes a scene has, those of its instances among them.
 struct PrimitiveCount {
   std::uint64_t spheres = 0, planes = 0;
+  std::uint64_t placements = 0;  ///< how often groups that have spheres of their own are shown
 
   [[nodiscard]] std::uint64_t total() const { return spheres + planes; }
 };
@@ -47,6 +53,42 @@ PrimitiveCount count_primitives(const Scene& scene);
 /// function throws reaches the caller.
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
 void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
+
+/// The spheres of a group, but not those of its instances, where an instance shows them.
+struct ShownGroup {
+  std::uint32_t group = 0;                ///< index in Scene::groups
+  Similarity transform;                   ///< for transformed()
+  std::optional<std::uint32_t> material;  ///< likewise
+};
+/// Calls the function for every group that has spheres and is shown, as often as it is, in the
+/// order of the spheres' ids.
+void visit_shown_groups(const Scene& scene, const std::function<void(const ShownGroup&)>& function);
+
+/// Calls the function with all spheres of a scene, its own and those that its instances show, in
+/// the order of their ids, some thousands at a time.
+using SphereRun = std::span<const Sphere>;
+void visit_spheres(const Scene& scene, const std::function<void(SphereRun)>& function);
+
+/// What calls its argument with all of some spheres, a run of them at a time.
+using SphereRuns = std::function<void(const std::function<void(SphereRun)>&)>;
+/// All spheres of a scene, which must outlive it.
+SphereRuns runs_of(const Scene& scene);
+
+/// The groups that are shown, if it saves much memory not to write their spheres out: in every
+/// other case nothing, and expand_instances() is for the scene. What is shown is the same. Throws
+/// std::bad_alloc.
+std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene);
+
+/// The same for a valid scene, of which then only spheres are left in groups; else it is expanded.
+std::optional<std::vector<ShownGroup>> share_or_expand(Scene& scene);
+
+/// Coordinates and radii of groups that are shared, where they are shown too, are below this:
+/// within the range of the kernels' filters.
+inline constexpr double most_shared_coordinate = 1e17;
+
+/// Makes the planes that a valid scene's instances show planes of the scene, with the same ids, and
+/// removes those of its groups. Throws std::bad_alloc.
+void expand_planes(Scene& scene);
 
 /// Replaces a valid scene's instances by the spheres and planes that they show, and removes its
 /// groups. The spheres and planes of a scene without instances stay where they are. Throws

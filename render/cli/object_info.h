@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "core/scene/scene.h"
 
@@ -18,6 +17,6 @@ nlohmann::ordered_json groups_info(const Scene& scene);
 
 /// The box around all spheres, rounded to float; null where there is no sphere. Planes are infinite
 /// and left out.
-nlohmann::ordered_json bounds_info(const std::vector<Sphere>& spheres);
+nlohmann::ordered_json bounds_info(const Scene& scene);
 
 }  // namespace boule::cli

@@ -7,6 +7,7 @@
 
 #include "core/base/ascii.h"
 #include "core/math/geometry.h"
+#include "core/scene/instances.h"
 #include "render/file/npy_header.h"
 #include "render/particle_file/particle_file.h"
 
@@ -103,10 +104,12 @@ bool is_particle_input(const std::string& path, const LookOptions& look) {
 
 std::optional<double> lowest_along(const Vec3d& direction, const LoadedScene& loaded) {
   double lowest = infinity;
-  for (const Sphere& sphere : loaded.scene.spheres) {
-    lowest = std::min(lowest, dot(vec_cast<double>(sphere.center), direction) -
-                                  static_cast<double>(sphere.radius));
-  }
+  visit_spheres(loaded.scene, [&](SphereRun spheres) {
+    for (const Sphere& sphere : spheres) {
+      lowest = std::min(lowest, dot(vec_cast<double>(sphere.center), direction) -
+                                    static_cast<double>(sphere.radius));
+    }
+  });
   return lowest == infinity ? std::nullopt : std::optional(lowest);
 }
 

@@ -17,8 +17,18 @@ namespace {
 
 /// Each with the number of spheres and planes that are made of it.
 Json materials_info(const Scene& scene) {
-  std::vector<std::size_t> objects(scene.materials.size());
-  for (const Sphere& sphere : scene.spheres) ++objects[sphere.material.index()];
+  std::vector<std::uint64_t> objects(scene.materials.size());
+  const auto count = [&objects](const std::vector<Sphere>& spheres, std::uint64_t times) {
+    for (const Sphere& sphere : spheres) objects[sphere.material.index()] += times;
+  };
+  count(scene.spheres, 1);
+  std::vector<std::uint64_t> shown_groups(scene.groups.size());
+  visit_shown_groups(scene, [&](const ShownGroup& shown) {
+    const auto& spheres = scene.groups[shown.group].spheres;
+    shown.material ? objects[*shown.material] += spheres.size() : ++shown_groups[shown.group];
+  });
+  for (std::size_t i = 0; i < shown_groups.size(); ++i)
+    count(scene.groups[i].spheres, shown_groups[i]);
   for (const Plane& plane : scene.planes) ++objects[plane.material.index()];
   Json list = Json::array();
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -82,7 +92,7 @@ void add_surroundings(Json& json, const Scene& scene) {
   Json notes = Json::array(), lights = Json::array();
   const Camera camera =
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
-  if (scene.spheres.empty() && scene.planes.empty()) {
+  if (count_primitives(scene).total() == 0) {
     notes.push_back("no objects in the scene: nothing to be hit");
   } else if (!scene.camera) {
     notes.push_back(camera_note);
@@ -107,18 +117,19 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
   Scene& scene = loaded.scene;
   Json groups = groups_info(scene), instances = instances_info(scene);
   const std::size_t group_count = scene.groups.size(), instance_count = scene.instances.size();
-  expand_instances(scene);
+  const std::uint64_t hash = scene_hash(scene);
+  share_or_expand(scene);
   Json json = {{"schema", 1},
                {"file", path},
                {"data_files", loaded.data_files},
-               {"hash", fmt::format("{:016x}", scene_hash(scene))}};
+               {"hash", fmt::format("{:016x}", hash)}};
   FieldInfo(json).add(scene.image);
   FieldInfo(json).add(scene.render);
-  json.update({{"spheres", scene.spheres.size()},
+  json.update({{"spheres", count_primitives(scene).spheres},
                {"planes", scene.planes.size()},
                {"groups", group_count},
                {"instances", instance_count},
-               {"bounds", bounds_info(scene.spheres)}});
+               {"bounds", bounds_info(scene)}});
   add_surroundings(json, scene);
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene);

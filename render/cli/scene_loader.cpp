@@ -19,11 +19,12 @@ namespace {
 
 /// The frames of a series that the camera is fitted to: all of them, or every so many if that
 /// would be too much to read; the last in any case.
-std::vector<int> fitted_frames(const FrameRange& range, std::size_t spheres) {
-  constexpr std::size_t most_spheres = 50'000'000;  // read in about ten seconds
+std::vector<int> fitted_frames(const FrameRange& range, std::uint64_t spheres) {
+  constexpr std::uint64_t most_spheres = 50'000'000;  // read in about ten seconds
   constexpr std::size_t most_frames = 1000;
   const std::size_t most =
-      std::clamp(most_spheres / std::max<std::size_t>(spheres, 1), std::size_t{2}, most_frames);
+      std::clamp(static_cast<std::size_t>(most_spheres / std::max<std::uint64_t>(spheres, 1)),
+                 std::size_t{2}, most_frames);
   const auto count = static_cast<std::size_t>(range.count());
   const std::size_t every = (count + most - 2) / (most - 1);
   std::vector<int> frames;
@@ -32,13 +33,6 @@ std::vector<int> fitted_frames(const FrameRange& range, std::size_t spheres) {
   }
   frames.push_back(range.first + static_cast<int>(count - 1) * range.step);
   return frames;
-}
-
-/// The spheres of a scene, those of its instances among them.
-std::vector<Sphere> with_instances(const Scene& scene) {
-  std::vector<Sphere> spheres = scene.spheres;
-  visit_shown(scene, [&spheres](const Sphere& sphere) { spheres.push_back(sphere); });
-  return spheres;
 }
 
 }  // namespace
@@ -97,24 +91,24 @@ void SceneLoader::keep_choices(const LoadedScene& first) {
 void SceneLoader::fit_series(LoadedScene& first) {
   if (first.scene.camera && !floor_) return;
   const Scene& scene = first.scene;
-  std::vector<Sphere> spheres = with_instances(scene);
-  if (spheres.empty()) return;
-  CameraFitter fitter(scene.fit, default_view(scene.fit, spheres, scene.planes),
+  const std::uint64_t count_first = count_primitives(scene).spheres;
+  if (count_first == 0) return;
+  CameraFitter fitter(scene.fit, default_view(scene.fit, runs_of(scene), scene.planes),
                       size_ ? size_->width : scene.image.width,
                       size_ ? size_->height : scene.image.height);
-  fitter.add(spheres);
+  const auto add = [&fitter](SphereRun spheres) { fitter.add(spheres); };
+  visit_spheres(scene, add);
   const Vec3d up = floor_ ? floor_->up : Vec3d{};
   double lowest = floor_ ? *lowest_along(up, first) : 0;
-  const std::vector<int> frames = fitted_frames(*frames_, spheres.size());
+  const std::vector<int> frames = fitted_frames(*frames_, count_first);
   std::size_t fitted = 1;
   for (const int number : frames) {
     if (number == frames_->first) continue;
     auto other = read(number);
     if (!other) break;
     ++fitted;
-    spheres = with_instances(other.value().scene);
-    if (spheres.empty()) continue;
-    fitter.add(spheres);
+    if (count_primitives(other.value().scene).spheres == 0) continue;
+    visit_spheres(other.value().scene, add);
     if (floor_) lowest = std::min(lowest, *lowest_along(up, other.value()));
   }
   if (floor_) {

@@ -7,9 +7,25 @@
 
 namespace boule {
 
+namespace {
+
+/// The same for groups that are not written out: the trees take the place of their spheres.
+Status check_shared_memory(const Scene& scene, const std::vector<ShownGroup>& groups) {
+  std::uint64_t spheres = scene.spheres.size();
+  for (const Group& group : scene.groups) spheres += group.spheres.size();
+  constexpr std::uint64_t bytes_of_part = 512;
+  return check_memory(bytes_of_tree(spheres) + groups.size() * bytes_of_part,
+                      std::to_string(spheres) + " spheres, in groups that are shown " +
+                          std::to_string(groups.size()) + " times, need",
+                      "instance");
+}
+
+}  // namespace
+
 Status check_scene_memory(const Scene& scene) {
   if (find_reference_problem(scene)) return std::nullopt;
   const PrimitiveCount count = count_primitives(scene);
+  if (const auto groups = groups_to_share(scene)) return check_shared_memory(scene, *groups);
   const std::uint64_t planes = count.planes - scene.planes.size();
   // The scene's own spheres are in memory already.
   const std::uint64_t bytes = bytes_of_tree(count.spheres) + planes * sizeof(Plane) -

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene.h"
 #include "render/file/sphere_room.h"
 #include "render/memory/available_memory.h"
@@ -26,7 +27,7 @@ std::uint64_t count_images(const std::array<int, 3>& counts) {
   std::uint64_t images = 1;
   for (const int count : counts) {
     images = std::min<std::uint64_t>(images * static_cast<std::uint64_t>(count),
-                                     std::uint64_t{max_primitives} + 1);
+                                     max_shown_primitives + 1);
   }
   return images;
 }
@@ -68,15 +69,23 @@ Status check_style(const ParticleStyle& style) {
   return std::nullopt;
 }
 
+/// So many images of so many particles are shown as instances of one group. The centres of fewer
+/// are rounded once, those of these twice: in the group, and where it is shown.
+bool are_shared(std::uint64_t images, std::uint64_t particles) {
+  constexpr std::uint64_t fewest_images = 4, fewest_particles = 128, fewest_spheres = 1U << 24;
+  return images >= fewest_images && particles >= fewest_particles &&
+         images * particles >= fewest_spheres;
+}
+
 /// Whether the spheres, and what is kept to make them, fit into memory and ids.
 Status check_room(std::size_t particles, const ParticleStyle& style) {
   const std::uint64_t images = count_images(style.replicate);
   const std::string key = images > 1 ? "replicate" : "file";
-  if (particles > 0 && images > max_primitives / particles) {
-    return Diagnostic::about(key, "more than " + std::to_string(max_primitives) + " spheres");
-  }
+  const std::uint64_t most = are_shared(images, particles) ? max_shown_primitives : max_primitives;
+  if (particles > 0 && images > most / particles)
+    return Diagnostic::about(key, "more than " + std::to_string(most) + " spheres");
   constexpr std::uint64_t kept = sizeof(float) + sizeof(MaterialRef);
-  const std::uint64_t spheres = images * particles;
+  const std::uint64_t spheres = are_shared(images, particles) ? particles : images * particles;
   return check_memory(bytes_of_spheres(spheres) + kept * particles,
                       std::to_string(spheres) + " spheres need", key);
 }
@@ -193,21 +202,37 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame frame, const Particl
   return made;
 }
 
+bool ParticleSpheres::shares_images() const {
+  return are_shared(images_.size(), positions_.size());
+}
+
 Status ParticleSpheres::append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                                   const ParallelFor& parallel_for) const {
+  return append_images_to(spheres, images_.size(), origin, parallel_for);
+}
+
+Status ParticleSpheres::append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                                              const ParallelFor& parallel_for) const {
+  return append_images_to(spheres, 1, origin, parallel_for);
+}
+
+Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size_t images,
+                                         const Vec3d& origin,
+                                         const ParallelFor& parallel_for) const {
   const FloatEnvironment environment;
+  const std::size_t count = positions_.size() * images;
   const std::string key = images_.size() > 1 ? "replicate" : "file";
   if (auto full =
-          check_memory(bytes_of_spheres(size()), std::to_string(size()) + " spheres need", key)) {
+          check_memory(bytes_of_spheres(count), std::to_string(count) + " spheres need", key)) {
     return full;
   }
   const std::size_t first = spheres.size();
-  make_room(spheres, size());
-  spheres.resize(first + size());
+  make_room(spheres, count);
+  spheres.resize(first + count);
   const std::size_t radius_step = radii_.size() > 1 ? 1 : 0;
   const std::size_t material_step = materials_.size() > 1 ? 1 : 0;
-  std::vector<std::size_t> wrong(chunks_of(size()), none);
-  in_chunks(parallel_for, size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> wrong(chunks_of(count), none);
+  in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     std::size_t image = begin / positions_.size(), i = begin % positions_.size();
     Vec3d shift = images_.shift(image);
     for (std::size_t n = begin; n < end; ++n, ++i) {

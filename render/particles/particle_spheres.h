@@ -53,7 +53,17 @@ class ParticleSpheres {
   Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                    const ParallelFor& parallel_for = serial_for) const;
 
+  /// Whether there are so many images that they had better be instances of the first one.
+  [[nodiscard]] bool shares_images() const;
+  /// The same as append_to() for the first image only.
+  Status append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                               const ParallelFor& parallel_for = serial_for) const;
+  [[nodiscard]] const CellImages& images() const { return images_; }
+
  private:
+  Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
+                          const ParallelFor& parallel_for) const;
+
   std::vector<Vec3d> positions_;  ///< of the particles that are shown
   /// Of each of them, or one for all.
   std::vector<float> radii_;

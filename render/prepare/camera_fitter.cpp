@@ -52,7 +52,7 @@ CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, in
   y_.cosine = cosine_of(y * used);
 }
 
-void CameraFitter::add(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
+void CameraFitter::add(std::span<const Sphere> spheres, const ParallelFor& parallel_for) {
   *this = fold_spheres(
       spheres, parallel_for, *this,
       [](CameraFitter& fitter, const Sphere& sphere) { fitter.add(sphere); },

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <limits>
-#include <vector>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/scene/camera.h"
@@ -19,7 +19,7 @@ class CameraFitter {
   /// `view` does not lie along its direction.
   CameraFitter(const CameraFit& fit, const View& view, int width, int height);
 
-  void add(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for = serial_for);
+  void add(std::span<const Sphere> spheres, const ParallelFor& parallel_for = serial_for);
 
   /// The camera. It looks at the middle of the spheres' depths. Its coordinates are floats: the
   /// spheres are taken as larger by 2^-20 of the largest coordinate and of the eye's distance, so

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/math/geometry.h"
+#include "core/scene/instances.h"
 #include "render/prepare/camera_fitter.h"
 #include "render/prepare/default_view.h"
 
@@ -32,23 +33,25 @@ Camera camera_without_spheres(const Scene& scene, int width, int height) {
 
 }  // namespace
 
-SphereBounds bounds_of(const std::vector<Sphere>& spheres) {
+SphereBounds bounds_of(const Scene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
-  for (const Sphere& s : spheres) {
-    const Vec3d c = vec_cast<double>(s.center);
-    const auto r = static_cast<double>(s.radius);
-    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
-    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
-  }
+  visit_spheres(scene, [&low, &high](SphereRun spheres) {
+    for (const Sphere& s : spheres) {
+      const Vec3d c = vec_cast<double>(s.center);
+      const auto r = static_cast<double>(s.radius);
+      low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
+      high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
+    }
+  });
   return {low, high};
 }
 
 Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
-  if (scene.spheres.empty()) return camera_without_spheres(scene, width, height);
-  const View view = default_view(scene.fit, scene.spheres, scene.planes, parallel_for);
+  if (count_primitives(scene).spheres == 0) return camera_without_spheres(scene, width, height);
+  const View view = default_view(scene.fit, runs_of(scene), scene.planes, parallel_for);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(scene.spheres, parallel_for);
+  visit_spheres(scene, [&](SphereRun spheres) { fitter.add(spheres, parallel_for); });
   return fitter.camera();
 }
 

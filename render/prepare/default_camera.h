@@ -1,17 +1,16 @@
 #pragma once
 
-#include <vector>
-
 #include "core/base/parallel.h"
 #include "core/scene/scene.h"
 
 namespace boule {
 
-/// The box around some spheres. Around none, `low` is infinity and `high` is -infinity.
+/// The box around the spheres of a scene, those of its instances among them. Around none, `low` is
+/// infinity and `high` is -infinity.
 struct SphereBounds {
   Vec3d low, high;
 };
-SphereBounds bounds_of(const std::vector<Sphere>& spheres);
+SphereBounds bounds_of(const Scene& scene);
 
 /// The camera that a scene without one is given: one fitted to its spheres as `scene.fit` says, for
 /// pictures of `width` x `height` pixels (CameraFitter). If there are planes only, it is a pinhole

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/math/geometry.h"
+#include "core/scene/instances.h"
 
 namespace boule {
 namespace {
@@ -37,8 +38,15 @@ bool has_emitter(const Scene& scene) {
   const auto gives = [&emits](const auto& object) -> bool {
     return emits[object.material.index()];
   };
-  return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
-         std::any_of(scene.planes.begin(), scene.planes.end(), gives);
+  const auto any_gives = [&gives](const auto& objects) {
+    return std::any_of(objects.begin(), objects.end(), gives);
+  };
+  bool found = any_gives(scene.spheres) || any_gives(scene.planes);
+  visit_shown_groups(scene, [&](const ShownGroup& shown) {
+    if (found) return;
+    found = shown.material ? emits[*shown.material] : any_gives(scene.groups[shown.group].spheres);
+  });
+  return found;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace boule {
 /// True if nothing in the scene gives light: it has no light, no object of an emissive material,
 /// and no gradient as its background. For Method::path a constant background and an environment
 /// give light too. What is black gives none. Preconditions: the scene is valid, and its instances
-/// are expanded.
+/// show no planes (expand_instances(), expand_planes()).
 bool lacks_light(const Scene& scene, Method method);
 
 /// The lights that such a scene is given: a white directional one from the camera's upper left,

@@ -63,7 +63,7 @@ struct Range {
 using Ranges = std::array<Range, 3>;
 
 /// Along the three directions of a compass.
-Ranges ranges_of(const Compass& compass, const std::vector<Sphere>& spheres,
+Ranges ranges_of(const Compass& compass, const SphereRuns& spheres,
                  const ParallelFor& parallel_for) {
   const std::array<Vec3d, 3> axes{compass.right, compass.up, compass.front};
   const auto add = [&](Ranges& ranges, const Sphere& sphere) {
@@ -74,7 +74,9 @@ Ranges ranges_of(const Compass& compass, const std::vector<Sphere>& spheres,
   const auto join = [](Ranges& ranges, const Ranges& others) {
     for (std::size_t k = 0; k < 3; ++k) ranges[k].add(others[k]);
   };
-  return fold_spheres(spheres, parallel_for, Ranges{}, add, join);
+  Ranges all;
+  spheres([&](SphereRun run) { all = fold_spheres(run, parallel_for, all, add, join); });
+  return all;
 }
 
 /// True if spheres are a sheet, one sphere thick, as simulations in two dimensions are.
@@ -116,6 +118,14 @@ bool are_parallel(const Vec3d& a, const Vec3d& b) { return length(cross(a, b)) <
 }  // namespace
 
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
+                  const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
+  const SphereRuns one_run = [&spheres](const std::function<void(SphereRun)>& function) {
+    function(spheres);
+  };
+  return default_view(fit, one_run, planes, parallel_for);
+}
+
+View default_view(const CameraFit& fit, const SphereRuns& spheres,
                   const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
   View view;
   view.up = fit.up ? unit(*fit.up) : up_of(planes);

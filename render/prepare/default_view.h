@@ -5,6 +5,7 @@
 #include "core/base/parallel.h"
 #include "core/math/vec.h"
 #include "core/scene/camera_fit.h"
+#include "core/scene/instances.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
@@ -21,6 +22,8 @@ struct View {
 /// from above. Without an up, y is up, or the axis along which the first plane's normal lies.
 /// Precondition: fit's vectors are finite and not zero. A fit whose up lies along its direction
 /// gives such a View.
+View default_view(const CameraFit& fit, const SphereRuns& spheres,
+                  const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
                   const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
 

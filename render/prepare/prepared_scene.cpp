@@ -12,6 +12,7 @@
 #include "render/prepare/default_light.h"
 #include "render/prepare/fold_spheres.h"
 #include "render/prepare/placed_lights.h"
+#include "render/prepare/scene_geometry.h"
 
 namespace boule {
 namespace {
@@ -34,11 +35,16 @@ std::vector<Material> plain_materials(const Scene& scene) {
 
 bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
   const auto colored = [](const auto& primitive) { return primitive.material.has_color(); };
+  const auto any_colored = [&](SphereRun spheres) {
+    return fold_spheres(
+               spheres, parallel_for, char{0},
+               [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
+               [](char& some, char other) { some |= other; }) != 0;
+  };
   return std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
-         fold_spheres(
-             scene.spheres, parallel_for, char{0},
-             [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
-             [](char& some, char other) { some |= other; }) != 0;
+         any_colored(scene.spheres) ||
+         std::any_of(scene.groups.begin(), scene.groups.end(),
+                     [&](const Group& group) { return any_colored(group.spheres); });
 }
 
 /// The spheres that give light, for path tracing.
@@ -48,8 +54,22 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
     return std::holds_alternative<Emissive>(named.material);
   };
   if (std::none_of(scene.materials.begin(), scene.materials.end(), gives_light)) return emissive;
-  std::copy_if(scene.spheres.begin(), scene.spheres.end(), std::back_inserter(emissive),
-               [&](const Sphere& s) { return gives_light(scene.materials[s.material.index()]); });
+  const auto is_emissive = [&](const Sphere& s) {
+    return gives_light(scene.materials[s.material.index()]);
+  };
+  const auto copy_emissive = [&](const std::vector<Sphere>& spheres, std::vector<Sphere>& to) {
+    std::copy_if(spheres.begin(), spheres.end(), std::back_inserter(to), is_emissive);
+  };
+  copy_emissive(scene.spheres, emissive);
+  std::vector<std::vector<Sphere>> in_groups(scene.groups.size());
+  for (std::size_t i = 0; i < scene.groups.size(); ++i)
+    copy_emissive(scene.groups[i].spheres, in_groups[i]);
+  visit_shown_groups(scene, [&](const ShownGroup& shown) {
+    const bool all = shown.material && gives_light(scene.materials[*shown.material]);
+    if (shown.material && !all) return;
+    for (const Sphere& one : all ? scene.groups[shown.group].spheres : in_groups[shown.group])
+      emissive.push_back(transformed(one, shown.transform, shown.material));
+  });
   return emissive;
 }
 
@@ -81,7 +101,7 @@ Status add_camera(Scene& scene, int width, int height, const ParallelFor& parall
                              "the scene has no camera, and its objects cannot be framed: camera." +
                                  problem->field + " " + problem->message);
   }
-  if (!scene.spheres.empty() || !scene.planes.empty()) notes.emplace_back(camera_note);
+  if (count_primitives(scene).total() > 0) notes.emplace_back(camera_note);
   return std::nullopt;
 }
 
@@ -126,7 +146,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const FloatEnvironment floats;
   if (auto bad = check_size(width, height)) return *bad;
   if (auto bad = validate_in_parallel(scene, parallel_for)) return *bad;
-  expand_instances(scene);
+  const std::optional<std::vector<ShownGroup>> groups = share_or_expand(scene);
   std::vector<std::string> notes;
   if (auto bad = add_camera(scene, width, height, parallel_for, notes)) return *bad;
   const bool lit_by_default = lacks_light(scene, method);
@@ -134,8 +154,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
-  PreparedScene prepared{.geometry = Geometry(std::move(scene.spheres), scene.planes,
-                                              Structure::automatic, parallel_for),
+  PreparedScene prepared{.geometry = geometry_of(scene, groups, scene.planes, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
                          .materials = flatten_all(scene, method),
                          .plain_materials = plain_materials(scene),

@@ -47,15 +47,15 @@ struct PreparedScene {
   /// Whether a hit is one of a sphere. Precondition of this and of what follows: it is a hit of
   /// this geometry's, no miss.
   [[nodiscard]] bool is_sphere(const Hit& hit) const {
-    return static_cast<std::size_t>(hit.id) < geometry.sphere_count();
+    return static_cast<std::uint32_t>(hit.id) < geometry.sphere_count();
   }
   /// The plane that was hit. Precondition: it was no sphere.
   [[nodiscard]] const Plane& plane(const Hit& hit) const {
-    return planes[static_cast<std::size_t>(hit.id) - geometry.sphere_count()];
+    return planes[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count()];
   }
   /// What was hit is made of this.
   [[nodiscard]] MaterialRef material_ref(const Hit& hit) const {
-    return is_sphere(hit) ? geometry.materials()[hit.slot] : plane(hit).material;
+    return is_sphere(hit) ? geometry.material(hit.slot) : plane(hit).material;
   }
 
   /// A material in a colour of its own. Precondition: the reference has one.
@@ -80,8 +80,9 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
 /// Prepares a scene for a picture of `width` x `height` pixels. Takes any values; an error if the
 /// scene is invalid (validate()), if a side is not 1 .. 65535, or if the scene has no camera and
 /// none can be made for it. Passes on what `parallel_for` throws. Instances become spheres and
-/// planes (expand_instances()). The geometry takes the place of the scene's spheres: move a scene
-/// here that is not needed any more. scene.image and scene.render are not used.
+/// planes, or parts of the geometry (share_or_expand()). The geometry takes the place of the
+/// scene's spheres: move a scene here that is not needed any more. scene.image and scene.render are
+/// not used.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);

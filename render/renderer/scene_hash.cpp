@@ -70,7 +70,10 @@ class Hasher {
 /// Adds the sections of a scene in their order: all that a picture depends on.
 class SceneHasher {
  public:
-  explicit SceneHasher(const Scene& scene) : scene_(scene), count_(count_primitives(scene)) {
+  explicit SceneHasher(const Scene& scene)
+      : scene_(scene),
+        shares_(groups_to_share(scene).has_value()),
+        count_(count_primitives(scene)) {
     each_field(scene, [this](const auto&, const auto& section) { this->add(section); });
   }
 
@@ -99,17 +102,24 @@ class SceneHasher {
   /// The scene's own and those that its instances show, as one list.
   void add(const std::vector<Sphere>& spheres) { add_primitives(spheres, count_.spheres); }
   void add(const std::vector<Plane>& planes) { add_primitives(planes, count_.planes); }
-  void add(const std::vector<Group>&) {}
-  void add(const std::vector<Instance>&) {}
+  /// Groups that are shared are too many spheres to go through: they are added as they are.
+  void add(const std::vector<Group>& groups) {
+    if (shares_) hash_.add(groups);
+  }
+  void add(const std::vector<Instance>& instances) {
+    if (shares_) hash_.add(instances);
+  }
 
   template <class Primitive>
   void add_primitives(const std::vector<Primitive>& own, std::uint64_t count) {
     hash_.add(count);
     for (const Primitive& one : own) hash_.add(one);
+    if (shares_) return;
     visit_shown(scene_, std::function([this](const Primitive& one) { hash_.add(one); }));
   }
 
   const Scene& scene_;
+  bool shares_;
   PrimitiveCount count_;
   Hasher hash_;
 };

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
-#include "core/scene/instances.h"
 #include "core/surface.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/scene_memory.h"
+#include "render/prepare/scene_geometry.h"
 #include "render/renderer/preparation.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -63,12 +63,12 @@ struct Tracer::Worker {
   }
 };
 
-Tracer::Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels)
+Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
+               const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
       planes_(std::move(scene.planes)),
-      geometry_(std::move(scene.spheres), planes_, Structure::automatic,
-                Scheduler(options.threads).parallel_for()),
+      geometry_(geometry_of(scene, groups, planes_, Scheduler(options.threads).parallel_for())),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
@@ -93,9 +93,13 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
     if (auto bad = validate(scene)) return *bad;
     const auto kernels = kernels_for(options.isa, options.solver);
     if (!kernels) return kernels.error();
+    if (count_primitives(scene).total() > max_primitives) {
+      return Diagnostic::about("instance", "more than " + std::to_string(max_primitives) +
+                                               " primitives have no ids for hits");
+    }
     Scene objects(std::forward<AnyScene>(scene));
-    expand_instances(objects);
-    Tracer tracer(std::move(objects), options, *kernels.value());
+    const auto groups = share_or_expand(objects);
+    Tracer tracer(std::move(objects), groups, options, *kernels.value());
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
   });
@@ -115,7 +119,7 @@ void Tracer::find_any(Worker& worker) {
 /// 0 for a miss.
 Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
   if (hit.id == no_primitive) return {};
-  const auto id = static_cast<std::size_t>(hit.id), spheres = geometry_.sphere_count();
+  const std::size_t id = static_cast<std::uint32_t>(hit.id), spheres = geometry_.sphere_count();
   const Surface met = id < spheres ? find_surface(geometry_.sphere(hit.slot), ray, hit)
                                    : find_surface(planes_[id - spheres], ray, hit);
   return vec_cast<float>(met.normal);

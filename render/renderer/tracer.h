@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/math/ray.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene.h"
 #include "render/frame/progress.h"
 #include "render/frame/scheduler.h"
@@ -76,7 +78,8 @@ class Tracer {
 
   template <class AnyScene>
   static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
-  Tracer(Scene scene, const TraceOptions& options, const KernelTable& kernels);
+  Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
+         const TraceOptions& options, const KernelTable& kernels);
   /// Fills a worker's stream with `count` rays from `first` on.
   using Load = std::function<void(Worker& worker, std::size_t first, std::size_t count)>;
   void find_closest(Worker& worker);

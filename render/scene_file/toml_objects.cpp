@@ -114,6 +114,10 @@ void TomlObjects::load_particles(ObjectTables& tables) {
 void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                                 std::vector<Sphere>& spheres) {
   if (!particles || error_.status()) return;
+  if (particles->spheres.shares_images() && &spheres == &scene_.spheres) {
+    add_images(table, particles->spheres);
+    return particles.reset();
+  }
   make_room(spheres, particles->spheres.size());
   const std::size_t before = spheres.size();
   if (auto bad = particles->spheres.append_to(spheres, table.origin(), options_.parallel_for)) {
@@ -121,6 +125,21 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
     table.report("file", bad->message);
   }
   particles.reset();
+}
+
+/// Shows images of particles as instances of a group.
+void TomlObjects::add_images(TomlTable& table, const ParticleSpheres& particles) {
+  Group group{"images of " + table.path(), {}, {}, {}};
+  if (auto bad =
+          particles.append_first_image_to(group.spheres, table.origin(), options_.parallel_for)) {
+    return table.report("file", bad->message);
+  }
+  const auto index = static_cast<std::uint32_t>(scene_.groups.size());
+  scene_.groups.push_back(std::move(group));
+  for (std::size_t image = 0; image < particles.images().size(); ++image) {
+    const Vec3f shift = vec_cast<float>(particles.images().shift(image));
+    scene_.instances.push_back({index, shift, {}, 1, {}});
+  }
 }
 
 void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {

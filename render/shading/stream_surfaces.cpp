@@ -44,7 +44,7 @@ Surface StreamSurfaces::get(std::size_t k) const {
           reaches_[k],
           id,
           inner_[k] != 0,
-          id < geometry_.planes.first_id};
+          static_cast<std::uint32_t>(id) < static_cast<std::uint32_t>(geometry_.planes.first_id)};
 }
 
 LitStream StreamSurfaces::lit(const std::uint8_t* lit, std::size_t size) {

@@ -35,7 +35,7 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   const PreparedScene& scene = pixel.scene;
   const Vec3d& origin = pixel.loaded.origin;
   const Surface surface = find_surface(scene, primary.ray, primary.hit);
-  const auto id = static_cast<std::size_t>(primary.hit.id);
+  const auto id = static_cast<std::uint32_t>(primary.hit.id);
   const bool is_sphere = scene.is_sphere(primary.hit);
   Json json = {
       {"primitive", id},
@@ -62,7 +62,7 @@ Json ray_json(const PickedPixel& pixel, const RecordedRay& ray, const Color& ret
                {"depth", ray.depth},
                {"t", met ? number(ray.hit.t) : Json()},
                {"distance", met ? number(ray.hit.t * size) : Json()},
-               {"primitive", met ? Json(ray.hit.id) : Json()},
+               {"primitive", met ? Json(static_cast<std::uint32_t>(ray.hit.id)) : Json()},
                {"material", met ? material_name(pixel, ray.hit) : Json()},
                {"weight", color(ray.weight)},
                {"throughput", color(ray.throughput)},

@@ -164,12 +164,11 @@ std::string text_of(const Json& json) {
 
 SceneFigures figures_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
-  std::vector<Sphere> spheres = scene.spheres;
-  SceneFigures figures{.planes = scene.planes.size(), .center = {}};
-  visit_shown(scene, [&](const Sphere& sphere) { spheres.push_back(sphere); });
-  visit_shown(scene, [&](const Plane&) { ++figures.planes; });
-  figures.spheres = spheres.size();
-  const SphereBounds box = bounds_of(spheres);
+  const PrimitiveCount count = count_primitives(scene);
+  SceneFigures figures{.spheres = static_cast<std::size_t>(count.spheres),
+                       .planes = static_cast<std::size_t>(count.planes),
+                       .center = {}};
+  const SphereBounds box = bounds_of(scene);
   if (!(box.low.x <= box.high.x)) return figures;
   figures.center = (box.low + box.high) * 0.5 + loaded.origin;
   figures.radius = length(box.high - box.low) / 2;

@@ -230,5 +230,47 @@ TEST(Instances, TooDeepANestingIsRefusedWhateverComesFirst) {
   }
 }
 
+TEST(Instances, SharedOnesShowWhatIsWrittenOutInTheSameOrder) {
+  Scene shared = shared_scene(), flat = shared;
+  const auto groups = share_or_expand(shared);
+  ASSERT_TRUE(groups);
+  expand_instances(flat);
+  EXPECT_EQ(groups->size(), count_primitives(shared).placements);
+  EXPECT_EQ(count_primitives(shared).spheres, flat.spheres.size());
+  EXPECT_EQ(count_primitives(shared).planes, flat.planes.size());
+  EXPECT_EQ(shared.planes.size(), flat.planes.size());
+  std::size_t at = 0;
+  visit_spheres(shared, [&](SphereRun spheres) {
+    for (const Sphere& one : spheres) {
+      const Sphere& expected = flat.spheres[at++];
+      ASSERT_TRUE(one.center == expected.center && one.radius == expected.radius &&
+                  one.material == expected.material)
+          << at;
+    }
+  });
+  EXPECT_EQ(at, flat.spheres.size());
+}
+
+TEST(Instances, AreWrittenOutWhereSharingSavesLittleOrFloatsCannotJudge) {
+  const auto is_shared = [](const std::function<void(Scene&)>& change) {
+    Scene scene = shared_scene();
+    change(scene);
+    EXPECT_FALSE(validate(scene));
+    return groups_to_share(scene).has_value();
+  };
+  EXPECT_TRUE(is_shared([](Scene&) {}));
+  EXPECT_FALSE(is_shared([](Scene& s) { s.instances.resize(10); }));          // few
+  EXPECT_FALSE(is_shared([](Scene& s) { s.groups[2].spheres.resize(30); }));  // small
+  EXPECT_FALSE(is_shared([](Scene& s) { s.instances.back().translate.x = 1e18f; }));
+  EXPECT_FALSE(is_shared([](Scene& s) { s.instances.back().scale = 1e19f; }));
+  EXPECT_FALSE(is_shared([](Scene& s) { s.spheres[0].radius = 1e18f; }));
+  Scene pairs = shared_scene();  // as many spheres in groups that are shown once as shown again
+  for (int i = 0; i < 60; ++i) {
+    pairs.groups.push_back({std::to_string(i), pairs.groups[2].spheres, {}, {}});
+    pairs.instances.push_back({static_cast<std::uint32_t>(pairs.groups.size() - 1), {}, {}, 1, {}});
+  }
+  EXPECT_FALSE(groups_to_share(pairs));
+}
+
 }  // namespace
 }  // namespace boule::test

@@ -1,0 +1,29 @@
+#include "render/prepare/scene_geometry.h"
+
+#include <memory>
+#include <utility>
+
+namespace boule {
+
+Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
+                     const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
+  if (!groups) {
+    return {std::move(scene.spheres), planes, Structure::automatic, parallel_for};
+  }
+  const auto tree_over = [&](std::vector<Sphere>& spheres) {
+    return std::make_shared<const Geometry>(std::move(spheres), std::vector<Plane>(),
+                                            Structure::bvh, parallel_for);
+  };
+  std::vector<GeometryPart> parts;
+  parts.reserve(groups->size() + 1);
+  if (!scene.spheres.empty()) parts.push_back({tree_over(scene.spheres), {}, {}});
+  std::vector<std::shared_ptr<const Geometry>> trees(scene.groups.size());
+  for (const ShownGroup& shown : *groups) {
+    auto& tree = trees[shown.group];
+    if (!tree) tree = tree_over(scene.groups[shown.group].spheres);
+    parts.push_back({tree, shown.transform, shown.material});
+  }
+  return Geometry::of_parts(std::move(parts), planes);
+}
+
+}  // namespace boule

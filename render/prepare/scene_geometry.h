@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/scene/instances.h"
+#include "core/scene/scene.h"
+#include "simd/geometry/geometry.h"
+
+namespace boule {
+
+/// A geometry in the place of a valid scene's spheres, which are gone then, and of these planes.
+/// `groups`: what share_or_expand() returned for the scene; each group is one tree, however often
+/// it is shown. Throws std::bad_alloc, and what `parallel_for` throws.
+Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
+                     const std::vector<Plane>& planes, const ParallelFor& parallel_for);
+
+}  // namespace boule
