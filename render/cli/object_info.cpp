@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/instances.h"
 #include "render/cli/field_info.h"
 #include "render/prepare/default_camera.h"
 
@@ -20,7 +21,9 @@ Json first_info(const Scene& scene, const std::vector<Thing>& things) {
 
 }  // namespace
 
-Json spheres_info(const Scene& scene) { return first_info(scene, scene.spheres); }
+Json spheres_info(const Scene& scene) {
+  return first_info(scene, scene.packed ? scene.packed->first : scene.spheres);
+}
 Json planes_info(const Scene& scene) { return first_info(scene, scene.planes); }
 Json instances_info(const Scene& scene) { return first_info(scene, scene.instances); }
 
@@ -38,9 +41,9 @@ Json groups_info(const Scene& scene) {
   return list;
 }
 
-Json bounds_info(const std::vector<Sphere>& spheres) {
-  if (spheres.empty()) return nullptr;
-  const auto [low, high] = bounds_of(spheres);
+Json bounds_info(const Scene& scene) {
+  if (count_primitives(scene).spheres == 0) return nullptr;
+  const auto [low, high] = bounds_of(scene);
   return {{"min", shown(vec_cast<float>(low))}, {"max", shown(vec_cast<float>(high))}};
 }
 

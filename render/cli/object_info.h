@@ -18,6 +18,6 @@ nlohmann::ordered_json groups_info(const Scene& scene);
 
 /// The box around all spheres, rounded to float; null where there is no sphere. Planes are infinite
 /// and left out.
-nlohmann::ordered_json bounds_info(const std::vector<Sphere>& spheres);
+nlohmann::ordered_json bounds_info(const Scene& scene);
 
 }  // namespace boule::cli

@@ -17,9 +17,13 @@ namespace {
 
 /// Each with the number of spheres and planes that are made of it.
 Json materials_info(const Scene& scene) {
-  std::vector<std::size_t> objects(scene.materials.size());
+  std::vector<std::uint64_t> objects(scene.materials.size());
   for (const Sphere& sphere : scene.spheres) ++objects[sphere.material.index()];
   for (const Plane& plane : scene.planes) ++objects[plane.material.index()];
+  if (scene.packed) {
+    for (std::size_t i = 0; i < scene.packed->made_of.size(); ++i)
+      objects[i] += scene.packed->made_of[i];
+  }
   Json list = Json::array();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const NamedMaterial& named = scene.materials[i];
@@ -51,7 +55,7 @@ std::string inline_text(const Json& value) {
 bool is_list(const std::string& key) {
   for (const char* list :
        {"data_files", "lights", "materials", "notes", "warnings", "first_spheres", "first_planes",
-        "group_list", "first_instances", "species", "columns"}) {
+        "group_list", "first_instances", "species", "columns", "sections"}) {
     if (key == list) return true;
   }
   return false;
@@ -82,7 +86,7 @@ void add_surroundings(Json& json, const Scene& scene) {
   Json notes = Json::array(), lights = Json::array();
   const Camera camera =
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
-  if (scene.spheres.empty() && scene.planes.empty()) {
+  if (count_primitives(scene).total() == 0) {
     notes.push_back("no objects in the scene: nothing to be hit");
   } else if (!scene.camera) {
     notes.push_back(camera_note);
@@ -114,11 +118,11 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
                {"hash", fmt::format("{:016x}", scene_hash(scene))}};
   FieldInfo(json).add(scene.image);
   FieldInfo(json).add(scene.render);
-  json.update({{"spheres", scene.spheres.size()},
+  json.update({{"spheres", count_primitives(scene).spheres},
                {"planes", scene.planes.size()},
                {"groups", group_count},
                {"instances", instance_count},
-               {"bounds", bounds_info(scene.spheres)}});
+               {"bounds", bounds_info(scene)}});
   add_surroundings(json, scene);
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene);

@@ -12,6 +12,8 @@ struct SphereBounds {
   Vec3d low, high;
 };
 SphereBounds bounds_of(const std::vector<Sphere>& spheres);
+/// The same around a scene's own spheres, or its packed ones.
+SphereBounds bounds_of(const Scene& scene);
 
 /// The camera that a scene without one is given: one fitted to its spheres as `scene.fit` says, for
 /// pictures of `width` x `height` pixels (CameraFitter). If there are planes only, it is a pinhole

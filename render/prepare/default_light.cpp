@@ -37,7 +37,8 @@ bool has_emitter(const Scene& scene) {
   const auto gives = [&emits](const auto& object) -> bool {
     return emits[object.material.index()];
   };
-  return std::any_of(scene.spheres.begin(), scene.spheres.end(), gives) ||
+  const std::vector<Sphere>& spheres = scene.packed ? scene.packed->emissive : scene.spheres;
+  return std::any_of(spheres.begin(), spheres.end(), gives) ||
          std::any_of(scene.planes.begin(), scene.planes.end(), gives);
 }
 

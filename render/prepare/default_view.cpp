@@ -133,4 +133,9 @@ View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
   return view;
 }
 
+std::array<Vec3d, 3> measured_axes(const CameraFit& fit, const std::vector<Plane>& planes) {
+  const Compass compass = compass_of(fit.up ? unit(*fit.up) : up_of(planes));
+  return {compass.right, compass.up, compass.front};
+}
+
 }  // namespace boule

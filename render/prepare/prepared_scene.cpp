@@ -12,6 +12,7 @@
 #include "render/prepare/default_light.h"
 #include "render/prepare/fold_spheres.h"
 #include "render/prepare/placed_lights.h"
+#include "render/prepare/scene_geometry.h"
 
 namespace boule {
 namespace {
@@ -34,7 +35,8 @@ std::vector<Material> plain_materials(const Scene& scene) {
 
 bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
   const auto colored = [](const auto& primitive) { return primitive.material.has_color(); };
-  return std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
+  return (scene.packed && scene.packed->has_own_colors) ||
+         std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
          fold_spheres(
              scene.spheres, parallel_for, char{0},
              [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
@@ -43,6 +45,7 @@ bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
 
 /// The spheres that give light, for path tracing.
 std::vector<Sphere> emissive_spheres(const Scene& scene) {
+  if (scene.packed) return scene.packed->emissive;
   std::vector<Sphere> emissive;
   const auto gives_light = [](const NamedMaterial& named) {
     return std::holds_alternative<Emissive>(named.material);
@@ -81,7 +84,7 @@ Status add_camera(Scene& scene, int width, int height, const ParallelFor& parall
                              "the scene has no camera, and its objects cannot be framed: camera." +
                                  problem->field + " " + problem->message);
   }
-  if (!scene.spheres.empty() || !scene.planes.empty()) notes.emplace_back(camera_note);
+  if (count_primitives(scene).total() > 0) notes.emplace_back(camera_note);
   return std::nullopt;
 }
 
@@ -134,8 +137,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
-  PreparedScene prepared{.geometry = Geometry(std::move(scene.spheres), scene.planes,
-                                              Structure::automatic, parallel_for),
+  PreparedScene prepared{.geometry = build_geometry(scene, scene.planes, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
                          .materials = flatten_all(scene, method),
                          .plain_materials = plain_materials(scene),

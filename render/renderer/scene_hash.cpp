@@ -10,6 +10,7 @@
 #include "core/base/float_environment.h"
 #include "core/math/random.h"
 #include "core/scene/instances.h"
+#include "core/scene/sphere_digest.h"
 
 namespace boule {
 namespace {
@@ -70,7 +71,8 @@ class Hasher {
 /// Adds the sections of a scene in their order: all that a picture depends on.
 class SceneHasher {
  public:
-  explicit SceneHasher(const Scene& scene) : scene_(scene), count_(count_primitives(scene)) {
+  SceneHasher(const Scene& scene, const ParallelFor& parallel_for)
+      : scene_(scene), parallel_for_(parallel_for) {
     each_field(scene, [this](const auto&, const auto& section) { this->add(section); });
   }
 
@@ -96,29 +98,34 @@ class SceneHasher {
   void add(const std::optional<Color>& backdrop) {
     if (backdrop) hash_.add(*backdrop);
   }
-  /// The scene's own and those that its instances show, as one list.
-  void add(const std::vector<Sphere>& spheres) { add_primitives(spheres, count_.spheres); }
-  void add(const std::vector<Plane>& planes) { add_primitives(planes, count_.planes); }
+  /// The scene's own and those that its instances show, as one list. Where they are packed there
+  /// are no others.
+  void add(const std::vector<Sphere>& spheres) {
+    if (scene_.packed) return hash_.add(scene_.packed->digest);
+    SphereDigest digest;
+    digest.add(spheres, parallel_for_);
+    visit_shown(scene_, std::function([&](const Sphere& one) { digest.add({&one, 1}); }));
+    hash_.add(digest.value());
+  }
+  void add(const std::vector<Plane>& planes) {
+    hash_.add(count_primitives(scene_).planes);
+    for (const Plane& one : planes) hash_.add(one);
+    visit_shown(scene_, std::function([this](const Plane& one) { hash_.add(one); }));
+  }
   void add(const std::vector<Group>&) {}
   void add(const std::vector<Instance>&) {}
-
-  template <class Primitive>
-  void add_primitives(const std::vector<Primitive>& own, std::uint64_t count) {
-    hash_.add(count);
-    for (const Primitive& one : own) hash_.add(one);
-    visit_shown(scene_, std::function([this](const Primitive& one) { hash_.add(one); }));
-  }
+  void add(const std::shared_ptr<const PackedSpheres>&) {}
 
   const Scene& scene_;
-  PrimitiveCount count_;
+  const ParallelFor& parallel_for_;
   Hasher hash_;
 };
 
 }  // namespace
 
-std::uint64_t scene_hash(const Scene& scene) {
+std::uint64_t scene_hash(const Scene& scene, const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
-  return SceneHasher(scene).value();
+  return SceneHasher(scene, parallel_for).value();
 }
 
 }  // namespace boule

@@ -10,6 +10,7 @@
 #include "core/surface.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/scene_memory.h"
+#include "render/prepare/scene_geometry.h"
 #include "render/renderer/preparation.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -67,8 +68,7 @@ Tracer::Tracer(Scene scene, const TraceOptions& options, const KernelTable& kern
     : options_(options),
       kernels_(&kernels),
       planes_(std::move(scene.planes)),
-      geometry_(std::move(scene.spheres), planes_, Structure::automatic,
-                Scheduler(options.threads).parallel_for()),
+      geometry_(build_geometry(scene, planes_, Scheduler(options.threads).parallel_for())),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
@@ -115,9 +115,9 @@ void Tracer::find_any(Worker& worker) {
 /// 0 for a miss.
 Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
   if (hit.id == no_primitive) return {};
-  const auto id = static_cast<std::size_t>(hit.id), spheres = geometry_.sphere_count();
-  const Surface met = id < spheres ? find_surface(geometry_.sphere(hit.slot), ray, hit)
-                                   : find_surface(planes_[id - spheres], ray, hit);
+  const std::size_t plane = static_cast<std::size_t>(hit.id) - geometry_.sphere_count();
+  const Surface met = geometry_.is_plane(hit) ? find_surface(planes_[plane], ray, hit)
+                                              : find_surface(geometry_.sphere(hit.slot), ray, hit);
   return vec_cast<float>(met.normal);
 }
 

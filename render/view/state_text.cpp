@@ -168,8 +168,8 @@ SceneFigures figures_of(const LoadedScene& loaded) {
   SceneFigures figures{.planes = scene.planes.size(), .center = {}};
   visit_shown(scene, [&](const Sphere& sphere) { spheres.push_back(sphere); });
   visit_shown(scene, [&](const Plane&) { ++figures.planes; });
-  figures.spheres = spheres.size();
-  const SphereBounds box = bounds_of(spheres);
+  figures.spheres = scene.packed ? scene.packed->count : spheres.size();
+  const SphereBounds box = scene.packed ? bounds_of(scene) : bounds_of(spheres);
   if (!(box.low.x <= box.high.x)) return figures;
   figures.center = (box.low + box.high) * 0.5 + loaded.origin;
   figures.radius = length(box.high - box.low) / 2;

@@ -40,6 +40,15 @@ float extent_of(const LargeArray<BvhNode>& nodes) {
   return extent;
 }
 
+/// A view of a tree, which must live longer.
+Bvh borrowed(const Bvh& tree) {
+  const auto view = []<class T>(const LargeArray<T>& array) {
+    return LargeArray<T>::borrowed(array.data(), array.size());
+  };
+  return {view(tree.nodes), view(tree.slots), tree.scanned, view(tree.blocks),
+          tree.materials.borrowed()};
+}
+
 }  // namespace
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
@@ -86,6 +95,12 @@ Geometry::Geometry(Bvh bvh, std::size_t spheres, const std::vector<Plane>& plane
     if (bvh_.slots[slot] >= 0) set_scanned(slot);
   }
   for (std::size_t i = 0; i < plane_count_; ++i) set_plane(i, planes[i]);
+}
+
+Geometry::Geometry(std::shared_ptr<const Bvh> tree, std::size_t spheres,
+                   const std::vector<Plane>& planes)
+    : Geometry(borrowed(*tree), spheres, planes) {
+  tree_ = std::move(tree);
 }
 
 Sphere Geometry::sphere(std::uint32_t slot) const {

@@ -40,6 +40,9 @@ class MetPrimitives {
       : planes_(geometry.planes), id_(hits.id + first) {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
       const std::int32_t primitive = lane < live ? id_[lane] : no_primitive;
+      const std::size_t plane =
+          static_cast<std::size_t>(primitive) - static_cast<std::size_t>(planes_.first_id);
+      const bool is_plane = primitive >= 0 && plane < planes_.size;  // ids of slots may be wrong
       const bool sphere = primitive >= 0 && primitive < planes_.first_id;
       const SlotSphere met =
           sphere ? get_slot(geometry.spheres, hits.slot[first + lane]) : SlotSphere{0, 0, 0, 1};
@@ -48,7 +51,7 @@ class MetPrimitives {
       z_[lane] = met.z;
       radius_[lane] = met.radius;
       spheres_ |= static_cast<unsigned>(sphere) << lane;
-      planes_met_ |= static_cast<unsigned>(primitive >= planes_.first_id) << lane;
+      planes_met_ |= static_cast<unsigned>(is_plane) << lane;
     }
   }
 
