@@ -276,8 +276,10 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
 }
 
 PrimitiveCount count_primitives(const Scene& scene) {
-  if (scene.instances.empty()) return {scene.spheres.size(), scene.planes.size()};
-  return count_with(scene, GroupSurvey(scene).counts());
+  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  if (!scene.instances.empty()) count = count_with(scene, GroupSurvey(scene).counts());
+  if (scene.packed) count.spheres += scene.packed->count;
+  return count;
 }
 
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function) {

@@ -72,6 +72,11 @@ class SectionCheck {
   static Status check(const std::string&, const TypeRule&, const std::vector<Instance>&) {
     return {};
   }
+  /// Whoever made them has checked them: there may be too many to go through.
+  static Status check(const std::string&, const TypeRule&,
+                      const std::shared_ptr<const PackedSpheres>&) {
+    return {};
+  }
 
   Status status_;
 };
@@ -107,6 +112,15 @@ Status check_primitives(const std::string& name, const std::vector<Primitive>& p
   return Diagnostic::about(path + ".material", "names no material of the scene");
 }
 
+Status check_packed(const Scene& scene) {
+  if (!scene.packed) return std::nullopt;
+  if (count_primitives(scene).spheres != scene.packed->count)
+    return Diagnostic::about("packed", "a scene has no other spheres beside packed ones");
+  if (scene.materials.size() < scene.packed->made_of.size())
+    return Diagnostic::about("packed", "the scene lacks materials of its packed spheres");
+  return std::nullopt;
+}
+
 Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
   if (auto bad = check_primitives("sphere", scene.spheres, scene, parallel_for)) return bad;
   if (auto bad = check_primitives("plane", scene.planes, scene)) return bad;
@@ -116,7 +130,7 @@ Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
     if (auto bad = check_primitives(path + "plane", group.planes, scene)) return bad;
   }
   const auto bad = find_instance_problem(scene);
-  if (!bad) return std::nullopt;
+  if (!bad) return check_packed(scene);
   const std::string path = bad->group ? "group." + scene.groups[*bad->group].name + "." : "";
   return located(numbered(path + "instance", bad->instance), bad->problem);
 }
@@ -131,7 +145,9 @@ Status check_range(const char* key, int value, const WholeRule& rule) {
 Status validate_all_but_primitives(const Scene& scene) {
   const SectionCheck sections(scene);
   if (sections.status()) return sections.status();
-  if (scene.spheres.size() + scene.planes.size() > max_primitives) {
+  const std::uint64_t packed = scene.packed ? scene.packed->count : 0;
+  if (packed > max_primitives ||
+      packed + scene.spheres.size() + scene.planes.size() > max_primitives) {
     return Diagnostic::about("sphere", "a scene has at most 2147483647 primitives");
   }
   return std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "core/scene/group.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
+#include "core/scene/packed_spheres.h"
 #include "core/scene/primitive.h"
 
 namespace boule {
@@ -94,7 +96,7 @@ inline constexpr auto fields<NamedMaterial> = field_list(
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
 /// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
-/// likewise.
+/// likewise. Where there are packed spheres, there are no others.
 struct Scene {
   ImageSettings image;
   RenderSettings render;
@@ -112,6 +114,7 @@ struct Scene {
   std::vector<Plane> planes;
   std::vector<Group> groups;  ///< shown by instances only
   std::vector<Instance> instances;
+  std::shared_ptr<const PackedSpheres> packed;  ///< null: none
 };
 
 template <>
@@ -123,7 +126,8 @@ inline constexpr auto fields<Scene> = field_list(
     field("background.backdrop", &Scene::backdrop, rule::not_negative),
     field("material", &Scene::materials), field("light", &Scene::lights),
     field("sphere", &Scene::spheres), field("plane", &Scene::planes),
-    field("group", &Scene::groups), field("instance", &Scene::instances));
+    field("group", &Scene::groups), field("instance", &Scene::instances),
+    field("packed", &Scene::packed));
 
 /// The first thing wrong with a scene, or nothing. The Diagnostic's key is a dotted path as in
 /// scene files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer,

@@ -14,6 +14,9 @@ ExitCode run(const ViewCommand& command);
 /// Makes a picture of film files.
 ExitCode run(const MergeCommand& command);
 
+/// Packs a scene into a file that is mapped.
+ExitCode run(const PackCommand& command);
+
 /// Writes the scene that shows a particle file to standard output.
 ExitCode run(const SceneCommand& command);
 

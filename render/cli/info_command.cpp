@@ -4,11 +4,14 @@
 #include "render/cli/commands.h"
 #include "render/cli/frames.h"
 #include "render/cli/messages.h"
+#include "render/cli/packed_info.h"
 #include "render/cli/particle_info.h"
 #include "render/cli/particle_scene.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/scene_info.h"
 #include "render/cli/scene_loader.h"
+#include "render/frame/scheduler.h"
+#include "render/packed/packed_file.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_file.h"
 
@@ -22,10 +25,16 @@ Result<Json> info_of(const InfoCommand& command, const std::string& scene,
                      std::optional<int> frame) {
   SceneFileOptions options;
   options.frame = frame;
+  options.trust = command.trust;
+  Scheduler scheduler(0);
+  options.parallel_for = scheduler.parallel_for();
   ReadingLimit limit(command.load_limit);
   const ReadingLimit::Reading reading(limit, scene);
   if (is_particle_input(scene, command.look)) return particle_info(scene, command.look, frame);
   if (!command.look.first.empty()) return not_particles(scene, command.look.first);
+  if (is_packed_name(scene)) return packed_info(command, scene, options);
+  if (command.verify)
+    return Diagnostic::about("--verify", "is of packed scenes, and " + quote(scene) + " is none");
   auto loaded = load_known(scene, options);
   if (!loaded) return loaded.error();
   return scene_info(std::move(loaded).value(), scene);

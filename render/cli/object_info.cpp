@@ -22,6 +22,7 @@ Json first_info(const Scene& scene, const std::vector<Thing>& things) {
 }  // namespace
 
 Json spheres_info(const Scene& scene) {
+  if (scene.packed) return first_info(scene, scene.packed->first);
   if (scene.spheres.size() >= most_told) return first_info(scene, scene.spheres);
   std::vector<Sphere> first = scene.spheres;
   visit_shown_groups(scene, [&](const ShownGroup& shown) {

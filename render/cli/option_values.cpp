@@ -125,6 +125,18 @@ std::optional<StatsTarget> parse_stats(const std::string& text) {
   return StatsTarget{StatsForm::json, text.substr(json_to.size())};
 }
 
+std::optional<std::uint64_t> parse_bytes(const std::string& text) {
+  constexpr std::uint64_t least = std::uint64_t{16} << 20, most = std::uint64_t{1} << 50;
+  const std::string units = "KMGT";
+  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  const bool has_unit = unit != std::string::npos;
+  const int shift = has_unit ? 10 * (static_cast<int>(unit) + 1) : 0;
+  const auto number = parse_number<std::uint64_t>(text.substr(0, text.size() - (has_unit ? 1 : 0)),
+                                                  1, most >> shift);
+  if (!number || *number << shift < least) return std::nullopt;
+  return *number << shift;
+}
+
 std::optional<float> parse_shadow_epsilon(const std::string& text) {
   if (text == "none") return 0.0F;
   return parse_number(text, 0.0F, std::numeric_limits<float>::max());

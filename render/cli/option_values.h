@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ void choose_background(const std::optional<BackgroundChoice>& choice, Scene& sce
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);
+
+/// A size such as "500M" or "8G", in powers of 1024, or in bytes: 16M at least.
+std::optional<std::uint64_t> parse_bytes(const std::string& text);
 
 /// "none", which is 0, or a finite length of 0 or more.
 std::optional<float> parse_shadow_epsilon(const std::string& text);

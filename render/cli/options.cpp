@@ -11,6 +11,7 @@
 #include "render/cli/look_values.h"
 #include "render/cli/option_kinds.h"
 #include "render/cli/option_values.h"
+#include "render/cli/pack_options.h"
 #include "render/cli/part_options.h"
 #include "render/cli/usage.h"
 #include "render/cli/view_options.h"
@@ -22,7 +23,8 @@ constexpr const char* description =
     "Boule renders scenes of spheres and planes: exact hits, the same bits on every machine.";
 
 void add_scene(CLI::App& app, std::string& scene) {
-  app.add_option("SCENE", scene, "Scene: .toml, .nff, or spheres alone, N x 4: .npy; or particles")
+  app.add_option("SCENE", scene,
+                 "Scene: .toml, .nff, .boule, or spheres alone, N x 4: .npy; or particles")
       ->required()
       ->type_name("");
 }
@@ -46,6 +48,11 @@ void add_duration(CLI::App& app, const std::string& name, std::optional<double>&
 void add_load_limit(CLI::App& app, std::optional<double>& seconds) {
   add_duration(app, "--load-limit", seconds,
                "Give up when reading the scene and data files takes longer (no limit)");
+}
+
+void add_trust(CLI::App& app, bool& trust) {
+  app.add_flag("--trust", trust,
+               "Open a packed scene without checking it: for files of one's own only");
 }
 
 void add_size(CLI::App& app, RenderCommand& command) {
@@ -134,6 +141,7 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
                "Stop rendering after so long, such as 90s, 500ms, 5m; reading, preparing and "
                "writing not counted");
   add_load_limit(app, command.load_limit);
+  add_trust(app, command.trust);
   app.add_flag("--partial", command.partial,
                "Stopped by --time-limit or the first signal: write the picture as far as it is");
   add_order(app, command,
@@ -222,6 +230,7 @@ void add_view(CLI::App& app, ViewCommand& view) {
              "A series: #### in the names of scene and data is the frame's number");
   app.get_option("--frame")->excludes("--frames");
   add_load_limit(app, command.load_limit);
+  add_trust(app, command.trust);
   add_machine_options(app, command);
 }
 
@@ -235,6 +244,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
   app.add_flag("--any-hit", command.any_hit,
                "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
   add_load_limit(app, command.load_limit);
+  add_trust(app, command.trust);
   start_group(app, "Output");
   add_output(
       app, command.output, "HITS.npy",
@@ -263,6 +273,9 @@ void add_info(CLI::App& app, InfoCommand& command) {
   app.get_option("--frame")->excludes("--frames");
   app.add_flag("--json", command.json, "As JSON, for programs");
   add_load_limit(app, command.load_limit);
+  add_trust(app, command.trust);
+  app.add_flag("--verify", command.verify, "Read a packed scene as a whole, to check its checksums")
+      ->excludes("--frames");
 }
 
 /// A help text; CLI11 leaves two blank lines between groups.
@@ -289,6 +302,7 @@ struct Commands {
   RenderCommand render;
   ViewCommand view;
   MergeCommand merge;
+  PackCommand pack;
   SceneCommand scene;
   TraceCommand trace;
   InfoCommand info;
@@ -304,6 +318,8 @@ void add_commands(CLI::App& app, Commands& commands) {
   };
   add_render(add("render", "Render a scene to a picture"), commands.render);
   add_view(add("view", "Show a scene in a browser"), commands.view);
+  add_pack(add("pack", "Pack a scene of any size into a file that is opened at once"),
+           commands.pack);
   add_merge(add("merge", "Make a picture of the films of its shards"), commands.merge);
   add_scene_text(add("scene", "Write the scene that shows a particle file"), commands.scene);
   add_trace(add("trace", "Trace the rays of a file to hits"), commands.trace);
@@ -338,6 +354,7 @@ Command chosen_command(const CLI::App& app, Commands& commands) {
   if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
   if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
+  if (is_chosen("pack")) return checked("pack", commands.pack, commands.pack.look);
   if (is_chosen("merge")) return commands.merge;
   if (is_chosen("trace")) return commands.trace;
   if (is_chosen("info")) return checked("info", commands.info, commands.info.look);

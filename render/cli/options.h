@@ -73,6 +73,7 @@ struct RunOptions {
   Solver solver = Solver::robust;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<double> load_limit;  ///< seconds of reading
+  bool trust = false;                ///< packed scenes are not checked
   StatsTarget stats;
   Verbosity verbosity = Verbosity::normal;
 };
@@ -123,6 +124,18 @@ struct MergeCommand {
   bool quiet = false;
 };
 
+/// `boule pack`.
+struct PackCommand {
+  std::vector<std::string> inputs;  ///< a scene or particles, or spheres alone: .npy files or "-"
+  std::string output;
+  std::optional<std::uint64_t> memory;  ///< bytes; none: half of what there is
+  unsigned threads = 0;
+  PolygonPolicy polygons = PolygonPolicy::plane;
+  std::optional<double> load_limit;  ///< seconds of reading a scene
+  LookOptions look;                  ///< of a particle file
+  bool quiet = false;
+};
+
 /// `boule scene`.
 struct SceneCommand {
   std::string particles;             ///< a particle file
@@ -152,6 +165,8 @@ struct InfoCommand {
   std::optional<FrameRange> frames;
   LookOptions look;  ///< of a particle file: its format and frame only
   bool json = false;
+  bool trust = false;   ///< a packed scene is not checked
+  bool verify = false;  ///< it is read as a whole, for its checksums
 };
 
 /// `boule isa`.
@@ -170,8 +185,8 @@ struct UsageError {
   std::string help = "boule --help";
 };
 
-using Command = std::variant<RenderCommand, ViewCommand, MergeCommand, SceneCommand, TraceCommand,
-                             InfoCommand, IsaCommand, TextCommand, UsageError>;
+using Command = std::variant<RenderCommand, ViewCommand, MergeCommand, PackCommand, SceneCommand,
+                             TraceCommand, InfoCommand, IsaCommand, TextCommand, UsageError>;
 
 /// Parses the command line.
 Command parse_command_line(int argc, const char* const* argv);

@@ -9,6 +9,7 @@
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
 #include "render/file/npy_header.h"
+#include "render/packed/packed_file.h"
 #include "render/particle_file/particle_file.h"
 
 namespace boule::cli {
@@ -70,9 +71,10 @@ Diagnostic explain(Diagnostic error, const std::string& shown_path, const std::s
   return Diagnostic::in_file(path, std::move(error.message));
 }
 
-/// True for the endings of scenes: .toml, .nff, .npy.
+/// True for the endings of scenes: .toml, .nff, .npy, .boule.
 bool is_scene_name(const std::string& path) {
-  return has_ending(path, ".toml") || has_ending(path, ".nff") || has_ending(path, ".npy");
+  return is_packed_name(path) || has_ending(path, ".toml") || has_ending(path, ".nff") ||
+         has_ending(path, ".npy");
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& 
   if (loaded || is_scene_name(path)) return loaded;
   Diagnostic error = loaded.error();
   error.message =
-      "neither a scene nor particles by its name or content, expected .toml .nff .npy or " +
+      "neither a scene nor particles by its name or content, expected .toml .nff .npy .boule or " +
       known_particle_endings();
   return error;
 }

@@ -30,6 +30,10 @@ Json materials_info(const Scene& scene) {
   for (std::size_t i = 0; i < shown_groups.size(); ++i)
     count(scene.groups[i].spheres, shown_groups[i]);
   for (const Plane& plane : scene.planes) ++objects[plane.material.index()];
+  if (scene.packed) {
+    for (std::size_t i = 0; i < scene.packed->made_of.size(); ++i)
+      objects[i] += scene.packed->made_of[i];
+  }
   Json list = Json::array();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const NamedMaterial& named = scene.materials[i];
@@ -61,7 +65,7 @@ std::string inline_text(const Json& value) {
 bool is_list(const std::string& key) {
   for (const char* list :
        {"data_files", "lights", "materials", "notes", "warnings", "first_spheres", "first_planes",
-        "group_list", "first_instances", "species", "columns"}) {
+        "group_list", "first_instances", "species", "columns", "sections"}) {
     if (key == list) return true;
   }
   return false;

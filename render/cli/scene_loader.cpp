@@ -44,6 +44,7 @@ SceneLoader::SceneLoader(const RenderCommand& command)
       size_(command.size),
       scheduler_(command.threads) {
   options_.polygons = command.polygons;
+  options_.trust = command.trust;
   options_.parallel_for = scheduler_.parallel_for();
   if (frames_) options_.particle_files = &files_;
 }

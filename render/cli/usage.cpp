@@ -94,7 +94,7 @@ std::string unexpected(const CLI::App& command, const std::string& word) {
 std::string missing(const CLI::App& app, const CLI::App& command) {
   if (&command == &app) {
     return "a command is missing, expected " +
-           list_names({"render", "view", "merge", "scene", "trace", "info", "isa"});
+           list_names({"render", "view", "pack", "merge", "scene", "trace", "info", "isa"});
   }
   const CLI::Option& option = *missing_options(command).front();
   const std::string& type = option.get_type_name();
@@ -106,7 +106,8 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
 UsageError unknown_command(const CLI::App& app, const std::string& name) {
   const std::string text = "unknown command " + quote(name);
   const bool is_scene = name.ends_with(".toml") || name.ends_with(".nff") ||
-                        name.ends_with(".npy") || is_particle_name(name);
+                        name.ends_with(".npy") || name.ends_with(".boule") ||
+                        is_particle_name(name);
   if (is_scene) return {text + "; did you mean 'boule render " + safe_name(name) + "'?"};
   return {text + suggest(name, command_names(app))};
 }

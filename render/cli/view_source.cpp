@@ -9,6 +9,7 @@
 #include "render/cli/look_values.h"
 #include "render/cli/particle_scene.h"
 #include "render/cli/scene_loader.h"
+#include "render/packed/packed_file.h"
 #include "render/particle_file/particle_file.h"
 #include "render/scene_file/frame_name.h"
 
@@ -18,6 +19,7 @@ namespace {
 const char* kind_of(const std::string& path, bool particles) {
   if (particles) return "particles";
   if (path.ends_with(".nff")) return "nff";
+  if (is_packed_name(path)) return "packed";
   return path.ends_with(".npy") ? "spheres" : "toml";
 }
 
@@ -51,6 +53,7 @@ std::string fixed_options(const LookOptions& look) {
 ViewSource::ViewSource(const RenderCommand& command)
     : command_(command), scheduler_(command.threads) {
   options_.polygons = command.polygons;
+  options_.trust = command.trust;
   options_.parallel_for = scheduler_.parallel_for();
   options_.particle_files = &files_;
   facts_.path = command.scene;

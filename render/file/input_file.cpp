@@ -103,6 +103,12 @@ Result<InputFile> InputFile::open(const std::string& path) {
   return file;
 }
 
+Result<InputFile> InputFile::standard_input() {
+  const int descriptor = ::fcntl(0, F_DUPFD_CLOEXEC, 0);
+  if (descriptor < 0) return cannot_read("standard input", system_reason());
+  return InputFile("standard input", descriptor, 0);
+}
+
 /// Calls get(to, count) until `count` bytes are there, or the file ends.
 template <class Get>
 Result<std::size_t> InputFile::read_all(void* buffer, std::size_t count, const Get& get) const {

@@ -15,6 +15,9 @@ class InputFile {
   /// Opens `path`, any name; the error carries the system's reason.
   static Result<InputFile> open(const std::string& path);
 
+  /// Standard input, whatever it is. Its size is not known: 0.
+  static Result<InputFile> standard_input();
+
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
   ~InputFile();

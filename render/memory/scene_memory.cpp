@@ -24,8 +24,9 @@ Status check_shared_memory(const Scene& scene, const std::vector<ShownGroup>& gr
 
 Status check_scene_memory(const Scene& scene) {
   if (find_reference_problem(scene)) return std::nullopt;
-  const PrimitiveCount count = count_primitives(scene);
   if (const auto groups = groups_to_share(scene)) return check_shared_memory(scene, *groups);
+  PrimitiveCount count = count_primitives(scene);
+  if (scene.packed) count.spheres -= scene.packed->count;  // they are in their tree already
   const std::uint64_t planes = count.planes - scene.planes.size();
   // The scene's own spheres are in memory already.
   const std::uint64_t bytes = bytes_of_tree(count.spheres) + planes * sizeof(Plane) -

@@ -89,6 +89,21 @@ void CameraFitter::add(const CameraFitter& other) {
   largest_ = std::max(largest_, other.largest_);
 }
 
+std::vector<SphereMeasure> CameraFitter::measures() const {
+  std::vector<SphereMeasure> all{{forward_, 1}, {forward_ * -1.0, 1}, {{0, 0, 0}, 1}};
+  const auto add_sides = [&](const Sides& sides, const Vec3d& across) {
+    all.push_back({forward_ * sides.sine + across * sides.cosine, 1});
+    all.push_back({forward_ * sides.sine - across * sides.cosine, 1});
+  };
+  add_sides(x_, right_);
+  add_sides(y_, up_);
+  for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
+    all.push_back({axis, 0});
+    all.push_back({axis * -1.0, 0});
+  }
+  return all;
+}
+
 Camera CameraFitter::camera() const {
   return fit_.type == FittedCamera::pinhole ? pinhole() : orthographic();
 }

@@ -8,6 +8,7 @@
 #include "core/scene/camera_fit.h"
 #include "core/scene/primitive.h"
 #include "render/prepare/default_view.h"
+#include "render/prepare/extreme_spheres.h"
 
 namespace boule {
 
@@ -20,6 +21,9 @@ class CameraFitter {
   CameraFitter(const CameraFit& fit, const View& view, int width, int height);
 
   void add(std::span<const Sphere> spheres, const ParallelFor& parallel_for = serial_for);
+
+  /// The camera depends on the spheres by these measures only, and by those for which one is least.
+  [[nodiscard]] std::vector<SphereMeasure> measures() const;
 
   /// The camera. It looks at the middle of the spheres' depths. Its coordinates are floats: the
   /// spheres are taken as larger by 2^-20 of the largest coordinate and of the eye's distance, so

@@ -8,6 +8,7 @@
 #include "core/scene/instances.h"
 #include "render/prepare/camera_fitter.h"
 #include "render/prepare/default_view.h"
+#include "render/prepare/extreme_spheres.h"
 
 namespace boule {
 namespace {
@@ -31,9 +32,26 @@ Camera camera_without_spheres(const Scene& scene, int width, int height) {
   return PinholeCamera{pose, scene.fit.fov, scene.fit.fov_axis.value_or(shorter)};
 }
 
+/// The same as for a list of spheres, but by those only that the camera depends on.
+Camera camera_of_packed(const Scene& scene, int width, int height) {
+  std::vector<SphereMeasure> measures;
+  for (const Vec3d& axis : measured_axes(scene.fit, scene.planes)) {
+    for (const double weight : {0.0, 1.0}) {
+      measures.push_back({axis, weight});
+      measures.push_back({axis * -1.0, weight});
+    }
+  }
+  const Bvh& tree = *scene.packed->tree;
+  const View view = default_view(scene.fit, extreme_spheres(tree, measures), scene.planes);
+  CameraFitter fitter(scene.fit, view, width, height);
+  fitter.add(extreme_spheres(tree, fitter.measures()));
+  return fitter.camera();
+}
+
 }  // namespace
 
 SphereBounds bounds_of(const Scene& scene) {
+  if (scene.packed && scene.packed->count > 0) return {scene.packed->low, scene.packed->high};
   constexpr double inf = std::numeric_limits<double>::infinity();
   Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
   visit_spheres(scene, [&low, &high](SphereRun spheres) {
@@ -48,6 +66,7 @@ SphereBounds bounds_of(const Scene& scene) {
 }
 
 Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
+  if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
   if (count_primitives(scene).spheres == 0) return camera_without_spheres(scene, width, height);
   const View view = default_view(scene.fit, runs_of(scene), scene.planes, parallel_for);
   CameraFitter fitter(scene.fit, view, width, height);

@@ -41,7 +41,8 @@ bool has_emitter(const Scene& scene) {
   const auto any_gives = [&gives](const auto& objects) {
     return std::any_of(objects.begin(), objects.end(), gives);
   };
-  bool found = any_gives(scene.spheres) || any_gives(scene.planes);
+  bool found =
+      any_gives(scene.packed ? scene.packed->emissive : scene.spheres) || any_gives(scene.planes);
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
     if (found) return;
     found = shown.material ? emits[*shown.material] : any_gives(scene.groups[shown.group].spheres);

@@ -125,8 +125,8 @@ View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
   return default_view(fit, one_run, planes, parallel_for);
 }
 
-View default_view(const CameraFit& fit, const SphereRuns& spheres,
-                  const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
+View default_view(const CameraFit& fit, const SphereRuns& spheres, const std::vector<Plane>& planes,
+                  const ParallelFor& parallel_for) {
   View view;
   view.up = fit.up ? unit(*fit.up) : up_of(planes);
   if (fit.direction) {
@@ -141,6 +141,11 @@ View default_view(const CameraFit& fit, const SphereRuns& spheres,
     view.up = compass_of(view.up).front * -1.0;
   }
   return view;
+}
+
+std::array<Vec3d, 3> measured_axes(const CameraFit& fit, const std::vector<Plane>& planes) {
+  const Compass compass = compass_of(fit.up ? unit(*fit.up) : up_of(planes));
+  return {compass.right, compass.up, compass.front};
 }
 
 }  // namespace boule

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -22,9 +23,13 @@ struct View {
 /// from above. Without an up, y is up, or the axis along which the first plane's normal lies.
 /// Precondition: fit's vectors are finite and not zero. A fit whose up lies along its direction
 /// gives such a View.
-View default_view(const CameraFit& fit, const SphereRuns& spheres,
-                  const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
+View default_view(const CameraFit& fit, const SphereRuns& spheres, const std::vector<Plane>& planes,
+                  const ParallelFor& parallel_for = serial_for);
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
                   const std::vector<Plane>& planes, const ParallelFor& parallel_for = serial_for);
+
+/// The directions across which default_view() measures the spheres: it depends on them by how far
+/// they and their centres reach along these, both ways.
+std::array<Vec3d, 3> measured_axes(const CameraFit& fit, const std::vector<Plane>& planes);
 
 }  // namespace boule

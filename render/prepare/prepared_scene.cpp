@@ -41,7 +41,8 @@ bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
                [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
                [](char& some, char other) { some |= other; }) != 0;
   };
-  return std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
+  return (scene.packed && scene.packed->has_own_colors) ||
+         std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
          any_colored(scene.spheres) ||
          std::any_of(scene.groups.begin(), scene.groups.end(),
                      [&](const Group& group) { return any_colored(group.spheres); });
@@ -49,6 +50,7 @@ bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
 
 /// The spheres that give light, for path tracing.
 std::vector<Sphere> emissive_spheres(const Scene& scene) {
+  if (scene.packed) return scene.packed->emissive;
   std::vector<Sphere> emissive;
   const auto gives_light = [](const NamedMaterial& named) {
     return std::holds_alternative<Emissive>(named.material);

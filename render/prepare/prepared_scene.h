@@ -46,9 +46,7 @@ struct PreparedScene {
 
   /// Whether a hit is one of a sphere. Precondition of this and of what follows: it is a hit of
   /// this geometry's, no miss.
-  [[nodiscard]] bool is_sphere(const Hit& hit) const {
-    return static_cast<std::uint32_t>(hit.id) < geometry.sphere_count();
-  }
+  [[nodiscard]] bool is_sphere(const Hit& hit) const { return !geometry.is_plane(hit); }
   /// The plane that was hit. Precondition: it was no sphere.
   [[nodiscard]] const Plane& plane(const Hit& hit) const {
     return planes[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count()];

@@ -7,6 +7,8 @@ namespace boule {
 
 Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
                      const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
+  if (scene.packed)
+    return {scene.packed->tree, static_cast<std::size_t>(scene.packed->count), planes};
   if (!groups) {
     return {std::move(scene.spheres), planes, Structure::automatic, parallel_for};
   }

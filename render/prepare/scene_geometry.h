@@ -10,9 +10,9 @@
 
 namespace boule {
 
-/// A geometry in the place of a valid scene's spheres, which are gone then, and of these planes.
-/// `groups`: what share_or_expand() returned for the scene; each group is one tree, however often
-/// it is shown. Throws std::bad_alloc, and what `parallel_for` throws.
+/// The geometry of a valid scene, whose spheres are taken, and of these planes. `groups`: what
+/// share_or_expand() returned for the scene; each group is one tree, however often it is shown.
+/// Throws std::bad_alloc, and what `parallel_for` throws.
 Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
                      const std::vector<Plane>& planes, const ParallelFor& parallel_for);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/cli/legend.h"
+#include "render/python/errors.h"
 #include "render/python/field_values.h"
 #include "render/python/values.h"
 
@@ -211,6 +212,9 @@ py::dict SceneValues::all() {
 
 }  // namespace
 
-py::dict values_of(LoadedScene&& loaded) { return SceneValues(std::move(loaded)).all(); }
+py::dict values_of(LoadedScene&& loaded) {
+  if (loaded.scene.packed) throw_error("scene", "is packed: its spheres cannot be taken apart");
+  return SceneValues(std::move(loaded)).all();
+}
 
 }  // namespace boule::python

@@ -153,7 +153,9 @@ py::dict list_fields() {
   all["plane"] = kinds<Plane>();
   all["instance"] = kinds<Instance>();
   py::list scene;
-  each_field<Scene>([&](const auto& field) { scene.append(std::string(field.key)); });
+  each_field<Scene>([&](const auto& field) {
+    if (field.key != "packed") scene.append(std::string(field.key));  // known by its file only
+  });
   all["scene"] = scene;
   return all;
 }

@@ -10,6 +10,7 @@
 #include "core/base/float_environment.h"
 #include "core/math/random.h"
 #include "core/scene/instances.h"
+#include "core/scene/sphere_digest.h"
 
 namespace boule {
 namespace {
@@ -70,10 +71,8 @@ class Hasher {
 /// Adds the sections of a scene in their order: all that a picture depends on.
 class SceneHasher {
  public:
-  explicit SceneHasher(const Scene& scene)
-      : scene_(scene),
-        shares_(groups_to_share(scene).has_value()),
-        count_(count_primitives(scene)) {
+  SceneHasher(const Scene& scene, const ParallelFor& parallel_for)
+      : scene_(scene), parallel_for_(parallel_for), shares_(groups_to_share(scene).has_value()) {
     each_field(scene, [this](const auto&, const auto& section) { this->add(section); });
   }
 
@@ -99,36 +98,52 @@ class SceneHasher {
   void add(const std::optional<Color>& backdrop) {
     if (backdrop) hash_.add(*backdrop);
   }
-  /// The scene's own and those that its instances show, as one list.
-  void add(const std::vector<Sphere>& spheres) { add_primitives(spheres, count_.spheres); }
-  void add(const std::vector<Plane>& planes) { add_primitives(planes, count_.planes); }
-  /// Groups that are shared are too many spheres to go through: they are added as they are.
+  /// The scene's own and those that its instances show, as one list. Where they are packed there
+  /// are no others. Groups that are shared are too many spheres to go through.
+  void add(const std::vector<Sphere>& spheres) {
+    if (scene_.packed) return hash_.add(scene_.packed->digest);
+    hash_.add(digest_of(spheres, !shares_));
+  }
+  void add(const std::vector<Plane>& planes) {
+    hash_.add(count_primitives(scene_).planes);
+    for (const Plane& one : planes) hash_.add(one);
+    if (shares_) return;
+    visit_shown(scene_, std::function([this](const Plane& one) { hash_.add(one); }));
+  }
+  /// Groups that are shared are added as they are: their planes in order, and their spheres.
   void add(const std::vector<Group>& groups) {
-    if (shares_) hash_.add(groups);
+    if (!shares_) return;
+    hash_.add(std::uint64_t{groups.size()});
+    for (const Group& group : groups) {
+      hash_.add(digest_of(group.spheres, false));
+      hash_.add(group.planes);
+      hash_.add(group.instances);
+    }
   }
   void add(const std::vector<Instance>& instances) {
     if (shares_) hash_.add(instances);
   }
+  void add(const std::shared_ptr<const PackedSpheres>&) {}
 
-  template <class Primitive>
-  void add_primitives(const std::vector<Primitive>& own, std::uint64_t count) {
-    hash_.add(count);
-    for (const Primitive& one : own) hash_.add(one);
-    if (shares_) return;
-    visit_shown(scene_, std::function([this](const Primitive& one) { hash_.add(one); }));
+  std::uint64_t digest_of(const std::vector<Sphere>& spheres, bool shown_too) const {
+    SphereDigest digest;
+    digest.add(spheres, parallel_for_);
+    if (shown_too)
+      visit_shown(scene_, std::function([&](const Sphere& one) { digest.add({&one, 1}); }));
+    return digest.value();
   }
 
   const Scene& scene_;
+  const ParallelFor& parallel_for_;
   bool shares_;
-  PrimitiveCount count_;
   Hasher hash_;
 };
 
 }  // namespace
 
-std::uint64_t scene_hash(const Scene& scene) {
+std::uint64_t scene_hash(const Scene& scene, const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
-  return SceneHasher(scene).value();
+  return SceneHasher(scene, parallel_for).value();
 }
 
 }  // namespace boule

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/parallel.h"
 #include "core/scene/scene.h"
 
 namespace boule {
@@ -11,6 +12,6 @@ namespace boule {
 /// if they were written out. Names, image and render settings are not in it, nor is the file's
 /// wording: a scene has the same hash from TOML, from .npy and from memory, on every machine. Not
 /// cryptographic. Precondition, not checked: a valid scene (validate()). Throws std::bad_alloc.
-std::uint64_t scene_hash(const Scene& scene);
+std::uint64_t scene_hash(const Scene& scene, const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

@@ -119,9 +119,9 @@ void Tracer::find_any(Worker& worker) {
 /// 0 for a miss.
 Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
   if (hit.id == no_primitive) return {};
-  const std::size_t id = static_cast<std::uint32_t>(hit.id), spheres = geometry_.sphere_count();
-  const Surface met = id < spheres ? find_surface(geometry_.sphere(hit.slot), ray, hit)
-                                   : find_surface(planes_[id - spheres], ray, hit);
+  const std::size_t plane = static_cast<std::uint32_t>(hit.id) - geometry_.sphere_count();
+  const Surface met = geometry_.is_plane(hit) ? find_surface(planes_[plane], ray, hit)
+                                              : find_surface(geometry_.sphere(hit.slot), ray, hit);
   return vec_cast<float>(met.normal);
 }
 

@@ -10,10 +10,12 @@
 #include "core/base/float_environment.h"
 #include "render/file/input_file.h"
 #include "render/memory/scene_memory.h"
+#include "render/packed/packed_file.h"
 #include "render/scene_file/nff_reader.h"
 #include "render/scene_file/npy_reader.h"
 #include "render/scene_file/particle_file_cache.h"
 #include "render/scene_file/scene_tree.h"
+#include "render/scene_file/toml_packed.h"
 #include "render/scene_file/toml_reader.h"
 
 namespace boule {
@@ -49,11 +51,21 @@ Result<LoadedScene> read_npy_scene(const std::string& path, const ParallelFor& p
   return loaded;
 }
 
+Result<LoadedScene> read_packed_scene(const std::string& path, const SceneFileOptions& options) {
+  auto packed = open_packed(path, options);
+  if (!packed) return packed.error();
+  LoadedScene loaded;
+  loaded.scene = std::move(packed.value().scene);
+  loaded.origin = packed.value().origin;
+  return loaded;
+}
+
 Result<LoadedScene> load(const std::string& path, const SceneFileOptions& options) {
+  if (is_packed_name(path)) return read_packed_scene(path, options);
   const bool is_npy = has_extension(path, ".npy");
   if (!is_npy && !has_extension(path, ".toml") && !has_extension(path, ".nff")) {
     return Diagnostic::in_file(
-        path, "not a scene file by its name, expected an extension .toml, .nff or .npy");
+        path, "not a scene file by its name, expected an extension .toml, .nff, .npy or .boule");
   }
   return is_npy ? read_npy_scene(path, options.parallel_for) : read_text_scene(path, options);
 }

@@ -32,6 +32,7 @@ struct SceneFileOptions {
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads
   /// at a time.
   ParticleFileCache* particle_files = nullptr;
+  bool trust = false;               ///< packed scenes are not checked (PackedOptions)
   const SceneData* data = nullptr;  ///< what is taken from memory where a file is named; null: none
   /// Runs the loops over particles.
   ParallelFor parallel_for = serial_for;
@@ -49,7 +50,8 @@ struct LoadedScene {
   Vec3d origin{};
 };
 
-/// Reads a scene by its extension: .toml, .nff (Haines' SPD), or .npy: spheres alone, N x 4.
+/// Reads a scene by its extension: .toml, .nff (Haines' SPD), .boule (packed), or .npy: spheres
+/// alone, N x 4.
 /// An error is a Diagnostic with file, line, column and key; it is an error, too, if the scene is
 /// too large to be prepared in the memory there is. Takes any name, text and frame; only regular
 /// files are read.

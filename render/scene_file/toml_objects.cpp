@@ -67,8 +67,12 @@ ObjectTables object_tables(TomlTable& table) {
 }
 
 void TomlObjects::read_materials(std::vector<TomlTable> tables) {
+  for (std::uint32_t id = 0; id < scene_.materials.size(); ++id)
+    material_ids_.emplace(scene_.materials[id].name, id);
   for (TomlTable& table : tables) {
-    material_ids_.emplace(table.name(), static_cast<std::uint32_t>(scene_.materials.size()));
+    const auto id = static_cast<std::uint32_t>(scene_.materials.size());
+    if (!material_ids_.emplace(table.name(), id).second)
+      table.report("type", "the packed scene has a material of this name already");
     scene_.materials.push_back({table.name(), read_material(table)});
   }
 }

@@ -48,6 +48,7 @@ class TomlObjects final : private TomlNames {
   TomlObjects(Scene& scene, FirstError& error, const SceneFileOptions& options)
       : scene_(scene), error_(error), options_(options) {}
 
+  /// The scene may have materials already, by whose names others can be refused.
   void read_materials(std::vector<TomlTable> tables);
 
   /// Gives every group its number: instances may name groups that come later.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scene/instances.h"
 #include "render/scene_file/toml_camera.h"
 #include "render/scene_file/toml_camera_keys.h"
 #include "render/scene_file/toml_entities.h"
 #include "render/scene_file/toml_objects.h"
 #include "render/scene_file/toml_origin.h"
+#include "render/scene_file/toml_packed.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
@@ -41,6 +43,7 @@ class TomlReader {
  private:
   void check_schema();
   void choose_origin(const ObjectTables& objects);
+  void check_packed(const ObjectTables& objects);
   void read_camera_table(TomlTable& table);
   void choose_up();
   void validate_whole();
@@ -52,6 +55,7 @@ class TomlReader {
   Scene& scene_ = loaded_.scene;
   FirstError error_;
   TomlTable root_;
+  std::optional<PackedPart> packed_;
 };
 
 Result<LoadedScene> TomlReader::read() {
@@ -62,11 +66,14 @@ Result<LoadedScene> TomlReader::read() {
   auto lights = root_.tables("light");
   auto objects = object_tables(root_);
   auto groups = root_.named_tables("group");
+  packed_ = read_packed(root_, options_);
   for (TomlTable& group : groups) group.set_origin(nullptr);  // each has its own
   root_.has("origin");  // makes it known: it is read once the particles are there
   root_.finish();
   if (!root_.has("schema")) root_.report("schema", "missing key 'schema': write schema = 1");
 
+  // What this file does not say comes from the packed one.
+  if (packed_) scene_ = packed_->scene;
   if (image) scene_.image = read_image_settings(*image);
   if (render) scene_.render = read_render(*render);
   TomlObjects reader(scene_, error_, options_);
@@ -74,9 +81,15 @@ Result<LoadedScene> TomlReader::read() {
   reader.start_groups(groups);
   reader.load_particles(objects);
   choose_origin(objects);
+  if (packed_) check_packed(objects);
   // From here on points are read.
+  if (!lights.empty()) scene_.lights.clear();
   if (camera) read_camera_table(*camera);
-  if (background) scene_.background = read_background(*background, scene_);
+  if (background) {
+    scene_.ambient = {};
+    scene_.backdrop.reset();
+    scene_.background = read_background(*background, scene_);
+  }
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
   reader.read_scene(objects);
   for (std::size_t i = 0; i < groups.size(); ++i) reader.read_group(i, groups[i]);
@@ -109,6 +122,15 @@ void TomlReader::choose_origin(const ObjectTables& objects) {
   origin_ = read_origin(root_, spheres, loaded_.notes);
 }
 
+/// Packed spheres are the only ones of a scene, and their points are counted from its origin.
+void TomlReader::check_packed(const ObjectTables& objects) {
+  for (const auto& [table, source, particles, exact] : objects.spheres)
+    error_.report(table.place(), table.path(), "a scene has no other spheres beside packed ones");
+  if (root_.has("origin") && !(origin_ == packed_->origin))
+    root_.report("origin", "is not that of the packed scene, which need not be repeated");
+  origin_ = packed_->origin;
+}
+
 void TomlReader::check_schema() {
   if (root_.is_empty()) root_.report("schema", "the scene is empty: begin with schema = 1");
   int schema = 1;
@@ -117,6 +139,8 @@ void TomlReader::check_schema() {
 }
 
 void TomlReader::read_camera_table(TomlTable& table) {
+  scene_.camera.reset();
+  scene_.fit = {};
   scene_.distortion = read_distortion(table);
   if (const auto fit = read_camera_fit(table)) {
     if (motion_ != nullptr) table.report("key", "cannot stand beside 'fit'");
@@ -141,6 +165,10 @@ void TomlReader::choose_up() {
 /// Checks what the readers of single tables do not: settings, `ambient`, the number of objects.
 void TomlReader::validate_whole() {
   if (error_.status()) return;
+  if (scene_.packed && count_primitives(scene_).spheres != scene_.packed->count) {
+    return error_.report(root_.place(), "instance",
+                         "a scene has no other spheres beside packed ones");
+  }
   const auto bad = validate_all_but_primitives(scene_);
   if (!bad) return;
   const std::string section = bad->key.substr(0, bad->key.find('.'));

@@ -156,11 +156,12 @@ struct BinaryForest::Level {
   std::vector<Chunk> chunks;
 };
 
-BinaryForest::BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for)
+BinaryForest::BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for,
+                           int depth)
     : spheres_(spheres),
       subtree_size_(std::max(tuning::least_subtree, spheres.size() / tuning::most_subtrees)) {
   std::vector<Run> runs;
-  Run whole{0, spheres.size(), 1, ForestNode::upper, false};
+  Run whole{0, spheres.size(), depth, ForestNode::upper, false};
   if (whole.end <= subtree_size_) {
     add_subtree(whole);
   } else {

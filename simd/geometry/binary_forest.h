@@ -30,8 +30,9 @@ struct ForestNode {
 class BinaryForest {
  public:
   /// Divides the spheres, at least one, into the runs of subtrees, and brings them into the order
-  /// of these, where they are. They must outlive the forest.
-  BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for);
+  /// of these, where they are. They must outlive the forest. `depth`
+  /// is that of the root.
+  BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for, int depth = 1);
 
   /// Spheres that become a tree of their own: run [begin, end).
   struct Subtree {

@@ -252,8 +252,10 @@ SphereBlock empty_block() {
   return block;
 }
 
-Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for) {
-  const std::vector<std::int32_t> apart = find_spheres_apart(spheres, parallel_for);
+Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for,
+              const TreePlace& place) {
+  std::vector<std::int32_t> apart;
+  if (place.keeps_apart) apart = find_spheres_apart(spheres, parallel_for);
   const std::vector<std::int32_t> scanned = without_copies(apart, spheres);
   const std::vector<Sphere> scanned_spheres = spheres_of(scanned, spheres);
   const MaterialRef first_material = spheres.empty() ? MaterialRef() : spheres[0].material;
@@ -263,7 +265,7 @@ Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for) {
   LargeArray<MaterialRef> materials(alike ? 0 : spheres.size());
   const std::span<BuildSphere> others = take_others(spheres, apart, materials.data(), parallel_for);
   if (others.empty()) return filler.finish(first_material);
-  BinaryForest forest(others, parallel_for);
+  BinaryForest forest(others, parallel_for, place.depth);
   materials = by_place(materials, others, parallel_for);
   const ParallelFor fill_for = others.size() <= tuning::chunk_size ? serial_for : parallel_for;
   TreeFiller(forest, others, std::move(materials), filler).fill(fill_for);

@@ -26,6 +26,13 @@ struct Bvh {
   SlotMaterials materials;
 };
 
+/// Where a tree belongs that is built.
+struct TreePlace {
+  int depth = 1;  ///< of its root: 1, or more if it hangs below other nodes
+  /// False: all spheres are in leaves. Precondition: in_filter_range() takes them.
+  bool keeps_apart = true;
+};
+
 /// Builds a tree of 16-wide nodes: binary splits by the surface area heuristic (split.h), collapsed
 /// to the least sum of areas (binary_tree.h). Nodes and leaves lie in depth-first order. Every bit
 /// of it is the same for any `parallel_for`. Kept apart, to be scanned, are spheres that no box can
@@ -37,7 +44,8 @@ struct Bvh {
 /// The spheres' memory is given back while the tree takes their place, so that both together need
 /// little more than the tree: 26 bytes a sphere, and 5 more where they are not all made of the
 /// same. Throws std::bad_alloc, and what `parallel_for` throws; the spheres are lost then.
-Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for = serial_for);
+Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for = serial_for,
+              const TreePlace& place = {});
 
 /// A block of slots that hold no sphere.
 SphereBlock empty_block();

@@ -40,6 +40,15 @@ float extent_of(const LargeArray<BvhNode>& nodes) {
   return extent;
 }
 
+/// A view of a tree, which must live longer.
+Bvh borrowed(const Bvh& tree) {
+  const auto view = []<class T>(const LargeArray<T>& array) {
+    return LargeArray<T>::borrowed(array.data(), array.size());
+  };
+  return {view(tree.nodes), view(tree.slots), tree.scanned, view(tree.blocks),
+          tree.materials.borrowed()};
+}
+
 }  // namespace
 
 Geometry::Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
@@ -93,6 +102,12 @@ Geometry Geometry::of_parts(std::vector<GeometryPart> parts, const std::vector<P
   geometry.parts_ = std::make_shared<const GeometryParts>(std::move(parts));
   geometry.sphere_count_ = geometry.parts_->sphere_count();
   return geometry;
+}
+
+Geometry::Geometry(std::shared_ptr<const Bvh> tree, std::size_t spheres,
+                   const std::vector<Plane>& planes)
+    : Geometry(borrowed(*tree), spheres, planes) {
+  tree_ = std::move(tree);
 }
 
 Sphere Geometry::sphere(std::uint32_t slot) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/math/ray.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
 #include "simd/geometry/bvh_builder.h"
@@ -36,12 +37,19 @@ class Geometry {
   /// Of several parts, whose ids and slots count on from part to part, and planes. Any hit is, bit
   /// for bit, that of a geometry of all their spheres. Preconditions: those of GeometryParts.
   static Geometry of_parts(std::vector<GeometryPart> parts, const std::vector<Plane>& planes);
+  /// Of spheres that are in a tree already. Slots of the tree may name any ids and materials: a hit
+  /// whose id is no plane's is one of a sphere, which lies in its slot.
+  Geometry(std::shared_ptr<const Bvh> tree, std::size_t spheres, const std::vector<Plane>& planes);
 
   /// What the kernels see; valid as long as this object, and not of one that was moved away.
   [[nodiscard]] GeometryView view() const;
 
   /// How many spheres it was built of; planes have the ids from here on.
   [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
+  /// Whether a hit is one of a plane. Precondition: it is no miss.
+  [[nodiscard]] bool is_plane(const Hit& hit) const {
+    return static_cast<std::uint32_t>(hit.id) - sphere_count_ < plane_count_;
+  }
   /// What the spheres are made of, by slot. Precondition: it is not made of parts.
   [[nodiscard]] const SlotMaterials& materials() const { return bvh_.materials; }
   /// What the sphere in a slot is made of. Precondition: there is one.
@@ -58,6 +66,7 @@ class Geometry {
   void set_scanned(std::size_t slot);
   void set_plane(std::size_t i, const Plane& plane);
 
+  std::shared_ptr<const Bvh> tree_;  ///< that bvh_ is a view of; null: it is no view
   Bvh bvh_;
   std::shared_ptr<const GeometryParts> parts_;  ///< null: bvh_ has the spheres
   float extent_;

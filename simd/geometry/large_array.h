@@ -12,10 +12,10 @@
 
 namespace boule {
 
-/// An owning array of plain values that starts on a cache line and may take much of the memory. Its
-/// values are not set: whoever fills it touches its pages first, on as many threads as there are,
-/// and its pages can be given back while it is consumed. An index within it is a precondition.
-/// Throws std::bad_alloc; an array that was moved away is empty.
+/// An array of plain values, which it owns unless it is borrowed(). It starts on a cache line and
+/// may take much of the memory. Its values are not set: whoever fills it touches its pages first,
+/// on as many threads as there are, and its pages can be given back while it is consumed. An index
+/// within it is a precondition. Throws std::bad_alloc; an array that was moved away is empty.
 template <class T>
 class LargeArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -23,6 +23,13 @@ class LargeArray {
  public:
   LargeArray() = default;
   explicit LargeArray(std::size_t size) : data_(take(size)), size_(size), capacity_(size) {}
+  /// A view of others' memory, which must live longer and is only read. It has no room of its own.
+  static LargeArray borrowed(const T* data, std::size_t size) {
+    LargeArray view;
+    view.data_ = const_cast<T*>(data);
+    view.size_ = size;
+    return view;
+  }
   LargeArray(LargeArray&& other) noexcept { swap(other); }
   LargeArray& operator=(LargeArray&& other) noexcept {
     LargeArray(std::move(other)).swap(*this);
@@ -74,7 +81,7 @@ class LargeArray {
     return static_cast<T*>(memory);
   }
   static void give_back(T* data, std::size_t size) {
-    if (data == nullptr) return;
+    if (size == 0) return;  // no array, or a borrowed one
     if (is_large(size)) {
       give_back_pages(data, bytes_of(size));
     } else {

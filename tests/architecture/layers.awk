@@ -25,8 +25,9 @@ BEGIN {
   layer("^render/file/", "^(core|render/(memory|file))/", any)
   layer("^render/particle_file/", "^(core|render/(memory|file|particle_file))/", any)
   layer("^render/particles/", "^(core|render/(memory|file|particle_file|particles))/", any)
+  layer("^render/packed/", narrow "|^render/(memory|file|packed)/|^render/image/output_file\\.h$", any)
   # Scenes name pictures: their reader returns plain numbers, which core can hold.
-  layer("^render/scene_file/", "^(core|render/(memory|file|particle_file|particles|scene_file))/|^render/image/(read_)?image\\.h$", any)
+  layer("^render/scene_file/", "^(core|render/(memory|file|particle_file|particles|packed|scene_file))/|^render/image/(read_)?image\\.h$", any)
   layer("^render/threads/", "^render/threads/", plain_std "|^<pthread\\.h>$")
   layer("^render/image/", "^(core|render/(memory|threads|image))/", any)
   layer("^render/frame/", "^(core|render/(memory|threads|image|frame))/", any)
@@ -38,7 +39,7 @@ BEGIN {
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
   layer("^render/view/",
         narrow "|^render/(memory|threads|particles|scene_file|image|frame|prepare|shading|integrators|renderer|view)/", any)
-  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team|cli)/", any)
+  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|packed|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team|cli)/", any)
   # Of the program, what says how files are shown and written; nothing that owns the terminal or the
   # process.
   layer("^render/manual/", "^(core|simd/(abi|dispatch)|render/(image|particle_file|cli|manual))/", any)
@@ -54,7 +55,7 @@ BEGIN {
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
   layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team)/|^tests/|^bench/", any)
+  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|packed|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")

@@ -42,7 +42,12 @@ class MetPrimitives {
       : planes_(geometry.planes), id_(hits.id + first) {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
       const std::int32_t primitive = lane < live ? id_[lane] : no_primitive;
-      const bool sphere = is_lower(primitive, planes_.first_id);
+      // Of what a file says of its slots, ids may be wrong: what is no plane is the slot's sphere.
+      const bool hit = primitive != no_primitive;
+      const std::size_t plane =
+          static_cast<std::uint32_t>(primitive) - static_cast<std::uint32_t>(planes_.first_id);
+      const bool is_plane = hit && plane < planes_.size;
+      const bool sphere = hit && !is_plane;
       const SlotSphere met =
           sphere ? get_slot(geometry.spheres, hits.slot[first + lane]) : SlotSphere{0, 0, 0, 1};
       x_[lane] = met.x;
@@ -50,7 +55,7 @@ class MetPrimitives {
       z_[lane] = met.z;
       radius_[lane] = met.radius;
       spheres_ |= static_cast<unsigned>(sphere) << lane;
-      planes_met_ |= static_cast<unsigned>(!sphere && primitive != no_primitive) << lane;
+      planes_met_ |= static_cast<unsigned>(is_plane) << lane;
     }
   }
 

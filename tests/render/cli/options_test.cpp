@@ -69,7 +69,8 @@ const Slip slips[] = {
     {"polish", "unknown command 'polish'", all},
     {"a/b.toml -o c.png", "unknown command 'a/b.toml'; did you mean 'boule render a/b.toml'?", all},
     {"",
-     "a command is missing, expected 'render', 'view', 'merge', 'scene', 'trace', 'info' or 'isa'",
+     "a command is missing, expected 'render', 'view', 'pack', 'merge', 'scene', 'trace', 'info' "
+     "or 'isa'",
      all},
     {"-o c.png", "option '-o' belongs behind a command, such as 'render'", all},
     {"--rays=r.npy", "option '--rays' belongs behind a command, such as 'trace'", all},

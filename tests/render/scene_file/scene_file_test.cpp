@@ -76,7 +76,7 @@ TEST(SceneFile, OtherExtensions) {
     ASSERT_FALSE(loaded.ok());
     EXPECT_EQ(loaded.error().file, name);
     EXPECT_THAT(loaded.error().message,
-                testing::HasSubstr("expected an extension .toml, .nff or .npy"));
+                testing::HasSubstr("expected an extension .toml, .nff, .npy or .boule"));
   }
 }
 

@@ -1,0 +1,227 @@
+#include "render/packed/packed_file.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "core/base/ascii.h"
+#include "render/file/input_file.h"
+#include "render/memory/available_memory.h"
+#include "render/packed/node_check.h"
+#include "render/packed/piece_checksum.h"
+#include "simd/geometry/bvh_builder.h"
+
+namespace boule {
+
+using packed_format::Header;
+using packed_format::Kind;
+using packed_format::page;
+
+namespace {
+
+template <class T>
+LargeArray<T> view_of(std::string_view bytes) {
+  return LargeArray<T>::borrowed(reinterpret_cast<const T*>(bytes.data()),
+                                 bytes.size() / sizeof(T));
+}
+
+/// A tree and the file that it lies in.
+struct MappedTree {
+  std::shared_ptr<const void> map;
+  Bvh tree;
+};
+
+}  // namespace
+
+/// The bytes of a file.
+class PackedFile::Map {
+ public:
+  Map(void* data, std::size_t size) : data_(data), size_(size) {}
+  ~Map() { ::munmap(data_, size_); }
+  Map(const Map&) = delete;
+  Map& operator=(const Map&) = delete;
+
+  [[nodiscard]] std::string_view bytes() const { return {static_cast<const char*>(data_), size_}; }
+
+ private:
+  void* data_;
+  std::size_t size_;
+};
+
+bool is_packed_name(std::string_view path) {
+  constexpr std::string_view ending = ".boule";
+  if (path.size() < ending.size()) return false;
+  path.remove_prefix(path.size() - ending.size());
+  return std::equal(path.begin(), path.end(), ending.begin(),
+                    [](char a, char b) { return ascii_lower(a) == b; });
+}
+
+Result<PackedFile> PackedFile::open(const std::string& path, const PackedOptions& options) {
+  PackedFile file(path);
+  if (auto bad = file.map()) return *bad;
+  if (auto bad = file.read_header()) return *bad;
+  if (auto bad = file.read_contents()) return *bad;
+  for (std::uint32_t chunk = 0; chunk < file.contents_.chunks.size(); ++chunk) {
+    if (auto bad = file.read_chunk(chunk, options)) return *bad;
+  }
+  return file;
+}
+
+Diagnostic PackedFile::wrong(const std::string& what) const {
+  return Diagnostic::in_file(path_, what);
+}
+
+Status PackedFile::map() {
+  if (!packed_format::is_supported)
+    return wrong("packed scenes are little-endian, and this computer is not");
+  const auto file = InputFile::open(path_);
+  if (!file) return file.error();
+  const std::uint64_t size = file.value().size();
+  if (size < page) return wrong("is no packed scene, or is cut off: it is too short");
+  if (size > process_room().addresses)
+    return wrong("cannot read it: it is larger than the limit on addresses");
+  const auto length = static_cast<std::size_t>(size);
+  void* const data = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file.value().descriptor(), 0);
+  if (data == MAP_FAILED) return wrong("cannot read it: " + std::generic_category().message(errno));
+  map_ = std::make_shared<const Map>(data, length);
+  return std::nullopt;
+}
+
+Status PackedFile::read_header() {
+  const std::string_view all = map_->bytes();
+  Header header;
+  std::memcpy(&header, all.data(), sizeof header);
+  if (std::memcmp(header.magic, packed_format::magic, sizeof header.magic) != 0)
+    return wrong("is no packed scene by its first bytes");
+  if (header.version != packed_format::version) {
+    return wrong("is a packed scene of version " + std::to_string(header.version) +
+                 ", expected version " + std::to_string(packed_format::version));
+  }
+  if (header.file_bytes != all.size()) {
+    return wrong("has " + std::to_string(all.size()) + " bytes in place of " +
+                 std::to_string(header.file_bytes) + ": it is cut off or damaged");
+  }
+  const std::uint64_t checksum = std::exchange(header.checksum, 0);
+  if (checksum != 0 && Checksum::available() &&
+      PieceChecksum::of_piece({reinterpret_cast<const char*>(&header), sizeof header}) != checksum)
+    return wrong("its header is damaged");
+  if (header.sections > packed_format::most_sections) return wrong("its header is damaged");
+  for (std::size_t i = 0; i < header.sections; ++i) {
+    const Section& section = header.section[i];
+    const bool lies_within = section.offset >= page && section.offset % page == 0 &&
+                             section.offset <= all.size() &&
+                             section.bytes <= all.size() - section.offset;
+    if (!lies_within) return wrong("its header is damaged: a section lies outside of the file");
+    sections_.push_back(section);
+  }
+  return std::nullopt;
+}
+
+const packed_format::Section* PackedFile::find(Kind kind, std::uint32_t chunk) const {
+  const auto found = std::find_if(sections_.begin(), sections_.end(), [&](const Section& section) {
+    return section.kind == kind && section.chunk == chunk;
+  });
+  return found == sections_.end() ? nullptr : &*found;
+}
+
+std::string_view PackedFile::bytes_of(const Section& section) const {
+  return map_->bytes().substr(static_cast<std::size_t>(section.offset),
+                              static_cast<std::size_t>(section.bytes));
+}
+
+bool PackedFile::is_sound(const Section& section, const ParallelFor& parallel_for) const {
+  if (section.checksum == 0 || !Checksum::available()) return true;
+  return PieceChecksum::of_all(bytes_of(section), parallel_for) == section.checksum;
+}
+
+Status PackedFile::read_contents() {
+  const Section* const section = find(Kind::contents, 0);
+  if (section == nullptr) return wrong("its header is damaged: it has no contents");
+  if (!is_sound(*section, serial_for)) return wrong("its contents are damaged");
+  auto contents = decode(bytes_of(*section));
+  if (!contents) {
+    Diagnostic error = contents.error();
+    error.file = path_;
+    return error;
+  }
+  contents_ = std::move(contents).value();
+  return std::nullopt;
+}
+
+Status PackedFile::read_chunk(std::uint32_t chunk, const PackedOptions& options) {
+  const PackedChunk& facts = contents_.chunks[chunk];
+  const Section* const blocks = find(Kind::blocks, chunk);
+  const Section* const ids = find(Kind::ids, chunk);
+  const Section* const nodes = find(Kind::nodes, chunk);
+  const Section* const materials = find(Kind::materials, chunk);
+  if (blocks == nullptr || ids == nullptr || nodes == nullptr)
+    return wrong("its header is damaged: it lacks a section");
+  const std::uint64_t leaves_and_scanned = blocks->bytes / sizeof(SphereBlock);
+  const std::uint64_t slots = leaves_and_scanned * bvh_leaf_size;
+  const bool fits = blocks->bytes % sizeof(SphereBlock) == 0 &&
+                    nodes->bytes % sizeof(BvhNode) == 0 && slots <= packed_format::most_slots &&
+                    ids->bytes == slots * sizeof(std::int32_t) &&
+                    (materials == nullptr || materials->bytes == slots * sizeof(MaterialRef)) &&
+                    facts.scanned % bvh_leaf_size == 0 && facts.scanned <= slots &&
+                    (nodes->bytes > 0 || facts.scanned == slots);
+  if (!fits) return wrong("its sections do not fit together: it is damaged");
+  if (!options.trust) {
+    if (!is_sound(*nodes, options.parallel_for)) return wrong("its nodes are damaged");
+    const std::string_view bytes = bytes_of(*nodes);
+    const std::span all(reinterpret_cast<const BvhNode*>(bytes.data()),
+                        bytes.size() / sizeof(BvhNode));
+    const std::uint64_t leaves = leaves_and_scanned - facts.scanned / bvh_leaf_size;
+    if (auto bad = check_nodes(all, leaves, options.parallel_for)) return wrong(bad->message);
+  }
+  auto mapped = std::make_shared<MappedTree>();
+  mapped->map = map_;
+  Bvh& tree = mapped->tree;
+  tree.nodes = view_of<BvhNode>(bytes_of(*nodes));
+  tree.slots = view_of<std::int32_t>(bytes_of(*ids));
+  tree.scanned = static_cast<std::size_t>(facts.scanned);
+  tree.blocks = view_of<SphereBlock>(bytes_of(*blocks));
+  if (materials == nullptr) {
+    tree.materials = SlotMaterials(facts.material);
+  } else {
+    const auto count = static_cast<std::uint32_t>(contents_.scene.materials.size());
+    tree.materials =
+        SlotMaterials(reinterpret_cast<const MaterialRef*>(bytes_of(*materials).data()), count);
+  }
+  trees_.push_back(std::shared_ptr<const Bvh>(mapped, &mapped->tree));
+  return std::nullopt;
+}
+
+Result<Scene> PackedFile::scene() const {
+  Scene scene = contents_.scene;
+  if (trees_.size() > 1) {
+    return wrong("has " + std::to_string(trees_.size()) + " chunks of spheres, " +
+                 std::to_string(contents_.spheres.count) +
+                 " in all: more than 2147483647 cannot be rendered yet");
+  }
+  if (trees_.empty()) return scene;
+  auto spheres = std::make_shared<PackedSpheres>(contents_.spheres);
+  spheres->file = path_;
+  spheres->tree = trees_.front();
+  scene.packed = std::move(spheres);
+  return scene;
+}
+
+Status PackedFile::verify(const ParallelFor& parallel_for) const {
+  if (!Checksum::available()) return wrong("this build of Boule has no checksums (xxHash)");
+  for (const Section& section : sections_) {
+    const std::string name = name_of(section.kind);
+    if (section.checksum == 0) return wrong("was packed without checksums");
+    if (!is_sound(section, parallel_for)) {
+      return wrong(
+          "its section " + name + " is damaged" +
+          (contents_.chunks.size() > 1 ? " in chunk " + std::to_string(section.chunk) : ""));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace boule
