@@ -180,6 +180,16 @@ BOULE_INLINE Real light_product(const Real& a, const Real& b) {
   return select((a == zero) | (b == zero), zero, a * b);
 }
 
+/// Stores those of W rays that are chosen one after the other, from `at` on, where there is room
+/// for W. They begin at their origins.
+BOULE_INLINE void store_chosen(const RayStream& rays, std::size_t at, const Vec3<Wide>& org,
+                               const Vec3<Wide>& direction, const Real& tmax, unsigned chosen) {
+  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
+  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(direction), chosen);
+  store_anywhere(rays.tmin + at, Real(0.0F));
+  store_chosen(rays.tmax + at, tmax, chosen);
+}
+
 /// Adds the shadow rays that decide whether sampled light arrives, unless its weight is 0.
 template <LobeKind kind>
 BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, unsigned live,
@@ -197,11 +207,7 @@ BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, u
       multiply(response.reflected, light.radiance, weight / (Wide(elementary::pi) * light.density));
   const RayStream& rays = shadows.rays;
   std::size_t at = shadows.size;
-  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
-  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(light.direction),
-               chosen);
-  store_anywhere(rays.tmin + at, Real(0.0F));
-  store_chosen(rays.tmax + at, light.tmax, chosen);
+  store_chosen(rays, at, org, light.direction, light.tmax, chosen);
   store_chosen(shadows.radiance, at, arriving, chosen);
   for (unsigned left = chosen; left != 0; left &= left - 1) {
     const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
@@ -248,11 +254,8 @@ BOULE_INLINE void add_rays(const LobePoints& points, std::size_t first, unsigned
   }
   const RayStream& rays = spawned.rays;
   std::size_t at = spawned.size;
-  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
-  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(bounce.direction),
+  store_chosen(rays, at, org, bounce.direction, Real(std::numeric_limits<float>::infinity()),
                chosen);
-  store_anywhere(rays.tmin + at, Real(0.0F));
-  store_anywhere(rays.tmax + at, Real(std::numeric_limits<float>::infinity()));
   store_chosen(spawned.throughput, at, throughput, chosen);
   store_chosen(spawned.sample + at, load_integers(points.sample + first), chosen);
   store_chosen(spawned.density + at, narrow(bounce.density), chosen);
