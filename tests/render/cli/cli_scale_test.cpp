@@ -79,7 +79,7 @@ TEST_F(Scale, WhatDoesNotFitIsRefusedBeforeItIsRead) {
   write_cloud(5000000);
   const std::string scene = cloud_scene();
   const auto before = files();
-  const ProgramRun run = limited(500, {"render", scene, "-o", path("cloud.exr")});
+  const ProgramRun run = limited(150, {"render", scene, "-o", path("cloud.exr")});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.err, testing::HasSubstr("'cloud.npy': 5000000 spheres need "));
   EXPECT_THAT(run.err, testing::HasSubstr(" MiB of memory, there are "));
