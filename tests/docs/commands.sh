@@ -2,9 +2,9 @@
 # commands.sh PROGRAM SOURCE BUILD [PAGE...]: what the documents, or these pages, show is so.
 #
 # Every block of TOML or NFF is a scene. Every line of a block of sh is tried: boule and the programs
-# that make data run, in a copy of the scenes' folder. Of what takes minutes it is checked that there
-# is such a thing: a target, a preset, a test that a ctest line selects, a word of bootstrap.sh. A
-# block whose first line is "# NAME.toml" is that file for the commands. docs/command_line.md has all
+# that make data run, in a copy of the scenes' folder, once where several pages show the same. Of what
+# takes minutes it is checked that there is such a thing: a target, a preset, a test that a ctest line
+# selects, a word of bootstrap.sh. A block whose first line is "# NAME.toml" is that file for the commands. docs/command_line.md has all
 # options of the program's help, and no others. A page of docs/howto has at most 100 lines, and commands.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -14,6 +14,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 unset BOULE_ISA SOURCE_DATE_EPOCH
 wrong=0 tried=0
+declare -A done_before
 
 complain() {
   echo "$1"
@@ -115,10 +116,12 @@ try_line() {
   line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
   # A slow machine is no fault, nor are pictures of these pages tried at their size.
   line="$(sed -E 's/--time-limit [0-9]+[a-z]+/--time-limit 1h/' <<<"$line")"
-  [[ "$where" != docs/@(gallery.md:*|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
+  [[ "$where" != docs/@(gallery.md:*|particles.md:*|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
   mapfile -t words < <(xargs -r printf '%s\n' <<<"$line")  # as the shell does, quotes and all
   ((${#words[@]} > 0)) || return 0
   tried=$((tried + 1))
+  [[ -z "${done_before[$code $line]:-}" ]] || return 0
+  done_before[$code $line]=yes
   if ((${#words[@]} > 2)) && [[ "${words[-2]}" == '>' ]]; then
     target="${words[-1]}"
     words=("${words[@]::${#words[@]}-2}")
