@@ -45,9 +45,16 @@ TEST(SlotMaterials, EachSlotHasThatOfItsSphere) {
 
 TEST(SlotMaterials, ShowsTheMemoryOfOthers) {
   const std::vector<MaterialRef> refs{1, 2, 3};
-  const SlotMaterials materials(refs.data());
+  const SlotMaterials materials(refs.data(), 4);
   EXPECT_EQ(materials.by_slot(), refs.data());
   EXPECT_EQ(materials[2], refs[2]);
+}
+
+TEST(SlotMaterials, TakesAnUnknownMaterialOfOthersForTheFirst) {
+  const std::vector<MaterialRef> refs{1, 2, 3};
+  const SlotMaterials materials(refs.data(), 3);
+  EXPECT_EQ(materials[1], refs[1]);
+  EXPECT_EQ(materials[2], MaterialRef());
 }
 
 TEST(SlotMaterials, NoSpheresHaveTheFirst) {
