@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -46,6 +47,11 @@ class SceneDump {
       this->put(member);
       text_ += "\n";
     });
+  }
+  /// Packed spheres are told by their digest.
+  void put(const std::shared_ptr<const PackedSpheres>& packed) {
+    text_ += packed ? " " + std::to_string(packed->count) + " " + std::to_string(packed->digest)
+                    : " none";
   }
   template <class T>
   void put(const std::optional<T>& value) {
