@@ -128,7 +128,11 @@ void light_by_direction(const SeenLight& seen, const SeeingRays& rays) { see_lig
 
 void points_by_kind(const GeometryView& geometry, const PathRays& paths, LobePoints& matte,
                     LobePoints& glossy, LobePoints& clear) {
-  find_points(geometry, paths, matte, glossy, clear);
+  if (geometry.parts.size != 0) {
+    find_points(PartsGeometry(geometry), paths, matte, glossy, clear);
+  } else {
+    find_points(geometry, paths, matte, glossy, clear);
+  }
 }
 
 void matte_paths(const LobePoints& points, const PathStep& step, SampledLights& shadows,

@@ -52,8 +52,10 @@ BOULE_INLINE void add_points(const PathRays& paths, std::size_t first, const Met
   points.size += static_cast<std::size_t>(__builtin_popcount(chosen));
 }
 
-BOULE_INLINE void find_points(const GeometryView& geometry, const PathRays& paths,
-                              LobePoints& matte, LobePoints& glossy, LobePoints& clear) {
+/// Geometry: GeometryView, or PartsGeometry.
+template <class Geometry>
+BOULE_INLINE void find_points(const Geometry& geometry, const PathRays& paths, LobePoints& matte,
+                              LobePoints& glossy, LobePoints& clear) {
   for (std::size_t first = 0; first < paths.rays.size; first += width) {
     const Bits kinds = load_integers(paths.kind + first);
     const auto of_kind = [&](LobeKind kind) {
