@@ -41,10 +41,9 @@ Camera camera_of_packed(const Scene& scene, int width, int height) {
       measures.push_back({axis * -1.0, weight});
     }
   }
-  const Bvh& tree = *scene.packed->tree;
-  const View view = default_view(scene.fit, extreme_spheres(tree, measures), scene.planes);
+  const View view = default_view(scene.fit, extreme_spheres(*scene.packed, measures), scene.planes);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(extreme_spheres(tree, fitter.measures()));
+  fitter.add(extreme_spheres(*scene.packed, fitter.measures()));
   return fitter.camera();
 }
 
