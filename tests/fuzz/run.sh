@@ -7,10 +7,10 @@ set -euo pipefail
 source="$1" build="$2" effort="$3"
 shift 3
 names=("$@")
-((${#names[@]} > 0)) || names=(toml nff npy lens particles options view rays)
+((${#names[@]} > 0)) || names=(toml nff npy lens particles options view rays packed)
 
 declare -A daily_inputs=([toml]=3000 [nff]=6000 [npy]=8000 [lens]=2000 [particles]=6000 [options]=500
-  [rays]=500 [view]=4000 [picture]=1000)
+  [rays]=500 [view]=4000 [packed]=3000 [picture]=1000)
 
 command -v clang++ >/dev/null || { echo "clang++ is missing"; exit 77; }
 echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' |
@@ -33,8 +33,11 @@ for name in "${names[@]}"; do
   # in the file; what OpenImageIO leaks is not ours.
   limits=(-rss_limit_mb=512 -malloc_limit_mb=256)
   [[ "$name" != picture ]] || limits=(-rss_limit_mb=512 -malloc_limit_mb=65536 -detect_leaks=0)
+  # A packed scene has some pages of names and numbers.
+  length=4096
+  [[ "$name" != packed ]] || length=12288
   "$build/fuzz/fuzz_$name" "$found" "$source/tests/fuzz/corpus/$name" \
-    "${amount[@]}" -timeout=300 "${limits[@]}" -max_len=4096 \
+    "${amount[@]}" -timeout=300 "${limits[@]}" -max_len="$length" \
     -artifact_prefix="$build/findings/$name-" -print_final_stats=1 -verbosity=0 ||
     { echo "fuzz_$name found something: exit code $?"; exit 1; }  # its own would mean: skipped
 done
