@@ -136,9 +136,9 @@ TEST(ParticleSpheres, AreTheSameForAnyThreads) {
 }
 
 TEST(ParticleSpheres, RefuseWhatDoesNotFitIntoMemory) {
-  ParticleFrame frame = row_of_particles(1000);
+  ParticleFrame frame = row_of_particles(100);
   frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
-  const ParticleStyle style{.radius = 1.0, .replicate = {100, 100, 200}};
+  const ParticleStyle style{.radius = 1.0, .replicate = {100, 100, 2000}};
   rlimit saved{};
   getrlimit(RLIMIT_AS, &saved);
   const rlimit limit{rlim_t{20} << 30, saved.rlim_max};
@@ -147,6 +147,24 @@ TEST(ParticleSpheres, RefuseWhatDoesNotFitIntoMemory) {
   setrlimit(RLIMIT_AS, &saved);
   EXPECT_THAT(error,
               HasSubstr("replicate: 2000000000 spheres need 38147 MiB of memory, there are"));
+}
+
+TEST(ParticleSpheres, ShareManyImagesOfManyParticles) {
+  const auto are_shared = [](std::size_t particles, const std::array<int, 3>& replicate) {
+    ParticleFrame frame = row_of_particles(particles);
+    frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
+    return ParticleSpheres::make(frame, {.radius = 1.0, .replicate = replicate})
+        .value()
+        .shares_images();
+  };
+  EXPECT_TRUE(are_shared(1024, {16, 32, 32}));  // 2^24
+  EXPECT_FALSE(are_shared(1023, {16, 32, 32}));
+  EXPECT_FALSE(are_shared(100, {100, 100, 100}));
+  EXPECT_TRUE(are_shared(1000, {100, 100, 300}));  // 3 x 10^9, more than one tree can have
+  ParticleFrame frame = row_of_particles(1000);
+  frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
+  EXPECT_EQ(error_of(frame, {.radius = 1.0, .replicate = {100, 100, 500}}),
+            "replicate: more than 4294967293 spheres");
 }
 
 }  // namespace
