@@ -21,6 +21,7 @@ struct PackedSpheres {
   std::vector<std::uint64_t> made_of;  ///< how many are made of each of the scene's first materials
   std::vector<Sphere> emissive;        ///< those whose material gives light, in order
   std::vector<Sphere> first;           ///< the first few, to be shown
+  std::vector<Sphere> extremes;        ///< AxisExtremes of all
   std::string file;                    ///< that they were packed into
   std::shared_ptr<const Bvh> tree;
 };

@@ -21,19 +21,19 @@ struct Facts {
   bool has_own_colors = false;
   Vec3d low, high, origin;
   std::vector<std::uint64_t> made_of;
-  std::vector<Sphere> emissive, first;
+  std::vector<Sphere> emissive, first, extremes;
   std::vector<PackedChunk> chunks;
 };
 
 }  // namespace
 
 template <>
-inline constexpr auto fields<Facts> =
-    field_list("facts", field("count", &Facts::count), field("digest", &Facts::digest),
-               field("has_own_colors", &Facts::has_own_colors), field("low", &Facts::low),
-               field("high", &Facts::high), field("origin", &Facts::origin),
-               field("made_of", &Facts::made_of), field("emissive", &Facts::emissive),
-               field("first", &Facts::first), field("chunks", &Facts::chunks));
+inline constexpr auto fields<Facts> = field_list(
+    "facts", field("count", &Facts::count), field("digest", &Facts::digest),
+    field("has_own_colors", &Facts::has_own_colors), field("low", &Facts::low),
+    field("high", &Facts::high), field("origin", &Facts::origin), field("made_of", &Facts::made_of),
+    field("emissive", &Facts::emissive), field("first", &Facts::first),
+    field("extremes", &Facts::extremes), field("chunks", &Facts::chunks));
 
 namespace {
 
@@ -64,7 +64,7 @@ std::string encode(const PackedContents& contents) {
   const PackedSpheres& s = contents.spheres;
   ByteWriter writer;
   writer.add(Facts{s.count, s.digest, s.has_own_colors, s.low, s.high, contents.origin, s.made_of,
-                   s.emissive, s.first, contents.chunks});
+                   s.emissive, s.first, s.extremes, contents.chunks});
   writer.add(contents.scene);
   return writer.bytes();
 }
@@ -89,6 +89,7 @@ Result<PackedContents> decode(std::string_view bytes) {
   own.made_of = std::move(facts.made_of);
   own.emissive = std::move(facts.emissive);
   own.first = std::move(facts.first);
+  own.extremes = std::move(facts.extremes);
   contents.chunks = std::move(facts.chunks);
   contents.origin = facts.origin;
   const Scene& scene = contents.scene;
@@ -96,7 +97,8 @@ Result<PackedContents> decode(std::string_view bytes) {
   if (!scene.spheres.empty() || !scene.groups.empty() || !scene.instances.empty()) return damaged();
   const PackedSpheres& spheres = contents.spheres;
   const bool valid = are_valid(scene.planes, scene) && are_valid(spheres.emissive, scene) &&
-                     are_valid(spheres.first, scene) && add_up(contents) &&
+                     are_valid(spheres.first, scene) && are_valid(spheres.extremes, scene) &&
+                     spheres.extremes.empty() == (spheres.count == 0) && add_up(contents) &&
                      spheres.made_of.size() == scene.materials.size();
   if (!valid) return damaged();
   return contents;

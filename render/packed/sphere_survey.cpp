@@ -59,6 +59,7 @@ struct SphereSurvey::Piece {
   bool has_own_colors = false, alike = true;
   std::vector<std::uint32_t> made_of;
   std::vector<Sphere> emissive;
+  AxisExtremes extremes;
   std::vector<std::uint32_t> unfit;
   std::vector<PackedSphere> large;
   BuildBox rest;
@@ -83,6 +84,7 @@ void SphereSurvey::survey(std::span<const Sphere> spheres, std::uint32_t first,
     Vec3d &low = piece.low, &high = piece.high;
     low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
     high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
+    piece.extremes.add(s);
     piece.has_own_colors |= s.material.has_color();
     piece.alike &= s.material == material_;
     ++piece.made_of[s.material.index()];
@@ -99,6 +101,7 @@ void SphereSurvey::add(const Piece& piece) {
   const Vec3d &low = piece.low, &high = piece.high;
   low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y), std::min(low_.z, low.z)};
   high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y), std::max(high_.z, high.z)};
+  extremes_.add(piece.extremes);
   has_own_colors_ |= piece.has_own_colors;
   alike_ &= piece.alike;
   for (std::size_t i = 0; i < made_of_.size(); ++i) made_of_[i] += piece.made_of[i];
@@ -135,6 +138,7 @@ PackedSpheres SphereSurvey::facts() const {
   facts.made_of = made_of_;
   facts.emissive = emissive_;
   facts.first = first_;
+  facts.extremes = extremes_.spheres();
   if (count_ > 0) {
     facts.low = low_;
     facts.high = high_;

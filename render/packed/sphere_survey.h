@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/scene/axis_extremes.h"
 #include "core/scene/scene.h"
 #include "core/scene/sphere_digest.h"
 #include "simd/geometry/build_box.h"
@@ -75,6 +76,7 @@ class SphereSurvey {
   Vec3d low_{inf, inf, inf}, high_{-inf, -inf, -inf};
   std::vector<std::uint64_t> made_of_;
   std::vector<Sphere> emissive_, first_;
+  AxisExtremes extremes_;
 
   bool alike_ = true;
   MaterialRef material_;

@@ -45,11 +45,11 @@ std::vector<SphereMeasure> measures_of_view(const Scene& scene) {
 
 /// The same as for a list of spheres, but by those only that the camera depends on.
 Camera camera_of_packed(const Scene& scene, int width, int height) {
-  const Bvh& tree = *scene.packed->tree;
+  const PackedSpheres& packed = *scene.packed;
   const View view =
-      default_view(scene.fit, extreme_spheres(tree, measures_of_view(scene)), scene.planes);
+      default_view(scene.fit, extreme_spheres(packed, measures_of_view(scene)), scene.planes);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(extreme_spheres(tree, fitter.measures()));
+  fitter.add(extreme_spheres(packed, fitter.measures()));
   return fitter.camera();
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simd/geometry/bvh_builder.h"
+
 namespace boule {
 namespace {
 
@@ -80,6 +82,15 @@ class Walk {
   double scale_ = 0, margin_ = 0;
 };
 
+/// AxisExtremes has a sphere for which it is least: nobody rounds it otherwise.
+bool is_known(const SphereMeasure& measure) {
+  const auto& [x, y, z] = measure.direction;
+  const auto is_one_or_none = [](double a, double b, double c) {
+    return b == 0 && c == 0 && (a == 0 || std::fabs(a) == 1);
+  };
+  return is_one_or_none(x, y, z) || is_one_or_none(y, z, x) || is_one_or_none(z, x, y);
+}
+
 }  // namespace
 
 double SphereMeasure::of(const Sphere& s) const {
@@ -88,20 +99,20 @@ double SphereMeasure::of(const Sphere& s) const {
 
 double SphereMeasure::least_in(const Vec3d& low, const Vec3d& high) const {
   const auto& [x, y, z] = direction;
-  if (x == 0 && y == 0 && z == 0) {
-    const Vec3d size = high - low;
-    return weight * std::min({size.x, size.y, size.z}) * -0.5;
-  }
   return x * (x > 0 ? low.x : high.x) + y * (y > 0 ? low.y : high.y) + z * (z > 0 ? low.z : high.z);
 }
 
-std::vector<Sphere> extreme_spheres(const Bvh& tree, std::span<const SphereMeasure> measures) {
-  std::vector<Sphere> spheres;
+std::vector<Sphere> extreme_spheres(const PackedSpheres& packed,
+                                    std::span<const SphereMeasure> measures) {
+  const Bvh& tree = *packed.tree;
+  std::vector<Sphere> spheres = packed.extremes;
   for (std::size_t slot = 0; slot < tree.scanned; ++slot) {
     if (tree.slots[slot] >= 0) spheres.push_back(sphere_in(tree, slot));
   }
   if (tree.nodes.empty()) return spheres;
-  for (const SphereMeasure& measure : measures) Walk(tree, measure).collect(spheres);
+  for (const SphereMeasure& measure : measures) {
+    if (!is_known(measure)) Walk(tree, measure).collect(spheres);
+  }
   return spheres;
 }
 

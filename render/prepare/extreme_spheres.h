@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/packed_spheres.h"
 #include "core/scene/primitive.h"
-#include "simd/geometry/bvh_builder.h"
 
 namespace boule {
 
@@ -19,8 +19,10 @@ struct SphereMeasure {
   [[nodiscard]] double least_in(const Vec3d& low, const Vec3d& high) const;
 };
 
-/// Some spheres of a tree: among them are, for each of the measures, all those for which it is
-/// within its rounding of the least one. It visits the nodes only that may lead to such spheres.
-std::vector<Sphere> extreme_spheres(const Bvh& tree, std::span<const SphereMeasure> measures);
+/// Some of packed spheres: among them are, for each of the measures, one for which it is least, or
+/// all those for which it is within its rounding of that. Along axes of coordinates, and for the
+/// radius, they are known; else it visits the nodes that may lead to such spheres.
+std::vector<Sphere> extreme_spheres(const PackedSpheres& spheres,
+                                    std::span<const SphereMeasure> measures);
 
 }  // namespace boule

@@ -48,7 +48,7 @@ class Limits : public ProgramTest {
 TEST_F(Limits, OnAddresses) {
   const std::string whole = whole_picture();
   int done = 0, refused = 0;
-  for (int kibibytes = 9000; kibibytes < 1600000; kibibytes += kibibytes / 4) {
+  for (int kibibytes = 12000; kibibytes < 1600000; kibibytes += kibibytes / 4) {
     write("picture.png", old);
     const std::string limit = "ulimit -v " + std::to_string(kibibytes) + "; ";
     const ProgramRun run = shell(limit + "exec \"$@\"", render("picture.png", "8"));

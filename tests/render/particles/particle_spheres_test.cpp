@@ -136,9 +136,9 @@ TEST(ParticleSpheres, AreTheSameForAnyThreads) {
 }
 
 TEST(ParticleSpheres, RefuseWhatDoesNotFitIntoMemory) {
-  ParticleFrame frame = row_of_particles(100);
+  ParticleFrame frame = row_of_particles(1);  // too few to be instances
   frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
-  const ParticleStyle style{.radius = 1.0, .replicate = {100, 100, 2000}};
+  const ParticleStyle style{.radius = 1.0, .replicate = {1000, 1000, 2000}};
   rlimit saved{};
   getrlimit(RLIMIT_AS, &saved);
   const rlimit limit{rlim_t{20} << 30, saved.rlim_max};
