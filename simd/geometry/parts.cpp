@@ -48,7 +48,8 @@ GeometryParts::GeometryParts(std::vector<GeometryPart> parts) : parts_(std::move
     boxes.push_back(box_of(views_.back()));
     extent_ = std::max(extent_, extent_of(boxes.back()));
     slots += views_.back().slots;
-    if (slots > most_slots) throw std::length_error("too many slots");
+    if (slots > most_slots)
+      throw std::length_error("instances show more spheres than there are places for");
     spheres_ += part.tree->sphere_count();
   }
   nodes_ = build_box_tree(boxes);
