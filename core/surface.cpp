@@ -42,7 +42,7 @@ Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit) {
 
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
                      const Hit& hit) {
-  const auto i = static_cast<std::size_t>(hit.id);
+  const auto i = static_cast<std::uint32_t>(hit.id);
   if (i < spheres.size()) return find_surface(spheres[i], ray, hit);
   return find_surface(planes[i - spheres.size()], ray, hit);
 }

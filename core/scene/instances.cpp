@@ -301,26 +301,6 @@ void visit_shown_groups(const Scene& scene,
   walk_groups<Sphere>(scene, survey.counts(), scene.instances, function);
 }
 
-void visit_spheres(const Scene& scene, const std::function<void(SphereRun)>& function) {
-  constexpr std::size_t most_together = 4096;
-  if (!scene.spheres.empty()) function(scene.spheres);
-  std::vector<Sphere> some;
-  visit_shown_groups(scene, [&](const ShownGroup& shown) {
-    const SphereRun own = scene.groups[shown.group].spheres;
-    for (std::size_t first = 0; first < own.size(); first += most_together) {
-      some.clear();
-      for (const Sphere& one : own.subspan(first, std::min(most_together, own.size() - first)))
-        some.push_back(transformed(one, shown.transform, shown.material));
-      function(some);
-    }
-  });
-}
-
-SphereRuns runs_of(const Scene& scene) {
-  return
-      [&scene](const std::function<void(SphereRun)>& function) { visit_spheres(scene, function); };
-}
-
 std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene) {
   if (scene.instances.empty()) return std::nullopt;
   const GroupSurvey survey(scene);

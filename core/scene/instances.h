@@ -64,15 +64,9 @@ struct ShownGroup {
 /// order of the spheres' ids.
 void visit_shown_groups(const Scene& scene, const std::function<void(const ShownGroup&)>& function);
 
-/// Calls the function with all spheres of a scene, its own and those that its instances show, in
-/// the order of their ids, some thousands at a time.
-using SphereRun = std::span<const Sphere>;
-void visit_spheres(const Scene& scene, const std::function<void(SphereRun)>& function);
-
 /// What calls its argument with all of some spheres, a run of them at a time.
+using SphereRun = std::span<const Sphere>;
 using SphereRuns = std::function<void(const std::function<void(SphereRun)>&)>;
-/// All spheres of a scene, which must outlive it.
-SphereRuns runs_of(const Scene& scene);
 
 /// The groups that are shown, if it saves much memory not to write their spheres out: in every
 /// other case nothing, and expand_instances() is for the scene. What is shown is the same. Throws

@@ -7,10 +7,10 @@
 
 #include "core/base/ascii.h"
 #include "core/math/geometry.h"
-#include "core/scene/instances.h"
 #include "render/file/npy_header.h"
 #include "render/packed/packed_file.h"
 #include "render/particle_file/particle_file.h"
+#include "render/prepare/shown_extremes.h"
 
 namespace boule::cli {
 namespace {
@@ -106,7 +106,8 @@ bool is_particle_input(const std::string& path, const LookOptions& look) {
 
 std::optional<double> lowest_along(const Vec3d& direction, const LoadedScene& loaded) {
   double lowest = infinity;
-  visit_spheres(loaded.scene, [&](SphereRun spheres) {
+  const ShownExtremes extremes(loaded.scene, serial_for);
+  extremes.runs({{normalize(direction), 1}})([&](SphereRun spheres) {
     for (const Sphere& sphere : spheres) {
       lowest = std::min(lowest, dot(vec_cast<double>(sphere.center), direction) -
                                     static_cast<double>(sphere.radius));

@@ -10,8 +10,7 @@
 #include "render/cli/particle_scene.h"
 #include "render/cli/run_report.h"
 #include "render/particle_file/particle_file.h"
-#include "render/prepare/camera_fitter.h"
-#include "render/prepare/default_view.h"
+#include "render/prepare/default_camera.h"
 #include "render/scene_file/frame_name.h"
 
 namespace boule::cli {
@@ -94,11 +93,9 @@ void SceneLoader::fit_series(LoadedScene& first) {
   const Scene& scene = first.scene;
   const std::uint64_t count_first = count_primitives(scene).spheres;
   if (count_first == 0) return;
-  CameraFitter fitter(scene.fit, default_view(scene.fit, runs_of(scene), scene.planes),
-                      size_ ? size_->width : scene.image.width,
+  CameraFitter fitter(scene.fit, view_of(scene), size_ ? size_->width : scene.image.width,
                       size_ ? size_->height : scene.image.height);
-  const auto add = [&fitter](SphereRun spheres) { fitter.add(spheres); };
-  visit_spheres(scene, add);
+  add_spheres(scene, fitter);
   const Vec3d up = floor_ ? floor_->up : Vec3d{};
   double lowest = floor_ ? *lowest_along(up, first) : 0;
   const std::vector<int> frames = fitted_frames(*frames_, count_first);
@@ -109,7 +106,7 @@ void SceneLoader::fit_series(LoadedScene& first) {
     if (!other) break;
     ++fitted;
     if (count_primitives(other.value().scene).spheres == 0) continue;
-    visit_spheres(other.value().scene, add);
+    add_spheres(other.value().scene, fitter);
     if (floor_) lowest = std::min(lowest, *lowest_along(up, other.value()));
   }
   if (floor_) {

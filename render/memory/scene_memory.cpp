@@ -38,4 +38,16 @@ Status check_scene_memory(const Scene& scene) {
                       instances ? "instance" : "");
 }
 
+Status check_reference_memory(const Scene& scene) {
+  if (find_reference_problem(scene) || !groups_to_share(scene)) return std::nullopt;
+  const PrimitiveCount count = count_primitives(scene);
+  if (count.total() > max_primitives) {
+    return Diagnostic::about("instance", "shows more than " + std::to_string(max_primitives) +
+                                             " primitives: solver reference has no ids for them");
+  }
+  return check_memory(bytes_of_spheres(count.spheres) + count.spheres * sizeof(std::uint32_t),
+                      std::to_string(count.spheres) + " spheres for solver reference need",
+                      "instance");
+}
+
 }  // namespace boule

@@ -18,7 +18,11 @@ constexpr std::uint64_t bytes_of_tree(std::uint64_t spheres) {
 }
 
 /// An error if preparing a scene, with all that its instances show, needs more memory than there
-/// is. It is quick and takes no memory. Takes any scene; no error for one that validate() refuses.
+/// is. It is quick. Takes any scene; no error for one that validate() refuses. Throws
+/// std::bad_alloc, as the next one does.
 Status check_scene_memory(const Scene& scene);
+/// The same for what else the reference path needs: all spheres in one list, those of groups that
+/// are shared too. For other scenes it has no error.
+Status check_reference_memory(const Scene& scene);
 
 }  // namespace boule

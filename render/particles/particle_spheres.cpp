@@ -71,22 +71,24 @@ Status check_style(const ParticleStyle& style) {
 
 /// So many images of so many particles are shown as instances of one group. The centres of fewer
 /// are rounded once, those of these twice: in the group, and where it is shown.
-bool are_shared(std::uint64_t images, std::uint64_t particles) {
-  constexpr std::uint64_t fewest_images = 4, fewest_particles = 128, fewest_spheres = 1U << 24;
+bool are_shared(std::uint64_t images, std::uint64_t particles, std::uint64_t fewest_spheres) {
+  constexpr std::uint64_t fewest_images = 4, fewest_particles = 128;
   return images >= fewest_images && particles >= fewest_particles &&
-         images * particles >= fewest_spheres;
+         images >= fewest_spheres / particles;
 }
 
 /// Whether the spheres, and what is kept to make them, fit into memory and ids.
 Status check_room(std::size_t particles, const ParticleStyle& style) {
   const std::uint64_t images = count_images(style.replicate);
   const std::string key = images > 1 ? "replicate" : "file";
-  const std::uint64_t most = are_shared(images, particles) ? max_shown_primitives : max_primitives;
+  const bool shared = are_shared(images, particles, ParticleSpheres::fewest_shared);
+  const std::uint64_t most = shared ? max_shown_primitives : max_primitives;
   if (particles > 0 && images > most / particles)
     return Diagnostic::about(key, "more than " + std::to_string(most) + " spheres");
   constexpr std::uint64_t kept = sizeof(float) + sizeof(MaterialRef);
-  const std::uint64_t spheres = are_shared(images, particles) ? particles : images * particles;
-  return check_memory(bytes_of_spheres(spheres) + kept * particles,
+  const std::uint64_t spheres = shared ? particles : images * particles;
+  const std::uint64_t instances = shared ? images : 0;
+  return check_memory(bytes_of_spheres(spheres) + kept * particles + instances * sizeof(Instance),
                       std::to_string(spheres) + " spheres need", key);
 }
 
@@ -202,8 +204,8 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame frame, const Particl
   return made;
 }
 
-bool ParticleSpheres::shares_images() const {
-  return are_shared(images_.size(), positions_.size());
+bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {
+  return are_shared(images_.size(), positions_.size(), fewest_spheres);
 }
 
 Status ParticleSpheres::append_to(std::vector<Sphere>& spheres, const Vec3d& origin,

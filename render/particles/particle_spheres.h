@@ -54,7 +54,8 @@ class ParticleSpheres {
                    const ParallelFor& parallel_for = serial_for) const;
 
   /// Whether there are so many images that they had better be instances of the first one.
-  [[nodiscard]] bool shares_images() const;
+  [[nodiscard]] bool shares_images(std::uint64_t fewest_spheres = fewest_shared) const;
+  static constexpr std::uint64_t fewest_shared = 1U << 24;  ///< spheres, images included
   /// The same as append_to() for the first image only.
   Status append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                                const ParallelFor& parallel_for = serial_for) const;

@@ -6,9 +6,8 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
-#include "render/prepare/camera_fitter.h"
-#include "render/prepare/default_view.h"
 #include "render/prepare/extreme_spheres.h"
+#include "render/prepare/shown_extremes.h"
 
 namespace boule {
 namespace {
@@ -32,8 +31,8 @@ Camera camera_without_spheres(const Scene& scene, int width, int height) {
   return PinholeCamera{pose, scene.fit.fov, scene.fit.fov_axis.value_or(shorter)};
 }
 
-/// The same as for a list of spheres, but by those only that the camera depends on.
-Camera camera_of_packed(const Scene& scene, int width, int height) {
+/// What default_view() depends on.
+std::vector<SphereMeasure> measures_of_view(const Scene& scene) {
   std::vector<SphereMeasure> measures;
   for (const Vec3d& axis : measured_axes(scene.fit, scene.planes)) {
     for (const double weight : {0.0, 1.0}) {
@@ -41,9 +40,16 @@ Camera camera_of_packed(const Scene& scene, int width, int height) {
       measures.push_back({axis * -1.0, weight});
     }
   }
-  const View view = default_view(scene.fit, extreme_spheres(*scene.packed, measures), scene.planes);
+  return measures;
+}
+
+/// The same as for a list of spheres, but by those only that the camera depends on.
+Camera camera_of_packed(const Scene& scene, int width, int height) {
+  const PackedSpheres& packed = *scene.packed;
+  const View view =
+      default_view(scene.fit, extreme_spheres(packed, measures_of_view(scene)), scene.planes);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(extreme_spheres(*scene.packed, fitter.measures()));
+  fitter.add(extreme_spheres(packed, fitter.measures()));
   return fitter.camera();
 }
 
@@ -53,23 +59,39 @@ SphereBounds bounds_of(const Scene& scene) {
   if (scene.packed && scene.packed->count > 0) return {scene.packed->low, scene.packed->high};
   constexpr double inf = std::numeric_limits<double>::infinity();
   Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
-  visit_spheres(scene, [&low, &high](SphereRun spheres) {
+  const auto add = [&low, &high](SphereRun spheres) {
     for (const Sphere& s : spheres) {
       const Vec3d c = vec_cast<double>(s.center);
       const auto r = static_cast<double>(s.radius);
       low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
       high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
     }
-  });
+  };
+  std::vector<SphereMeasure> measures;
+  for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
+    measures.push_back({axis, 1});
+    measures.push_back({axis * -1.0, 1});
+  }
+  ShownExtremes(scene, serial_for).runs(measures)(add);
   return {low, high};
+}
+
+View view_of(const Scene& scene, const ParallelFor& parallel_for) {
+  const ShownExtremes extremes(scene, parallel_for);
+  return default_view(scene.fit, extremes.runs(measures_of_view(scene)), scene.planes,
+                      parallel_for);
+}
+
+void add_spheres(const Scene& scene, CameraFitter& fitter, const ParallelFor& parallel_for) {
+  const ShownExtremes extremes(scene, parallel_for);
+  extremes.runs(fitter.measures())([&](SphereRun run) { fitter.add(run, parallel_for); });
 }
 
 Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
   if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
   if (count_primitives(scene).spheres == 0) return camera_without_spheres(scene, width, height);
-  const View view = default_view(scene.fit, runs_of(scene), scene.planes, parallel_for);
-  CameraFitter fitter(scene.fit, view, width, height);
-  visit_spheres(scene, [&](SphereRun spheres) { fitter.add(spheres, parallel_for); });
+  CameraFitter fitter(scene.fit, view_of(scene, parallel_for), width, height);
+  add_spheres(scene, fitter, parallel_for);
   return fitter.camera();
 }
 

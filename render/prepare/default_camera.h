@@ -2,6 +2,8 @@
 
 #include "core/base/parallel.h"
 #include "core/scene/scene.h"
+#include "render/prepare/camera_fitter.h"
+#include "render/prepare/default_view.h"
 
 namespace boule {
 
@@ -18,6 +20,12 @@ SphereBounds bounds_of(const Scene& scene);
 /// float's range can overflow here: find_problem() of the camera tells.
 Camera default_camera(const Scene& scene, int width, int height,
                       const ParallelFor& parallel_for = serial_for);
+
+/// The two steps to the fitted one, for several scenes that one camera shows: the first scene's
+/// view, and then all that the camera depends on of each scene. Precondition: it is not packed.
+View view_of(const Scene& scene, const ParallelFor& parallel_for = serial_for);
+void add_spheres(const Scene& scene, CameraFitter& fitter,
+                 const ParallelFor& parallel_for = serial_for);
 
 /// The sentence that tells the user of it.
 inline constexpr const char* camera_note = "the camera is fitted to the objects";

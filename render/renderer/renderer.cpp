@@ -49,6 +49,9 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
   const Stopwatch watch;
   return guard_preparation([&]() -> Result<Renderer> {
     if (auto bad = check_scene_memory(scene)) return *bad;
+    if (options.solver == Solver::reference) {
+      if (auto bad = check_reference_memory(scene)) return *bad;
+    }
     if (auto bad = validate(options)) return *bad;
     if (const auto kernels = kernels_for(options.isa, options.solver); !kernels)
       return kernels.error();

@@ -90,12 +90,15 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
   const Stopwatch watch;
   return guard_preparation([&]() -> Result<Tracer> {
     if (auto bad = check_scene_memory(scene)) return *bad;
+    if (options.solver == Solver::reference) {
+      if (auto bad = check_reference_memory(scene)) return *bad;
+    }
     if (auto bad = validate(scene)) return *bad;
     const auto kernels = kernels_for(options.isa, options.solver);
     if (!kernels) return kernels.error();
     if (count_primitives(scene).total() > max_primitives) {
-      return Diagnostic::about("instance", "more than " + std::to_string(max_primitives) +
-                                               " primitives have no ids for hits");
+      return Diagnostic::about("instance", "shows more than " + std::to_string(max_primitives) +
+                                               " primitives: hits of rays have no ids for them");
     }
     Scene objects(std::forward<AnyScene>(scene));
     const auto groups = share_or_expand(objects);

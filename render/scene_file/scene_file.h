@@ -32,7 +32,9 @@ struct SceneFileOptions {
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads
   /// at a time.
   ParticleFileCache* particle_files = nullptr;
-  bool trust = false;               ///< packed scenes are not checked (PackedOptions)
+  bool trust = false;  ///< packed scenes are not checked (PackedOptions)
+  /// Periodic images that make fewer spheres are written out (ParticleSpheres::shares_images()).
+  std::optional<std::uint64_t> fewest_shared{};
   const SceneData* data = nullptr;  ///< what is taken from memory where a file is named; null: none
   /// Runs the loops over particles.
   ParallelFor parallel_for = serial_for;

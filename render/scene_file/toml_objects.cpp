@@ -118,7 +118,8 @@ void TomlObjects::load_particles(ObjectTables& tables) {
 void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                                 std::vector<Sphere>& spheres) {
   if (!particles || error_.status()) return;
-  if (particles->spheres.shares_images() && &spheres == &scene_.spheres) {
+  const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
+  if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
     add_images(table, particles->spheres);
     return particles.reset();
   }

@@ -29,9 +29,6 @@ PartView view_of(const GeometryPart& part, std::uint64_t slots, std::size_t sphe
           .first_id = static_cast<std::int32_t>(static_cast<std::uint32_t>(spheres))};
 }
 
-/// A slot is 32 bits, and the last of them is none.
-constexpr std::uint64_t most_slots = 0xffffffff;
-
 float extent_of(const BuildBox& box) {
   float extent = 0;
   for (int k = 0; k < 3; ++k)
@@ -51,7 +48,8 @@ GeometryParts::GeometryParts(std::vector<GeometryPart> parts) : parts_(std::move
     boxes.push_back(box_of(views_.back()));
     extent_ = std::max(extent_, extent_of(boxes.back()));
     slots += views_.back().slots;
-    if (slots > most_slots) throw std::length_error("too many slots");
+    if (slots > most_slots)
+      throw std::length_error("instances show more spheres than there are places for");
     spheres_ += part.tree->sphere_count();
   }
   nodes_ = build_box_tree(boxes);

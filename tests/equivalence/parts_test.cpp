@@ -189,12 +189,12 @@ class Parts : public OnEachIsa {
             << name << " ray " << i << " form " << static_cast<int>(query.form) << " common "
             << static_cast<int>(query.coherence) << ": " << hits[i].id << " " << hits[i].t
             << ", expected " << expected[i].id << " " << expected[i].t;
-        met += expected[i].id < 0 ? 0U : 1U;
+        met += expected[i].id == no_primitive ? 0U : 1U;
       }
     }
     const auto occluded = run_any(*kernels, geometry.view(), rays, query);
     for (std::size_t i = 0; i < rays.size(); ++i)
-      ASSERT_EQ(occluded[i], expected[i].id < 0 ? 0 : 1) << name << " ray " << i;
+      ASSERT_EQ(occluded[i], expected[i].id == no_primitive ? 0 : 1) << name << " ray " << i;
   }
   static std::vector<Hit> hits_of(const std::vector<Ray>& rays, const std::vector<Sphere>& spheres,
                                   const std::vector<Plane>& planes) {
@@ -287,6 +287,97 @@ TEST_P(Parts, SurfacesAreThoseOfTheSceneWrittenOut) {
     ASSERT_TRUE(found.center == expected.center && found.radius == expected.radius) << slot;
     if (slot > rays.size()) break;
   }
+}
+
+/// 30,000 copies of 100,000 spheres side by side, over a plane; one is shown a second time.
+struct ManyCopies {
+  static constexpr std::uint32_t copies = 30'000, spheres = 100'000, again = 25'000, first = 10;
+  std::vector<Sphere> group;
+  Geometry geometry = Geometry({}, {});
+
+  ManyCopies() {
+    CaseRandom random(86);
+    group = cube_of_spheres(random, spheres, {}, 1, 0.02);
+    const auto tree = std::make_shared<const Geometry>(group, std::vector<Plane>(), Structure::bvh);
+    std::vector<GeometryPart> parts;
+    for (std::uint32_t i = 0; i < copies; ++i) parts.push_back({tree, place(i), {}});
+    geometry = Geometry::of_parts(std::move(parts), {{{0, 0, -2}, {0, 0, 1}, 0}});
+  }
+  static Similarity place(std::uint32_t copy) {
+    const std::uint32_t i = copy == again ? first : copy;
+    const Vec3d degrees{0, 0, 90.0 * (i % 4)};
+    return placed(degrees, 1, {3.0 * (i % 200), 3.0 * (i / 200), 0});
+  }
+  [[nodiscard]] std::vector<Sphere> shown_by(std::uint32_t copy) const {
+    std::vector<Sphere> all;
+    for (const Sphere& one : group) all.push_back(transformed(one, place(copy), {}));
+    return all;
+  }
+};
+
+/// Rays to one of the copies, and what they meet: its spheres, or the plane.
+struct RaysToCopy {
+  std::vector<Sphere> spheres;
+  std::vector<Ray> primary, all;  ///< the primary ones share their origin
+  std::vector<Hit> expected;      ///< of all, the primary ones first
+
+  RaysToCopy(const ManyCopies& scene, std::uint32_t copy) : spheres(scene.shown_by(copy)) {
+    CaseRandom random(87);
+    const Vec3d middle = ManyCopies::place(copy).shift, eye = middle + Vec3d{0, 0, 2};
+    for (int i = 0; i < 48; ++i) {
+      const Vec3d to = middle + random_point(random, 0.9);
+      add({eye, vec_cast<float>(Vec3d{to.x, to.y, -1} - eye)});
+    }
+    primary = all;
+    for (std::size_t i = 0; i < 16; ++i) {  // rays that leave what the others have met
+      const Surface surface = find_surface(spheres, planes, all[i], expected[i]);
+      const Vec3d way = random.direction() * 0.1 + Vec3d{0, 0, i % 2 == 0 ? 1.0 : -1.0};
+      const bool out = dot(way, surface.normal) > 0;
+      add(leave(surface, out ? Side::viewer : Side::beyond, way));
+    }
+    for (Ray& ray : all) ray.source = moved(ray.source, copy);
+    for (Hit& hit : expected) hit.id = moved(hit.id, copy);
+  }
+
+ private:
+  void add(const Ray& ray) {
+    all.push_back(ray);
+    expected.push_back(reference::closest_hit(ray, spheres, planes));
+  }
+  /// The id in the whole scene.
+  [[nodiscard]] std::int32_t moved(std::int32_t id, std::uint32_t copy) const {
+    if (id == no_primitive) return id;
+    const auto own = static_cast<std::uint32_t>(id);
+    const bool is_plane = own == spheres.size();
+    return static_cast<std::int32_t>(is_plane ? 3'000'000'000U : own + copy * ManyCopies::spheres);
+  }
+
+  std::vector<Plane> planes{{{0, 0, -2}, {0, 0, 1}, 0}};
+};
+
+TEST_P(Parts, IdsAndSlotsBeyond31BitsAreRight) {
+  static const ManyCopies scene;
+  const GeometryView view = scene.geometry.view();
+  ASSERT_EQ(scene.geometry.sphere_count(), 3'000'000'000U);
+  std::uint32_t last_slot = 0;
+  for (const std::uint32_t copy : {0U, ManyCopies::first, 21'474U, ManyCopies::copies - 1}) {
+    const RaysToCopy rays(scene, copy);
+    for (const Form form : {Form::automatic, Form::packet, Form::single}) {
+      const Query query{Solver::robust, form, Coherence::none};
+      check("many", scene.geometry, rays.all, rays.expected, query);
+    }
+    check("many", scene.geometry, rays.primary, rays.expected,
+          {Solver::robust, Form::automatic, Coherence::common_origin});
+    for (const Hit& hit : run_closest(*kernels, view, rays.all, {})) {
+      if (scene.geometry.is_plane(hit) || hit.id == no_primitive) continue;
+      last_slot = std::max(last_slot, hit.slot);
+      const Sphere found = scene.geometry.sphere(hit.slot);
+      const Sphere& sphere =
+          rays.spheres[static_cast<std::uint32_t>(hit.id) - copy * ManyCopies::spheres];
+      ASSERT_TRUE(found.center == sphere.center && found.radius == sphere.radius) << copy;
+    }
+  }
+  EXPECT_GT(last_slot, 3'000'000'000U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, Parts, each_isa(), isa_name);

@@ -53,11 +53,14 @@ inline RayBuffer to_stream(const std::vector<Ray>& rays) {
 
 /// Whether a hit of a sphere names the slot where that sphere lies.
 inline bool names_its_slot(const GeometryView& geometry, const Hit& hit) {
-  if (hit.id < 0 || hit.id >= geometry.planes.first_id) return true;
+  const auto id = static_cast<std::uint32_t>(hit.id);
+  if (id >= static_cast<std::uint32_t>(geometry.planes.first_id)) return true;
   for (std::size_t i = 0; i < geometry.parts.size; ++i) {
     const PartView& part = geometry.parts.parts[i];
     const std::uint32_t slot = hit.slot - part.first_slot;
-    if (slot < part.slots) return part.first_id + part.id[slot] == hit.id;
+    if (slot >= part.slots) continue;
+    return static_cast<std::uint32_t>(part.first_id) + static_cast<std::uint32_t>(part.id[slot]) ==
+           id;
   }
   return hit.slot < geometry.spheres.block_count * bvh_leaf_size &&
          geometry.spheres.id[hit.slot] == hit.id;

@@ -239,14 +239,12 @@ TEST(Instances, SharedOnesShowWhatIsWrittenOutInTheSameOrder) {
   EXPECT_EQ(count_primitives(shared).spheres, flat.spheres.size());
   EXPECT_EQ(count_primitives(shared).planes, flat.planes.size());
   EXPECT_EQ(shared.planes.size(), flat.planes.size());
-  std::size_t at = 0;
-  visit_spheres(shared, [&](SphereRun spheres) {
-    for (const Sphere& one : spheres) {
-      const Sphere& expected = flat.spheres[at++];
-      ASSERT_TRUE(one.center == expected.center && one.radius == expected.radius &&
-                  one.material == expected.material)
-          << at;
-    }
+  std::size_t at = shared.spheres.size();
+  visit_shown(shared, [&](const Sphere& one) {
+    const Sphere& expected = flat.spheres[at++];
+    ASSERT_TRUE(one.center == expected.center && one.radius == expected.radius &&
+                one.material == expected.material)
+        << at;
   });
   EXPECT_EQ(at, flat.spheres.size());
 }

@@ -149,5 +149,23 @@ TEST(ParticleSpheres, RefuseWhatDoesNotFitIntoMemory) {
               HasSubstr("replicate: 2000000000 spheres need 38147 MiB of memory, there are"));
 }
 
+TEST(ParticleSpheres, ShareManyImagesOfManyParticles) {
+  const auto are_shared = [](std::size_t particles, const std::array<int, 3>& replicate) {
+    ParticleFrame frame = row_of_particles(particles);
+    frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
+    return ParticleSpheres::make(frame, {.radius = 1.0, .replicate = replicate})
+        .value()
+        .shares_images();
+  };
+  EXPECT_TRUE(are_shared(1024, {16, 32, 32}));  // 2^24
+  EXPECT_FALSE(are_shared(1023, {16, 32, 32}));
+  EXPECT_FALSE(are_shared(100, {100, 100, 100}));
+  EXPECT_TRUE(are_shared(1000, {100, 100, 300}));  // 3 x 10^9, more than one tree can have
+  ParticleFrame frame = row_of_particles(1000);
+  frame.cell = ParticleCell{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, {true, true, true}};
+  EXPECT_EQ(error_of(frame, {.radius = 1.0, .replicate = {100, 100, 500}}),
+            "replicate: more than 4294967293 spheres");
+}
+
 }  // namespace
 }  // namespace boule

@@ -6,6 +6,7 @@
 #include "render/renderer/scene_hash.h"
 #include "render/renderer/tracer.h"
 #include "tests/render/picture_comparison.h"
+#include "tests/render/scene_file/scene_folder.h"
 #include "tests/support/grouped_scene.h"
 
 namespace boule::test {
@@ -125,6 +126,115 @@ TEST(Instances, RaysMeetSharedGroupsAsThoseWrittenOut) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       EXPECT_TRUE(a[i].t == b[i].t && a[i].id == b[i].id && a[i].normal == b[i].normal) << i;
     }
+  }
+}
+
+/// 3 x 10^9 spheres, whose ids are beyond 31 bits and whose slots are too, are shown as the one of
+/// 30,000 copies that the camera sees.
+struct ManyCopies {
+  static constexpr std::uint32_t copies = 30'000, spheres = 100'000;
+  Scene one = empty_scene(40, 30), many;
+
+  ManyCopies();
+};
+
+ManyCopies::ManyCopies() {
+  one.lights = {DirectionalLight{{0.1f, 0.2f, -1}, {1, 1, 1}}};
+  Group swarm{"swarm", {}, {}, {}};
+  CaseRandom random(14);
+  for (std::uint32_t i = 0; i < spheres; ++i) {
+    const Vec3d at = random.direction() * random.uniform(0.2, 1);
+    swarm.spheres.push_back({vec_cast<float>(at), 0.01F, 0});
+  }
+  add_material(one, Matte{{0.7f, 0.3f, 0.2f}});
+  one.groups = {swarm};
+  many = one;
+  for (std::uint32_t i = 0; i < copies; ++i) {
+    const auto x = static_cast<float>(3 * (i % 200)), y = static_cast<float>(3 * (i / 200));
+    many.instances.push_back({0, {x, y, 0}, {20, 0, static_cast<float>(i % 360)}, 1, {}});
+  }
+}
+
+TEST(Instances, OfThreeThousandMillionSpheresHaveThePicturesAndIdsOfOne) {
+  constexpr std::uint32_t copies = ManyCopies::copies, spheres = ManyCopies::spheres;
+  auto [one, many] = ManyCopies();
+  EXPECT_EQ(count_primitives(many).total(), 3'000'000'000U);
+  for (const std::uint32_t shown : {0U, 21'474U, copies - 1}) {  // 2^31 is amid the second
+    const Vec3f at = many.instances[shown].translate;
+    one.instances = {many.instances[shown]};
+    one.camera = many.camera = pinhole({at.x, at.y, 2.5F}, at, 40);
+    EXPECT_EQ(differing_pixels(render(many), render(one)), 0);
+    const auto found = aovs_of(many), expected = aovs_of(one);
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto* ids = std::get_if<std::vector<std::uint32_t>>(&found[i].samples);
+      if (ids == nullptr) {
+        EXPECT_TRUE(found[i].samples == expected[i].samples) << found[i].name;
+        continue;
+      }
+      const auto& own = std::get<std::vector<std::uint32_t>>(expected[i].samples);
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const bool hit = own[k] < spheres;
+        hits += hit ? 1U : 0U;
+        ASSERT_EQ((*ids)[k], hit ? own[k] + shown * spheres : own[k]) << k;
+      }
+    }
+    EXPECT_GT(hits, 500U);
+  }
+}
+
+TEST(Instances, OfMoreThan31BitsAreRefusedWhereIdsHaveASign) {
+  const Scene many = ManyCopies().many;
+  const auto refused = Tracer::create(many);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().key, "instance");
+  EXPECT_EQ(refused.error().message,
+            "shows more than 2147483647 primitives: hits of rays have no ids for them");
+  RenderOptions judged = options_of(many);
+  judged.solver = Solver::reference;
+  const auto listed = Renderer::create(many, judged);
+  ASSERT_FALSE(listed);
+  EXPECT_EQ(listed.error().message,
+            "shows more than 2147483647 primitives: solver reference has no ids for them");
+}
+
+/// Images of particles in their cell.
+TEST(Instances, ReplicatedParticlesHaveThePictureWrittenOut) {
+  SceneFolder files;
+  std::string text = "5000\nLattice=\"9 0 0 1 8 0 0 0 7\" Properties=species:S:1:pos:R:3\n";
+  CaseRandom random(15);
+  for (int i = 0; i < 5000; ++i) {
+    text += i % 2 == 0 ? "C" : "O";
+    for (const double side : {9.0, 8.0, 7.0}) text += " " + std::to_string(random.uniform(0, side));
+    text += "\n";
+  }
+  static_cast<void>(files.write("cell.xyz", text));
+  const auto load = [&files](std::uint64_t fewest) {
+    SceneFileOptions options;
+    options.fewest_shared = fewest;
+    return files
+        .load("scene.toml",
+              "schema = 1\n[image]\nwidth = 48\nheight = 36\n[[particles]]\nfile = "
+              "\"cell.xyz\"\nreplicate = [3, 4, 3]\n",
+              options)
+        .value()
+        .scene;
+  };
+  const Scene shared = load(0), listed = load(180'001);
+  EXPECT_TRUE(groups_to_share(shared));
+  EXPECT_TRUE(listed.instances.empty());
+  Scene flat = shared;
+  expand_instances(flat);
+  EXPECT_EQ(differing_pixels(render(shared), render(flat)), 0);
+  // Rounded once more than those that are listed: half a step in the group, half a step of the
+  // shift, half a step where it is shown; coordinates are below 32.
+  ASSERT_EQ(flat.spheres.size(), listed.spheres.size());
+  for (std::size_t i = 0; i < flat.spheres.size(); ++i) {
+    const Sphere &a = flat.spheres[i], &b = listed.spheres[i];
+    const Vec3f off = a.center - b.center;
+    const float most = std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)});
+    ASSERT_LE(most, 3 * 0x1p-20F) << i;
+    ASSERT_TRUE(a.radius == b.radius && a.material == b.material) << i;
   }
 }
 
