@@ -213,7 +213,11 @@ py::dict SceneValues::all() {
 }  // namespace
 
 py::dict values_of(LoadedScene&& loaded) {
-  if (loaded.scene.packed) throw_error("scene", "is packed: its spheres cannot be taken apart");
+  if (loaded.scene.packed) {
+    throw_error(Diagnostic::in_file(loaded.scene.packed->file,
+                                    "is packed: its spheres cannot be taken apart, but render() "
+                                    "and Tracer take the scene by its name"));
+  }
   return SceneValues(std::move(loaded)).all();
 }
 

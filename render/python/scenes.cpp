@@ -32,6 +32,7 @@ cli::RenderCommand command_of(const std::string& path, const py::dict& keys) {
   cli::RenderCommand command;
   command.scene = path;
   command.look = look_of(keys);
+  command.trust = Arguments(keys).flag("trust");
   if (const auto polygons = Arguments(keys).text("polygons")) {
     command.polygons = choose<PolygonPolicy>(*polygons, "polygons", polygon_names);
   }

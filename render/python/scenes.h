@@ -20,7 +20,7 @@ namespace boule::python {
 class SceneRequest {
  public:
   /// The name of a file, with the options of its kind in `keys`: the looks of particles, "frame",
-  /// "polygons"; or a dictionary as a TOML file would have it, without any. Throws Error.
+  /// "polygons", "trust"; or a dictionary as a TOML file would have it, without any. Throws Error.
   SceneRequest(const pybind11::object& source, const pybind11::dict& keys);
 
   /// Reads it. Without the GIL.

@@ -23,12 +23,14 @@ class Interrupted(KeyboardInterrupt):
 def render(
     scene, *, size=None, spp=None, noise=None, min_spp=None, exposure=0.0, filter=None, background=None, outline=None, seed=0, crop=None,
     aov=None, method=None, max_depth=None, shadow_epsilon=None, time_limit=None, partial=False,
-    order=None, tile=None, solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None, **look,
+    order=None, tile=None, solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None,
+    trust=False, **look,
 ):  # fmt: skip
     """Renders a scene to a Picture. What is not given comes from the scene.
 
     scene: a Scene, or the name of a file that load() would read; then frame, polygons and look are
-        as there.
+        as there. Of a packed scene, .boule, it is always the name, and trust=True opens it without
+        checking it: for files of one's own only.
     size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
     noise: each pixel gets samples, min_spp to spp of them, until it is right to so much of 0..1 as
         it is shown with this exposure, with a probability of 95 %; 0: all pixels get spp.
@@ -56,7 +58,7 @@ def render(
         raise _core.Error(
             f"expected a Scene or the name of a scene file, got {type(scene).__name__}"
         )
-    keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
+    keys = {**look_keys(**look), "frame": frame, "polygons": polygons, "trust": trust}
     options = {
         "size": size, "spp": spp, "noise": noise, "min_spp": min_spp, "exposure": exposure, "filter": filter, "background": background, "outline": outline,
         "seed": seed, "crop": crop, "aov": aov, "method": method, "max_depth": max_depth,

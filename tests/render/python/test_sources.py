@@ -45,6 +45,21 @@ def test_a_file_of_particles_is_shown_as_by_the_program(water, tmp_path):
     assert "<svg" in scene.legend and isinstance(scene.camera, boule.Fit)
 
 
+def test_a_packed_scene_is_taken_by_its_name(water, tmp_path):
+    packed = tmp_path / "water.boule"
+    subprocess.run([program(), "pack", water, "-o", packed, "-q"], check=True)
+    whole = pixels(water)
+    assert np.array_equal(pixels(packed), whole)
+    assert np.array_equal(pixels(packed, trust=True), whole)
+    hits = [boule.Tracer(scene).closest((0, 0, 9), (0, 0, -1)) for scene in (packed, water)]
+    assert hits[0].id == hits[1].id and hits[0].t == hits[1].t
+    with pytest.raises(boule.Error, match="its spheres cannot be taken apart") as caught:
+        boule.load(packed)
+    assert caught.value.file == str(packed)
+    with pytest.raises(boule.Error, match="is of files"):
+        boule.render(boule.Scene(), trust=True)
+
+
 def test_particles_in_memory_are_those_of_the_file(water):
     positions = np.array([[0, 0, 0.119], [0, 0.763, -0.477], [0, -0.763, -0.477]])
     told = pixels(water, color="charge")
