@@ -116,7 +116,8 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
   if (!particles || error_.status()) return;
   make_room(spheres, particles->spheres.size());
   const std::size_t before = spheres.size();
-  if (auto bad = particles->spheres.append_to(spheres, table.origin(), options_.parallel_for)) {
+  if (auto bad =
+          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for)) {
     spheres.resize(before);
     table.report("file", bad->message);
   }
