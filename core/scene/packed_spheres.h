@@ -11,8 +11,14 @@ namespace boule {
 
 struct Bvh;  // of simd/geometry, which knows what is in it
 
-/// Spheres that lie in the leaves of a tree and nowhere else, because they were packed into a file.
-/// What a scene asks of all of them stands here beside the tree, so that nobody goes through them.
+/// The spheres of one tree of several. Their ids follow those of the trees before it.
+struct PackedTree {
+  std::shared_ptr<const Bvh> tree;
+  std::uint64_t count = 0;  ///< ids
+};
+
+/// Spheres that lie in the leaves of trees and nowhere else, because they were packed into a file.
+/// What a scene asks of all of them stands here beside the trees, so that nobody goes through them.
 struct PackedSpheres {
   std::uint64_t count = 0;             ///< their ids are 0 .. count - 1
   std::uint64_t digest = 0;            ///< SphereDigest of them in the order of their ids
@@ -23,7 +29,7 @@ struct PackedSpheres {
   std::vector<Sphere> first;           ///< the first few, to be shown
   std::vector<Sphere> extremes;        ///< AxisExtremes of all
   std::string file;                    ///< that they were packed into
-  std::shared_ptr<const Bvh> tree;
+  std::vector<PackedTree> trees;       ///< one at least, if there are spheres
 };
 
 }  // namespace boule

@@ -146,9 +146,11 @@ Status validate_all_but_primitives(const Scene& scene) {
   const SectionCheck sections(scene);
   if (sections.status()) return sections.status();
   const std::uint64_t packed = scene.packed ? scene.packed->count : 0;
-  if (packed > max_primitives ||
-      packed + scene.spheres.size() + scene.planes.size() > max_primitives) {
-    return Diagnostic::about("sphere", "a scene has at most 2147483647 primitives");
+  const std::uint64_t most =
+      packed > 0 && scene.packed->trees.size() > 1 ? max_shown_primitives : max_primitives;
+  if (packed > most || packed + scene.spheres.size() + scene.planes.size() > most) {
+    return Diagnostic::about("sphere",
+                             "a scene has at most " + std::to_string(most) + " primitives");
   }
   return std::nullopt;
 }

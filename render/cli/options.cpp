@@ -274,8 +274,8 @@ void add_info(CLI::App& app, InfoCommand& command) {
   app.add_flag("--json", command.json, "As JSON, for programs");
   add_load_limit(app, command.load_limit);
   add_trust(app, command.trust);
-  app.add_flag("--verify", command.verify, "Read a packed scene as a whole, to check its checksums")
-      ->excludes("--frames");
+  app.add_flag("--verify", command.verify,
+               "Read a packed scene as a whole, to check its checksums");
 }
 
 /// A help text; CLI11 leaves two blank lines between groups.

@@ -1,7 +1,9 @@
 #include "render/file/mapped_text.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <limits>
@@ -38,6 +40,19 @@ std::string_view without_mark(std::string_view text) {
 }  // namespace
 
 void MappedText::Unmap::operator()(void* map) const { ::munmap(map, bytes); }
+
+void MappedText::let_go(std::string_view part) const {
+  if (map_ == nullptr) return;
+  // The system maps more pages than the one that is asked for: some before this part were mapped
+  // once more after they were let go.
+  constexpr std::size_t around = std::size_t{2} << 20;
+  char* const map = static_cast<char*>(map_.get());
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const auto offset = static_cast<std::size_t>(part.data() - map);
+  const std::size_t begin = (offset - std::min(offset, around)) / page * page;
+  // Nothing was written to them: the system forgets where they are, and nothing else.
+  ::madvise(map + begin, offset + part.size() - begin, MADV_DONTNEED);
+}
 
 MappedText MappedText::of(std::string text) {
   MappedText made;

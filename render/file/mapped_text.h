@@ -29,6 +29,10 @@ class MappedText {
   /// moved.
   [[nodiscard]] std::string_view text() const { return text_; }
 
+  /// Says that a part of the text has been read. Where it is mapped, its memory goes back to the
+  /// system; who asks for it once more reads it from the file.
+  void let_go(std::string_view part) const;
+
  private:
   struct Unmap {
     std::size_t bytes;

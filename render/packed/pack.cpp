@@ -71,7 +71,7 @@ Result<bool> Packer::pack_chunk() {
     survey_.add(part, means_.parallel_for);
     return std::nullopt;
   };
-  if (auto bad = each_part(packed_format::packed_spheres, look)) return *bad;
+  if (auto bad = each_part(means_.chunk, look)) return *bad;
   const std::uint64_t count = survey_.size();
   if (count == 0) return false;
   apart_ = survey_.apart();
@@ -86,7 +86,7 @@ Result<bool> Packer::pack_chunk() {
   if (auto bad = tree.add(partition, store)) return *bad;
   if (auto bad = writer_.end_chunk()) return *bad;
   first_ += count;
-  return count == packed_format::packed_spheres;
+  return count == means_.chunk;
 }
 
 /// Reads the spheres of the chunk once more, and puts them where they belong.

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "render/packed/bucket_store.h"
 #include "render/packed/pack_writer.h"
+#include "render/packed/packed_format.h"
 #include "render/packed/partition.h"
 #include "simd/geometry/build_box.h"
 
@@ -19,6 +20,8 @@ struct PackMeans {
   std::uint64_t memory = 0;  ///< bytes, about
   std::string beside;        ///< where temporary files go: SpillFile::create()
   ParallelFor parallel_for = serial_for;
+  /// The most spheres of a chunk.
+  std::uint64_t chunk = packed_format::packed_spheres;
   std::function<bool()> stop{};  ///< asked now and then; true ends it with "interrupted"
 };
 

@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "core/base/ascii.h"
+#include "core/scene/instances.h"
 #include "render/file/input_file.h"
 #include "render/memory/available_memory.h"
 #include "render/packed/node_check.h"
 #include "render/packed/piece_checksum.h"
 #include "simd/geometry/bvh_builder.h"
+#include "simd/geometry/parts.h"
 
 namespace boule {
 
@@ -195,17 +198,33 @@ Status PackedFile::read_chunk(std::uint32_t chunk, const PackedOptions& options)
   return std::nullopt;
 }
 
+/// What the parts of a geometry ask for.
+Status PackedFile::check_parts() const {
+  std::uint64_t slots = 0;
+  for (const auto& tree : trees_) slots += tree->slots.size();
+  if (slots > GeometryParts::most_slots) {
+    return wrong("has " + std::to_string(slots) + " slots of spheres, at most " +
+                 std::to_string(GeometryParts::most_slots) + " can be rendered");
+  }
+  for (const Sphere& s : contents_.spheres.extremes) {
+    for (const float one : {s.center.x, s.center.y, s.center.z, s.radius}) {
+      if (std::fabs(static_cast<double>(one)) < most_shared_coordinate) continue;
+      return wrong("has chunks of spheres, of which some are farther away or larger than 1e17");
+    }
+  }
+  return std::nullopt;
+}
+
 Result<Scene> PackedFile::scene() const {
   Scene scene = contents_.scene;
-  if (trees_.size() > 1) {
-    return wrong("has " + std::to_string(trees_.size()) + " chunks of spheres, " +
-                 std::to_string(contents_.spheres.count) +
-                 " in all: more than 2147483647 cannot be rendered yet");
-  }
   if (trees_.empty()) return scene;
+  if (trees_.size() > 1) {
+    if (auto bad = check_parts()) return *bad;
+  }
   auto spheres = std::make_shared<PackedSpheres>(contents_.spheres);
   spheres->file = path_;
-  spheres->tree = trees_.front();
+  for (std::size_t i = 0; i < trees_.size(); ++i)
+    spheres->trees.push_back({trees_[i], contents_.chunks[i].spheres});
   scene.packed = std::move(spheres);
   return scene;
 }

@@ -36,7 +36,8 @@ class PackedFile {
   /// Opens any name. Throws std::bad_alloc, as the others do.
   static Result<PackedFile> open(const std::string& path, const PackedOptions& options = {});
 
-  /// The scene with its packed spheres. An error if they are more than one chunk.
+  /// The scene with its packed spheres. An error if there are more chunks of them than fit into one
+  /// geometry, or several with spheres that are too far away for it.
   [[nodiscard]] Result<Scene> scene() const;
   [[nodiscard]] const PackedContents& contents() const { return contents_; }
   [[nodiscard]] const std::vector<packed_format::Section>& sections() const { return sections_; }
@@ -57,6 +58,7 @@ class PackedFile {
   [[nodiscard]] const Section* find(packed_format::Kind kind, std::uint32_t chunk) const;
   [[nodiscard]] std::string_view bytes_of(const Section& section) const;
   [[nodiscard]] bool is_sound(const Section& section, const ParallelFor& parallel_for) const;
+  [[nodiscard]] Status check_parts() const;
   [[nodiscard]] Diagnostic wrong(const std::string& what) const;
 
   std::string path_;

@@ -171,7 +171,8 @@ class DumpReader : public ParticleReader {
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(atoms.rows),
                           .first_line = atoms.line,
-                          .positive = options_.positive};
+                          .positive = options_.positive,
+                          .file = &bytes_};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
     if (positions.any_scaled()) {
       if (auto wrong = check_scaled(positions, read, atoms.line - 1)) return *wrong;

@@ -50,7 +50,8 @@ class PlyReader : public ParticleReader {
     const std::size_t size = vertices_.end - vertices_.begin;
     const TextRows rows{.text = bytes_.text().substr(vertices_.begin, size),
                         .rows = vertices_.table.rows,
-                        .first_line = vertices_.line};
+                        .first_line = vertices_.line,
+                        .file = &bytes_};
     if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
     for (const BinaryColumn& column : vertices_.table.columns) {
       if (auto wrong = divide(column, frame)) return *wrong;

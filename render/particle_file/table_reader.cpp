@@ -121,7 +121,8 @@ class TableReader : public ParticleReader {
                         .comments = head_.separator == 0,
                         .is_table = true,
                         .separator = head_.separator,
-                        .positive = options_.positive};
+                        .positive = options_.positive,
+                        .file = &bytes_};
     if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
     columns.finish();
     return frame;
@@ -158,7 +159,7 @@ Result<std::unique_ptr<ParticleReader>> open_table(MappedText bytes,
   if (!head) return head.error();
   if (auto wrong = choose_names(options.columns, head.value())) return *wrong;
   const std::uint64_t rows =
-      count_table_rows(bytes.text().substr(head.value().begin), parallel_for);
+      count_table_rows(bytes.text().substr(head.value().begin), parallel_for, &bytes);
   return std::unique_ptr<ParticleReader>(std::make_unique<TableReader>(
       std::move(bytes), options, std::move(head).value(), static_cast<std::size_t>(rows)));
 }

@@ -10,20 +10,22 @@ namespace {
 
 /// For each piece the numbers that its own numbers of texts become.
 std::vector<std::vector<std::uint32_t>> renumbering(std::span<const TextPiece> pieces,
-                                                    std::size_t interner, TextColumn& column) {
+                                                    std::size_t interner, TextColumn& column,
+                                                    const MappedText* file) {
   TextInterner all;
   std::vector<std::vector<std::uint32_t>> renumbered(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (const std::string_view text : pieces[i].interners[interner].texts()) {
       renumbered[i].push_back(all.index_of(text));
     }
+    if (file != nullptr) file->let_go(pieces[i].text);  // where the texts are that it has first
   }
   column.texts.assign(all.texts().begin(), all.texts().end());
   return renumbered;
 }
 
-/// Cuts a text at ends of lines.
-std::vector<std::string_view> cut_lines(std::string_view text) {
+/// Cuts a text at ends of lines. `file` as cut_rows() has it.
+std::vector<std::string_view> cut_lines(std::string_view text, const MappedText* file) {
   constexpr std::size_t piece_size = std::size_t{1} << 20;
   std::vector<std::string_view> pieces;
   while (!text.empty()) {
@@ -31,6 +33,7 @@ std::vector<std::string_view> cut_lines(std::string_view text) {
     const std::size_t size = std::min(end == std::string_view::npos ? end : end + 1, text.size());
     pieces.push_back(text.substr(0, size));
     text.remove_prefix(size);
+    if (file != nullptr) file->let_go(pieces.back());
   }
   return pieces;
 }
@@ -56,9 +59,12 @@ LineCounts count_lines(std::string_view text, RowLines lines) {
 }
 
 std::vector<LineCounts> count_all_lines(std::span<const std::string_view> pieces, RowLines lines,
-                                        const ParallelFor& parallel_for) {
+                                        const ParallelFor& parallel_for, const MappedText* file) {
   std::vector<LineCounts> counts(pieces.size());
-  parallel_for(pieces.size(), [&](std::size_t i) { counts[i] = count_lines(pieces[i], lines); });
+  parallel_for(pieces.size(), [&](std::size_t i) {
+    counts[i] = count_lines(pieces[i], lines);
+    if (file != nullptr) file->let_go(pieces[i]);
+  });
   return counts;
 }
 
@@ -71,19 +77,22 @@ bool is_table_gap(std::string_view line) {
   return rest.empty() || rest.front() == '#' || rest.starts_with("//");
 }
 
-std::uint64_t count_table_rows(std::string_view text, const ParallelFor& parallel_for) {
+std::uint64_t count_table_rows(std::string_view text, const ParallelFor& parallel_for,
+                               const MappedText* file) {
   std::uint64_t rows = 0;
-  for (const LineCounts& counts : count_all_lines(cut_lines(text), RowLines::table, parallel_for)) {
+  for (const LineCounts& counts :
+       count_all_lines(cut_lines(text, file), RowLines::table, parallel_for, file)) {
     rows += counts.rows;
   }
   return rows;
 }
 
 std::vector<TextPiece> cut_rows(std::string_view rows, std::size_t interners,
-                                const ParallelFor& parallel_for, RowLines lines) {
-  const std::vector<std::string_view> texts = cut_lines(rows);
+                                const ParallelFor& parallel_for, RowLines lines,
+                                const MappedText* file) {
+  const std::vector<std::string_view> texts = cut_lines(rows, file);
   std::vector<LineCounts> counts(texts.size());
-  if (texts.size() > 1) counts = count_all_lines(texts, lines, parallel_for);
+  if (texts.size() > 1) counts = count_all_lines(texts, lines, parallel_for, file);
   std::vector<TextPiece> pieces;
   LineCounts before;
   for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -110,8 +119,8 @@ Status check_pieces(std::span<const TextPiece> pieces, std::size_t rows) {
 }
 
 void merge_texts(std::span<const TextPiece> pieces, std::size_t interner, TextColumn& column,
-                 const ParallelFor& parallel_for) {
-  const auto renumbered = renumbering(pieces, interner, column);
+                 const ParallelFor& parallel_for, const MappedText* file) {
+  const auto renumbered = renumbering(pieces, interner, column, file);
   parallel_for(pieces.size(), [&](std::size_t i) {
     if (renumbered[i].empty()) return;               // no row of it was read
     const std::size_t rows = column.indices.size();  // the pieces may have more

@@ -254,11 +254,11 @@ Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> colum
                       ParticleFrame& frame, const ParallelFor& parallel_for) {
   if (rows.rows == 0) return std::nullopt;
   if (auto none = check_room(rows.rows, columns)) return none;
-  const std::vector<PlannedColumn> planned = plan(rows, columns, frame);
   const auto interners = static_cast<std::size_t>(std::count_if(
       columns.begin(), columns.end(), [](const TextRowColumn& c) { return is_text(c.use); }));
   const RowLines lines = rows.is_table ? RowLines::table : RowLines::every;
-  std::vector<TextPiece> pieces = cut_rows(rows.text, interners, parallel_for, lines);
+  std::vector<TextPiece> pieces = cut_rows(rows.text, interners, parallel_for, lines, rows.file);
+  const std::vector<PlannedColumn> planned = plan(rows, columns, frame);
   parallel_for(pieces.size(), [&](std::size_t i) {
     const FloatEnvironment environment;
     if (rows.is_table) {
@@ -266,11 +266,13 @@ Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> colum
     } else {
       PieceReader<false>(rows, columns, planned, pieces[i]).read();
     }
+    if (rows.file != nullptr) rows.file->let_go(pieces[i].text);
   });
   if (auto bad = check_pieces(pieces, rows.rows)) return bad;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!is_text(columns[i].use)) continue;
-    merge_texts(pieces, planned[i].interner, text_column(columns[i], frame), parallel_for);
+    merge_texts(pieces, planned[i].interner, text_column(columns[i], frame), parallel_for,
+                rows.file);
   }
   return std::nullopt;
 }

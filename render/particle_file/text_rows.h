@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "render/file/mapped_text.h"
 #include "render/particle_file/particle_frame.h"
 
 namespace boule {
@@ -48,6 +49,7 @@ struct TextRows {
   char separator = 0;
   std::string_view
       positive{};  ///< the name of a column of numbers that must be above 0; empty: none
+  const MappedText* file = nullptr;  ///< holds the text, and lets go of what is read; null: neither
 };
 
 /// Reads rows into the columns of `frame`: makes room for all that `columns` names, refusing what

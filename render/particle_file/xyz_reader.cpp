@@ -30,8 +30,23 @@ std::optional<std::uint64_t> count_of(std::string_view line) {
   return words.size() == 1 ? count_in(words.front()) : std::nullopt;
 }
 
-Result<std::vector<FramePlace>> find_frames(std::string_view text) {
+/// Skips so many lines, or as many as there are, and returns how many. What is behind is let go.
+std::uint64_t skip_rows(std::uint64_t count, TextLines& lines, const MappedText& bytes) {
+  constexpr std::uint64_t portion = std::uint64_t{1} << 16;
+  std::uint64_t skipped = 0;
+  while (skipped < count) {
+    const std::size_t begin = lines.offset();
+    const std::uint64_t more = lines.skip(std::min(portion, count - skipped));
+    if (more == 0) break;
+    skipped += more;
+    bytes.let_go(bytes.text().substr(begin, lines.offset() - begin));
+  }
+  return skipped;
+}
+
+Result<std::vector<FramePlace>> find_frames(const MappedText& bytes) {
   std::vector<FramePlace> frames;
+  const std::string_view text = bytes.text();
   TextLines lines(text);
   for (lines.skip_blank_lines(); !lines.at_end(); lines.skip_blank_lines()) {
     const std::uint64_t first_line = lines.line();
@@ -45,7 +60,7 @@ Result<std::vector<FramePlace>> find_frames(std::string_view text) {
     const bool has_comment = lines.skip(1) == 1;
     frame.begin = lines.offset();
     frame.row_line = lines.line();
-    const std::uint64_t rows = lines.skip(*count);
+    const std::uint64_t rows = skip_rows(*count, lines, bytes);
     frame.end = lines.offset();
     if (!has_comment || rows < *count) {
       return error_at_line(first_line,
@@ -134,7 +149,8 @@ class XyzReader : public ParticleReader {
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(place.count),
                           .first_line = place.row_line,
-                          .positive = options_.positive};
+                          .positive = options_.positive,
+                          .file = &bytes_};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
     columns.finish();
     return read;
@@ -167,7 +183,7 @@ class XyzReader : public ParticleReader {
 Result<std::unique_ptr<ParticleReader>> open_xyz(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto places = find_frames(bytes.text());
+  auto places = find_frames(bytes);
   if (!places) return places.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<XyzReader>(std::move(bytes), options, std::move(places).value()));

@@ -83,13 +83,13 @@ Result<ParticleMaterials> take_components(const ColoredFrame& colored,
   const bool codes = found.no_part != none;
   if (codes && found.no_code != none) return wrong_components(colored, columns, found.no_part);
   ParticleMaterials made;
-  made.values.resize(colored.frame.size());
+  made.materials.values.resize(colored.frame.size());
   const double scale = codes ? 1 : 255;
   for_components(colored, columns, [&](std::size_t i, const Components& components) {
     const auto code = [&](std::size_t k) {
       return static_cast<std::uint8_t>(std::lround(components[k] * scale));
     };
-    made.values[i] = colored.in({code(0), code(1), code(2)});
+    made.materials.values[i] = colored.in({code(0), code(1), code(2)});
   });
   if (codes) {
     made.notes.push_back("the columns " + quote(names[0]) + ", " + quote(names[1]) + " and " +

@@ -45,14 +45,14 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
     return Diagnostic::about("color.range", "expected two finite numbers, the larger one last");
   }
   made.colors.scale = {mapped.by, mapped.map, range};
-  made.values.resize(colored.frame.size());
+  made.materials.values.resize(colored.frame.size());
   const RangePlace place(range);
-  in_chunks(colored.parallel_for, made.values.size(),
+  in_chunks(colored.parallel_for, made.materials.values.size(),
             [&](std::size_t, std::size_t begin, std::size_t end) {
               std::vector<double> block(end - begin);
               numbers.value().read(begin, end, block.data());
               for (std::size_t i = begin; i < end; ++i) {
-                made.values[i] = colored.in(mapped.map.color(place(block[i - begin])));
+                made.materials.values[i] = colored.in(mapped.map.color(place(block[i - begin])));
               }
             });
   return made;

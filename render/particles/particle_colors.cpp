@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "render/particles/chunks.h"
 #include "render/particles/elements.h"
 #include "render/particles/species_palette.h"
 
@@ -38,11 +37,11 @@ class Coloring {
       : colored_(colored), frame_(colored.frame), known_(known) {}
 
   Materials operator()(std::monostate) const {
-    return ParticleMaterials{{MaterialRef(colored_.material)}};
+    return ParticleMaterials{{{MaterialRef(colored_.material)}}};
   }
 
   Materials operator()(const SrgbColor& color) const {
-    return ParticleMaterials{{colored_.in(color)}};
+    return ParticleMaterials{{{colored_.in(color)}}};
   }
 
   Materials operator()(const SpeciesColors& /*species*/) const {
@@ -77,17 +76,12 @@ class Coloring {
 
  private:
   /// A colour for each text.
-  [[nodiscard]] std::vector<MaterialRef> by_text(const TextColumn& texts,
-                                                 const std::vector<SrgbColor>& colors) const {
-    std::vector<MaterialRef> refs;
-    refs.reserve(colors.size());
-    for (const SrgbColor& color : colors) refs.push_back(colored_.in(color));
-    std::vector<MaterialRef> values(frame_.size());
-    in_chunks(colored_.parallel_for, values.size(),
-              [&](std::size_t, std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) values[i] = refs[texts.indices[i]];
-              });
-    return values;
+  [[nodiscard]] ParticleValues<MaterialRef> by_text(const TextColumn& texts,
+                                                    const std::vector<SrgbColor>& colors) const {
+    ParticleValues<MaterialRef> refs{{}, &texts};
+    refs.values.reserve(colors.size());
+    for (const SrgbColor& color : colors) refs.values.push_back(colored_.in(color));
+    return refs;
   }
 
   /// The particles of each text are told apart; `from_palette` of the colours are the palette's.

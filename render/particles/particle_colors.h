@@ -11,12 +11,13 @@
 #include "render/particles/particle_columns.h"
 #include "render/particles/particle_spheres.h"
 #include "render/particles/particle_style.h"
+#include "render/particles/particle_values.h"
 
 namespace boule {
 
 /// The colours of a frame's particles.
 struct ParticleMaterials {
-  std::vector<MaterialRef> values;  ///< of each particle, or one for all
+  ParticleValues<MaterialRef> materials;
   ParticleColors colors{};
   std::vector<std::string> notes{};
 };

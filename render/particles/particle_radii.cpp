@@ -156,7 +156,7 @@ Diagnostic wrong_radius(const std::string& who, double radius, double scale) {
 }
 
 ParticleRadii one_radius(double radius, bool is_used) {
-  return {{static_cast<float>(radius)}, is_used ? radius : 0};
+  return {{{static_cast<float>(radius)}}, is_used ? radius : 0};
 }
 
 /// The radii of a chunk; the first that cannot be used, and the least of the others.
@@ -165,11 +165,10 @@ struct Chunk {
   double smallest = std::numeric_limits<double>::infinity();
 };
 
-Result<ParticleRadii> radii_of(const ParticleNumbers& numbers, double factor, double scale,
-                               std::size_t count, const ParticleNamer& name_of,
-                               const ParallelFor& parallel_for) {
-  ParticleRadii radii;
-  radii.values.resize(count);
+/// Checks the radii and returns the smallest. Writes each to `values` unless that is null.
+Result<double> read_radii(const ParticleNumbers& numbers, double factor, double scale,
+                          std::size_t count, const ParticleNamer& name_of,
+                          const ParallelFor& parallel_for, float* values) {
   std::vector<Chunk> chunks(chunks_of(count));
   in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     std::vector<double> block(end - begin);
@@ -178,7 +177,7 @@ Result<ParticleRadii> radii_of(const ParticleNumbers& numbers, double factor, do
     for (std::size_t i = begin; i < end; ++i) {
       const double radius = block[i - begin] * factor * scale;
       if (is_radius(radius)) {
-        radii.values[i] = static_cast<float>(radius);
+        if (values != nullptr) values[i] = static_cast<float>(radius);
         found.smallest = std::min(found.smallest, radius);
       } else {
         found.wrong = std::min(found.wrong, i);
@@ -194,7 +193,16 @@ Result<ParticleRadii> radii_of(const ParticleNumbers& numbers, double factor, do
     }
     smallest = std::min(smallest, chunk.smallest);
   }
-  radii.smallest = count > 0 ? smallest : 0;
+  return count > 0 ? smallest : 0;
+}
+
+/// A radius for each species; 0 for what is none, which only species without particles have.
+std::vector<float> radii_of_species(const std::vector<double>& by_species, double scale) {
+  std::vector<float> radii;
+  radii.reserve(by_species.size());
+  for (const double radius : by_species) {
+    radii.push_back(is_radius(radius * scale) ? static_cast<float>(radius * scale) : 0);
+  }
   return radii;
 }
 
@@ -215,10 +223,17 @@ Result<ParticleRadii> make_radii(const ParticleFrame& frame, const RadiusSource&
   if (!source.column.empty()) {
     const auto numbers = find_particle_numbers(frame, source.column, "radius");
     if (!numbers) return numbers.error();
-    return radii_of(numbers.value(), source.factor, scale, frame.size(), name_of, parallel_for);
+    std::vector<float> values(frame.size());
+    const auto smallest = read_radii(numbers.value(), source.factor, scale, frame.size(), name_of,
+                                     parallel_for, values.data());
+    if (!smallest) return smallest.error();
+    return ParticleRadii{{std::move(values)}, smallest.value()};
   }
   const ParticleNumbers numbers(*frame.species, source.by_species);
-  return radii_of(numbers, 1, scale, frame.size(), name_of, parallel_for);
+  const auto smallest = read_radii(numbers, 1, scale, frame.size(), name_of, parallel_for, nullptr);
+  if (!smallest) return smallest.error();
+  return ParticleRadii{{radii_of_species(source.by_species, scale), &*frame.species},
+                       smallest.value()};
 }
 
 }  // namespace boule

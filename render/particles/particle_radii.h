@@ -9,6 +9,7 @@
 #include "render/particle_file/particle_frame.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/particle_style.h"
+#include "render/particles/particle_values.h"
 
 namespace boule {
 
@@ -29,8 +30,8 @@ Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const Radius
 
 /// The radii of a frame's particles.
 struct ParticleRadii {
-  std::vector<float> values;  ///< of each particle, or one for all
-  double smallest = 0;        ///< before it is rounded; 0 where there are no particles
+  ParticleValues<float> radii;
+  double smallest = 0;  ///< before it is rounded; 0 where there are no particles
 };
 
 /// The radii from the source times `scale`. Each must be finite and above 0, as a float too: else

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/base/memory_pages.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
 #include "render/file/sphere_room.h"
@@ -157,11 +158,37 @@ Result<std::vector<std::uint8_t>> apply_select(ParticleFrame& frame, const std::
   return selected;
 }
 
+/// Ends the use of columns that none of the values look into.
+void drop_columns(ParticleFrame& frame, const ParticleValues<float>& radii,
+                  const ParticleValues<MaterialRef>& materials) {
+  frame.numbers = {};
+  const auto drop = [&](TextColumn& column) {
+    if (&column != radii.kinds && &column != materials.kinds) column.indices = {};
+  };
+  for (TextColumn& column : frame.texts) drop(column);
+  if (frame.species) drop(*frame.species);
+}
+
+/// How many spheres are made before the memory of their particles goes back: whole chunks, and few
+/// beside the rest.
+std::size_t portion_of(std::size_t count) {
+  constexpr std::size_t least = 4, share = 64;
+  return std::max(least, chunks_of(count / share)) * chunk_size;
+}
+
+template <class T>
+void let_go_of(std::vector<T>& values, std::size_t begin, std::size_t end) {
+  if (end <= values.size()) release_pages(values.data() + begin, (end - begin) * sizeof(T));
+}
+
 }  // namespace
 
-Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame frame, const ParticleStyle& style,
+Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const ParticleStyle& style,
                                               const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
+  ParticleSpheres made;
+  made.frame_ = std::make_unique<ParticleFrame>(std::move(read));
+  ParticleFrame& frame = *made.frame_;
   const std::size_t count = frame.size();
   if (auto wrong = check_style(style)) return *std::move(wrong);
   if (auto wrong = check_cell(frame, style, frame.notes)) return *std::move(wrong);
@@ -177,83 +204,104 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame frame, const Particl
   if (!radii) return radii.error();
   auto materials = make_materials(frame, style, name_of, parallel_for);
   if (!materials) return materials.error();
-
-  ParticleSpheres made;
-  if (style.wrap) {
-    if (auto wrong = wrap_into(*frame.cell, frame.positions, parallel_for)) {
-      return *std::move(wrong);
-    }
-  }
-  made.bounds_ = bounds_of(frame.positions, parallel_for);
-  if (count_images(style.replicate) > 1) {
-    made.images_ = CellImages(*frame.cell, style.replicate);
-    if (!frame.positions.empty()) {
-      made.bounds_ = bounds_of_images(made.bounds_, *frame.cell, style.replicate);
-    }
-  }
-  made.positions_ = std::move(frame.positions);
-  made.radii_ = std::move(radii.value().values);
+  if (auto wrong = made.place(style, parallel_for)) return *std::move(wrong);
+  made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
-  made.materials_ = std::move(materials.value().values);
+  made.materials_ = std::move(materials.value().materials);
   made.colors_ = std::move(materials.value().colors);
   made.radius_source_ = std::move(source.value().text);
-  made.cell_ = frame.cell;
-  made.notes_ = std::move(frame.notes);
-  append(made.notes_, std::move(source.value().notes));
-  append(made.notes_, std::move(materials.value().notes));
+  append(frame.notes, std::move(source.value().notes));
+  append(frame.notes, std::move(materials.value().notes));
+  drop_columns(frame, made.radii_, made.materials_);
   return made;
 }
 
 bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {
-  return are_shared(images_.size(), positions_.size(), fewest_spheres);
+  return are_shared(images_.size(), frame_->size(), fewest_spheres);
+}
+
+/// Wraps the positions into the cell, and finds the images and the bounds of all.
+Status ParticleSpheres::place(const ParticleStyle& style, const ParallelFor& parallel_for) {
+  std::vector<Vec3d>& positions = frame_->positions;
+  if (style.wrap) {
+    if (auto wrong = wrap_into(*frame_->cell, positions, parallel_for)) return wrong;
+  }
+  bounds_ = bounds_of(positions, parallel_for);
+  if (count_images(style.replicate) <= 1) return std::nullopt;
+  images_ = CellImages(*frame_->cell, style.replicate);
+  if (!positions.empty()) bounds_ = bounds_of_images(bounds_, *frame_->cell, style.replicate);
+  return std::nullopt;
+}
+
+/// Gives the memory of particles begin .. end - 1 back.
+void ParticleSpheres::let_go(std::size_t begin, std::size_t end) {
+  let_go_of(frame_->positions, begin, end);
+  if (radii_.kinds == nullptr) let_go_of(radii_.values, begin, end);
+  if (materials_.kinds == nullptr) let_go_of(materials_.values, begin, end);
+  for (TextColumn& column : frame_->texts) let_go_of(column.indices, begin, end);
+  if (frame_->species) let_go_of(frame_->species->indices, begin, end);
 }
 
 Status ParticleSpheres::append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
-                                  const ParallelFor& parallel_for) const {
+                                  const ParallelFor& parallel_for) && {
   return append_images_to(spheres, images_.size(), origin, parallel_for);
 }
 
 Status ParticleSpheres::append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
-                                              const ParallelFor& parallel_for) const {
+                                              const ParallelFor& parallel_for) && {
   return append_images_to(spheres, 1, origin, parallel_for);
 }
 
+/// Appends the spheres of the first images, and lets the particles go.
 Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size_t images,
-                                         const Vec3d& origin,
-                                         const ParallelFor& parallel_for) const {
+                                         const Vec3d& origin, const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
-  const std::size_t count = positions_.size() * images;
+  const std::size_t count = frame_->size() * images;
   const std::string key = images_.size() > 1 ? "replicate" : "file";
   if (auto full =
           check_memory(bytes_of_spheres(count), std::to_string(count) + " spheres need", key)) {
     return full;
   }
-  const std::size_t first = spheres.size();
+  const std::size_t first = spheres.size(), particles = frame_->size();
   make_room(spheres, count);
-  spheres.resize(first + count);
-  const std::size_t radius_step = radii_.size() > 1 ? 1 : 0;
-  const std::size_t material_step = materials_.size() > 1 ? 1 : 0;
+  std::size_t wrong = none;
+  for (std::size_t begin = 0; begin < count;) {
+    const std::size_t end = std::min(begin + portion_of(count), count);
+    append_blank(spheres, end - begin, parallel_for);
+    wrong =
+        std::min(wrong, make_spheres({begin, end}, origin, spheres.data() + first, parallel_for));
+    const std::size_t last_image = count - particles;
+    if (end > last_image) let_go(std::max(begin, last_image) - last_image, end - last_image);
+    begin = end;
+  }
+  if (wrong == none) return std::nullopt;
+  spheres.resize(first);
+  return Diagnostic::about(key, "the position of " + particle_text(wrong, particles) +
+                                    " is too far from the origin for a sphere");
+}
+
+/// Sets some of the spheres. Returns the first particle whose centre is too large, or `none`.
+std::size_t ParticleSpheres::make_spheres(const Range& range, const Vec3d& origin, Sphere* spheres,
+                                          const ParallelFor& parallel_for) const {
+  const std::vector<Vec3d>& positions = frame_->positions;
+  const std::size_t count = range.end - range.begin;
   std::vector<std::size_t> wrong(chunks_of(count), none);
   in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    std::size_t image = begin / positions_.size(), i = begin % positions_.size();
+    const std::size_t start = range.begin + begin;
+    std::size_t image = start / positions.size(), i = start % positions.size();
     Vec3d shift = images_.shift(image);
-    for (std::size_t n = begin; n < end; ++n, ++i) {
-      if (i == positions_.size()) {
+    for (std::size_t n = start; n < range.begin + end; ++n, ++i) {
+      if (i == positions.size()) {
         i = 0;
         shift = images_.shift(++image);
       }
       // The shift last: what is far from zero has no digits left for it.
-      const Vec3d center = (positions_[i] - origin) + shift;
-      spheres[first + n] = {vec_cast<float>(center), radii_[i * radius_step],
-                            materials_[i * material_step]};
-      if (!is_valid(spheres[first + n])) wrong[chunk] = std::min(wrong[chunk], i);
+      const Vec3d center = (positions[i] - origin) + shift;
+      spheres[n] = {vec_cast<float>(center), radii_[i], materials_[i]};
+      if (!is_valid(spheres[n])) wrong[chunk] = std::min(wrong[chunk], i);
     }
   });
-  const std::size_t least = wrong.empty() ? none : *std::min_element(wrong.begin(), wrong.end());
-  if (least == none) return std::nullopt;
-  spheres.resize(first);
-  return Diagnostic::about(key, "the position of " + particle_text(least, positions_.size()) +
-                                    " is too far from the origin for a sphere");
+  return *std::min_element(wrong.begin(), wrong.end());
 }
 
 }  // namespace boule

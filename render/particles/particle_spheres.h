@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "render/particles/cell_images.h"
 #include "render/particles/color_meaning.h"
 #include "render/particles/particle_style.h"
+#include "render/particles/particle_values.h"
 
 namespace boule {
 
@@ -29,11 +31,11 @@ class ParticleSpheres {
   /// above 0 or not finite with its particle (from 1, in the order of the frame), no cell to wrap
   /// into, more spheres than there is memory for or than ids allow. Throws std::bad_alloc. The
   /// same for any threads.
-  static Result<ParticleSpheres> make(ParticleFrame frame, const ParticleStyle& style,
+  static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
                                       const ParallelFor& parallel_for = serial_for);
 
   /// Spheres, images included.
-  [[nodiscard]] std::size_t size() const { return positions_.size() * images_.size(); }
+  [[nodiscard]] std::size_t size() const { return frame_->size() * images_.size(); }
 
   /// The smallest box of the spheres' centres; two equal corners where there are none.
   [[nodiscard]] const std::array<Vec3d, 2>& center_bounds() const { return bounds_; }
@@ -42,40 +44,47 @@ class ParticleSpheres {
   [[nodiscard]] const ParticleColors& colors() const { return colors_; }
   /// How radii were chosen: "the column radius", "van der Waals radii, in angstrom", ...
   [[nodiscard]] const std::string& radius_source() const { return radius_source_; }
-  [[nodiscard]] const std::optional<ParticleCell>& cell() const { return cell_; }
+  [[nodiscard]] const std::optional<ParticleCell>& cell() const { return frame_->cell; }
   /// What was decided for the user, a sentence each; the frame's own are among them.
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return frame_->notes; }
 
   /// Appends the spheres: `origin` is subtracted in double, then all is rounded to float, once.
   /// The particles come in the order of the file, all of one image before those of the next
   /// (CellImages). An error, and no sphere more, if a centre is too large for a float or there is
-  /// no memory.
+  /// no memory. It uses the particles up: their memory goes back to the system as the spheres
+  /// appear, so that both never stand there whole.
   Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
-                   const ParallelFor& parallel_for = serial_for) const;
+                   const ParallelFor& parallel_for = serial_for) &&;
 
   /// Whether there are so many images that they had better be instances of the first one.
   [[nodiscard]] bool shares_images(std::uint64_t fewest_spheres = fewest_shared) const;
   static constexpr std::uint64_t fewest_shared = 1U << 24;  ///< spheres, images included
   /// The same as append_to() for the first image only.
   Status append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
-                               const ParallelFor& parallel_for = serial_for) const;
+                               const ParallelFor& parallel_for = serial_for) &&;
   [[nodiscard]] const CellImages& images() const { return images_; }
 
  private:
-  Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
-                          const ParallelFor& parallel_for) const;
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
 
-  std::vector<Vec3d> positions_;  ///< of the particles that are shown
-  /// Of each of them, or one for all.
-  std::vector<float> radii_;
-  std::vector<MaterialRef> materials_;
+  Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
+  Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
+                          const ParallelFor& parallel_for);
+  std::size_t make_spheres(const Range& range, const Vec3d& origin, Sphere* spheres,
+                           const ParallelFor& parallel_for) const;
+  void let_go(std::size_t begin, std::size_t end);
+
+  /// The particles that are shown, with the columns that the next two look into.
+  std::unique_ptr<ParticleFrame> frame_;
+  ParticleValues<float> radii_;
+  ParticleValues<MaterialRef> materials_;
   CellImages images_;
   std::array<Vec3d, 2> bounds_{};
   double smallest_radius_ = 0;
   ParticleColors colors_;
   std::string radius_source_;
-  std::optional<ParticleCell> cell_;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace boule

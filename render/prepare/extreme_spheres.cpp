@@ -91,6 +91,18 @@ bool is_known(const SphereMeasure& measure) {
   return is_one_or_none(x, y, z) || is_one_or_none(y, z, x) || is_one_or_none(z, x, y);
 }
 
+/// Those of one tree.
+void add_extremes(const Bvh& tree, std::span<const SphereMeasure> measures,
+                  std::vector<Sphere>& spheres) {
+  for (std::size_t slot = 0; slot < tree.scanned; ++slot) {
+    if (tree.slots[slot] >= 0) spheres.push_back(sphere_in(tree, slot));
+  }
+  if (tree.nodes.empty()) return;
+  for (const SphereMeasure& measure : measures) {
+    if (!is_known(measure)) Walk(tree, measure).collect(spheres);
+  }
+}
+
 }  // namespace
 
 double SphereMeasure::of(const Sphere& s) const {
@@ -104,15 +116,8 @@ double SphereMeasure::least_in(const Vec3d& low, const Vec3d& high) const {
 
 std::vector<Sphere> extreme_spheres(const PackedSpheres& packed,
                                     std::span<const SphereMeasure> measures) {
-  const Bvh& tree = *packed.tree;
   std::vector<Sphere> spheres = packed.extremes;
-  for (std::size_t slot = 0; slot < tree.scanned; ++slot) {
-    if (tree.slots[slot] >= 0) spheres.push_back(sphere_in(tree, slot));
-  }
-  if (tree.nodes.empty()) return spheres;
-  for (const SphereMeasure& measure : measures) {
-    if (!is_known(measure)) Walk(tree, measure).collect(spheres);
-  }
+  for (const PackedTree& one : packed.trees) add_extremes(*one.tree, measures, spheres);
   return spheres;
 }
 

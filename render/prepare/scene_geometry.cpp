@@ -5,10 +5,26 @@
 
 namespace boule {
 
+namespace {
+
+/// One tree, or each of them as a part.
+Geometry geometry_of(const PackedSpheres& packed, const std::vector<Plane>& planes) {
+  const auto tree_over = [](const PackedTree& of, const std::vector<Plane>& beside) {
+    return Geometry(of.tree, static_cast<std::size_t>(of.count), beside);
+  };
+  if (packed.trees.empty()) return {std::vector<Sphere>(), planes};
+  if (packed.trees.size() == 1) return tree_over(packed.trees.front(), planes);
+  std::vector<GeometryPart> parts;
+  for (const PackedTree& tree : packed.trees)
+    parts.push_back({std::make_shared<const Geometry>(tree_over(tree, {})), {}, {}});
+  return Geometry::of_parts(std::move(parts), planes);
+}
+
+}  // namespace
+
 Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
                      const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
-  if (scene.packed)
-    return {scene.packed->tree, static_cast<std::size_t>(scene.packed->count), planes};
+  if (scene.packed) return geometry_of(*scene.packed, planes);
   if (!groups) {
     return {std::move(scene.spheres), planes, Structure::automatic, parallel_for};
   }

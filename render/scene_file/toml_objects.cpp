@@ -120,12 +120,13 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
   if (!particles || error_.status()) return;
   const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
   if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
-    add_images(table, particles->spheres);
+    add_images(table, std::move(particles->spheres));
     return particles.reset();
   }
   make_room(spheres, particles->spheres.size());
   const std::size_t before = spheres.size();
-  if (auto bad = particles->spheres.append_to(spheres, table.origin(), options_.parallel_for)) {
+  if (auto bad =
+          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for)) {
     spheres.resize(before);
     table.report("file", bad->message);
   }
@@ -133,16 +134,17 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 }
 
 /// Shows images of particles as instances of a group.
-void TomlObjects::add_images(TomlTable& table, const ParticleSpheres& particles) {
+void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
   Group group{"images of " + table.path(), {}, {}, {}};
-  if (auto bad =
-          particles.append_first_image_to(group.spheres, table.origin(), options_.parallel_for)) {
+  const CellImages images = particles.images();
+  if (auto bad = std::move(particles).append_first_image_to(group.spheres, table.origin(),
+                                                            options_.parallel_for)) {
     return table.report("file", bad->message);
   }
   const auto index = static_cast<std::uint32_t>(scene_.groups.size());
   scene_.groups.push_back(std::move(group));
-  for (std::size_t image = 0; image < particles.images().size(); ++image) {
-    const Vec3f shift = vec_cast<float>(particles.images().shift(image));
+  for (std::size_t image = 0; image < images.size(); ++image) {
+    const Vec3f shift = vec_cast<float>(images.shift(image));
     scene_.instances.push_back({index, shift, {}, 1, {}});
   }
 }

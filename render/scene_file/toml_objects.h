@@ -82,7 +82,7 @@ class TomlObjects final : private TomlNames {
                   std::span<Sphere> spheres);
   void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                      std::vector<Sphere>& spheres);
-  void add_images(TomlTable& table, const ParticleSpheres& particles);
+  void add_images(TomlTable& table, ParticleSpheres particles);
   void read_plane(TomlTable& table, std::vector<Plane>& planes);
   void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
                       std::vector<Instance>& instances);

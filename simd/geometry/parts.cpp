@@ -29,9 +29,6 @@ PartView view_of(const GeometryPart& part, std::uint64_t slots, std::size_t sphe
           .first_id = static_cast<std::int32_t>(static_cast<std::uint32_t>(spheres))};
 }
 
-/// A slot is 32 bits, and the last of them is none.
-constexpr std::uint64_t most_slots = 0xffffffff;
-
 float extent_of(const BuildBox& box) {
   float extent = 0;
   for (int k = 0; k < 3; ++k)

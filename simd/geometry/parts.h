@@ -27,6 +27,9 @@ struct GeometryPart {
 /// (most_shared_coordinate of core/scene/instances.h sees to that); max_shown_primitives in all.
 class GeometryParts {
  public:
+  /// In all parts: a slot is 32 bits, and the last is none.
+  static constexpr std::uint64_t most_slots = 0xffffffff;
+
   explicit GeometryParts(std::vector<GeometryPart> parts);
 
   [[nodiscard]] PartsView view() const { return {views_.data(), views_.size()}; }

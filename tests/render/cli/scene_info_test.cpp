@@ -166,7 +166,7 @@ const Kind kinds[] = {
      "",
      {{"origin", "[0, 0, 0]", "[1, 0, 0]"}},
      {"schema", "image", "camera", "background", "render", "material", "light", "sphere", "spheres",
-      "particles", "plane", "group", "instance"}},
+      "packed", "particles", "plane", "group", "instance"}},
     {"image",
      "",
      "[image]",

@@ -39,10 +39,13 @@ void expect_same_hits(const Scene& a, const Scene& b) {
 
 class PackedScenes : public PackedTest {
  protected:
-  /// Packs a scene at once and in parts, and compares pictures of both methods, AOVs, hits, hash.
-  void expect_same(const Scene& scene) {
-    for (const std::uint64_t memory : {much_memory, little_memory}) {
-      const Scene other = packed(scene, memory);
+  /// Packs a scene at once, in parts, and in chunks of so many spheres, and compares pictures of
+  /// both methods, AOVs, hits, hash.
+  void expect_same(const Scene& scene, std::uint64_t chunk = 700) {
+    constexpr std::uint64_t one_chunk = packed_format::packed_spheres;
+    for (const auto& [memory, most] :
+         {std::pair{much_memory, one_chunk}, {little_memory, one_chunk}, {little_memory, chunk}}) {
+      const Scene other = packed(scene, memory, most);
       ASSERT_EQ(other.packed == nullptr, scene.spheres.empty());
       EXPECT_EQ(scene_hash(other), scene_hash(scene));
       expect_same_hits(scene, other);
@@ -51,7 +54,7 @@ class PackedScenes : public PackedTest {
         options.method = method;
         options.spp = 2;
         EXPECT_EQ(differing_pixels(render(scene, options), render(other, options)), 0)
-            << name_of(method) << " " << memory;
+            << name_of(method) << " " << memory << " " << most;
       }
     }
   }
@@ -90,8 +93,22 @@ TEST_F(PackedScenes, WithGiantsAndSpheresThatNoBoxHolds) {
   Scene scene = cloud(3000);
   scene.spheres[7] = {{0, -1001, 0}, 1000, 0};
   scene.spheres[2999] = {{0, 0, 0}, 4000, 1};
-  scene.spheres[1500] = {{0, -3e18F, 0}, 2.99e18F, 0};
   expect_same(scene);
+  scene.spheres[1500] = {{0, -3e18F, 0}, 2.99e18F, 0};
+  expect_same(scene, packed_format::packed_spheres);
+}
+
+TEST_F(PackedScenes, OfSeveralChunksRefuseSpheresFarAway) {
+  Scene scene = cloud(300);
+  scene.spheres[7] = {{0, -3e18F, 0}, 2.99e18F, 0};
+  pack_to(path("far.boule"), scene, much_memory, 100);
+  const auto file = PackedFile::open(path("far.boule"));
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file.value().contents().chunks.size(), 3U);
+  const auto refused = file.value().scene();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "has chunks of spheres, of which some are farther away or larger than 1e17");
 }
 
 /// More copies than fit at a time, of which the first two count.

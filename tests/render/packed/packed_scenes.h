@@ -29,12 +29,15 @@ class PackedTest : public testing::Test {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   /// Packs a scene; the size of the file, or 0 after a failure.
-  std::uint64_t pack_to(const std::string& file, Scene scene,
-                        std::uint64_t memory = much_memory) const {
+  std::uint64_t pack_to(const std::string& file, Scene scene, std::uint64_t memory = much_memory,
+                        std::uint64_t chunk = packed_format::packed_spheres) const {
     expand_instances(scene);
     SpheresInMemory spheres(std::exchange(scene.spheres, {}));
-    const auto packed =
-        pack({std::move(scene), {1, 2, 3}, spheres, file, {.memory = memory, .beside = {}}});
+    const auto packed = pack({std::move(scene),
+                              {1, 2, 3},
+                              spheres,
+                              file,
+                              {.memory = memory, .beside = {}, .chunk = chunk}});
     if (packed) return packed.value().bytes;
     ADD_FAILURE() << format_diagnostic(packed.error());
     return 0;
@@ -49,9 +52,10 @@ class PackedTest : public testing::Test {
     auto scene = opened.value().scene();
     return scene ? std::move(scene).value() : Scene();
   }
-  Scene packed(const Scene& scene, std::uint64_t memory = much_memory) const {
+  Scene packed(const Scene& scene, std::uint64_t memory = much_memory,
+               std::uint64_t chunk = packed_format::packed_spheres) const {
     const std::string file = path("scene.boule");
-    return pack_to(file, scene, memory) > 0 ? scene_of(file) : Scene();
+    return pack_to(file, scene, memory, chunk) > 0 ? scene_of(file) : Scene();
   }
 
  private:

@@ -130,10 +130,11 @@ TEST(Replicate, BoundsAreThoseOfAllImages) {
   ParticleFrame frame = row_of_particles(3);
   frame.positions = {{0.5, 0.25, 0.75}, {1.5, 3, 2.25}, {-4, 8, 1}};
   frame.cell = ParticleCell{{5, 0, 0}, {1.5, 4, 0}, {-2, 0.75, 3}, {}, all};
-  const auto made = ParticleSpheres::make(frame, {.radius = 1.0, .replicate = {4, 3, 5}}).value();
+  auto made = ParticleSpheres::make(frame, {.radius = 1.0, .replicate = {4, 3, 5}}).value();
+  const std::array<Vec3d, 2> bounds = made.center_bounds();
   EXPECT_EQ(made.size(), 180U);
   std::vector<Sphere> spheres;
-  ASSERT_FALSE(made.append_to(spheres, {}).has_value());
+  ASSERT_FALSE(std::move(made).append_to(spheres, {}).has_value());
   Vec3f low = spheres[0].center, high = low;
   for (const Sphere& sphere : spheres) {
     for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
@@ -141,8 +142,8 @@ TEST(Replicate, BoundsAreThoseOfAllImages) {
       high.*axis = std::max(high.*axis, sphere.center.*axis);
     }
   }
-  EXPECT_EQ(made.center_bounds()[0], vec_cast<double>(low));
-  EXPECT_EQ(made.center_bounds()[1], vec_cast<double>(high));
+  EXPECT_EQ(bounds[0], vec_cast<double>(low));
+  EXPECT_EQ(bounds[1], vec_cast<double>(high));
 }
 
 TEST(Replicate, RefusesWhatIsWrong) {

@@ -60,8 +60,8 @@ inline ParallelFor threaded_for(std::size_t threads) {
 inline std::vector<Sphere> spheres_of(const ParticleFrame& frame, const ParticleStyle& style = {},
                                       const Vec3d& origin = {}) {
   std::vector<Sphere> spheres;
-  const auto made = ParticleSpheres::make(frame, style);
-  if (made && made.value().append_to(spheres, origin)) spheres.clear();
+  auto made = ParticleSpheres::make(frame, style);
+  if (made && std::move(made).value().append_to(spheres, origin)) spheres.clear();
   return spheres;
 }
 

@@ -61,10 +61,11 @@ TEST(ParticleSpheres, AreRoundedOnce) {
 }
 
 TEST(ParticleSpheres, AreAppended) {
-  const auto made = ParticleSpheres::make(row_of_particles(3), {.radius = 1.0}).value();
   std::vector<Sphere> spheres(2);
-  ASSERT_FALSE(made.append_to(spheres, {}).has_value());
-  ASSERT_FALSE(made.append_to(spheres, {1, 0, 0}).has_value());
+  for (const Vec3d& origin : {Vec3d{}, Vec3d{1, 0, 0}}) {
+    auto made = ParticleSpheres::make(row_of_particles(3), {.radius = 1.0}).value();
+    ASSERT_FALSE(std::move(made).append_to(spheres, origin).has_value());
+  }
   ASSERT_EQ(spheres.size(), 8U);
   EXPECT_EQ(spheres[4].center.x, 2);
   EXPECT_EQ(spheres[7].center.x, 1);
@@ -85,22 +86,22 @@ TEST(ParticleSpheres, OfNoParticles) {
   for (const ParticleStyle& style :
        {ParticleStyle{}, ParticleStyle{.color = MappedColors{.by = "x"}},
         ParticleStyle{.select = "x > 0 && y == z"}}) {
-    const auto made = ParticleSpheres::make(ParticleFrame(), style);
+    auto made = ParticleSpheres::make(ParticleFrame(), style);
     ASSERT_TRUE(made.ok());
     EXPECT_EQ(made.value().size(), 0U);
     EXPECT_EQ(made.value().center_bounds()[0], made.value().center_bounds()[1]);
     EXPECT_EQ(made.value().smallest_radius(), 0);
     std::vector<Sphere> spheres;
-    EXPECT_FALSE(made.value().append_to(spheres, {}).has_value());
+    EXPECT_FALSE(std::move(made).value().append_to(spheres, {}).has_value());
   }
 }
 
 TEST(ParticleSpheres, RefusePositionsThatNoFloatHas) {
   ParticleFrame frame = row_of_particles(3);
   frame.positions[1].z = 1e40;
-  const auto made = ParticleSpheres::make(frame, {.radius = 1.0}).value();
+  auto made = ParticleSpheres::make(frame, {.radius = 1.0}).value();
   std::vector<Sphere> spheres(5);
-  const Status wrong = made.append_to(spheres, {});
+  const Status wrong = std::move(made).append_to(spheres, {});
   ASSERT_TRUE(wrong.has_value());
   EXPECT_EQ(wrong->key, "file");
   EXPECT_EQ(wrong->message,
@@ -121,17 +122,43 @@ TEST(ParticleSpheres, AreTheSameForAnyThreads) {
        {ParticleStyle{.color = MappedColors{.by = "|v|"}},
         ParticleStyle{.select = "q > 100 && species != 'H'", .wrap = true, .replicate = {1, 2, 1}},
         ParticleStyle{.radius = RadiusTable::covalent, .color = MappedColors{.by = "q"}}}) {
-    const auto serial = ParticleSpheres::make(frame, style).value();
+    auto serial = ParticleSpheres::make(frame, style).value();
+    const std::vector<std::string> notes = serial.notes();
+    const std::array<Vec3d, 2> bounds = serial.center_bounds();
     std::vector<Sphere> expected;
-    ASSERT_FALSE(serial.append_to(expected, {1, 2, 3}).has_value());
+    ASSERT_FALSE(std::move(serial).append_to(expected, {1, 2, 3}).has_value());
     for (const std::size_t threads : {2, 5}) {
-      const auto made = ParticleSpheres::make(frame, style, threaded_for(threads)).value();
+      auto made = ParticleSpheres::make(frame, style, threaded_for(threads)).value();
+      EXPECT_EQ(made.notes(), notes);
+      EXPECT_EQ(made.center_bounds(), bounds);
       std::vector<Sphere> spheres;
-      ASSERT_FALSE(made.append_to(spheres, {1, 2, 3}, threaded_for(threads)).has_value());
+      ASSERT_FALSE(
+          std::move(made).append_to(spheres, {1, 2, 3}, threaded_for(threads)).has_value());
       EXPECT_TRUE(same_bits(spheres, expected));
-      EXPECT_EQ(made.notes(), serial.notes());
-      EXPECT_EQ(made.center_bounds(), serial.center_bounds());
     }
+  }
+}
+
+/// Tables by text are as long as lists by particle where each has a text of its own.
+TEST(ParticleSpheres, KeepTablesWhileParticlesAreLetGo) {
+  const std::size_t count = 600000;
+  ParticleFrame frame = row_of_particles(count);
+  TextColumn colors{"color", {}, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string code = "#000000";
+    for (std::size_t k = 0; k < 6; ++k) code[6 - k] = "0123456789abcdef"[i >> 4 * k & 15];
+    colors.texts.push_back(code);
+    colors.indices.push_back(static_cast<std::uint32_t>(count - 1 - i));
+  }
+  frame.texts.push_back(std::move(colors));
+  const auto spheres = spheres_of(frame, {.radius = 1.0});
+  ASSERT_EQ(spheres.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t code = count - 1 - i;
+    const auto part = [&](int shift) { return static_cast<std::uint8_t>(code >> shift); };
+    const SrgbColor color{part(16), part(8), part(0)};
+    ASSERT_EQ(spheres[i].material, MaterialRef::colored(0, color)) << i;
+    ASSERT_EQ(spheres[i].center.x, static_cast<float>(i));
   }
 }
 
