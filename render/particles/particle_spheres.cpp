@@ -75,7 +75,7 @@ Status check_style(const ParticleStyle& style) {
 bool are_shared(std::uint64_t images, std::uint64_t particles, std::uint64_t fewest_spheres) {
   constexpr std::uint64_t fewest_images = 4, fewest_particles = 128;
   return images >= fewest_images && particles >= fewest_particles &&
-         images >= fewest_spheres / particles;
+         images >= (fewest_spheres + particles - 1) / particles;
 }
 
 /// Whether the spheres, and what is kept to make them, fit into memory and ids.

@@ -16,8 +16,7 @@ namespace boule {
 /// and only where the box around it reaches as far as what was found before.
 class ShownExtremes {
  public:
-  /// The scene must be valid, and it and `parallel_for` must outlive it. Throws std::bad_alloc, as
-  /// runs() does.
+  /// The scene must be valid, and must outlive it. Throws std::bad_alloc, as runs() does.
   ShownExtremes(const Scene& scene, const ParallelFor& parallel_for);
 
   /// Goes through all spheres of the scene itself, and through some of those that its instances
@@ -43,7 +42,7 @@ class ShownExtremes {
   void visit(const std::vector<Found>& found, const std::function<void(SphereRun)>& function) const;
 
   const Scene& scene_;
-  const ParallelFor& parallel_for_;
+  ParallelFor parallel_for_;
   std::vector<ShownGroup> shown_;
   std::vector<Box> boxes_;  ///< by group
   double margin_ = 0;

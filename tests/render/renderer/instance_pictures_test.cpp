@@ -214,7 +214,7 @@ TEST(Instances, ReplicatedParticlesHaveThePictureWrittenOut) {
     options.fewest_shared = fewest;
     return files
         .load("scene.toml",
-              "schema = 1\n[image]\nwidth = 48\nheight = 36\n[[particles]]\nfile = "
+              "schema = 1\n[image]\nsize = [48, 36]\n[[particles]]\nfile = "
               "\"cell.xyz\"\nreplicate = [3, 4, 3]\n",
               options)
         .value()
