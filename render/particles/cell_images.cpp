@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 #include "render/particles/particle_columns.h"
 
 namespace boule {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/scene/number_text.h"
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 #include "render/particles/particle_colors.h"
 
 namespace boule {

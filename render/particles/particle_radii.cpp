@@ -8,7 +8,7 @@
 
 #include "core/scene/number_text.h"
 #include "render/file/nearest_name.h"
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 #include "render/particles/elements.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/typical_distance.h"

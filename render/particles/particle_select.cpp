@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "render/particle_file/text_number.h"
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/select_expression.h"
 

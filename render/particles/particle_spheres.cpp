@@ -12,7 +12,7 @@
 #include "render/file/sphere_room.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 #include "render/particles/particle_colors.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/particle_radii.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 
 namespace boule {
 namespace {

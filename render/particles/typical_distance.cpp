@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "render/particles/chunks.h"
+#include "core/base/chunks.h"
 
 namespace boule {
 namespace {

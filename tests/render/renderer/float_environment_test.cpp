@@ -11,6 +11,7 @@
 #include "render/image/read_image.h"
 #include "render/image/tone.h"
 #include "render/image/write_image.h"
+#include "render/prepare/default_camera.h"
 #include "render/renderer/scene_hash.h"
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
@@ -123,6 +124,26 @@ TEST_P(CallersFloatEnvironment, ChangesNoPicture) {
         EXPECT_EQ(odd.aovs[i].samples, expected.aovs[i].samples) << odd.aovs[i].name;
     }
   }
+}
+
+/// The settings of the threads that a caller lends change nothing either.
+TEST_P(CallersFloatEnvironment, OfLentThreadsChangesNoCamera) {
+  Scene scene;
+  for (int i = 1; i <= 500; ++i) {
+    const auto x = static_cast<float>(i);
+    scene.spheres.push_back({{7.7f / x, 0.13f * x, 1.1f - x / 3}, 0.3f / x, 0});
+  }
+  scene.fit.direction = {0.3f, -0.7f, -1.1f};
+  const ParallelFor odd_threads = [](std::size_t count, const auto& body) {
+    const OddFloatEnvironment odd(GetParam());
+    for (std::size_t i = 0; i < count; ++i) body(i);
+  };
+  const Camera camera = default_camera(scene, 640, 479, odd_threads);
+  scene.camera = camera;
+  const std::uint64_t hash = scene_hash(scene);
+  scene.camera = std::nullopt;
+  scene.camera = default_camera(scene, 640, 479);
+  EXPECT_EQ(hash, scene_hash(scene));
 }
 
 /// A lens of real elements and an environment image, each of which is prepared by code of its own.
