@@ -86,7 +86,7 @@ Json picture_info(const LoadedScene& loaded) {
                {"color", colors_info(facts.colors)},
                {"origin", vector_info(loaded.origin)}};
   json["camera"] = camera_info(default_camera(scene, scene.image.width, scene.image.height));
-  json["hash"] = fmt::format("{:016x}", scene_hash(scene));
+  json["hash"] = fmt::format("{:016x}", scene_hash(scene, Scheduler(0).parallel_for()));
   return json;
 }
 

@@ -201,7 +201,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   live_.start_stage("preparing " + printable(command_.scene));
   choose_background(command_.background, scene);
   if (auto bad = use_camera(command_, loaded.value())) return refuse(*bad, command_, wrong_usage);
-  scene_hash_ = scene_hash(scene);
+  scene_hash_ = scene_hash(scene, Scheduler(command_.threads).parallel_for());
 
   RenderOptions options = combine(scene, command_);
   if (auto bad = check_transparency(options, command_)) return refuse(*bad, command_, wrong_usage);

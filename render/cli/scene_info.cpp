@@ -8,6 +8,7 @@
 #include "render/cli/camera_info.h"
 #include "render/cli/field_info.h"
 #include "render/cli/object_info.h"
+#include "render/frame/scheduler.h"
 #include "render/prepare/default_camera.h"
 #include "render/prepare/default_light.h"
 #include "render/renderer/scene_hash.h"
@@ -121,7 +122,7 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
   Scene& scene = loaded.scene;
   Json groups = groups_info(scene), instances = instances_info(scene);
   const std::size_t group_count = scene.groups.size(), instance_count = scene.instances.size();
-  const std::uint64_t hash = scene_hash(scene);
+  const std::uint64_t hash = scene_hash(scene, Scheduler(0).parallel_for());
   share_or_expand(scene);
   Json json = {{"schema", 1},
                {"file", path},

@@ -13,6 +13,7 @@
 #include "core/math/srgb.h"
 #include "render/cli/option_values.h"
 #include "render/frame/partial_picture.h"
+#include "render/frame/scheduler.h"
 #include "render/python/arguments.h"
 #include "render/python/call.h"
 #include "render/python/picture.h"
@@ -196,7 +197,7 @@ Status Run::work(Call& call) {
   auto parts = std::make_shared<PictureParts>();
   parts->notes = std::move(loaded.value().notes);
   if (auto bad = validate(scene)) return bad;
-  parts->scene_hash = scene_hash(scene);
+  parts->scene_hash = scene_hash(scene, Scheduler(options.threads).parallel_for());
   auto renderer = Renderer::create(std::move(scene), options);
   if (!renderer) return renderer.error();
   begin_ = Clock::now();
