@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simd/geometry/binary_tree.h"
+#include "simd/geometry/node_boxes.h"
 
 namespace boule {
 namespace {
@@ -14,8 +15,7 @@ constexpr int most_depth = 20;
 BuildBox box_of(const BvhNode& node) {
   BuildBox box;
   for (std::size_t k = 0; k < node.size; ++k) {
-    box.add({Float4{node.min_x[k], node.min_y[k], node.min_z[k], 0},
-             Float4{node.max_x[k], node.max_y[k], node.max_z[k], 0}});
+    box.add(child_box(node, k));
   }
   return box;
 }
@@ -23,22 +23,8 @@ BuildBox box_of(const BvhNode& node) {
 /// Appends a node as a child.
 void add_child(BvhNode& node, const BuildBox& box, std::uint32_t child) {
   const std::size_t k = node.size++;
-  node.min_x[k] = box.low[0];
-  node.min_y[k] = box.low[1];
-  node.min_z[k] = box.low[2];
-  node.max_x[k] = box.high[0];
-  node.max_y[k] = box.high[1];
-  node.max_z[k] = box.high[2];
+  set_child_box(node, k, box);
   node.child[k] = child;
-}
-
-BvhNode empty_node() {
-  BvhNode node{};
-  for (float* row : {node.min_x, node.min_y, node.min_z})
-    std::fill_n(row, bvh_width, BuildBox::inf);
-  for (float* row : {node.max_x, node.max_y, node.max_z})
-    std::fill_n(row, bvh_width, -BuildBox::inf);
-  return node;
 }
 
 /// How many spheres lie below each cut.

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/scene/number_text.h"
 #include "core/base/chunks.h"
+#include "core/scene/number_text.h"
 #include "render/particles/particle_colors.h"
 
 namespace boule {

@@ -1,27 +1,9 @@
 #include "simd/geometry/collapse.h"
 
-#include <algorithm>
+#include "simd/geometry/node_boxes.h"
 
 namespace boule {
 namespace {
-
-BvhNode empty_node() {
-  BvhNode node{};
-  for (float* row : {node.min_x, node.min_y, node.min_z})
-    std::fill_n(row, bvh_width, BuildBox::inf);
-  for (float* row : {node.max_x, node.max_y, node.max_z})
-    std::fill_n(row, bvh_width, -BuildBox::inf);
-  return node;
-}
-
-void set_box(BvhNode& node, std::size_t k, const BuildBox& box) {
-  node.min_x[k] = box.low[0];
-  node.min_y[k] = box.low[1];
-  node.min_z[k] = box.low[2];
-  node.max_x[k] = box.high[0];
-  node.max_y[k] = box.high[1];
-  node.max_z[k] = box.high[2];
-}
 
 /// A subtree, whose nodes are known by their index.
 struct TreePart {
@@ -95,7 +77,7 @@ BvhNode make_node(const Part& part, typename Part::Node root, const Leaf& leaf,
   for (std::size_t k = 0; k < children.size; ++k) {
     const auto at = children.nodes[k];
     const BinaryNode& child = part[at];
-    set_box(node, k, child.box());
+    set_child_box(node, k, child.box());
     node.leaf_size[k] = static_cast<std::uint8_t>(child.size);
     node.child[k] = child.size > 0 ? static_cast<std::uint32_t>(leaf(at)) | leaf_bit
                                    : static_cast<std::uint32_t>(inner(at));

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "simd/abi/filter_bounds.h"
+#include "simd/geometry/node_boxes.h"
 #include "simd/geometry/part_placement.h"
 
 namespace boule {
 namespace {
 
 /// A node's child k, moved as kernels move it (simd/kernel/search/parts.h), but in double.
-BuildBox moved_box(const BvhNode& node, int k, const PlacementView& placement) {
+BuildBox moved_box(const BvhNode& node, std::size_t k, const PlacementView& placement) {
   const double low[3] = {node.min_x[k], node.min_y[k], node.min_z[k]};
   const double high[3] = {node.max_x[k], node.max_y[k], node.max_z[k]};
   constexpr double outward = filter::moved_box * filter::u;
@@ -33,20 +34,6 @@ BuildBox moved_box(const BvhNode& node, int k, const PlacementView& placement) {
     box.high[i] = static_cast<float>(middle + size);
   }
   return box;
-}
-
-BuildBox child_box(const BvhNode& node, int k) {
-  return {Float4{node.min_x[k], node.min_y[k], node.min_z[k], 0},
-          Float4{node.max_x[k], node.max_y[k], node.max_z[k], 0}};
-}
-
-void set_child(BvhNode& node, int k, const BuildBox& box) {
-  node.min_x[k] = box.low[0];
-  node.min_y[k] = box.low[1];
-  node.min_z[k] = box.low[2];
-  node.max_x[k] = box.high[0];
-  node.max_y[k] = box.high[1];
-  node.max_z[k] = box.high[2];
 }
 
 /// Divides boxes in halves, the largest first, until there are as many as a node has children.
@@ -70,10 +57,9 @@ class BoxTree {
   std::uint32_t add(const Run& run) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    BvhNode node{};
-    for (int k = 0; k < bvh_width; ++k) set_child(node, k, {});
+    BvhNode node = empty_node();
     for (const Run& child : children_of(run)) {
-      set_child(node, node.size, child.box);
+      set_child_box(node, node.size, child.box);
       const bool single = child.size() == 1;
       node.child[node.size] = single ? order_[child.begin] | leaf_bit : add(child);
       node.leaf_size[node.size++] = single ? 1 : 0;
@@ -136,7 +122,7 @@ BuildBox box_of(const PartView& part) {
   BuildBox box;
   if (part.nodes != nullptr) {
     const BvhNode& root = part.nodes[0];
-    for (int k = 0; k < root.size; ++k) {
+    for (std::size_t k = 0; k < root.size; ++k) {
       box.add(part.placement.moves ? moved_box(root, k, part.placement) : child_box(root, k));
     }
   }
