@@ -26,8 +26,9 @@ void AxisExtremes::add(const Sphere& sphere) {
 }
 
 void AxisExtremes::add(const AxisExtremes& later) {
-  for (const std::optional<Sphere>& one : later.least_) {
-    if (one) add(*one);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::optional<Sphere>& one = later.least_[i];
+    if (one && (!least_[i] || depth_of(*one, i) < depth_of(*least_[i], i))) least_[i] = one;
   }
 }
 

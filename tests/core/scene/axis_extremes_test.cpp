@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace boule::test {
@@ -30,17 +31,33 @@ TEST(AxisExtremes, HaveTheOutermostCentersAndSurfacesAndTheLargestRadius) {
   EXPECT_FALSE(has(found, spheres.back()));
 }
 
-TEST(AxisExtremes, KeepTheFirstOfSeveralHoweverTheSpheresAreCut) {
-  std::vector<Sphere> twice = spheres;
-  for (Sphere sphere : spheres) {
-    sphere.material = 1;
-    twice.push_back(sphere);
+/// A lattice, in which many spheres lie outermost.
+std::vector<Sphere> lattice() {
+  std::vector<Sphere> all;
+  for (std::uint32_t i = 0; i < 125; ++i) {
+    const Vec3f center{static_cast<float>(i % 5), static_cast<float>(i / 5 % 5),
+                       static_cast<float>(i / 25)};
+    all.push_back({center, i % 3 == 0 ? 0.5F : 0.25F, i});
   }
-  for (std::size_t cut = 0; cut <= twice.size(); ++cut) {
+  return all;
+}
+
+TEST(AxisExtremes, KeepTheFirstOfSeveralHoweverTheSpheresAreCut) {
+  const std::vector<Sphere> all = lattice();
+  const auto materials_of = [](const AxisExtremes& extremes) {
+    std::vector<std::uint32_t> materials;
+    for (const Sphere& sphere : extremes.spheres()) materials.push_back(sphere.material.index());
+    return materials;
+  };
+  AxisExtremes whole;
+  for (const Sphere& sphere : all) whole.add(sphere);
+  EXPECT_EQ(materials_of(whole),
+            (std::vector<std::uint32_t>{0, 0, 4, 0, 9, 0, 20, 0, 21, 0, 100, 0, 102}));
+  for (std::size_t cut = 0; cut <= all.size(); ++cut) {
     AxisExtremes first, later;
-    for (std::size_t i = 0; i < twice.size(); ++i) (i < cut ? first : later).add(twice[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) (i < cut ? first : later).add(all[i]);
     first.add(later);
-    for (const Sphere& sphere : first.spheres()) EXPECT_EQ(sphere.material.index(), 0U) << cut;
+    EXPECT_EQ(materials_of(first), materials_of(whole)) << cut;
   }
 }
 

@@ -17,6 +17,7 @@ PackedContents full_contents() {
   contents.spheres.count = scene.spheres.size();
   contents.spheres.emissive = {scene.spheres[6]};
   contents.spheres.first = scene.spheres;
+  contents.spheres.extremes = {scene.spheres[1], scene.spheres[3]};
   contents.spheres.made_of.resize(scene.materials.size(), 3);
   contents.chunks = {{contents.spheres.count, 16, 2}};
   scene.spheres.clear();
@@ -84,6 +85,14 @@ TEST(PackedContents, MayBeAnyBytes) {
     }
   }
   EXPECT_GT(refused, 300);
+}
+
+TEST(PackedContents, WithoutTheOutermostSpheresAreDamaged) {
+  PackedContents contents = full_contents();
+  contents.spheres.extremes.clear();
+  const auto other = decode(encode(contents));
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().message, "its contents are damaged");
 }
 
 /// A key of a newer version is named.
