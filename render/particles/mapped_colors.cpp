@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/scene/number_text.h"
 #include "core/base/chunks.h"
+#include "core/scene/number_text.h"
 #include "render/particles/particle_colors.h"
 #include "render/particles/percentiles.h"
 

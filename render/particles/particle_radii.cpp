@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/chunks.h"
 #include "core/scene/number_text.h"
 #include "render/file/nearest_name.h"
-#include "core/base/chunks.h"
 #include "render/particles/elements.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/typical_distance.h"

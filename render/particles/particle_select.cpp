@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "render/particle_file/text_number.h"
 #include "core/base/chunks.h"
+#include "render/particle_file/text_number.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/select_expression.h"
 

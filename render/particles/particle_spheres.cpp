@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/chunks.h"
 #include "core/base/float_environment.h"
 #include "core/base/memory_pages.h"
 #include "core/scene/instances.h"
@@ -12,7 +13,6 @@
 #include "render/file/sphere_room.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
-#include "core/base/chunks.h"
 #include "render/particles/particle_colors.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/particle_radii.h"
