@@ -55,8 +55,8 @@ class ByteWriter {
   void add(const std::variant<Kinds...>& one_of) {
     std::visit(
         [this](const auto& value) {
-          add(fields<std::remove_cvref_t<decltype(value)>>.type);
-          add(value);
+          this->add(fields<std::remove_cvref_t<decltype(value)>>.type);
+          this->add(value);
         },
         one_of);
   }

@@ -156,7 +156,7 @@ try_commands() {
 try_options() {
   local page="$source/docs/command_line.md" helped shown
   [[ -f "$page" ]] || return 0
-  helped="$(for command in '' render view merge scene trace info isa; do
+  helped="$(for command in '' render view pack merge scene trace info isa; do
     "$program" $command --help | grep -oE -- '(^ *|,)--?[a-z-]+' | tr -d ' ,'
   done | LC_ALL=C sort -u)"
   shown="$(grep -oE -- '`--?[a-z-]+' "$page" | tr -d '`' | LC_ALL=C sort -u || true)"
