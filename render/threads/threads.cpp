@@ -7,17 +7,22 @@
 #include <thread>
 #include <utility>
 
+#include "render/threads/waiting_thread.h"
+
 namespace boule {
 namespace {
 
 constexpr std::size_t least_stack = std::size_t{4} << 20;
+
+/// The stack of each thread: the default, but enough for kernels and shading.
+std::size_t stack_size() { return std::max(default_stack(), least_stack); }
 
 /// The attributes of a thread: the defaults, but with enough stack.
 class Attributes {
  public:
   Attributes() {
     pthread_getattr_default_np(&value_);
-    pthread_attr_setstacksize(&value_, std::max(default_stack(), least_stack));
+    pthread_attr_setstacksize(&value_, stack_size());
   }
   ~Attributes() { pthread_attr_destroy(&value_); }
   Attributes(const Attributes&) = delete;
@@ -28,18 +33,6 @@ class Attributes {
  private:
   pthread_attr_t value_{};
 };
-
-/// What one thread does.
-struct Start {
-  const std::function<void(std::size_t)>& run;
-  std::size_t index;
-};
-
-void* enter(void* start) {
-  const Start mine = *std::unique_ptr<Start>(static_cast<Start*>(start));
-  mine.run(mine.index);
-  return nullptr;
-}
 
 }  // namespace
 
@@ -55,22 +48,24 @@ std::size_t default_stack() {
 unsigned hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1U); }
 
 Threads::Threads(std::size_t count, std::function<void(std::size_t)> run) : run_(std::move(run)) {
-  const Attributes attributes;
   try {
     threads_.reserve(count);
     while (threads_.size() < count) {
-      auto start = std::make_unique<Start>(Start{run_, threads_.size()});
-      pthread_t thread{};
-      if (pthread_create(&thread, attributes.get(), enter, start.get()) != 0) return;
-      static_cast<void>(start.release());  // the thread deletes it
+      WaitingThread* const thread = WaitingThread::take(stack_size());
+      if (thread == nullptr) return;
       threads_.push_back(thread);
+      thread->run([this, index = threads_.size() - 1] { run_(index); });
     }
   } catch (const std::bad_alloc&) {  // those that started do the work
   }
 }
 
 Threads::~Threads() {
-  for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
+  for (WaitingThread* const thread : threads_) thread->give_back();
+}
+
+void Threads::prepare(std::size_t count) {
+  const Threads threads(count, [](std::size_t) {});
 }
 
 bool start_detached(std::function<void()> run) {

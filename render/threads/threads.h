@@ -1,7 +1,5 @@
 #pragma once
 
-#include <pthread.h>
-
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -14,8 +12,10 @@ std::size_t default_stack();
 /// How many threads the hardware runs at once; 1 if that is not known.
 unsigned hardware_threads();
 
-/// Threads that run the same function, and are joined by the destructor. Each has enough stack for
-/// kernels and shading, even if the process has little (ulimit -s).
+class WaitingThread;
+
+/// Threads that run the same function; the destructor waits until they have. Each has enough stack
+/// for kernels and shading, even if the process has little (ulimit -s).
 class Threads {
  public:
   /// Starts `count` threads, or as many as can be had. Thread i calls run(i), which must not throw.
@@ -26,9 +26,13 @@ class Threads {
 
   [[nodiscard]] std::size_t size() const { return threads_.size(); }
 
+  /// Starts `count` threads that wait for their first function, as many as stay and can be had, so
+  /// that loops begin at once also while a library is loaded.
+  static void prepare(std::size_t count);
+
  private:
   const std::function<void(std::size_t)> run_;
-  std::vector<pthread_t> threads_;
+  std::vector<WaitingThread*> threads_;
 };
 
 /// Runs a function on a thread of its own that nobody waits for, with the same stack. False,

@@ -1,0 +1,139 @@
+#include "render/threads/waiting_thread.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "render/threads/threads.h"
+
+namespace boule {
+namespace {
+
+/// The threads that nobody has taken. A child that is forked has none of them.
+class Idle {
+ public:
+  Idle() { pthread_atfork(lock_all, unlock_all, forget_all); }
+
+  /// One with so much stack, or null.
+  WaitingThread* take(std::size_t stack);
+  /// False if there are enough already.
+  bool add(WaitingThread* thread, std::size_t stack);
+
+ private:
+  struct Entry {
+    WaitingThread* thread;
+    std::size_t stack;
+  };
+
+  static void lock_all();
+  static void unlock_all();
+  static void forget_all();
+
+  std::mutex mutex_;
+  std::vector<Entry> entries_;
+};
+
+/// It is never destroyed: its threads wait until the process ends.
+Idle& idle() {
+  static Idle& one = *new Idle;
+  return one;
+}
+
+WaitingThread* Idle::take(std::size_t stack) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [stack](const Entry& entry) { return entry.stack >= stack; });
+  if (found == entries_.end()) return nullptr;
+  WaitingThread* const thread = found->thread;
+  entries_.erase(found);
+  return thread;
+}
+
+bool Idle::add(WaitingThread* thread, std::size_t stack) {
+  const std::lock_guard lock(mutex_);
+  if (entries_.size() >= WaitingThread::most_waiting()) return false;
+  try {
+    entries_.push_back({thread, stack});
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
+void Idle::lock_all() { idle().mutex_.lock(); }
+void Idle::unlock_all() { idle().mutex_.unlock(); }
+void Idle::forget_all() {
+  idle().entries_.clear();
+  idle().mutex_.unlock();
+}
+
+}  // namespace
+
+std::size_t WaitingThread::most_waiting() {
+  static const std::size_t most = hardware_threads();
+  return most;
+}
+
+WaitingThread* WaitingThread::take(std::size_t stack) {
+  if (WaitingThread* const waiting = idle().take(stack)) return waiting;
+  auto* const fresh = new WaitingThread(stack);
+  if (fresh->start()) return fresh;
+  delete fresh;
+  return nullptr;
+}
+
+bool WaitingThread::start() {
+  pthread_attr_t attributes{};
+  pthread_getattr_default_np(&attributes);
+  pthread_attr_setstacksize(&attributes, stack_);
+  const bool started = pthread_create(&thread_, &attributes, enter, this) == 0;
+  pthread_attr_destroy(&attributes);
+  return started;
+}
+
+void WaitingThread::run(std::function<void()> call) {
+  {
+    const std::lock_guard lock(mutex_);
+    call_ = std::move(call);
+  }
+  changed_.notify_all();
+}
+
+void WaitingThread::give_back() {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !call_; });
+  }
+  if (!idle().add(this, stack_)) end();
+}
+
+void* WaitingThread::enter(void* self) {
+  static_cast<WaitingThread*>(self)->work();
+  return nullptr;
+}
+
+void WaitingThread::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return call_ || ends_; });
+    if (!call_) return;
+    lock.unlock();
+    call_();
+    lock.lock();
+    call_ = nullptr;
+    changed_.notify_all();
+  }
+}
+
+void WaitingThread::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  pthread_join(thread_, nullptr);
+  delete this;
+}
+
+}  // namespace boule

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <pthread.h>
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+
+namespace boule {
+
+/// A thread that runs one call after the other, and waits between them. Starting a thread takes a
+/// lock that dlopen() holds while it loads a library; giving a call to a waiting one does not.
+class WaitingThread {
+ public:
+  /// A thread with so much stack, in bytes, that belongs to the caller until give_back(): one that
+  /// waits, or else a new one. Null if none can be had.
+  static WaitingThread* take(std::size_t stack);
+  /// How many threads stay when nobody has taken them: as many as the hardware runs at once.
+  static std::size_t most_waiting();
+
+  WaitingThread(const WaitingThread&) = delete;
+  WaitingThread& operator=(const WaitingThread&) = delete;
+
+  /// Lets it call `call`, which must not throw. Precondition: it runs none.
+  void run(std::function<void()> call);
+  /// Waits until the call has returned, if there is one, and leaves the thread to the next caller.
+  /// Invalidates it.
+  void give_back();
+
+ private:
+  explicit WaitingThread(std::size_t stack) : stack_(stack) {}
+  ~WaitingThread() = default;
+
+  static void* enter(void* self);
+  bool start();
+  void work();
+  void end();
+
+  const std::size_t stack_;
+  pthread_t thread_{};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> call_;  ///< empty: it waits
+  bool ends_ = false;
+};
+
+}  // namespace boule

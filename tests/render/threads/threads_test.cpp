@@ -1,0 +1,122 @@
+#include "render/threads/threads.h"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "render/threads/waiting_thread.h"
+
+namespace boule {
+namespace {
+
+/// The kernel's names of `count` threads that run at once.
+std::set<pid_t> run_together(std::size_t count) {
+  std::vector<pid_t> names(count);
+  std::atomic<std::size_t> running{0};
+  {
+    const Threads threads(count, [&](std::size_t index) {
+      names[index] = gettid();
+      ++running;
+      while (running < count) std::this_thread::yield();
+    });
+    EXPECT_EQ(threads.size(), count);
+    if (threads.size() < count) running = count;
+  }
+  return {names.begin(), names.end()};
+}
+
+TEST(Threads, OfOneLoopServeTheNext) {
+  const std::size_t count = WaitingThread::most_waiting();
+  Threads::prepare(count);
+  const std::set<pid_t> first = run_together(count);
+  EXPECT_EQ(first.size(), count);
+  EXPECT_EQ(first.count(gettid()), 0u);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(run_together(count), first);
+}
+
+TEST(Threads, BeyondThoseOfTheHardwareEnd) {
+  const std::size_t count = WaitingThread::most_waiting() + 3;
+  const std::set<pid_t> first = run_together(count);
+  EXPECT_EQ(first.size(), count);
+  const std::set<pid_t> second = run_together(count);
+  std::vector<pid_t> both;
+  std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
+                        std::back_inserter(both));
+  EXPECT_EQ(both.size(), WaitingThread::most_waiting());
+}
+
+TEST(Threads, OfSeveralCallersAtOnceAreDifferentOnes) {
+  std::atomic<int> calls{0};
+  const auto use_often = [&calls] {
+    for (int i = 0; i < 200; ++i) {
+      std::atomic<int> own{0};
+      std::size_t size = 0;
+      {
+        const Threads threads(2, [&own](std::size_t) { ++own; });
+        size = threads.size();
+      }
+      if (own == static_cast<int>(size)) ++calls;
+    }
+  };
+  std::thread a(use_often), b(use_often), c(use_often);
+  a.join();
+  b.join();
+  c.join();
+  EXPECT_EQ(calls, 600);
+}
+
+TEST(Threads, WithLessStackThanIsWantedNowDoNotServe) {
+  const std::set<pid_t> small = run_together(1);
+  pthread_attr_t saved{}, larger{};
+  pthread_getattr_default_np(&saved);
+  pthread_attr_init(&larger);
+  constexpr std::size_t stack = std::size_t{64} << 20;
+  pthread_attr_setstacksize(&larger, stack);
+  ASSERT_EQ(pthread_setattr_default_np(&larger), 0);
+  std::atomic<std::size_t> has{0};
+  std::atomic<pid_t> name{0};
+  {
+    const Threads one(1, [&](std::size_t) {
+      pthread_attr_t own{};
+      std::size_t size = 0;
+      pthread_getattr_np(pthread_self(), &own);
+      pthread_attr_getstacksize(&own, &size);
+      pthread_attr_destroy(&own);
+      has = size;
+      name = gettid();
+    });
+  }
+  pthread_setattr_default_np(&saved);
+  pthread_attr_destroy(&larger);
+  EXPECT_GE(has, stack);
+  EXPECT_EQ(small.count(name), 0u);
+}
+
+TEST(Threads, OfAForkedChildAreItsOwn) {
+  Threads::prepare(WaitingThread::most_waiting());
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);  // it would wait for ever for a thread of its parent
+    std::atomic<int> calls{0};
+    for (int i = 0; i < 10; ++i) {
+      const Threads threads(2, [&calls](std::size_t) { ++calls; });
+    }
+    _exit(calls == 20 ? 0 : 1);
+  }
+  ASSERT_GT(child, 0);
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+}
+
+}  // namespace
+}  // namespace boule
