@@ -3,22 +3,24 @@
 //
 //   bench_build [spheres...]
 //
-// Boule's threads are made anew for each loop, as render's scheduler makes them; Embree's wait in a
-// pool. Embree's clock runs over rtcCommitScene, for a geometry that shares the caller's buffer.
+// The clocks run over what a renderer waits for: of Boule the making of a Geometry that takes the
+// caller's spheres, as Renderer::create() does, of Embree rtcCommitScene() for a geometry that
+// shares the caller's buffer. Both have threads that wait for work.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench/median.h"
 #include "bench/uniform_spheres.h"
 #include "core/base/parallel.h"
+#include "render/frame/scheduler.h"
 #include "simd/geometry/geometry.h"
 
 namespace boule::bench {
@@ -28,19 +30,6 @@ double seconds(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-ParallelFor threads_for(unsigned threads) {
-  return [threads](std::size_t count, const std::function<void(std::size_t)>& body) {
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-      for (std::size_t i = next++; i < count; i = next++) body(i);
-    };
-    std::vector<std::thread> others;
-    while (others.size() + 1 < std::min<std::size_t>(threads, count)) others.emplace_back(work);
-    work();
-    for (std::thread& thread : others) thread.join();
-  };
 }
 
 /// Four floats a sphere, in the layout of Embree's spheres.
@@ -64,16 +53,23 @@ double embree_seconds(RTCDevice device, std::vector<float>& points) {
   return time;
 }
 
+double our_seconds(std::vector<Sphere> spheres, const ParallelFor& loop) {
+  std::optional<Geometry> built;
+  return seconds(
+      [&] { built.emplace(std::move(spheres), std::vector<Plane>(), Structure::bvh, loop); });
+}
+
 void compare(std::size_t n, unsigned threads) {
   const auto spheres = uniform_spheres(n);
   auto points = embree_points(spheres);
   RTCDevice device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
-  const ParallelFor loop = threads > 1 ? threads_for(threads) : ParallelFor(serial_for);
+  Scheduler scheduler(threads);
+  const ParallelFor loop = scheduler.parallel_for();
   std::vector<double> ours, theirs, ratios;
   const int repetitions = n < 500'000 ? 31 : 9;
   for (int i = 0; i < repetitions; ++i) {
     theirs.push_back(embree_seconds(device, points));
-    ours.push_back(seconds([&] { const Geometry built(spheres, {}, Structure::bvh, loop); }));
+    ours.push_back(our_seconds(spheres, loop));
     ratios.push_back(theirs.back() / ours.back());
   }
   rtcReleaseDevice(device);

@@ -1,7 +1,6 @@
 #include "render/threads/threads.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <new>
 #include <thread>
@@ -82,12 +81,6 @@ bool start_detached(std::function<void()> run) {
   return true;
 }
 
-bool can_start_threads(std::size_t count) {
-  std::atomic<bool> counted{false};
-  const Threads threads(count, [&counted](std::size_t) { counted.wait(false); });
-  counted = true;
-  counted.notify_all();
-  return threads.size() == count;
-}
+bool can_start_threads(std::size_t count) { return WaitingThread::can_start(count, stack_size()); }
 
 }  // namespace boule

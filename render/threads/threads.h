@@ -39,8 +39,8 @@ class Threads {
 /// without a call, if no thread can be had. The function must not throw.
 bool start_detached(std::function<void()> run);
 
-/// Tries whether so many threads can run at once beside the caller's. For libraries that start
-/// threads of their own and fail badly without them.
+/// Tries whether so many threads can run at once beside all that there are. For libraries that
+/// start threads of their own and fail badly without them.
 bool can_start_threads(std::size_t count);
 
 }  // namespace boule

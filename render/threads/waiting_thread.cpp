@@ -76,7 +76,26 @@ std::size_t WaitingThread::most_waiting() {
 }
 
 WaitingThread* WaitingThread::take(std::size_t stack) {
-  if (WaitingThread* const waiting = idle().take(stack)) return waiting;
+  WaitingThread* const waiting = idle().take(stack);
+  return waiting != nullptr ? waiting : start_new(stack);
+}
+
+bool WaitingThread::can_start(std::size_t count, std::size_t stack) {
+  std::vector<WaitingThread*> started;
+  try {
+    started.reserve(count);
+    while (started.size() < count) {
+      WaitingThread* const thread = start_new(stack);
+      if (thread == nullptr) break;
+      started.push_back(thread);
+    }
+  } catch (const std::bad_alloc&) {  // then there are too few
+  }
+  for (WaitingThread* const thread : started) thread->end();
+  return started.size() == count;
+}
+
+WaitingThread* WaitingThread::start_new(std::size_t stack) {
   auto* const fresh = new WaitingThread(stack);
   if (fresh->start()) return fresh;
   delete fresh;

@@ -16,6 +16,8 @@ class WaitingThread {
   /// A thread with so much stack, in bytes, that belongs to the caller until give_back(): one that
   /// waits, or else a new one. Null if none can be had.
   static WaitingThread* take(std::size_t stack);
+  /// Tries whether so many threads can run at once beside all that there are.
+  static bool can_start(std::size_t count, std::size_t stack);
   /// How many threads stay when nobody has taken them: as many as the hardware runs at once.
   static std::size_t most_waiting();
 
@@ -32,6 +34,7 @@ class WaitingThread {
   explicit WaitingThread(std::size_t stack) : stack_(stack) {}
   ~WaitingThread() = default;
 
+  static WaitingThread* start_new(std::size_t stack);
   static void* enter(void* self);
   bool start();
   void work();

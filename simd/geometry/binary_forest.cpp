@@ -1,11 +1,9 @@
 #include "simd/geometry/binary_forest.h"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <utility>
 
-#include "core/base/memory_pages.h"
 #include "simd/abi/bvh.h"
 #include "simd/geometry/tuning.h"
 
@@ -66,10 +64,16 @@ BuildBox extent_of(std::span<const BuildSphere> spheres, const ParallelFor& para
 
 /// The runs of one level, and how each of them is to be divided.
 struct BinaryForest::Level {
-  Level(std::span<BuildSphere> all, const std::vector<Run>& all_runs)
-      : spheres(all), runs(all_runs), grids(runs.size()), divisions(runs.size()) {
+  Level(std::span<BuildSphere> all, const std::vector<Run>& all_runs, ScratchRooms& all_rooms)
+      : spheres(all),
+        runs(all_runs),
+        rooms(all_rooms),
+        grids(runs.size()),
+        divisions(runs.size()),
+        first_chunks(runs.size()) {
     for (std::size_t run = 0; run < runs.size(); ++run) {
       grids[run] = BinGrid(runs[run].extent);
+      first_chunks[run] = chunks.size();
       for (std::size_t i = runs[run].begin; i < runs[run].end; i += tuning::chunk_size)
         chunks.push_back({run, i, std::min(i + tuning::chunk_size, runs[run].end)});
     }
@@ -81,16 +85,18 @@ struct BinaryForest::Level {
 
   /// Finds the best cut of each run, and how many spheres go left.
   void find_cuts(const ParallelFor& parallel_for) {
-    std::vector<Bins> bins(chunks.size()), run_bins(runs.size());
+    std::vector<Bins> bins(chunks.size());
     parallel_for(chunks.size(),
                  [&](std::size_t i) { bins[i].add(grids[chunks[i].run], spheres_of(chunks[i])); });
-    for (std::size_t i = 0; i < chunks.size(); ++i) run_bins[chunks[i].run].add(bins[i]);
-    for (std::size_t run = 0; run < runs.size(); ++run) {
+    parallel_for(runs.size(), [&](std::size_t run) {
+      Bins& all = bins[first_chunks[run]];
+      for (std::size_t i = first_chunks[run] + 1; i < chunks.size() && chunks[i].run == run; ++i)
+        all.add(bins[i]);
       Division& division = divisions[run];
-      for (const BuildBox& box : run_bins[run].boxes[0]) division.box.add(box);
-      division.cut = best_cut(run_bins[run], grids[run].axes());
-      if (division.cut.axis >= 0) division.middle = count_left(run_bins[run], division.cut);
-    }
+      for (const BuildBox& box : all.boxes[0]) division.box.add(box);
+      division.cut = best_cut(all, grids[run].axes());
+      if (division.cut.axis >= 0) division.middle = count_left(all, division.cut);
+    });
   }
 
   /// Divides the runs that have a cut. First each chunk by itself; then the right spheres that lie
@@ -114,8 +120,9 @@ struct BinaryForest::Level {
     const Cut& cut = divisions[chunk.run].cut;
     if (cut.axis < 0) return;
     const std::span<BuildSphere> own = spheres_of(chunk);
-    const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(own.size());
-    chunk.lefts = partition(own, grids[chunk.run], cut, {scratch.get(), own.size()});
+    rooms.lend(own.size(), [&](std::span<BuildSphere> scratch) {
+      chunk.lefts = partition(own, grids[chunk.run], cut, scratch);
+    });
     chunk.left_extent = boule::extent_of(own.first(chunk.lefts));
     chunk.right_extent = boule::extent_of(own.subspan(chunk.lefts));
   }
@@ -151,8 +158,10 @@ struct BinaryForest::Level {
 
   std::span<BuildSphere> spheres;
   const std::vector<Run>& runs;
+  ScratchRooms& rooms;
   std::vector<BinGrid> grids;
   std::vector<Division> divisions;
+  std::vector<std::size_t> first_chunks;  ///< of each run
   std::vector<Chunk> chunks;
 };
 
@@ -191,16 +200,14 @@ void BinaryForest::build(std::size_t index, std::vector<std::int32_t>* ids) {
     }
     known = *ids;
   }
-  const auto scratch = std::make_unique_for_overwrite<BuildSphere[]>(own.size());
-  subtree.tree = build_binary_tree(own, {scratch.get(), own.size()}, subtree.depth, known);
+  rooms_.lend(own.size(), [&](std::span<BuildSphere> scratch) {
+    subtree.tree = build_binary_tree(own, scratch, subtree.depth, known);
+  });
   subtree.root = subtree.tree.nodes[0];
 }
 
 void BinaryForest::drop(std::size_t subtree) {
-  std::vector<BinaryNode>& nodes = subtrees_[subtree].tree.nodes;
-  // The allocator keeps blocks of this size for later, and would keep their pages.
-  release_pages(nodes.data(), nodes.size() * sizeof(BinaryNode));
-  std::vector<BinaryNode>().swap(nodes);
+  std::vector<BinaryNode>().swap(subtrees_[subtree].tree.nodes);
 }
 
 void BinaryForest::attach(const Run& run, ForestNode node) {
@@ -220,7 +227,7 @@ void BinaryForest::add_subtree(const Run& run) {
 /// Divides the runs of one level and returns those of the next.
 std::vector<BinaryForest::Run> BinaryForest::divide(const std::vector<Run>& runs,
                                                     const ParallelFor& parallel_for) {
-  Level level(spheres_, runs);
+  Level level(spheres_, runs, rooms_);
   level.find_cuts(parallel_for);
   level.divide(parallel_for);
   std::vector<Run> next;

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "simd/geometry/binary_tree.h"
 #include "simd/geometry/build_box.h"
+#include "simd/geometry/scratch_rooms.h"
 #include "simd/geometry/split.h"
 
 namespace boule {
@@ -55,7 +56,7 @@ class BinaryForest {
   [[nodiscard]] bool is_twig(std::size_t subtree) const;
   /// Decides which nodes of the upper part become wide ones. Precondition: the twigs were built.
   void weigh();
-  /// Forgets the nodes of a subtree but for its root, and gives their memory back.
+  /// Forgets the nodes of a subtree but for its root, and leaves their memory to the next ones.
   void drop(std::size_t subtree);
   /// Makes the boxes of the upper nodes exact: until then they are good enough to weigh only.
   /// Precondition: all subtrees were built.
@@ -94,6 +95,7 @@ class BinaryForest {
 
   std::span<BuildSphere> spheres_;
   std::size_t subtree_size_;
+  ScratchRooms rooms_;
   std::vector<UpperNode> upper_;
   std::vector<Subtree> subtrees_;
   ForestNode root_{};

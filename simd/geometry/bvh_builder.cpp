@@ -190,7 +190,7 @@ class TreeFiller {
     });
     forest_.weigh();
     collapse_.emplace(forest_);
-    const std::size_t at_once = std::max(parts_.size() / tuning::portions, std::size_t{1});
+    const std::size_t at_once = std::max(parts_.size() / tuning::portions, tuning::least_portion);
     for (std::size_t first = 0; first < parts_.size(); first += at_once)
       fill_portion(first, std::min(first + at_once, parts_.size()), parallel_for);
     forest_.finish();

@@ -46,9 +46,10 @@ inline constexpr std::size_t most_subtrees = 2048;
 /// Again: BvhVisits.DoublingDistancesAreNotScanned, and bench_tree
 inline constexpr std::size_t twigs = 6;
 
-/// The subtrees are built and become leaves in so many portions: enough for as many threads in
-/// each, while the binary nodes of one take half a percent of the memory. Set by trial.
-/// Again: bench_build 10000000
+/// The subtrees are built and become leaves in so many portions, so that the binary nodes of one
+/// take half a percent of the memory; but in no smaller ones than threads can share. Set by trial.
+/// Again: bench_build 100000 1000000 10000000
 inline constexpr std::size_t portions = 64;
+inline constexpr std::size_t least_portion = 64;
 
 }  // namespace boule::tuning

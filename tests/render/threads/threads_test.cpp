@@ -101,6 +101,13 @@ TEST(Threads, WithLessStackThanIsWantedNowDoNotServe) {
   EXPECT_EQ(small.count(name), 0u);
 }
 
+TEST(Threads, ForOthersAreCountedBesideThoseThatWait) {
+  Threads::prepare(WaitingThread::most_waiting());
+  const std::set<pid_t> before = run_together(WaitingThread::most_waiting());
+  EXPECT_TRUE(can_start_threads(5));
+  EXPECT_EQ(run_together(WaitingThread::most_waiting()), before);
+}
+
 TEST(Threads, OfAForkedChildAreItsOwn) {
   Threads::prepare(WaitingThread::most_waiting());
   const pid_t child = fork();
