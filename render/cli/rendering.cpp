@@ -24,7 +24,6 @@
 #include "render/memory/available_memory.h"
 #include "render/prepare/default_camera.h"
 #include "render/renderer/scene_hash.h"
-#include "render/threads/threads.h"
 
 namespace boule::cli {
 namespace {
@@ -225,9 +224,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   // Begun only here, so that a command that is refused above loads no module.
   const bool encodes = writes() && !command_.shard;
   if (const auto file = encodes ? file_to_encode(command_) : std::nullopt) {
-    const unsigned workers = Scheduler(options.threads).workers();
-    Threads::prepare(workers);  // for the loops beside the loading, and for the loading
-    image_start_.emplace(*file, static_cast<int>(workers));
+    image_start_.emplace(*file, static_cast<int>(Scheduler(options.threads).workers()));
   }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
   // are loaded end the process without a message.

@@ -1,5 +1,6 @@
 #include "render/image/image_start.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <utility>
@@ -12,6 +13,9 @@
 namespace boule {
 
 ImageStart::ImageStart(std::string path, int threads) : path_(std::move(path)), threads_(threads) {
+  // For the loading, and the loops beside it.
+  constexpr int most = 256;
+  Threads::prepare(static_cast<std::size_t>(std::clamp(threads, 1, most)));
   thread_ = std::make_unique<Threads>(1, [this](std::size_t) { run(); });
   if (thread_->size() == 0) run();
 }

@@ -83,19 +83,26 @@ struct BinaryForest::Level {
     return spheres.subspan(chunk.begin, chunk.end - chunk.begin);
   }
 
-  /// Finds the best cut of each run, and how many spheres go left.
+  [[nodiscard]] std::size_t stride_of(std::size_t run) const {
+    return boule::stride_of(runs[run].end - runs[run].begin, grids[run]);
+  }
+
+  /// Finds the best cut of each run.
   void find_cuts(const ParallelFor& parallel_for) {
     std::vector<Bins> bins(chunks.size());
-    parallel_for(chunks.size(),
-                 [&](std::size_t i) { bins[i].add(grids[chunks[i].run], spheres_of(chunks[i])); });
+    parallel_for(chunks.size(), [&](std::size_t i) {
+      const std::size_t run = chunks[i].run;
+      bins[i].add(grids[run], spheres_of(chunks[i]), stride_of(run));
+    });
     parallel_for(runs.size(), [&](std::size_t run) {
       Bins& all = bins[first_chunks[run]];
       for (std::size_t i = first_chunks[run] + 1; i < chunks.size() && chunks[i].run == run; ++i)
         all.add(bins[i]);
-      Division& division = divisions[run];
-      for (const BuildBox& box : all.boxes[0]) division.box.add(box);
-      division.cut = best_cut(all, grids[run].axes());
-      if (division.cut.axis >= 0) division.middle = count_left(all, division.cut);
+      divisions[run].choose(all, grids[run]);
+      if (divisions[run].cut.axis >= 0 || stride_of(run) == 1) return;
+      Bins whole;  // the sample had copies of one sphere only
+      whole.add(grids[run], spheres.subspan(runs[run].begin, runs[run].end - runs[run].begin));
+      divisions[run].choose(whole, grids[run]);
     });
   }
 
@@ -104,8 +111,10 @@ struct BinaryForest::Level {
   void divide(const ParallelFor& parallel_for) {
     parallel_for(chunks.size(), [&](std::size_t i) { divide(chunks[i]); });
     for (const Chunk& chunk : chunks) {
-      divisions[chunk.run].left_extent.add(chunk.left_extent);
-      divisions[chunk.run].right_extent.add(chunk.right_extent);
+      Division& division = divisions[chunk.run];
+      division.middle += chunk.lefts;
+      division.left_extent.add(chunk.left_extent);
+      division.right_extent.add(chunk.right_extent);
     }
     const std::vector<Exchange> exchanges = find_exchanges();
     parallel_for(exchanges.size(), [&](std::size_t i) {
@@ -153,7 +162,12 @@ struct BinaryForest::Level {
     Cut cut = {};
     std::size_t middle = 0;  ///< spheres that go left
     BuildBox left_extent = {}, right_extent = {};
-    BuildBox box = {};  ///< around all spheres, to weigh by
+    BuildBox box = {};  ///< around all spheres of the bins, to weigh by
+
+    void choose(const Bins& bins, const BinGrid& grid) {
+      for (const BuildBox& bin : bins.boxes[0]) box.add(bin);
+      cut = best_cut(bins, grid.axes());
+    }
   };
 
   std::span<BuildSphere> spheres;

@@ -1,7 +1,7 @@
 #include "simd/geometry/split.h"
 
 #include <algorithm>
-#include <numeric>
+#include <bit>
 
 namespace boule {
 namespace {
@@ -39,9 +39,10 @@ BinGrid::BinGrid(const BuildBox& extent) {
   if (alike && (scale_[0] > 0 || scale_[1] > 0 || scale_[2] > 0)) scale_[3] = 0;
 }
 
-void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres) {
+void Bins::add(const BinGrid& grid, std::span<const BuildSphere> spheres, std::size_t stride) {
   const int axes = grid.axes();
-  for (const BuildSphere& sphere : spheres) {
+  for (std::size_t i = 0; i < spheres.size(); i += stride) {
+    const BuildSphere& sphere = spheres[i];
     const BuildBox box = rough_box(sphere);
     const Int4 bin = grid.bins_of(sphere);
     const auto add_along = [&](int axis, int index) {
@@ -62,6 +63,12 @@ void Bins::add(const Bins& bins) {
       counts[axis][bin] += bins.counts[axis][bin];
     }
   }
+}
+
+std::size_t stride_of(std::size_t spheres, const BinGrid& grid) {
+  if (grid.axes() > 3) return 1;
+  return std::bit_floor(
+      std::clamp(spheres / tuning::cut_sample, std::size_t{1}, tuning::most_stride));
 }
 
 Cut best_cut(const Bins& bins, int axes) {
@@ -107,11 +114,6 @@ std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent) {
   return middle;
 }
 
-std::size_t count_left(const Bins& bins, const Cut& cut) {
-  const std::size_t* const counts = bins.counts[cut.axis];
-  return std::accumulate(counts, counts + cut.bin, std::size_t{0});
-}
-
 std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                       std::span<BuildSphere> scratch) {
   std::size_t left = 0, right = 0;
@@ -129,9 +131,14 @@ std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const
 std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch) {
   const BuildBox extent = extent_of(spheres);
   const BinGrid grid(extent);
-  Bins bins;
-  bins.add(grid, spheres);
-  const Cut cut = best_cut(bins, grid.axes());
+  const std::size_t stride = stride_of(spheres.size(), grid);
+  const auto cut_by = [&](std::size_t apart) {
+    Bins bins;
+    bins.add(grid, spheres, apart);
+    return best_cut(bins, grid.axes());
+  };
+  Cut cut = cut_by(stride);
+  if (cut.axis < 0 && stride > 1) cut = cut_by(1);  // the sample had copies of one sphere only
   if (cut.axis < 0) return halve(spheres, extent);
   return partition(spheres, grid, cut, scratch);
 }

@@ -45,7 +45,8 @@ struct Bins {
   BuildBox boxes[4][BinGrid::bins];
   std::size_t counts[4][BinGrid::bins] = {};
 
-  void add(const BinGrid& grid, std::span<const BuildSphere> spheres);
+  /// Adds the first sphere and then every stride-th one.
+  void add(const BinGrid& grid, std::span<const BuildSphere> spheres, std::size_t stride = 1);
   void add(const Bins& bins);
 };
 
@@ -55,12 +56,13 @@ struct Cut {
   int axis = -1, bin = 0;
 };
 
+/// How far the spheres are from each other by which so many are cut: a power of two. 1 where radii
+/// differ, because few large spheres among many small ones must not be missed.
+std::size_t stride_of(std::size_t spheres, const BinGrid& grid);
+
 /// The cut of the least cost by the surface area heuristic: the sum over both sides of area times
 /// leaves.
 Cut best_cut(const Bins& bins, int axes);
-
-/// The spheres that go left.
-std::size_t count_left(const Bins& bins, const Cut& cut);
 
 /// Brings the spheres on the left of a cut before the others. On each side they keep their order.
 /// `scratch` has as much room as there are spheres. Returns how many are on the left.

@@ -17,6 +17,12 @@ inline constexpr std::size_t most_scanned = 64;
 /// Again: bench_tree (areas and visits), bench_build (time).
 inline constexpr int bins = 16;
 
+/// The cut of many spheres is chosen by a sample of at least so many, every most_stride-th at most,
+/// where their radii are alike. Set by trial: twice as many levels of the tree for the same time.
+/// Again: bench_tree (areas and visits), bench_build 10000000 (time)
+inline constexpr std::size_t cut_sample = 4096;
+inline constexpr std::size_t most_stride = 16;
+
 /// Radii are a fourth axis for the bins where the greatest is more than so many times the least:
 /// few large spheres are better off on their own. Set by trial.
 /// Again: bench_peers --scenes flake4,flake6 --rays primary,diffuse
