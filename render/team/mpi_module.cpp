@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <list>
+#include <thread>
 #include <vector>
 
 namespace boule::mpi_module {
@@ -76,7 +78,11 @@ bool idle() {
 
 void finish() { MPI_Finalize(); }
 
-void end_all(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
+/// A launcher that ends all ranks may not pass on any more what one of them has just written.
+void end_all(int code) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  MPI_Abort(MPI_COMM_WORLD, code);
+}
 
 constexpr Table table = {version, start, send, receive, idle, finish, end_all};
 
