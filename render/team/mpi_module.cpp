@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <list>
-#include <thread>
 #include <vector>
 
 namespace boule::mpi_module {
@@ -80,7 +79,8 @@ void finish() { MPI_Finalize(); }
 
 /// A launcher that ends all ranks may not pass on any more what one of them has just written.
 void end_all(int code) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  constexpr timespec a_moment{0, 300'000'000};
+  ::nanosleep(&a_moment, nullptr);
   MPI_Abort(MPI_COMM_WORLD, code);
 }
 
