@@ -14,8 +14,7 @@ namespace boule {
 
 ImageStart::ImageStart(std::string path, int threads) : path_(std::move(path)), threads_(threads) {
   // For the loading, and the loops beside it.
-  constexpr int most = 256;
-  Threads::prepare(static_cast<std::size_t>(std::clamp(threads, 1, most)));
+  Threads::prepare(static_cast<std::size_t>(std::max(threads, 1)));
   thread_ = std::make_unique<Threads>(1, [this](std::size_t) { run(); });
   if (thread_->size() == 0) run();
 }

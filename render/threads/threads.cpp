@@ -16,23 +16,6 @@ constexpr std::size_t least_stack = std::size_t{4} << 20;
 /// The stack of each thread: the default, but enough for kernels and shading.
 std::size_t stack_size() { return std::max(default_stack(), least_stack); }
 
-/// The attributes of a thread: the defaults, but with enough stack.
-class Attributes {
- public:
-  Attributes() {
-    pthread_getattr_default_np(&value_);
-    pthread_attr_setstacksize(&value_, stack_size());
-  }
-  ~Attributes() { pthread_attr_destroy(&value_); }
-  Attributes(const Attributes&) = delete;
-  Attributes& operator=(const Attributes&) = delete;
-
-  [[nodiscard]] const pthread_attr_t* get() const { return &value_; }
-
- private:
-  pthread_attr_t value_{};
-};
-
 }  // namespace
 
 std::size_t default_stack() {
@@ -47,10 +30,11 @@ std::size_t default_stack() {
 unsigned hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1U); }
 
 Threads::Threads(std::size_t count, std::function<void(std::size_t)> run) : run_(std::move(run)) {
+  const std::size_t stack = stack_size();
   try {
     threads_.reserve(count);
     while (threads_.size() < count) {
-      WaitingThread* const thread = WaitingThread::take(stack_size());
+      WaitingThread* const thread = WaitingThread::take(stack);
       if (thread == nullptr) return;
       threads_.push_back(thread);
       thread->run([this, index = threads_.size() - 1] { run_(index); });
@@ -64,7 +48,7 @@ Threads::~Threads() {
 }
 
 void Threads::prepare(std::size_t count) {
-  const Threads threads(count, [](std::size_t) {});
+  const Threads threads(std::min(count, WaitingThread::most_waiting()), [](std::size_t) {});
 }
 
 bool start_detached(std::function<void()> run) {
@@ -72,10 +56,9 @@ bool start_detached(std::function<void()> run) {
     (*std::unique_ptr<std::function<void()>>(static_cast<std::function<void()>*>(start)))();
     return nullptr;
   };
-  const Attributes attributes;
   auto start = std::make_unique<std::function<void()>>(std::move(run));
   pthread_t thread{};
-  if (pthread_create(&thread, attributes.get(), enter_run, start.get()) != 0) return false;
+  if (!start_thread(stack_size(), enter_run, start.get(), thread)) return false;
   static_cast<void>(start.release());  // the thread deletes it
   pthread_detach(thread);
   return true;

@@ -26,8 +26,8 @@ class Threads {
 
   [[nodiscard]] std::size_t size() const { return threads_.size(); }
 
-  /// Starts `count` threads that wait for their first function, as many as stay and can be had, so
-  /// that loops begin at once also while a library is loaded.
+  /// Starts `count` threads that wait for their first function, but no more than stay and can be
+  /// had, so that loops begin at once also while a library is loaded.
   static void prepare(std::size_t count);
 
  private:

@@ -18,20 +18,15 @@ class Idle {
   /// One with so much stack, or null.
   WaitingThread* take(std::size_t stack);
   /// False if there are enough already.
-  bool add(WaitingThread* thread, std::size_t stack);
+  bool add(WaitingThread* thread);
 
  private:
-  struct Entry {
-    WaitingThread* thread;
-    std::size_t stack;
-  };
-
   static void lock_all();
   static void unlock_all();
   static void forget_all();
 
   std::mutex mutex_;
-  std::vector<Entry> entries_;
+  std::vector<WaitingThread*> threads_;
 };
 
 /// It is never destroyed: its threads wait until the process ends.
@@ -42,19 +37,19 @@ Idle& idle() {
 
 WaitingThread* Idle::take(std::size_t stack) {
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [stack](const Entry& entry) { return entry.stack >= stack; });
-  if (found == entries_.end()) return nullptr;
-  WaitingThread* const thread = found->thread;
-  entries_.erase(found);
+  const auto found = std::find_if(threads_.begin(), threads_.end(),
+                                  [stack](const auto* thread) { return thread->stack() >= stack; });
+  if (found == threads_.end()) return nullptr;
+  WaitingThread* const thread = *found;
+  threads_.erase(found);
   return thread;
 }
 
-bool Idle::add(WaitingThread* thread, std::size_t stack) {
+bool Idle::add(WaitingThread* thread) {
   const std::lock_guard lock(mutex_);
-  if (entries_.size() >= WaitingThread::most_waiting()) return false;
+  if (threads_.size() >= WaitingThread::most_waiting()) return false;
   try {
-    entries_.push_back({thread, stack});
+    threads_.push_back(thread);
   } catch (const std::bad_alloc&) {
     return false;
   }
@@ -64,14 +59,23 @@ bool Idle::add(WaitingThread* thread, std::size_t stack) {
 void Idle::lock_all() { idle().mutex_.lock(); }
 void Idle::unlock_all() { idle().mutex_.unlock(); }
 void Idle::forget_all() {
-  idle().entries_.clear();
+  idle().threads_.clear();
   idle().mutex_.unlock();
 }
 
 }  // namespace
 
+bool start_thread(std::size_t stack, void* (*enter)(void*), void* argument, pthread_t& thread) {
+  pthread_attr_t attributes{};
+  pthread_getattr_default_np(&attributes);
+  pthread_attr_setstacksize(&attributes, stack);
+  const bool started = pthread_create(&thread, &attributes, enter, argument) == 0;
+  pthread_attr_destroy(&attributes);
+  return started;
+}
+
 std::size_t WaitingThread::most_waiting() {
-  static const std::size_t most = hardware_threads();
+  static const std::size_t most = std::max(hardware_threads(), 2U);
   return most;
 }
 
@@ -97,18 +101,9 @@ bool WaitingThread::can_start(std::size_t count, std::size_t stack) {
 
 WaitingThread* WaitingThread::start_new(std::size_t stack) {
   auto* const fresh = new WaitingThread(stack);
-  if (fresh->start()) return fresh;
+  if (start_thread(stack, enter, fresh, fresh->thread_)) return fresh;
   delete fresh;
   return nullptr;
-}
-
-bool WaitingThread::start() {
-  pthread_attr_t attributes{};
-  pthread_getattr_default_np(&attributes);
-  pthread_attr_setstacksize(&attributes, stack_);
-  const bool started = pthread_create(&thread_, &attributes, enter, this) == 0;
-  pthread_attr_destroy(&attributes);
-  return started;
 }
 
 void WaitingThread::run(std::function<void()> call) {
@@ -124,7 +119,7 @@ void WaitingThread::give_back() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !call_; });
   }
-  if (!idle().add(this, stack_)) end();
+  if (!idle().add(this)) end();
 }
 
 void* WaitingThread::enter(void* self) {

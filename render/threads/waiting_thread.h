@@ -9,6 +9,10 @@
 
 namespace boule {
 
+/// Starts a thread with so much stack, in bytes, and the default attributes else. False if none can
+/// be had.
+bool start_thread(std::size_t stack, void* (*enter)(void*), void* argument, pthread_t& thread);
+
 /// A thread that runs one call after the other, and waits between them. Starting a thread takes a
 /// lock that dlopen() holds while it loads a library; giving a call to a waiting one does not.
 class WaitingThread {
@@ -18,7 +22,8 @@ class WaitingThread {
   static WaitingThread* take(std::size_t stack);
   /// Tries whether so many threads can run at once beside all that there are.
   static bool can_start(std::size_t count, std::size_t stack);
-  /// How many threads stay when nobody has taken them: as many as the hardware runs at once.
+  /// How many threads stay when nobody has taken them: as many as the hardware runs at once, and
+  /// two at least, because one may load a library beside the other's work.
   static std::size_t most_waiting();
 
   WaitingThread(const WaitingThread&) = delete;
@@ -26,6 +31,7 @@ class WaitingThread {
 
   /// Lets it call `call`, which must not throw. Precondition: it runs none.
   void run(std::function<void()> call);
+  [[nodiscard]] std::size_t stack() const { return stack_; }
   /// Waits until the call has returned, if there is one, and leaves the thread to the next caller.
   /// Invalidates it.
   void give_back();
@@ -36,7 +42,6 @@ class WaitingThread {
 
   static WaitingThread* start_new(std::size_t stack);
   static void* enter(void* self);
-  bool start();
   void work();
   void end();
 
