@@ -83,30 +83,48 @@ class Launch {
   Launch(const Launch&) = delete;
   Launch& operator=(const Launch&) = delete;
 
-  /// The processes of the ranks, by the picture that they render.
-  static std::vector<pid_t> ranks(const std::string& picture) {
-    std::vector<pid_t> found;
+  /// The processes of the ranks, by the picture that they render; finish() waits for them.
+  const std::vector<pid_t>& ranks(const std::string& picture) {
+    ranks_.clear();
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       const std::string name = entry.path().filename();
       if (name.find_first_not_of("0123456789") != std::string::npos) continue;
       const std::string line = read_bytes(entry.path() / "cmdline");
       if (line.starts_with(BOULE_PROGRAM) && line.find(picture) != std::string::npos)
-        found.push_back(std::stoi(name));
+        ranks_.push_back(std::stoi(name));
     }
-    return found;
+    return ranks_;
   }
-  /// The exit code, and all that was told, when no rank runs any more: the launcher may end first.
-  ProgramRun finish(const std::string& picture) {
+  /// The exit code, and all that was told, when every rank has closed its files: the launcher may
+  /// end first.
+  ProgramRun finish() {
     int status = 0;
     waitpid(process_, &status, 0);
-    while (!ranks(picture).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    for (const pid_t rank : ranks_)
+      while (runs(rank)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_bytes(output_),
             ""};
   }
 
  private:
+  /// A process that ends loses its command line first, and its files, with the locks on them,
+  /// later: when the last of its threads becomes a zombie.
+  static bool runs(pid_t process) {
+    std::error_code gone;
+    const std::string threads = "/proc/" + std::to_string(process) + "/task";
+    std::filesystem::directory_iterator thread(threads, gone);
+    for (; !gone && thread != std::filesystem::directory_iterator(); thread.increment(gone)) {
+      const std::string stat = read_bytes(thread->path() / "stat");
+      const std::size_t state = stat.rfind(") ");
+      if (state != std::string::npos && stat[state + 2] != 'Z' && stat[state + 2] != 'X')
+        return true;
+    }
+    return false;
+  }
+
   std::string output_;
   pid_t process_ = -1;
+  std::vector<pid_t> ranks_;
 };
 
 void wait_for_file(const std::string& path) {
@@ -201,10 +219,10 @@ TEST_P(MpiTest, AFullDiskEndsAll) {
 TEST_P(MpiTest, ASignalToOneRankSavesAndEndsAll) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
-  const auto processes = Launch::ranks(path("long.exr"));
+  const auto processes = launch.ranks(path("long.exr"));
   ASSERT_EQ(processes.size(), 3U);
   kill(processes.back(), SIGTERM);
-  const ProgramRun run = launch.finish(path("long.exr"));
+  const ProgramRun run = launch.finish();
   EXPECT_EQ(run.exit_code, 143) << run.out;
   EXPECT_THAT(run.out, HasSubstr("; --resume goes on"));
   const ProgramRun more = boule_run(long_picture({"--resume", "--time-limit", "50ms"}));
@@ -215,8 +233,8 @@ TEST_P(MpiTest, ASignalToOneRankSavesAndEndsAll) {
 TEST_P(MpiTest, AKilledRankIsNamedAndTheCheckpointIsGood) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
-  kill(Launch::ranks(path("long.exr")).back(), SIGKILL);
-  const ProgramRun run = launch.finish(path("long.exr"));
+  kill(launch.ranks(path("long.exr")).back(), SIGKILL);
+  const ProgramRun run = launch.finish();
   EXPECT_NE(run.exit_code, 0);
   if (GetParam().name == "openmpi") {
     EXPECT_THAT(run.out, testing::ContainsRegex("rank [0-2] "));
@@ -229,8 +247,8 @@ TEST_P(MpiTest, AKilledRankIsNamedAndTheCheckpointIsGood) {
 TEST_P(MpiTest, AHangingRankIsNamed) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
-  kill(Launch::ranks(path("long.exr")).back(), SIGSTOP);
-  const ProgramRun run = launch.finish(path("long.exr"));
+  kill(launch.ranks(path("long.exr")).back(), SIGSTOP);
+  const ProgramRun run = launch.finish();
   EXPECT_NE(run.exit_code, 0);
   EXPECT_THAT(run.out, testing::ContainsRegex(
                            "boule: error: rank [0-2] .*has given no sign of life for [0-9]+ s"));
