@@ -105,6 +105,7 @@ std::vector<PlacedGroups> scenes() {
           tight_boxes("tight boxes in units of 1e12", 1e13, 1e9, 0.1),
           tight_boxes("tight boxes that are shown far away", 0, 1, 1, {1e6, 0.7e6, -1.3e6}),
           tight_boxes("tight boxes of denormals", 0, 2e-41, 3e38),
+          tight_boxes("tight boxes of the smallest floats", 0, 100 * 0x1p-149, 3e38),
           far_away(),
           of_sizes(),
           of_denormals()};
