@@ -1,11 +1,8 @@
 #include "bench/bench_scenes.h"
 
-#include <charconv>
-#include <optional>
-#include <string_view>
-
 #include "bench/balls.h"
 #include "bench/hard_scenes.h"
+#include "bench/particle_scenes.h"
 #include "bench/uniform_spheres.h"
 
 namespace boule::bench {
@@ -20,6 +17,7 @@ BenchScene random_scene(const std::string& name, int n) {
   scene.spheres = uniform_spheres(static_cast<std::size_t>(n));
   scene.camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   scene.camera.fov = 25.61F;
+  scene.radius = 0.87F;
   scene.light.position = {0.3F, 2, -1.5F};
   return scene;
 }
@@ -34,21 +32,15 @@ BenchScene flake_scene(const std::string& name, int depth) {
   return scene;
 }
 
-/// The number behind a scene's letters, if it is one from `low` to `high`.
-std::optional<int> number_after(std::string_view prefix, std::string_view name, int low, int high) {
-  if (!name.starts_with(prefix)) return std::nullopt;
-  int number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
-  const bool whole = error == std::errc{} && stop == end;
-  if (!whole || number < low || number > high) return std::nullopt;
-  return number;
-}
-
 }  // namespace
 
 std::vector<std::string> scene_names() {
   return {"u1000", "u10000", "u100000", "u1000000", "flake4", "flake6"};
+}
+
+std::vector<std::string> drawn_scene_names() {
+  return {"u100",         "protein50000", "protein500000", "ground100000",
+          "grains200000", "ring1000000",  "slab2000000"};
 }
 
 Result<BenchScene> make_scene(const std::string& name) {
@@ -56,11 +48,15 @@ Result<BenchScene> make_scene(const std::string& name) {
   if (const auto depth = number_after("flake", name, 0, deepest_flake)) {
     return flake_scene(name, *depth);
   }
+  if (auto scene = make_particle_scene(name)) return *std::move(scene);
   if (auto scene = make_hard_scene(name, random_scene("u1000", 1000))) return *std::move(scene);
   std::string others;
   for (const std::string& hard : hard_scene_names()) others += ", " + hard;
-  return Diagnostic::of("no scene " + quote(name) +
-                        ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6" + others);
+  return Diagnostic::of(
+      "no scene " + quote(name) +
+      ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6, proteinN, groundN, "
+      "grainsN, ringN or slabN, N from 10 to 10000000" +
+      others);
 }
 
 }  // namespace boule::bench

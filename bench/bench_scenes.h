@@ -16,13 +16,18 @@ struct BenchScene {
   std::vector<Sphere> spheres;
   PinholeCamera camera;
   PointLight light;
+  float radius = 1;  ///< about what is seen, around the point that the camera looks at
 };
 
 /// The six scenes that figures are given for.
 std::vector<std::string> scene_names();
 
+/// Seven of the kinds that people draw.
+std::vector<std::string> drawn_scene_names();
+
 /// uN: N random spheres in the unit cube that cover it four times over, r = sqrt(4 / (pi N)).
-/// flakeD: the sphereflake of depth D, 0 to 6, without its floor. Or a hard one (hard_scenes.h).
+/// flakeD: the sphereflake of depth D, 0 to 6, without its floor. Or one of
+/// particle_scenes.h, or a hard one (hard_scenes.h).
 Result<BenchScene> make_scene(const std::string& name);
 
 }  // namespace boule::bench

@@ -62,8 +62,7 @@ void run_trace(benchmark::State& state, Trace& trace, const KernelTable& kernels
   for (auto _ : state) {
     for (std::size_t first = 0; first < rays.size; first += stream_size) {
       const RayStream part = boule::part(rays, first, std::min(stream_size, rays.size - first));
-      kernels.closest_hit(trace.geometry.view(), part, query,
-                          {hits.t + first, hits.id + first, part.size});
+      kernels.closest_hit(trace.geometry.view(), part, query, boule::part(hits, first, part.size));
     }
     benchmark::DoNotOptimize(hits.t);
     benchmark::ClobberMemory();

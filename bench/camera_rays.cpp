@@ -1,7 +1,9 @@
 #include "bench/camera_rays.h"
 
 #include <bit>
+#include <cmath>
 
+#include "core/math/geometry.h"
 #include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -15,6 +17,14 @@ unsigned even_bits(unsigned long long k) {
     bits |= static_cast<unsigned>((k >> (2 * bit)) & 1U) << bit;
   }
   return bits;
+}
+
+RayBuffer rays_of(const Camera& camera, int side) {
+  SampleBuffer samples = pixel_centers(side);
+  RayBuffer rays(samples.size());
+  const KernelTable& kernels = *select_kernels("auto").value();
+  kernels.primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
+  return rays;
 }
 
 }  // namespace
@@ -32,12 +42,13 @@ SampleBuffer pixel_centers(int side) {
   return samples;
 }
 
-RayBuffer primary_rays(const BenchScene& scene, int side) {
-  SampleBuffer samples = pixel_centers(side);
-  RayBuffer rays(samples.size());
-  const KernelTable& kernels = *select_kernels("auto").value();
-  kernels.primary_rays(build_camera(scene.camera, side, side), samples.view(), rays.view());
-  return rays;
+RayBuffer primary_rays(const BenchScene& scene, int side) { return rays_of(scene.camera, side); }
+
+RayBuffer parallel_rays(const BenchScene& scene, int side) {
+  const CameraPose& pose = scene.camera.pose;
+  const double distance = length(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
+  const double half = std::tan(double{scene.camera.fov} * (3.141592653589793 / 360));
+  return rays_of(OrthographicCamera{pose, static_cast<float>(2 * distance * half)}, side);
 }
 
 }  // namespace boule::bench

@@ -15,4 +15,7 @@ SampleBuffer pixel_centers(int side);
 /// The camera's rays through these points, in the same order, by Boule's widest kernel.
 RayBuffer primary_rays(const BenchScene& scene, int side);
 
+/// Parallel rays likewise, which show what the camera shows at the distance that it looks at.
+RayBuffer parallel_rays(const BenchScene& scene, int side);
+
 }  // namespace boule::bench

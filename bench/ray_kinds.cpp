@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/camera_rays.h"
 #include "bench/random4.h"
 #include "core/math/geometry.h"
 #include "core/surface.h"
@@ -31,11 +32,18 @@ bool faces(const Surface& surface, const Vec3d& to_light) {
   return dot(surface.normal, to_light) > 0;
 }
 
+/// A random direction distributed by the cosine: the normal plus a point of the unit sphere.
+Vec3d bounce(const Surface& surface, std::uint32_t number) {
+  return normalize(surface.normal + random_direction(number));
+}
+
 /// Adds the ray of this kind from a surface, if there is one; `number` makes it random.
 void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std::uint32_t number,
              std::vector<Ray>& rays) {
   switch (kind) {
     case RayKind::primary:
+    case RayKind::orthographic:
+    case RayKind::chord:
       break;
     case RayKind::shadow: {
       const Vec3d light = vec_cast<double>(scene.light.position);
@@ -47,9 +55,7 @@ void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std:
       rays.push_back(leave(surface, Side::viewer, surface.mirrored));
       break;
     case RayKind::diffuse:
-      // The normal plus a random point of the unit sphere is distributed by the cosine.
-      rays.push_back(
-          leave(surface, Side::viewer, normalize(surface.normal + random_direction(number))));
+      rays.push_back(leave(surface, Side::viewer, bounce(surface, number)));
       break;
     case RayKind::light: {
       const Vec3d center = vec_cast<double>(scene.light.position);
@@ -57,26 +63,65 @@ void add_ray(RayKind kind, const BenchScene& scene, const Surface& surface, std:
       if (faces(surface, point - surface.point)) rays.push_back(shadow_ray_to(surface, point));
       break;
     }
+    case RayKind::ambient:
+      rays.push_back(leave(surface, Side::viewer, bounce(surface, number)));
+      rays.back().tmax = scene.radius / 10;
+      break;
   }
+}
+
+RayBuffer chords(const BenchScene& scene, std::size_t count) {
+  const Vec3d center = vec_cast<double>(scene.camera.pose.look_at);
+  const auto end_of = [&](std::size_t i) {
+    return center + random_direction(static_cast<std::uint32_t>(i)) * double{scene.radius};
+  };
+  RayBuffer rays(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d org = end_of(2 * i);
+    rays.set(i, {org, vec_cast<float>(end_of(2 * i + 1) - org)});
+  }
+  return rays;
 }
 
 }  // namespace
 
 std::vector<RayKind> ray_kinds() {
-  return {RayKind::primary, RayKind::shadow, RayKind::mirror, RayKind::diffuse, RayKind::light};
+  return {RayKind::primary, RayKind::shadow,  RayKind::mirror,       RayKind::diffuse,
+          RayKind::light,   RayKind::ambient, RayKind::orthographic, RayKind::chord};
 }
 
 std::string name_of(RayKind kind) {
-  constexpr const char* names[] = {"primary", "shadow", "mirror", "diffuse", "light"};
+  constexpr const char* names[] = {"primary", "shadow",  "mirror",       "diffuse",
+                                   "light",   "ambient", "orthographic", "chord"};
   return names[static_cast<std::size_t>(kind)];
 }
 
-RayBuffer secondary_rays(RayKind kind, const BenchScene& scene, const RayBuffer& primary,
-                         const std::vector<Hit>& hits) {
+Coherence coherence_of(RayKind kind) {
+  switch (kind) {
+    case RayKind::primary:
+      return Coherence::common_origin;
+    case RayKind::orthographic:
+      return Coherence::common_direction;
+    case RayKind::shadow:
+      return Coherence::common_end;
+    case RayKind::mirror:
+    case RayKind::diffuse:
+    case RayKind::light:
+    case RayKind::ambient:
+    case RayKind::chord:
+      break;
+  }
+  return Coherence::none;
+}
+
+RayBuffer make_rays(RayKind kind, const BenchScene& scene, const PrimaryRays& primary) {
+  if (kind == RayKind::orthographic) return parallel_rays(scene, primary.side);
+  if (kind == RayKind::chord) return chords(scene, primary.rays->size());
   std::vector<Ray> rays;
+  const std::vector<Hit>& hits = *primary.hits;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].id == no_primitive) continue;
-    const Surface surface = find_surface(scene.spheres, {}, primary.get(i), hits[i]);
+    const Surface surface = find_surface(scene.spheres, {}, primary.rays->get(i), hits[i]);
     add_ray(kind, scene, surface, static_cast<std::uint32_t>(i), rays);
   }
   return to_buffer(rays);

@@ -55,7 +55,7 @@ void run_kernel(Arena& arena, const KernelTable& kernels, const Query& query, Hi
   const HitStream hits = answers.view();
   for_each_stream(rays.size, [&](std::size_t first, std::size_t size) {
     kernels.closest_hit(geometry, boule::part(rays, first, size), query,
-                        {hits.t + first, hits.id + first, size});
+                        boule::part(hits, first, size));
   });
 }
 

@@ -41,8 +41,7 @@ class BouleContender final : public Contender {
         kernels_.any_hit(geometry_, stream, query_, memory_.occluded->data() + first);
       } else {
         const HitStream all = memory_.hits->view();
-        kernels_.closest_hit(geometry_, stream, query_,
-                             {all.t + first, all.id + first, stream.size});
+        kernels_.closest_hit(geometry_, stream, query_, boule::part(all, first, stream.size));
       }
     }
   }
@@ -64,21 +63,6 @@ class BouleContender final : public Contender {
   Query query_;
   Memory memory_;
 };
-
-/// What the renderer promises of such rays.
-Coherence coherence_of(RayKind kind) {
-  switch (kind) {
-    case RayKind::primary:
-      return Coherence::common_origin;
-    case RayKind::shadow:
-      return Coherence::common_end;
-    case RayKind::mirror:
-    case RayKind::diffuse:
-    case RayKind::light:
-      break;
-  }
-  return Coherence::none;
-}
 
 }  // namespace
 

@@ -39,12 +39,15 @@ std::vector<Flag> flags_for(RayKind kind) {
   const Flag incoherent = {"", RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT};
   switch (kind) {
     case RayKind::primary:
+    case RayKind::orthographic:
       return {coherent};
     case RayKind::shadow:
     case RayKind::mirror:
     case RayKind::light:
+    case RayKind::ambient:
       return {coherent, {"-incoherent", incoherent.coherence}};
     case RayKind::diffuse:
+    case RayKind::chord:
       return {incoherent};
   }
   return {};
@@ -52,11 +55,11 @@ std::vector<Flag> flags_for(RayKind kind) {
 
 }  // namespace
 
-EmbreePeer::EmbreePeer(const BenchScene& scene)
+EmbreePeer::EmbreePeer(const BenchScene& scene, Isa isa)
     : scene_(scene),
-      device_(rtcNewDevice("frequency_level=simd512")),
-      isa_(cpu_supports(Isa::avx512) ? "avx512" : "avx2"),
-      callbacks_(cpu_supports(Isa::avx512) ? avx512::embree_callbacks : avx2::embree_callbacks),
+      device_(rtcNewDevice(isa == Isa::avx512 ? "frequency_level=simd512" : "isa=avx2")),
+      isa_(isa),
+      callbacks_(isa == Isa::avx512 ? avx512::embree_callbacks : avx2::embree_callbacks),
       packed_(scene.spheres.size()) {
   builtin_ = build(builtin_geometry());
   user_ = build(user_geometry());
@@ -110,8 +113,10 @@ RTCGeometry EmbreePeer::user_geometry() {
 std::vector<std::unique_ptr<Contender>> EmbreePeer::contenders(const Workload& workload) {
   std::vector<std::unique_ptr<Contender>> all;
   const auto add = [&](const char* geometry, RTCScene scene, const Mode& mode, const Flag& flag) {
-    const std::string name = std::string("embree-") + geometry + "-" + mode.name + flag.suffix;
-    Contender::Info info = {name, isa_, mode.width, "float", true, false};
+    const bool limited = isa_ == Isa::avx2;
+    const std::string name = std::string(limited ? "embree-avx2-" : "embree-") + geometry + "-" +
+                             mode.name + flag.suffix;
+    Contender::Info info = {name, limited ? "avx2" : "avx512", mode.width, "float", true, false};
     all.push_back(std::make_unique<EmbreeContender>(std::move(info), workload, scene, mode.call,
                                                     flag.coherence, rays_));
   };

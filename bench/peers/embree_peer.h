@@ -8,6 +8,7 @@
 
 #include "bench/peers/contender.h"
 #include "bench/peers/embree_callbacks.h"
+#include "simd/dispatch/cpu.h"
 #include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
@@ -21,7 +22,9 @@ namespace boule::bench {
 /// flushed while it runs; no normal is computed by the callback.
 class EmbreePeer {
  public:
-  explicit EmbreePeer(const BenchScene& scene);
+  /// `isa`: avx2, to which Embree is then limited, or avx512. Contenders of avx2 are named
+  /// "embree-avx2-...".
+  EmbreePeer(const BenchScene& scene, Isa isa);
   ~EmbreePeer();
   EmbreePeer(const EmbreePeer&) = delete;
   EmbreePeer& operator=(const EmbreePeer&) = delete;
@@ -37,7 +40,7 @@ class EmbreePeer {
 
   const BenchScene& scene_;
   RTCDevice device_;
-  std::string isa_;
+  Isa isa_;
   EmbreeCallbacks callbacks_;
   AlignedArray<PackedSphere> packed_;
   AlignedArray<float> rays_;  ///< in the layout of whoever has prepared

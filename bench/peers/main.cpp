@@ -1,7 +1,8 @@
 // The referee: Boule against Embree, one process, the same rays, answers compared.
 //
-//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light]
-//               [--isa avx2,avx512] [--reps N] [--threads N] [--size N] [--json FILE]
+//   bench_peers [--scenes u1000,flake4] [--rays primary,shadow,mirror,diffuse,light,...]
+//               [--isa avx2,avx512] [--embree-isa avx2,avx512] [--reps N] [--threads N]
+//               [--size N] [--json FILE]
 //   bench_peers --frames [--scenes flake4,flake5] [--isa avx2,avx512] [--reps N] [--size N]
 //               [--pictures FOLDER] [--json FILE]
 //
@@ -18,6 +19,7 @@
 #include "bench/peers/frame_report.h"
 #include "bench/peers/frame_scene.h"
 #include "bench/peers/report.h"
+#include "bench/peers/summary.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
@@ -30,28 +32,25 @@ struct Arguments {
   FrameSettings frames;
 };
 
-std::vector<std::string> default_isas() {
-  std::vector<std::string> names;
-  for (const IsaInfo& info : list_isas()) {
-    const bool wanted = info.isa == Isa::avx2 || info.isa == Isa::avx512;
-    if (wanted && info.supported) names.emplace_back(info.name);
-  }
-  return names;
-}
-
 void add_options(CLI::App& app, Arguments& arguments) {
   RefereeSettings& settings = arguments.settings;
   settings.scenes = scene_names();
   settings.kinds = ray_kinds();
-  settings.isas = default_isas();
+  settings.isas = settings.embree_isas = embree_isas();
   std::map<std::string, RayKind> kinds;
   for (const RayKind kind : settings.kinds) kinds[name_of(kind)] = kind;
-  app.add_option("--scenes", settings.scenes, "uN: N random spheres; flakeD: sphereflake, depth D")
+  app.add_option(
+         "--scenes", settings.scenes,
+         "uN: N random spheres; flakeD: sphereflake, depth D; or of those of docs/performance.md")
       ->delimiter(',');
-  app.add_option("--rays", settings.kinds, "primary, shadow, mirror, diffuse, light")
+  app.add_option("--rays", settings.kinds,
+                 "primary, shadow, mirror, diffuse, light, ambient, orthographic, chord")
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(kinds));
   app.add_option("--isa", settings.isas, "Instruction sets of Boule's kernels")->delimiter(',');
+  app.add_option("--embree-isa", settings.embree_isas, "Instruction sets of Embree, avx2 or avx512")
+      ->delimiter(',')
+      ->check(CLI::IsMember(embree_isas()));
   const auto set_repetitions = [&settings](int repetitions) {
     settings.repetitions = repetitions;
     settings.patience = std::numeric_limits<double>::infinity();
@@ -72,7 +71,8 @@ void add_frame_options(CLI::App& app, Arguments& arguments) {
                    "Whole frames: Boule's program against Tachyon's and POV-Ray's");
   app.add_option("--pictures", arguments.frames.pictures, "Folder to keep the frames' pictures in")
       ->needs(frames);
-  for (const char* name : {"--rays", "--threads"}) frames->excludes(app.get_option(name));
+  for (const char* name : {"--rays", "--threads", "--embree-isa"})
+    frames->excludes(app.get_option(name));
   app.final_callback([&app, &arguments] {
     FrameSettings& settings = arguments.frames;
     if (app.count("--scenes") > 0) settings.scenes = arguments.settings.scenes;
@@ -131,6 +131,7 @@ int run(const Arguments& arguments) {
   print_machine(machine, arguments.settings);
   const Result<Results> results = compare(arguments.settings, print_workload);
   if (!results) return fail(results.error(), 2);
+  print_summary(results.value(), arguments.settings);
   if (!arguments.json.empty()) {
     const Status failed = write_json(arguments.json, machine, arguments.settings, results.value());
     if (failed) return fail(*failed, 1);

@@ -39,8 +39,8 @@ void expect_sound(const json& row) {
 }
 
 TEST(Peers, AnswerEveryKindOfRays) {
-  const json report = run_referee("primary,shadow,mirror,diffuse,light");
-  ASSERT_EQ(report["checks"].size(), 5U);
+  const json report = run_referee("primary,shadow,mirror,diffuse,light,ambient,orthographic,chord");
+  ASSERT_EQ(report["checks"].size(), 8U);
   for (const json& check : report["checks"]) {
     EXPECT_EQ(check["truth_mismatches"], 0) << check;
     EXPECT_EQ(check["sampled"], 4096) << check;
@@ -50,8 +50,9 @@ TEST(Peers, AnswerEveryKindOfRays) {
     expect_sound(row);
     contenders.insert(row["rays"].get<std::string>() + " " + row["contender"].get<std::string>());
   }
-  for (const char* rays : {"primary", "shadow", "mirror", "diffuse", "light"}) {
-    for (const char* name : {"embree-builtin-1M", "embree-user-1", "embree-user-16"}) {
+  for (const char* rays :
+       {"primary", "shadow", "mirror", "diffuse", "light", "ambient", "orthographic", "chord"}) {
+    for (const char* name : {"embree-avx2-builtin-1M", "embree-avx2-user-16", "boule-avx2"}) {
       EXPECT_THAT(contenders, testing::Contains(std::string(rays) + " " + name));
     }
   }

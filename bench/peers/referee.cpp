@@ -12,6 +12,7 @@
 #include "bench/peers/embree_peer.h"
 #include "bench/peers/judge.h"
 #include "render/frame/scheduler.h"
+#include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
 namespace {
@@ -56,11 +57,14 @@ double time_pass(Contender& contender, const Workload& workload, unsigned thread
   return seconds_of(clock) - begin;
 }
 
-/// The best rate so far of Embree's contenders, or of Boule's.
-double best_of(const std::vector<Entrant>& entrants, bool embree) {
+/// The best rate so far of Embree's contenders, or of Boule's, with the same instruction set.
+double best_beside(const Entrant& entrant, const std::vector<Entrant>& all) {
+  const Contender::Info& own = entrant.contender->info();
   double best = 0;
-  for (const Entrant& e : entrants) {
-    if (e.contender->info().embree == embree && !e.rates.empty()) best = std::max(best, e.best());
+  for (const Entrant& e : all) {
+    const Contender::Info& info = e.contender->info();
+    const bool beside = info.embree == own.embree && info.isa == own.isa;
+    if (beside && !e.rates.empty()) best = std::max(best, e.best());
   }
   return best;
 }
@@ -68,7 +72,7 @@ double best_of(const std::vector<Entrant>& entrants, bool embree) {
 bool is_out(const Entrant& entrant, const std::vector<Entrant>& all) {
   if (entrant.rates.empty()) return false;
   const double handicap = entrant.rates.size() == 1 ? 4 : 2;
-  return entrant.best() * handicap < best_of(all, entrant.contender->info().embree);
+  return entrant.best() * handicap < best_beside(entrant, all);
 }
 
 void run_one(Entrant& entrant, const Workload& workload, unsigned threads) {
@@ -100,11 +104,18 @@ void run_all(std::vector<Entrant>& entrants, const Workload& workload, const Jud
   }
 }
 
-std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload& workload) {
-  double best_embree = 0;
+/// The best median of Embree's contenders, all or those of an instruction set; 0: there are none.
+double best_embree(const std::vector<Entrant>& entrants, const std::string& isa = {}) {
+  double best = 0;
   for (const Entrant& e : entrants) {
-    if (e.contender->info().embree) best_embree = std::max(best_embree, e.median());
+    const Contender::Info& info = e.contender->info();
+    if (info.embree && (isa.empty() || info.isa == isa)) best = std::max(best, e.median());
   }
+  return best;
+}
+
+std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload& workload) {
+  const double best = best_embree(entrants);
   std::vector<Row> rows;
   for (const Entrant& e : entrants) {
     const Contender::Info& info = e.contender->info();
@@ -119,7 +130,9 @@ std::vector<Row> make_rows(const std::vector<Entrant>& entrants, const Workload&
     row.min = *std::min_element(e.rates.begin(), e.rates.end());
     row.max = e.best();
     row.repetitions = static_cast<int>(e.rates.size());
-    row.ratio_to_best_embree = row.median / best_embree;
+    row.ratio_to_best_embree = row.median / best;
+    const double best_within = best_embree(entrants, info.isa);
+    row.ratio_within_isa = best_within > 0 ? row.median / best_within : 0;
     row.mismatches = e.mismatches;
     row.oracle = e.oracle;
     row.exact = info.exact;
@@ -135,17 +148,21 @@ class Arena {
       : settings_(settings),
         scene_(std::move(scene)),
         tree_(scene_.spheres),
-        embree_(scene_),
         boule_(scene_, settings.isas),
         primary_(primary_rays(scene_, settings.side)),
-        primary_judge_({&scene_, RayKind::primary, &primary_}, tree_, parallel_for_) {}
+        primary_judge_({&scene_, RayKind::primary, &primary_}, tree_, parallel_for_) {
+    for (const std::string& isa : settings.embree_isas)
+      embrees_.push_back(
+          std::make_unique<EmbreePeer>(scene_, isa == "avx512" ? Isa::avx512 : Isa::avx2));
+  }
 
   /// Runs all contenders on one kind of rays. No rows where the scene has no such rays.
   std::vector<Row> compare(RayKind kind, Check& check) {
     if (kind == RayKind::primary) {
       return compare({&scene_, kind, &primary_}, primary_judge_, check);
     }
-    RayBuffer rays = secondary_rays(kind, scene_, primary_, primary_judge_.truth().hits);
+    RayBuffer rays =
+        make_rays(kind, scene_, {settings_.side, &primary_, &primary_judge_.truth().hits});
     const Workload workload = {&scene_, kind, &rays};
     if (rays.size() == 0) return {};
     return compare(workload, {workload, tree_, parallel_for_}, check);
@@ -153,12 +170,15 @@ class Arena {
 
  private:
   std::vector<Row> compare(const Workload& workload, const Judge& judge, Check& check) {
-    check = {scene_.name, name_of(workload.kind), workload.rays->size(),
-             std::min(reference_samples, workload.rays->size()),
-             judge.differ_from_reference(reference_samples, parallel_for_)};
+    const std::size_t samples = std::min(
+        {reference_samples, most_reference_tests / scene_.spheres.size(), workload.rays->size()});
+    check = {scene_.name, name_of(workload.kind), workload.rays->size(), samples,
+             judge.differ_from_reference(samples, parallel_for_)};
     std::vector<Entrant> entrants;
-    for (auto& contender : embree_.contenders(workload))
-      entrants.push_back({std::move(contender), {}});
+    for (const auto& embree : embrees_) {
+      for (auto& contender : embree->contenders(workload))
+        entrants.push_back({std::move(contender), {}});
+    }
     for (auto& contender : boule_.contenders(workload))
       entrants.push_back({std::move(contender), {}});
     OracleJudge oracle(workload, tree_);
@@ -171,13 +191,22 @@ class Arena {
   Scheduler scheduler_{0};
   ParallelFor parallel_for_ = scheduler_.parallel_for();
   DoubleTree tree_;
-  EmbreePeer embree_;
+  std::vector<std::unique_ptr<EmbreePeer>> embrees_;
   BoulePeer boule_;
   RayBuffer primary_;
   Judge primary_judge_;
 };
 
 }  // namespace
+
+std::vector<std::string> embree_isas() {
+  std::vector<std::string> names;
+  for (const IsaInfo& info : list_isas()) {
+    const bool wanted = info.isa == Isa::avx2 || info.isa == Isa::avx512;
+    if (wanted && info.supported) names.emplace_back(info.name);
+  }
+  return names;
+}
 
 Result<Results> compare(const RefereeSettings& settings,
                         const std::function<void(const Check&, const std::vector<Row>&)>& report) {

@@ -16,7 +16,8 @@ namespace boule::bench {
 struct RefereeSettings {
   std::vector<std::string> scenes;
   std::vector<RayKind> kinds;
-  std::vector<std::string> isas;  ///< of Boule's kernels
+  std::vector<std::string> isas;         ///< of Boule's kernels
+  std::vector<std::string> embree_isas;  ///< avx2 and avx512, or one of them
   int repetitions = 7;
   double patience = 15;  ///< seconds on the wall after which a workload gets 3 repetitions only
   unsigned threads = 1;  ///< 1: rates by the thread's CPU time; more: by the clock on the wall
@@ -31,6 +32,7 @@ struct Row {
   double median = 0, min = 0, max = 0;  ///< Mray/s over the repetitions
   int repetitions = 0;
   double ratio_to_best_embree = 0;  ///< of medians
+  double ratio_within_isa = 0;      ///< to the best Embree of the same isa; 0: there was none
   std::size_t mismatches = 0;
   std::optional<OracleVerdict> oracle;  ///< on the mismatches; none without MPFR
   bool exact = false;                   ///< a mismatch is a fault
@@ -49,8 +51,12 @@ struct Results {
   std::vector<Row> rows;
 };
 
-/// Rays that the reference answers of every workload.
+/// Rays that the reference answers of every workload: fewer where there are millions of spheres.
 inline constexpr std::size_t reference_samples = 4096;
+inline constexpr std::size_t most_reference_tests = 2'000'000'000;
+
+/// The instruction sets that Embree has on this machine, avx2 first.
+std::vector<std::string> embree_isas();
 
 /// Runs all contenders on all workloads, repetitions interleaved, and judges their answers. A
 /// contender that is below a quarter of the best rate of its side after one repetition, or below

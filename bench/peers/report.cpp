@@ -54,6 +54,7 @@ Json to_json(const Row& row) {
           {"max", row.max},
           {"repetitions", row.repetitions},
           {"ratio_to_best_embree", row.ratio_to_best_embree},
+          {"ratio_within_isa", row.ratio_within_isa},
           {"mismatches", row.mismatches},
           {"oracle", to_json(row.oracle)}};
 }
@@ -86,13 +87,14 @@ void print_workload(const Check& check, const std::vector<Row>& rows) {
   std::printf("\n%s %s: %zu rays; truth against brute force: %zu of %zu differ\n",
               check.scene.c_str(), check.rays.c_str(), check.count, check.truth_mismatches,
               check.sampled);
-  std::printf("%-30s %-7s %6s %-7s %8s %17s %4s %6s %10s %s\n", "contender", "isa", "width",
-              "solver", "Mray/s", "min..max", "reps", "ratio", "mismatches", "oracle: wrong");
+  std::printf("%-34s %-7s %6s %-7s %8s %17s %4s %6s %7s %10s %s\n", "contender", "isa", "width",
+              "solver", "Mray/s", "min..max", "reps", "ratio", "in isa", "mismatches",
+              "oracle: wrong");
   for (const Row& row : rows) {
-    std::printf("%-30s %-7s %6zu %-7s %8.3f %8.3f..%7.3f %4d %6.2f %10zu %s\n",
+    std::printf("%-34s %-7s %6zu %-7s %8.3f %8.3f..%7.3f %4d %6.2f %7.2f %10zu %s\n",
                 row.contender.c_str(), row.isa.c_str(), row.width, row.solver.c_str(), row.median,
-                row.min, row.max, row.repetitions, row.ratio_to_best_embree, row.mismatches,
-                to_text(row.oracle).c_str());
+                row.min, row.max, row.repetitions, row.ratio_to_best_embree, row.ratio_within_isa,
+                row.mismatches, to_text(row.oracle).c_str());
   }
   std::fflush(stdout);
 }

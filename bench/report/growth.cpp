@@ -32,9 +32,7 @@ std::vector<Way> all_ways(RayKind kind) {
       add("packet", {Solver::robust, Form::packet, Coherence::none});
       add("single", {Solver::robust, Form::single, Coherence::none});
     } else {
-      const bool meet = kind == RayKind::shadow;
-      add("automatic",
-          {Solver::robust, Form::automatic, meet ? Coherence::common_end : Coherence::none});
+      add("automatic", {Solver::robust, Form::automatic, coherence_of(kind)});
     }
   }
   return ways;
@@ -58,8 +56,7 @@ void trace(Way& way, const Geometry& geometry, RayKind kind, RayBuffer& rays, An
     if (asks_any(kind)) {
       way.kernels->any_hit(geometry.view(), part, way.query, answers.occluded.data() + first);
     } else {
-      way.kernels->closest_hit(geometry.view(), part, way.query,
-                               {out.t + first, out.id + first, size});
+      way.kernels->closest_hit(geometry.view(), part, way.query, boule::part(out, first, size));
     }
   }
   way.seconds.push_back(thread_seconds() - begin);
@@ -105,7 +102,7 @@ std::vector<Growth> measure_growth(int most_decades, int side, int repetitions) 
     const std::vector<Hit> hits = first_hits(geometry, camera);
     for (const RayKind kind : ray_kinds()) {
       if (kind == RayKind::primary) continue;
-      RayBuffer rays = secondary_rays(kind, scene, camera, hits);
+      RayBuffer rays = make_rays(kind, scene, {side, &camera, &hits});
       measure_kind(scene, geometry, kind, rays, repetitions, growth);
     }
   }

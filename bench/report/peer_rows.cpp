@@ -6,7 +6,6 @@
 
 #include "bench/peers/embree_peer.h"
 #include "bench/peers/referee.h"
-#include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
 
@@ -14,11 +13,9 @@ std::optional<PeerRows> measure_peers(bool quick) {
   RefereeSettings settings;
   settings.scenes = quick ? std::vector<std::string>{"u1000", "flake4"} : scene_names();
   settings.kinds = {RayKind::primary, RayKind::shadow};
-  for (const IsaInfo& info : list_isas()) {
-    if (info.supported && (info.isa == Isa::avx2 || info.isa == Isa::avx512))
-      settings.isas.emplace_back(info.name);
-  }
+  settings.isas = embree_isas();
   if (settings.isas.empty()) return std::nullopt;
+  settings.embree_isas = {settings.isas.back()};
   settings.repetitions = quick ? 3 : 5;
   settings.patience = 8;
   settings.side = quick ? 512 : 1024;
