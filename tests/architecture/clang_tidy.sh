@@ -62,7 +62,7 @@ read_together() {
   local list="$1" includes=() file lines checks=-bugprone-suspicious-include
   shift
   while read -r file; do includes+=(-include "$file"); done <"$list"
-  [[ "${includes[1]}" != "$root"/tests/* ]] || checks+="$left_out_of_tests"
+  [[ "${includes[1]}" != "$root"/*tests/* ]] || checks+="$left_out_of_tests"
   # That sources are included is this script's own doing.
   if "$clang_tidy" --quiet --config-file="$root/.clang-tidy" --warnings-as-errors='*' \
     --checks="$checks" "$work/empty.cpp" -- "$@" "${includes[@]}" \

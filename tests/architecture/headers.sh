@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# headers.sh ROOT CXX FLAG... [-- ISA-FLAG...]...: every header compiles alone, and twice in a row.
+# headers.sh ROOT HEADERS CXX FLAG... [-- ISA-FLAG...]...: headers compile alone, and twice in a row: all of
+# them, or those of the list "HEADER,HEADER". Every header begins with #pragma once, listed or not.
 # Headers of the lanes are compiled with each group of ISA flags. Headers of the kernels, which see
 # an ISA only through the lanes, are compiled with the first and the last group. A header that its own
 # .cpp includes first is left out: the build compiles it alone anyway.
 set -euo pipefail
 cd "$1"
-shift
+listed=",$2,"
+shift 2
 
 base=()
 isas=()
@@ -46,6 +48,7 @@ while read -r header; do
     echo "$header: does not begin with #pragma once"
     exit 1
   fi
+  [[ "$listed" == ,all, || "$listed" == *",$header,"* ]] || continue
   case "$header" in
     simd/lanes/*)
       for flags in "${isas[@]}"; do

@@ -11,7 +11,7 @@ failures=0
 expect() {
   local result=fails
   printf '%s\n' "$3" >"$work/$2"
-  "$here/headers.sh" "$work" "$cxx" -std=c++20 -Werror -- -DONE -- -DTWO >"$work/out" 2>&1 &&
+  "$here/headers.sh" "$work" "${listed:-all}" "$cxx" -std=c++20 -Werror -- -DONE -- -DTWO >"$work/out" 2>&1 &&
     result=passes
   if [[ "$result" != "$1" ]]; then
     echo "$2 $result: $3"
@@ -33,5 +33,12 @@ echo $'#include <vector>\n#include "core/a.h"' >"$work/core/a.cpp"
 expect fails core/a.h $'#pragma once\ninline std::vector<int> x;'
 echo $'#include "core/a.h"' >"$work/core/a.cpp"
 expect fails core/a.h 'struct NoPragma {};'
+rm "$work/core/a.cpp"
+listed=core/a.h expect fails core/a.h $'#pragma once\ninline std::vector<int> x;'
+listed=core/a.h expect passes core/a.h $'#pragma once'
+echo $'#pragma once\ninline std::vector<int> x;' >"$work/core/b.h"
+listed=core/a.h expect passes core/a.h $'#pragma once'
+echo 'inline int twice = 0;' >"$work/core/b.h"
+listed=core/a.h expect fails core/a.h $'#pragma once'
 ((failures == 0)) || exit 1
 echo "every rule bites"
