@@ -55,6 +55,10 @@ inline constexpr float slab_least = 0x1p-60F;
 /// of which rounding takes 3 u.
 inline constexpr double beam = 16;
 
+/// The box around what rays reach grows on each side by reach u (|o| + far), far being the distance
+/// within which hits are of interest, of which rounding takes 4 u.
+inline constexpr double reach = 16;
+
 /// A box of the tree holds its sphere grown to r (1 + box_step) and is moved outward by box_step
 /// |x| on each side: two float steps or more, of which rounding to float takes half a one. What
 /// remains, 3 u |x|, pays for the rounding of origins and plane tests.

@@ -38,6 +38,7 @@ floor 0
 limit 3e38F
 slab_least 0
 beam 0
+reach 0
 spread 0
 box 0
 box_step 0

@@ -7,6 +7,7 @@
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/beam.h"
 #include "simd/kernel/search/parts.h"
+#include "simd/kernel/search/reach_box.h"
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
 #include "simd/kernel/search/tree_blocks.h"
@@ -29,8 +30,11 @@ BOULE_INLINE float first_entry(const Entry& entry) {
 template <bool ordered>
 class PacketWalk {
  public:
-  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
-      : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
+  BOULE_INLINE PacketWalk(const RayLanes& rays, const Real& limit, float extent)
+      : rays_(rays.filter),
+        box_rays_(rays, extent),
+        beam_(box_rays_, rays.filter, extent),
+        reach_(rays.filter, limit, extent) {}
 
   /// Adds the children of a node that some ray enters before its limit. `farthest`: the greatest of
   /// the limits.
@@ -39,7 +43,11 @@ class PacketWalk {
     const int base = stack.count();
     alignas(64) float near[bvh_width];
     unsigned in = (1U << node.size) - 1;
-    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
+    if (beam_.is_beam()) {
+      in &= beam_.enter(node, farthest, near);
+    } else if (is_short()) {
+      in &= reach_.enter(node);
+    }
     if (beam_.is_straight()) {
       const Beam::Rows rows = beam_.rows_of(node);
       for (; in != 0; in &= in - 1) {
@@ -64,11 +72,12 @@ class PacketWalk {
   template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
                                    float farthest, Survivors<bvh_leaf_size>& survivors) const {
-    if (!beam_.is_beam()) {
+    if (!beam_.is_beam() && !is_short()) {
       boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, size, survivors);
       return;
     }
-    unsigned in = beam_.meet(leaf.leaf, farthest) & ((1U << size) - 1);
+    unsigned in = (1U << size) - 1;
+    in &= beam_.is_beam() ? beam_.meet(leaf.leaf, farthest) : reach_.meet(leaf.leaf);
     for (; in != 0; in &= in - 1) {
       const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
       survivors.append(step, leaf.template out<origins_exact>(rays_, step));
@@ -76,6 +85,9 @@ class PacketWalk {
   }
 
  private:
+  /// Nearest hits shorten rays again and again, which a box that is made once knows nothing of.
+  [[nodiscard]] BOULE_INLINE bool is_short() const { return !ordered && reach_.is_short(); }
+
   /// Adds child k unless all rays are out. `near`: where the beam enters it, or null.
   BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
                                 int base, VisitStack& stack) {
@@ -92,12 +104,13 @@ class PacketWalk {
   const FilterRays& rays_;
   BoxRays box_rays_;
   Beam beam_;
+  ReachBox reach_;
 };
 
 /// One ray, the same in every lane, on its way through a tree: W children at a time.
 class SingleWalk {
  public:
-  BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
+  BOULE_INLINE SingleWalk(const RayLanes& rays, const Real&, float extent)
       : rays_(rays.filter), box_rays_(rays, extent) {}
 
   BOULE_INLINE void visit_children(const BvhNode& node, const Real&, float limit,
@@ -188,7 +201,7 @@ template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
                                           Best& best) {
   if (geometry.bvh.size == 0) return 0;
-  const WalkOf<Access, Best> walk(rays, geometry.bvh.extent);
+  const WalkOf<Access, Best> walk(rays, best.limit(), geometry.bvh.extent);
   return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
                                                       geometry.spheres, best);
 }
@@ -221,7 +234,7 @@ BOULE_INLINE std::size_t search_part(const RayLanes& rays, const WalkOf<Access, 
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
                                         Best& best) {
-  const WalkOf<Access, Best> walk(rays, geometry.bvh.extent);
+  const WalkOf<Access, Best> walk(rays, best.limit(), geometry.bvh.extent);
   std::size_t visits = 0;
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
