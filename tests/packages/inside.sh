@@ -44,7 +44,7 @@ for page in 'boule' 'boule-'{render,trace,info,view,pack,merge} '5 boule-scene';
   man $page >page.txt && [[ "$(wc -l <page.txt)" -gt 20 ]] || fail "man $page shows nothing"
 done
 for command in render trace info view pack merge scene; do
-  boule help "$command" | grep -q "boule $command" || fail "boule help $command shows nothing"
+  boule help "$command" >help.txt && grep -q "boule $command" help.txt || fail "boule help $command shows nothing"
 done
 for file in bash-completion/completions/boule fish/vendor_completions.d/boule.fish \
   zsh/vendor-completions/_boule doc/boule/docs/library.md doc/boule/copyright; do
