@@ -26,6 +26,7 @@ example_says() {
 }
 
 apt-get update -q >log
+dpkg --purge python3-boule libboule-dev libboule1.0 boule-mpi boule >>log 2>&1  # what a failed trial left
 # What the packages need is installed before, so that what is left at the end is theirs.
 depends=$(for deb in *.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*)//; s/|.*//; s/ //g' |
   grep -vE '^(boule|libboule1.0|)$' | sort -u)
