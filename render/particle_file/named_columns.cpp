@@ -86,7 +86,10 @@ Status NamedColumns::check_positions() const {
           return column.use == ColumnUse::position && column.index == axis;
         });
     const std::string name = axes[axis];
-    if (found == 0) return Diagnostic::about(name, "there is no column of positions for " + name);
+    if (found == 0) {
+      return Diagnostic::about(
+          name, "there is no column of positions for " + name + "; 'columns' can name it");
+    }
     if (found > 1) return Diagnostic::about(name, "more than one column has the position " + name);
   }
   return std::nullopt;

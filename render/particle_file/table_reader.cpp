@@ -40,6 +40,10 @@ std::string usual_name(const std::string& name) {
                                  Spelling{"points_2", "z"},
                                  Spelling{"r", "radius"},
                                  Spelling{"radius", "radius"},
+                                 Spelling{"diameter", "diameter"},
+                                 Spelling{"vx", "vx"},
+                                 Spelling{"vy", "vy"},
+                                 Spelling{"vz", "vz"},
                                  Spelling{"type", "type"},
                                  Spelling{"species", "species"},
                                  Spelling{"element", "element"}};

@@ -39,10 +39,11 @@ struct TraceStatistics : RunStatistics {
   double trace_seconds = 0;
 };
 
-/// Traces a caller's own rays against the objects of a scene, which needs no camera, lights or
-/// materials. The bits of a hit do not depend on ISA, threads or the other rays. Takes any rays.
-/// Every failure is a Diagnostic, also an exception of options.progress. Once a tracer was moved
-/// away, closest() and any() return an error.
+/// Traces a caller's own rays against the objects of a scene, which needs neither camera nor
+/// lights, but the materials that its objects name: scene.materials = {{"", Matte{}}}. The bits of
+/// a hit do not depend on ISA, threads or the other rays. Takes any rays. Every failure is a
+/// Diagnostic, also an exception of options.progress. Once a tracer was moved away, closest() and
+/// any() return an error.
 class Tracer {
  public:
   /// Prepares the objects of the scene, which is not needed any more afterwards. Takes any values;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -94,7 +95,7 @@ BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chos
 #else
 BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen) {
   alignas(16) std::uint32_t whole[Floats::size];
-  const Integers number = xsimd::bitwise_cast<Integers>(a);
+  const Integers number = std::bit_cast<Integers>(a);
   store_chosen(whole, select(chosen, number, Integers(0xffffffffU)), bits(chosen));
   for (std::size_t k = 0; k < Floats::size; ++k)
     p[k] = static_cast<std::uint16_t>(whole[k] << 1 >> 16);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+
 #include "simd/lanes/xsimd_types.h"
 
 /// What xsimd 8.1 lacks, or gets wrong, for floats and doubles, once per instruction set: masks as
@@ -172,15 +174,15 @@ BOULE_INLINE float greatest(Floats a) { return vmaxvq_f32(a); }
 // Parts of doubles by their bits: see core/math/number.h.
 using Longs = xsimd::batch<std::uint64_t, Arch>;
 BOULE_INLINE Doubles biased_exponent(Doubles a) {
-  const Longs whole = (xsimd::bitwise_cast<Longs>(a) >> 52) | Longs(0x4330000000000000ULL);
-  return xsimd::bitwise_cast<Doubles>(whole) - Doubles(0x1p52);
+  const Longs whole = (std::bit_cast<Longs>(a) >> 52) | Longs(0x4330000000000000ULL);
+  return std::bit_cast<Doubles>(whole) - Doubles(0x1p52);
 }
 BOULE_INLINE Doubles mantissa(Doubles a) {
-  const Longs digits = xsimd::bitwise_cast<Longs>(a) & Longs(0x000fffffffffffffULL);
-  return xsimd::bitwise_cast<Doubles>(digits | Longs(0x3ff0000000000000ULL));
+  const Longs digits = std::bit_cast<Longs>(a) & Longs(0x000fffffffffffffULL);
+  return std::bit_cast<Doubles>(digits | Longs(0x3ff0000000000000ULL));
 }
 BOULE_INLINE Doubles power_of_two(Doubles k) {
-  return xsimd::bitwise_cast<Doubles>(xsimd::bitwise_cast<Longs>(k + Doubles(0x1p52 + 1023)) << 52);
+  return std::bit_cast<Doubles>(std::bit_cast<Longs>(k + Doubles(0x1p52 + 1023)) << 52);
 }
 
 // Rows of four floats. load_fours() takes lanes 4k .. 4k + 3 from p[4k], any address; store_fours()

@@ -26,6 +26,7 @@ example_says() {
 }
 
 apt-get update -q >log
+dpkg --purge python3-boule libboule-dev libboule1.0 boule-mpi boule >>log 2>&1  # what a failed trial left
 # What the packages need is installed before, so that what is left at the end is theirs.
 depends=$(for deb in *.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*)//; s/|.*//; s/ //g' |
   grep -vE '^(boule|libboule1.0|)$' | sort -u)
@@ -39,8 +40,12 @@ boule --version
 boule render /usr/share/boule/scenes/first_light.toml -o first.png --size 64x36 -q
 is_picture first.png
 sha256sum first.png
-for page in boule boule-render boule-trace boule-info boule-view boule-scene; do
-  man "$page" >page.txt && [[ "$(wc -l <page.txt)" -gt 20 ]] || fail "man $page shows nothing"
+for page in 'boule' 'boule-'{render,trace,info,view,pack,merge} '5 boule-scene'; do
+  # shellcheck disable=SC2086 # section and name
+  man $page >page.txt && [[ "$(wc -l <page.txt)" -gt 20 ]] || fail "man $page shows nothing"
+done
+for command in render trace info view pack merge scene; do
+  boule help "$command" >help.txt && grep -q "boule $command" help.txt || fail "boule help $command shows nothing"
 done
 for file in bash-completion/completions/boule fish/vendor_completions.d/boule.fish \
   zsh/vendor-completions/_boule doc/boule/docs/library.md doc/boule/copyright; do

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 
 from . import _core
@@ -18,15 +19,26 @@ def look_keys(
 
 
 def with_look(*names):
-    """Shows the arguments of look_keys() as the function's own, for help() and type checkers."""
+    """Takes the arguments of look_keys() as the function's own: help(), type checkers and errors have them."""
     look = inspect.signature(look_keys).parameters
     shown = [look[name] for name in names or look]
 
     def decorate(function):
         own = inspect.signature(function)
         kept = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
-        function.__signature__ = own.replace(parameters=kept + shown)
-        return function
+        signature = own.replace(parameters=kept + shown)
+
+        @functools.wraps(function)
+        def call(*arguments, **keywords):
+            for name in keywords:
+                if name not in signature.parameters:
+                    raise TypeError(
+                        f"{function.__name__}() got an unexpected keyword argument {name!r}"
+                    )
+            return function(*arguments, **keywords)
+
+        call.__signature__ = signature
+        return call
 
     return decorate
 

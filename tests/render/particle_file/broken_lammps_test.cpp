@@ -71,7 +71,7 @@ std::vector<BrokenFile> broken_rows() {
        }(),
        "9:1: it has more than 4096 columns"},
       {"NoZ", head + "ITEM: ATOMS id x y\n1 1 2\n2 3 4\n",
-       "9:1: there is no column of positions for z (z)"},
+       "9:1: there is no column of positions for z; 'columns' can name it (z)"},
       {"TwoX", head + "ITEM: ATOMS x x y z\n1 1 2 3\n2 4 5 6\n",
        "9:1: more than one column has the position x (x)"},
       {"ShortRow", head + atoms + "1 1 2 3\n2 4 5\n",
@@ -186,7 +186,7 @@ std::vector<BrokenFile> broken_sections() {
        "18:1: the id 1 is that of line 17 too (id)"},
       {"GivenWithoutZ",
        good_data,
-       "12:1: there is no column of positions for z (z)",
+       "12:1: there is no column of positions for z; 'columns' can name it (z)",
        {.columns = {"id", "type", "x", "y", "q"}}},
   };
 }

@@ -81,14 +81,14 @@ std::vector<BrokenFile> broken_comments() {
       {"PeriodicMaybe", frame("pbc=\"T F maybe\"", "H 1 2 3"),
        "2:10: expected T or F, found 'maybe' (pbc)"},
       {"NoPositions", frame("Properties=species:S:1:id:I:1", "H 1"),
-       "2:0: there is no column of positions for x (x)"},
+       "2:0: there is no column of positions for x; 'columns' can name it (x)"},
       {"TwoPositions", frame(position + ":positions:R:3", "H 1 2 3 4 5 6"),
        "2:0: more than one column has the position x (x)"},
       {"NoLogical", frame(position + ":fixed:L:1", "H 1 2 3 yes"),
        "3:9: expected T or F, found 'yes' (fixed)"},
       {"GivenWithoutZ",
        "1\n\nH 1 2\n",
-       "2:0: there is no column of positions for z (z)",
+       "2:0: there is no column of positions for z; 'columns' can name it (z)",
        {.columns = {"species", "x", "y"}}},
   };
 }

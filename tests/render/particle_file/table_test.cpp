@@ -23,8 +23,9 @@ std::vector<double> numbers(const ParticleFrame& frame, const std::string& name)
 TEST(Table, SeparatorsAreFoundInTheFirstLines) {
   for (const std::string between : {",", ";", "\t", " ", " , ", "   ", " \t "}) {
     std::string text;
-    const std::vector<std::vector<std::string>> rows{
-        {"X", "y", "Z", "R", "name"}, {"1", "2", "3", ".5", "a"}, {"-4", "5e3", "+6", "1", "b"}};
+    const std::vector<std::vector<std::string>> rows{{"X", "y", "Z", "R", "name", "VX"},
+                                                     {"1", "2", "3", ".5", "a", "7"},
+                                                     {"-4", "5e3", "+6", "1", "b", "8"}};
     for (const auto& row : rows) {
       for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : between) + row[i];
       text += "\r\n";
@@ -34,6 +35,7 @@ TEST(Table, SeparatorsAreFoundInTheFirstLines) {
     const ParticleFrame& frame = read.value();
     EXPECT_THAT(frame.positions, ElementsAre(Vec3d{1, 2, 3}, Vec3d{-4, 5000, 6})) << between;
     EXPECT_THAT(numbers(frame, "radius"), ElementsAre(0.5, 1));
+    EXPECT_THAT(numbers(frame, "vx"), ElementsAre(7, 8));
     ASSERT_NE(find_text_column(frame, "name"), nullptr);
     EXPECT_THAT(find_text_column(frame, "name")->texts, ElementsAre("a", "b"));
   }
@@ -123,7 +125,8 @@ std::vector<BrokenFile> broken_files() {
       {"Empty", "", "it holds no rows"},
       {"OnlyComments", "# x y z\n\n", "it holds no rows"},
       {"OnlyNames", "x,y,z\n", "1:1: no rows follow the line that names the columns"},
-      {"NoZ", "x,y,w\n1,2,3\n", "1:0: there is no column of positions for z (z)"},
+      {"NoZ", "x,y,w\n1,2,3\n",
+       "1:0: there is no column of positions for z; 'columns' can name it (z)"},
       {"TwoX", "x,X,y,z\n1,1,2,3\n2,\n", "3:3: expected a number, found '' (X)"},
       {"TwoNames", "x,y,z,q,q\n1,2,3,4,5\n", "1:0: two columns have the name 'q' (q)"},
       {"TwoPositions", "x,y,z,Points:0\n1,2,3,4\n1,2\n", "3:4: the row ends before this column"},
@@ -162,7 +165,7 @@ std::vector<BrokenFile> broken_files() {
        {.columns = {"x", "y", "z", "x"}}},
       {"GivenWithoutY",
        "1 2 3\n",
-       "0:0: there is no column of positions for y (y)",
+       "0:0: there is no column of positions for y; 'columns' can name it (y)",
        {.columns = {"x", "-", "z"}}},
       {"OneNumber", "1\n", "1:1: no rows follow"},
   };

@@ -156,6 +156,13 @@ def test_errors_name_the_argument(water, call, key, words):
         assert caught.value.key == key
 
 
+@pytest.mark.parametrize("function", [boule.render, boule.load, boule.frames, boule.from_particles])
+def test_an_unknown_argument_is_that_of_the_function_called(function):
+    words = rf"{function.__name__}\(\) got an unexpected keyword argument 'colour'"
+    with pytest.raises(TypeError, match=f"^{words}$"):
+        function("water.xyz", colour="red")
+
+
 def test_an_error_in_a_file_has_its_place(tmp_path):
     path = tmp_path / "bad.xyz"
     path.write_text("2\n\nC 0 0 0\nC 0 0 x\n")
