@@ -83,6 +83,10 @@ Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& 
   auto loaded = load_scene(path, options);
   if (loaded || is_scene_name(path)) return loaded;
   Diagnostic error = loaded.error();
+  if (has_ending(path, ".film")) {
+    error.message = "is a film by its name, not a scene: boule merge makes a picture of films";
+    return error;
+  }
   error.message =
       "neither a scene nor particles by its name or content, expected .toml .nff .npy .boule or " +
       known_particle_endings();

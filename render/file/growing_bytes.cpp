@@ -1,8 +1,7 @@
 #include "render/file/growing_bytes.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
+#include <string>
 
 #include "core/base/memory_pages.h"
 #include "render/memory/available_memory.h"
@@ -21,7 +20,9 @@ Status GrowingBytes::reserve(std::size_t capacity) {
   void* const grown =
       data_ == nullptr ? take_pages(capacity) : resize_pages(data_, capacity_, capacity);
   if (grown == nullptr) {
-    return Diagnostic::of("memory for it: " + std::generic_category().message(ENOMEM));
+    constexpr std::size_t mebibyte = std::size_t{1} << 20;
+    return Diagnostic::out_of_memory(who + " " + std::to_string((more + mebibyte - 1) / mebibyte) +
+                                     " MiB of memory, which the system refuses");
   }
   data_ = static_cast<char*>(grown);
   capacity_ = capacity;

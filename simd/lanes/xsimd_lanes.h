@@ -142,11 +142,10 @@ struct Columns {
 };
 /// Makes rows of columns, and columns of rows, within each four lanes.
 BOULE_INLINE Columns transpose(const Columns& c) {
-  // xsimd's zip works within 128 bits.
-  const Floats xz = xsimd::zip_lo(c.x.v, c.z.v), yw = xsimd::zip_lo(c.y.v, c.w.v);
-  const Floats xz_high = xsimd::zip_hi(c.x.v, c.z.v), yw_high = xsimd::zip_hi(c.y.v, c.w.v);
-  return {xsimd::zip_lo(xz, yw), xsimd::zip_hi(xz, yw), xsimd::zip_lo(xz_high, yw_high),
-          xsimd::zip_hi(xz_high, yw_high)};
+  const Floats xz = gaps::zip_low(c.x.v, c.z.v), yw = gaps::zip_low(c.y.v, c.w.v);
+  const Floats xz_high = gaps::zip_high(c.x.v, c.z.v), yw_high = gaps::zip_high(c.y.v, c.w.v);
+  return {gaps::zip_low(xz, yw), gaps::zip_high(xz, yw), gaps::zip_low(xz_high, yw_high),
+          gaps::zip_high(xz_high, yw_high)};
 }
 /// `rows` has a pointer for each of W rows, to any address.
 BOULE_INLINE Columns load_rows(const float* const* rows) {

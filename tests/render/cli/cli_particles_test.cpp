@@ -88,6 +88,7 @@ TEST_F(Particles, FilesOfNoKnownKindAreRefused) {
   EXPECT_EQ(refused_run({"info", file}, 3).err, run.err);
   EXPECT_THAT(refused_run({"scene", file}, 2).err,
               AllOf(HasSubstr("notes.abc: error: particles are expected"), HasSubstr(".xyz")));
+  EXPECT_THAT(refused_run({"info", write("part.film", "x")}, 3).err, HasSubstr("boule merge"));
 }
 
 TEST_F(Particles, OptionsThatDoNotFitTheFileAreWrongUsage) {
