@@ -1,5 +1,7 @@
 #include "bench/bench_scenes.h"
 
+#include <charconv>
+
 #include "bench/balls.h"
 #include "bench/hard_scenes.h"
 #include "bench/particle_scenes.h"
@@ -38,11 +40,6 @@ std::vector<std::string> scene_names() {
   return {"u1000", "u10000", "u100000", "u1000000", "flake4", "flake6"};
 }
 
-std::vector<std::string> drawn_scene_names() {
-  return {"u100",         "protein50000", "protein500000", "ground100000",
-          "grains200000", "ring1000000",  "slab2000000"};
-}
-
 Result<BenchScene> make_scene(const std::string& name) {
   if (const auto n = number_after("u", name, 1, most_random)) return random_scene(name, *n);
   if (const auto depth = number_after("flake", name, 0, deepest_flake)) {
@@ -57,6 +54,16 @@ Result<BenchScene> make_scene(const std::string& name) {
       ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6, proteinN, groundN, "
       "grainsN, ringN or slabN, N from 10 to 10000000" +
       others);
+}
+
+std::optional<int> number_after(std::string_view prefix, std::string_view name, int low, int high) {
+  if (!name.starts_with(prefix)) return std::nullopt;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
+  const bool whole = error == std::errc{} && stop == end;
+  if (!whole || number < low || number > high) return std::nullopt;
+  return number;
 }
 
 }  // namespace boule::bench

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
@@ -47,7 +48,7 @@ RayBuffer primary_rays(const BenchScene& scene, int side) { return rays_of(scene
 RayBuffer parallel_rays(const BenchScene& scene, int side) {
   const CameraPose& pose = scene.camera.pose;
   const double distance = length(vec_cast<double>(pose.look_at) - vec_cast<double>(pose.eye));
-  const double half = std::tan(double{scene.camera.fov} * (3.141592653589793 / 360));
+  const double half = std::tan(double{scene.camera.fov} * (elementary::pi / 360));
   return rays_of(OrthographicCamera{pose, static_cast<float>(2 * distance * half)}, side);
 }
 

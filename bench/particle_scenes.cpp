@@ -1,16 +1,16 @@
 #include "bench/particle_scenes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "bench/random4.h"
+#include "core/math/elementary.h"
 
 namespace boule::bench {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using elementary::pi;
 
 std::array<double, 4> random_of(std::size_t item, std::uint32_t seed) {
   return random4(static_cast<std::uint32_t>(item), 0, seed);
@@ -135,16 +135,6 @@ std::optional<BenchScene> make_particle_scene(const std::string& name) {
     return scene;
   }
   return std::nullopt;
-}
-
-std::optional<int> number_after(std::string_view prefix, std::string_view name, int low, int high) {
-  if (!name.starts_with(prefix)) return std::nullopt;
-  int number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
-  const bool whole = error == std::errc{} && stop == end;
-  if (!whole || number < low || number > high) return std::nullopt;
-  return number;
 }
 
 }  // namespace boule::bench

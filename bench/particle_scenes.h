@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "bench/bench_scenes.h"
 
@@ -16,8 +15,5 @@ namespace boule::bench {
 ///   slabN     N spheres in a slab of 1 x 1 x 0.1, covering it four times over, seen obliquely
 /// None if the name is not of these, or N not from 10 to 10,000,000.
 std::optional<BenchScene> make_particle_scene(const std::string& name);
-
-/// The number behind a scene's letters, if it is one from `low` to `high`.
-std::optional<int> number_after(std::string_view prefix, std::string_view name, int low, int high);
 
 }  // namespace boule::bench
