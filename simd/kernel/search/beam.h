@@ -5,6 +5,7 @@
 
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/slabs.h"
+#include "simd/kernel/search/sphere_boxes.h"
 #include "simd/kernel/tuning.h"
 
 /// All rays of a packet as one beam, by interval arithmetic: what the beam misses every ray misses.
@@ -12,6 +13,12 @@
 /// Chosen for packets whose rays go the same way along two axes at least. docs/numerics.md derives
 /// the slack (filter::beam).
 namespace boule::BOULE_KERNEL_ISA {
+
+/// Whether all rays go up along an axis, or all down, and none nearly along its planes.
+BOULE_INLINE bool goes_one_way(const Real& unit) {
+  return bits(Real(tuning::least_beam_slope) <= unit) == all_lanes ||
+         bits(unit <= Real(-tuning::least_beam_slope)) == all_lanes;
+}
 
 /// An axis along which all rays go up, or all go down. They meet its plane at x at t >= x
 /// near_inverse + near, where that is not behind them, and at t <= x far_inverse + far.
@@ -23,15 +30,13 @@ struct BeamSlab {
 
   /// Returns false where some rays go up and others down, or some nearly along the planes.
   BOULE_INLINE bool set(std::uint32_t axis, const Slab& slab, const Real& org, const Real& unit) {
-    const unsigned ups = bits(Real(tuning::least_beam_slope) <= unit),
-                   downs = bits(unit <= Real(-tuning::least_beam_slope));
-    const bool down = downs != 0;
+    const bool down = any(unit <= Real(-tuning::least_beam_slope));
     forth = down ? -1.0F : 1.0F;
     first_row = (down ? axis + 3 : axis) * bvh_width;
     last_row = (down ? axis : axis + 3) * bvh_width;
     near_inverse = near = far_inverse = 0;
     far = static_cast<float>(no_hit);
-    if (ups != all_lanes && downs != all_lanes) return false;
+    if (!goes_one_way(unit)) return false;
     const Real steep = abs(slab.inverse), towards = down ? Real(0.0F) - org : org;
     const float slow = least_lane(steep), fast = greatest_lane(steep);
     const double last = greatest_lane(towards), first = least_lane(towards);
@@ -53,18 +58,22 @@ struct BeamSlab {
   }
 };
 
+/// Whether these rays form a beam: two axes are enough, if no ray has hits behind its origin and
+/// float can judge them all. (It cannot where the direction is NaN.)
+BOULE_INLINE bool forms_beam(const FilterRays& rays) {
+  const int axes = (goes_one_way(rays.unit.x) ? 1 : 0) + (goes_one_way(rays.unit.y) ? 1 : 0) +
+                   (goes_one_way(rays.unit.z) ? 1 : 0);
+  return axes >= 2 && all((Real(0.0F) <= rays.dead_below) & (rays.unit.x <= rays.unit.x));
+}
+
 class Beam {
  public:
-  BOULE_INLINE Beam(const BoxRays& rays, const FilterRays& filter, float extent) {
-    unsigned axes = 0;
-    axes += x_.set(0, rays.slabs.x, filter.org.x, filter.unit.x) ? 1 : 0;
-    axes += y_.set(1, rays.slabs.y, filter.org.y, filter.unit.y) ? 1 : 0;
-    axes += z_.set(2, rays.slabs.z, filter.org.z, filter.unit.z) ? 1 : 0;
-    // Two axes are enough for a beam, if no ray has hits behind its origin.
-    is_beam_ = axes >= 2 && all(Real(0.0F) <= rays.from);
-    is_straight_ = is_beam_ && axes == 3;
-    slack_ = extent * static_cast<float>(filter::beam * filter::u) +
-             static_cast<float>(2 * filter::floor);
+  BOULE_INLINE Beam(const BoxRays& rays, const FilterRays& filter, float extent)
+      : boxes_(extent), is_beam_(forms_beam(filter)) {
+    const bool x = x_.set(0, rays.slabs.x, filter.org.x, filter.unit.x),
+               y = y_.set(1, rays.slabs.y, filter.org.y, filter.unit.y),
+               z = z_.set(2, rays.slabs.z, filter.org.z, filter.unit.z);
+    is_straight_ = is_beam_ && x && y && z;
   }
   /// Whether these rays form a beam at all; else nothing else here may be used.
   [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
@@ -99,10 +108,9 @@ class Beam {
   }
   /// The spheres of a leaf whose boxes may be entered before `limit`, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf, float limit) const {
-    const Real outward(static_cast<float>(1 + filter::beam * filter::u)), slack(slack_);
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
-      const Real r = filter_fma(abs(load(leaf.radius + at)), outward, slack);
+      const Real r = boxes_.half_sizes(leaf.radius + at);
       Real begin(0.0F), end(limit);
       x_.cut_around(load(leaf.center_x + at), r, begin, end);
       y_.cut_around(load(leaf.center_y + at), r, begin, end);
@@ -114,7 +122,7 @@ class Beam {
 
  private:
   BeamSlab x_, y_, z_;
-  float slack_;
+  SphereBoxes boxes_;
   bool is_beam_, is_straight_;
 };
 

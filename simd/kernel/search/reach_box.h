@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "simd/kernel/search/ray_lanes.h"
+#include "simd/kernel/search/sphere_boxes.h"
 
 /// The box around all that the rays of a packet can reach, from their origins to their ends. What
 /// lies outside is met by none of them. Sixteen boxes, or the boxes of sixteen spheres, are tested
@@ -13,18 +14,15 @@ namespace boule::BOULE_KERNEL_ISA {
 class ReachBox {
  public:
   /// `far`: nothing is of interest beyond this t |dir|. `extent`: BvhView::extent.
-  BOULE_INLINE ReachBox(const FilterRays& rays, const Real& far, float extent) {
+  BOULE_INLINE ReachBox(const FilterRays& rays, const Real& far, float extent) : boxes_(extent) {
     const Real zero(0.0F);
     const bool forward = all(zero <= rays.dead_below) && all(zero <= far);
     // Where float cannot judge a ray, its direction is NaN.
     is_short_ = forward && all(rays.unit.x <= rays.unit.x) && all(far < Real(extent));
     if (!is_short_) return;
-    const Real way = filter_max(far, zero);
-    set(0, rays.org.x, rays.unit.x, way);
-    set(1, rays.org.y, rays.unit.y, way);
-    set(2, rays.org.z, rays.unit.z, way);
-    sphere_slack_ = extent * static_cast<float>(filter::beam * filter::u) +
-                    static_cast<float>(2 * filter::floor);
+    set(0, rays.org.x, rays.unit.x, far);
+    set(1, rays.org.y, rays.unit.y, far);
+    set(2, rays.org.z, rays.unit.z, far);
   }
   /// Whether the rays are short; else nothing else here may be used.
   [[nodiscard]] BOULE_INLINE bool is_short() const { return is_short_; }
@@ -45,10 +43,9 @@ class ReachBox {
   }
   /// The spheres of a leaf whose boxes may be reached, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf) const {
-    const Real outward(static_cast<float>(1 + filter::beam * filter::u)), slack(sphere_slack_);
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
-      const Real r = filter_fma(abs(load(leaf.radius + at)), outward, slack);
+      const Real r = boxes_.half_sizes(leaf.radius + at);
       const auto out = [&](const float* row, float low, float high) {
         const Real center = load(row + at);
         return (center + r < Real(low)) | (Real(high) < center - r);
@@ -61,16 +58,17 @@ class ReachBox {
   }
 
  private:
-  BOULE_INLINE void set(int axis, const Real& org, const Real& unit, const Real& way) {
-    const Real end = filter_fma(unit, way, org);
+  BOULE_INLINE void set(int axis, const Real& org, const Real& unit, const Real& far) {
+    const Real end = filter_fma(unit, far, org);
     const Real slack =
-        filter_fma(abs(org) + way, Real(static_cast<float>(filter::reach * filter::u)),
+        filter_fma(abs(org) + far, Real(static_cast<float>(filter::reach * filter::u)),
                    Real(static_cast<float>(filter::floor)));
     low_[axis] = least_lane(filter_min(org, end) - slack);
     high_[axis] = greatest_lane(filter_max(org, end) + slack);
   }
 
-  float low_[3], high_[3], sphere_slack_;
+  float low_[3], high_[3];
+  SphereBoxes boxes_;
   bool is_short_;
 };
 

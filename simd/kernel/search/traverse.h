@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/beam.h"
@@ -26,15 +25,31 @@ BOULE_INLINE float first_entry(const Entry& entry) {
   return least_lane(select(entry.out, never, near));
 }
 
-/// A packet on its way through a tree. `ordered`: the nearest child is visited first.
+/// Packets against the box of child k.
+BOULE_INLINE Entry enter_child(const BoxRays& rays, const BvhNode& node, int k, const Real& limit) {
+  return enter_boxes(rays,
+                     {{node.min_x[k], node.min_y[k], node.min_z[k]},
+                      {node.max_x[k], node.max_y[k], node.max_z[k]}},
+                     limit);
+}
+
+/// Lists those of a leaf's spheres, named by bits, that float does not rule out for every ray.
+template <bool origins_exact>
+BOULE_INLINE void list_among(const FilterRays& rays, const LeafSpheres<OneForAll>& leaf,
+                             unsigned in, Survivors<bvh_leaf_size>& survivors) {
+  for (; in != 0; in &= in - 1) {
+    const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
+    survivors.append(step, leaf.template out<origins_exact>(rays, step));
+  }
+}
+
+/// A packet on its way through a tree. `ordered`: the nearest child is visited first. `extent`:
+/// BvhView::extent.
 template <bool ordered>
 class PacketWalk {
  public:
-  BOULE_INLINE PacketWalk(const RayLanes& rays, const Real& limit, float extent)
-      : rays_(rays.filter),
-        box_rays_(rays, extent),
-        beam_(box_rays_, rays.filter, extent),
-        reach_(rays.filter, limit, extent) {}
+  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
 
   /// Adds the children of a node that some ray enters before its limit. `farthest`: the greatest of
   /// the limits.
@@ -43,11 +58,7 @@ class PacketWalk {
     const int base = stack.count();
     alignas(64) float near[bvh_width];
     unsigned in = (1U << node.size) - 1;
-    if (beam_.is_beam()) {
-      in &= beam_.enter(node, farthest, near);
-    } else if (is_short()) {
-      in &= reach_.enter(node);
-    }
+    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
     if (beam_.is_straight()) {
       const Beam::Rows rows = beam_.rows_of(node);
       for (; in != 0; in &= in - 1) {
@@ -60,10 +71,7 @@ class PacketWalk {
     } else {
       for (; in != 0; in &= in - 1) {
         const int k = std::countr_zero(in);
-        const Boxes box{{node.min_x[k], node.min_y[k], node.min_z[k]},
-                        {node.max_x[k], node.max_y[k], node.max_z[k]}};
-        const Entry entry = enter_boxes(box_rays_, box, limit);
-        push(node, k, entry, nullptr, base, stack);
+        push(node, k, enter_child(box_rays_, node, k, limit), nullptr, base, stack);
       }
     }
   }
@@ -72,22 +80,15 @@ class PacketWalk {
   template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
                                    float farthest, Survivors<bvh_leaf_size>& survivors) const {
-    if (!beam_.is_beam() && !is_short()) {
+    if (!beam_.is_beam()) {
       boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, size, survivors);
       return;
     }
-    unsigned in = (1U << size) - 1;
-    in &= beam_.is_beam() ? beam_.meet(leaf.leaf, farthest) : reach_.meet(leaf.leaf);
-    for (; in != 0; in &= in - 1) {
-      const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
-      survivors.append(step, leaf.template out<origins_exact>(rays_, step));
-    }
+    const unsigned in = beam_.meet(leaf.leaf, farthest) & ((1U << size) - 1);
+    list_among<origins_exact>(rays_, leaf, in, survivors);
   }
 
  private:
-  /// Nearest hits shorten rays again and again, which a box that is made once knows nothing of.
-  [[nodiscard]] BOULE_INLINE bool is_short() const { return !ordered && reach_.is_short(); }
-
   /// Adds child k unless all rays are out. `near`: where the beam enters it, or null.
   BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
                                 int base, VisitStack& stack) {
@@ -104,13 +105,41 @@ class PacketWalk {
   const FilterRays& rays_;
   BoxRays box_rays_;
   Beam beam_;
-  ReachBox reach_;
+};
+
+/// A packet of short rays, of which any hit will do, on its way through a tree. (Nearest hits
+/// shorten rays again and again, which a box that is made once knows nothing of.)
+class ShortWalk {
+ public:
+  /// `reach`: is_short().
+  BOULE_INLINE ShortWalk(const RayLanes& rays, const ReachBox& reach, float extent)
+      : rays_(rays.filter), reach_(reach), box_rays_(rays, extent) {}
+
+  BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float,
+                                   VisitStack& stack) const {
+    for (unsigned in = reach_.enter(node) & ((1U << node.size) - 1); in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      const bool is_entered = bits(enter_child(box_rays_, node, k, limit).out) != all_lanes;
+      stack.push_if(is_entered, {-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]});
+    }
+  }
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size, float,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    const unsigned in = reach_.meet(leaf.leaf) & ((1U << size) - 1);
+    list_among<origins_exact>(rays_, leaf, in, survivors);
+  }
+
+ private:
+  const FilterRays& rays_;
+  const ReachBox& reach_;
+  BoxRays box_rays_;
 };
 
 /// One ray, the same in every lane, on its way through a tree: W children at a time.
 class SingleWalk {
  public:
-  BOULE_INLINE SingleWalk(const RayLanes& rays, const Real&, float extent)
+  BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
       : rays_(rays.filter), box_rays_(rays, extent) {}
 
   BOULE_INLINE void visit_children(const BvhNode& node, const Real&, float limit,
@@ -151,9 +180,17 @@ BOULE_INLINE float limit_of_all(const Real& limit) {
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
-/// How packets, or single rays, go through a tree.
-template <class Access, class Best>
-using WalkOf = std::conditional_t<Access::one_ray, SingleWalk, PacketWalk<Best::ordered>>;
+/// Calls search(walk) with the way that these rays go through a tree. Returns what it returns.
+template <class Access, class Best, class Search>
+BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, float extent,
+                                   const Search& search) {
+  if constexpr (Access::one_ray) return search(SingleWalk(rays, extent));
+  if constexpr (!Access::one_ray && !Best::ordered) {
+    const ReachBox reach(rays.filter, best.limit(), extent);
+    if (reach.is_short() && !forms_beam(rays.filter)) return search(ShortWalk(rays, reach, extent));
+  }
+  if constexpr (!Access::one_ray) return search(PacketWalk<Best::ordered>(rays, extent));
+}
 
 /// Whether all of `visit` lies certainly beyond `limit`.
 BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
@@ -163,8 +200,8 @@ BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
 }
 
 /// Meets up to sixteen spheres. `all`: what has the spheres of all slots.
-template <Solver solver, class Access, bool origins_exact, class All, class Best>
-BOULE_INLINE void meet_leaf(const RayLanes& rays, const WalkOf<Access, Best>& walk, const All& all,
+template <Solver solver, class Access, bool origins_exact, class Walk, class All, class Best>
+BOULE_INLINE void meet_leaf(const RayLanes& rays, const Walk& walk, const All& all,
                             const LeafRef& at, std::uint32_t size, float& limit, Best& best) {
   const LeafSpheres<Access> leaf(at, size);
   Survivors<bvh_leaf_size> survivors;
@@ -175,9 +212,10 @@ BOULE_INLINE void meet_leaf(const RayLanes& rays, const WalkOf<Access, Best>& wa
 }
 
 /// Searches a tree. Returns how many nodes and leaves were visited.
-template <Solver solver, class Access, bool origins_exact, class Tree, class All, class Best>
-BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, const WalkOf<Access, Best>& walk,
-                                       const Tree& tree, const All& all, Best& best) {
+template <Solver solver, class Access, bool origins_exact, class Walk, class Tree, class All,
+          class Best>
+BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, const Walk& walk, const Tree& tree,
+                                       const All& all, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
@@ -201,9 +239,10 @@ template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
                                           Best& best) {
   if (geometry.bvh.size == 0) return 0;
-  const WalkOf<Access, Best> walk(rays, best.limit(), geometry.bvh.extent);
-  return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
-                                                      geometry.spheres, best);
+  return with_walk<Access>(rays, best, geometry.bvh.extent, [&](const auto& walk) {
+    return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
+                                                        geometry.spheres, best);
+  });
 }
 
 /// Searches all spheres: those in no leaf first, then the tree.
@@ -215,9 +254,9 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView
 }
 
 /// Searches a part: its spheres that are in no leaf first, then its tree.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t search_part(const RayLanes& rays, const WalkOf<Access, Best>& walk,
-                                     const PartTree& tree, const PartSpheres& all, Best& best) {
+template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
+BOULE_INLINE std::size_t search_part(const RayLanes& rays, const Walk& walk, const PartTree& tree,
+                                     const PartSpheres& all, Best& best) {
   float limit = limit_of_all<Access>(best.limit());
   const std::uint32_t scanned = tree.part().scanned_spheres;
   for (std::uint32_t slot = 0; slot < scanned && !best.done(); slot += bvh_leaf_size) {
@@ -231,10 +270,9 @@ BOULE_INLINE std::size_t search_part(const RayLanes& rays, const WalkOf<Access, 
 }
 
 /// Searches all parts, near ones first.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
-                                        Best& best) {
-  const WalkOf<Access, Best> walk(rays, best.limit(), geometry.bvh.extent);
+template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
+BOULE_INLINE std::size_t search_parts(const RayLanes& rays, const Walk& walk,
+                                      const PartsGeometry& geometry, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
@@ -252,6 +290,13 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometr
     }
   }
   return visits;
+}
+template <Solver solver, class Access, bool origins_exact, class Best>
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
+                                        Best& best) {
+  return with_walk<Access>(rays, best, geometry.bvh.extent, [&](const auto& walk) {
+    return search_parts<solver, Access, origins_exact>(rays, walk, geometry, best);
+  });
 }
 
 /// The same, and solves what is still to be solved. A function of its own for each kind of origin.
