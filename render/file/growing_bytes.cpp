@@ -19,11 +19,8 @@ Status GrowingBytes::reserve(std::size_t capacity) {
   if (auto none = check_memory(more, who)) return none;
   void* const grown =
       data_ == nullptr ? take_pages(capacity) : resize_pages(data_, capacity_, capacity);
-  if (grown == nullptr) {
-    constexpr std::size_t mebibyte = std::size_t{1} << 20;
-    return Diagnostic::out_of_memory(who + " " + std::to_string((more + mebibyte - 1) / mebibyte) +
-                                     " MiB of memory, which the system refuses");
-  }
+  if (grown == nullptr)
+    return Diagnostic::out_of_memory(who + " " + memory_text(more) + ", which the system refuses");
   data_ = static_cast<char*>(grown);
   capacity_ = capacity;
   return std::nullopt;

@@ -12,7 +12,7 @@ namespace boule {
 namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kibibyte = 1024;
+constexpr std::uint64_t kibibyte = 1024, mebibyte = 1024 * kibibyte;
 
 std::uint64_t bytes_of(long pages) {
   const long page = sysconf(_SC_PAGE_SIZE);
@@ -89,14 +89,16 @@ std::uint64_t control_group_memory(const std::string& folder) {
   return limit - std::min(limit, used);
 }
 
+std::string memory_text(std::uint64_t bytes) {
+  const std::uint64_t whole = bytes / mebibyte + (bytes % mebibyte != 0 ? 1 : 0);
+  return std::to_string(whole) + " MiB of memory";
+}
+
 Status check_memory(std::uint64_t bytes, const std::string& who, const std::string& key) {
   const std::uint64_t available = available_memory();
   if (bytes <= available) return std::nullopt;
-  constexpr std::uint64_t mebibyte = 1024 * 1024;
-  const std::uint64_t needed = bytes / mebibyte + (bytes % mebibyte != 0 ? 1 : 0);
-  Diagnostic error =
-      Diagnostic::about(key, who + " " + std::to_string(needed) + " MiB of memory, there are " +
-                                 std::to_string(available / mebibyte));
+  Diagnostic error = Diagnostic::about(
+      key, who + " " + memory_text(bytes) + ", there are " + std::to_string(available / mebibyte));
   error.of_memory = true;
   return error;
 }

@@ -26,6 +26,9 @@ std::uint64_t address_room();
 /// number if it has no limit.
 std::uint64_t control_group_memory(const std::string& folder);
 
+/// "N MiB of memory", rounded up.
+std::string memory_text(std::uint64_t bytes);
+
 /// An error if fewer bytes are available: "WHO N MiB of memory, there are M", with this key. An
 /// example of `who` is "a picture of 3 x 2 pixels needs".
 Status check_memory(std::uint64_t bytes, const std::string& who, const std::string& key = {});
