@@ -28,7 +28,7 @@ struct FrameSpan {
 /// What a viewed file is, which does not change.
 struct SourceFacts {
   std::string path;
-  std::string kind;                 ///< "toml", "nff", "spheres", "particles"
+  std::string kind;                 ///< "toml", "nff", "spheres", "packed", "particles"
   std::optional<FrameSpan> frames;  ///< none: one picture
   int first_frame = 0;              ///< that is shown first
   bool numbered = false;            ///< each frame has files of its own: so must its pictures

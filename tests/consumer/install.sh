@@ -37,8 +37,10 @@ for word in boule_flags -Wall ffp-contract; do
     exit 1
   fi
 done
-# The scenes are all there: with their data, as they are here.
-for file in "$source"/scenes/*.{toml,npy,exr,lens} "$source/scenes/README.md"; do
+# The scenes are all there: with their data, what made it, and particle files, as they are here.
+for file in "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv,py,ipynb,cpp,h} "$source/scenes/README.md"; do
   cmp "$file" "share/boule/scenes/${file##*/}" || exit 1
 done
+# So is the manual, and what its pages lead to.
+bash "$source/tests/docs/links.sh" share/doc/boule installed
 echo "installed: $(find . -type f | wc -l) files"

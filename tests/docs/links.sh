@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# links.sh ROOT: every relative link of every document leads to a file that is there, every anchor to
-# a heading of it, and every path and every test of ours that is named in `code` exists. Addresses
-# elsewhere are not looked at.
+# links.sh ROOT [installed]: every relative link of every document leads to a file that is there, every
+# anchor to a heading of it, and every path and every test of ours that is named in `code` exists: these
+# not where the documents are installed, which sources are not. Addresses elsewhere are not looked at.
 set -euo pipefail
+what_to_check="${2:-all}"
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 source "$here/pages.sh"
 cd "$1"
@@ -32,7 +33,7 @@ check_link() {
   if [[ -z "$path" ]]; then
     path="$page"
   else
-    path="$(realpath -m --relative-to=. "$(dirname "$page")/$path")"
+    path="$(realpath -ms --relative-to=. "$(dirname "$page")/$path")"
   fi
   if [[ ! -e "$path" ]]; then
     complain "$1: $2 leads nowhere"
@@ -55,6 +56,7 @@ check_test() {
 
 while read -r kind where what; do
   [[ "$what" != *://* ]] || continue
+  [[ "$kind" == link || "$what_to_check" != installed ]] || continue
   case "$kind" in
     link) check_link "$where" "$what" ;;
     path) check_path "$where" "$what" ;;
