@@ -40,6 +40,9 @@ boule --version
 boule render /usr/share/boule/scenes/first_light.toml -o first.png --size 64x36 -q
 is_picture first.png
 sha256sum first.png
+cp -r /usr/share/boule/scenes mine  # as the manual says
+(cd mine && boule render crambin.xyz -o ../crambin.png --size 64x48 --spp 1 -q)
+is_picture crambin.png
 for page in 'boule' 'boule-'{render,trace,info,view,pack,merge} '5 boule-scene'; do
   # shellcheck disable=SC2086 # section and name
   man $page >page.txt && [[ "$(wc -l <page.txt)" -gt 20 ]] || fail "man $page shows nothing"
@@ -51,6 +54,8 @@ for file in bash-completion/completions/boule fish/vendor_completions.d/boule.fi
   zsh/vendor-completions/_boule doc/boule/docs/library.md doc/boule/copyright; do
   [[ -s /usr/share/$file ]] || fail "/usr/share/$file is missing"
 done
+# All that the manual's pages lead to is there.
+bash docs/links.sh /usr/share/doc/boule installed || fail "links of the manual lead nowhere"
 
 echo "packages: libboule-dev"
 install ./libboule1.0_*.deb ./libboule-dev_*.deb

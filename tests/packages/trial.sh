@@ -21,6 +21,7 @@ mkdir "$root/trial"
 cp "$packages"/*.deb "$root/trial/"
 cp -r "$consumer" "$root/trial/consumer"
 cp "$(dirname "${BASH_SOURCE[0]}")/inside.sh" "$root/trial/"
+cp -r "$(dirname "${BASH_SOURCE[0]}")/../docs" "$root/trial/docs"
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
   http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" \
   chroot "$root" bash /trial/inside.sh
