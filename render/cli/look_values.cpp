@@ -36,6 +36,10 @@ std::optional<std::string> parse_words(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
+std::optional<std::string> parse_svg_name(const std::string& text) {
+  return text.ends_with(".svg") ? std::optional(text) : std::nullopt;
+}
+
 std::optional<std::vector<std::string>> parse_names(const std::string& text) {
   const std::vector<std::string> names = split(text, ',');
   const bool any_empty =

@@ -189,8 +189,8 @@ void add_machine_options(CLI::App& app, RunOptions& command) {
 }
 
 void add_legend(CLI::App& app, std::string& legend) {
-  add_parsed(app, "--legend", legend, parse_words, "the name of a file", "FILE.svg",
-             "Write what the colours of particles mean: a bar or a list");
+  add_parsed(app, "--legend", legend, parse_svg_name, "a file's name that ends with .svg",
+             "FILE.svg", "Write what the colours of particles mean: a bar or a list");
 }
 
 void add_render(CLI::App& app, RenderCommand& command) {

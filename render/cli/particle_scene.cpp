@@ -1,8 +1,10 @@
 #include "render/cli/particle_scene.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/base/ascii.h"
@@ -85,6 +87,11 @@ Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& 
   Diagnostic error = loaded.error();
   if (has_ending(path, ".film")) {
     error.message = "is a film by its name, not a scene: boule merge makes a picture of films";
+    return error;
+  }
+  if (std::error_code reason; !std::filesystem::exists(path, reason)) {
+    const std::error_code none = std::make_error_code(std::errc::no_such_file_or_directory);
+    error.message = "cannot read it: " + (reason ? reason : none).message();
     return error;
   }
   error.message =

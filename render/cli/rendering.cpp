@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -147,6 +148,14 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   return options;
 }
 
+/// The option that a render option was given by: "--min-spp" for "render.min_spp".
+std::string option_of(const std::string& key) {
+  if (key == "exposure_stops") return "--exposure";
+  std::string option = "--" + key.substr(key.find('.') + 1);  // npos + 1 is 0
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
 /// scene; a size from the command line is wrong usage.
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
@@ -154,6 +163,7 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
                         (error.key == "image.spp" && !command.spp && !command.min_spp);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
+  if (of_usage && !error.key.starts_with('-')) error.key = option_of(error.key);
   return refuse(std::move(error), command,
                 of_scene   ? invalid_input
                 : of_usage ? wrong_usage

@@ -123,8 +123,11 @@ ParticleFrame MoleculeColumns::finish(const std::optional<std::vector<std::strin
   frame.species = std::move(elements_.column);
   const auto keep = [&](auto& columns, auto& column, MoleculeKind kind) {
     if (kind_ == MoleculeKind::sites && kind != kind_) return;
-    if (wanted && std::count(wanted->begin(), wanted->end(), column.name) == 0) return;
-    columns.push_back(std::move(column));
+    if (wanted && std::count(wanted->begin(), wanted->end(), column.name) == 0) {
+      frame.unread.push_back(column.name);
+    } else {
+      columns.push_back(std::move(column));
+    }
   };
   keep(frame.numbers, ids_, MoleculeKind::sites);
   keep(frame.numbers, residue_numbers_, MoleculeKind::residues);

@@ -37,9 +37,10 @@ void for_components(const ColoredFrame& colored, const Columns& columns, const B
 bool is_part(double v) { return v >= 0 && v <= 1; }
 bool is_code(double v) { return v >= 0 && v <= 255 && v == std::floor(v); }
 
-/// The first particles whose components are not from 0 to 1, or not whole and from 0 to 255.
+/// The first particles with a component that is not from 0 to 1, not whole and from 0 to 255, or
+/// neither of these.
 struct Found {
-  std::size_t no_part = none, no_code = none;
+  std::size_t no_part = none, no_code = none, neither = none;
 };
 
 Found check(const ColoredFrame& colored, const Columns& columns) {
@@ -49,12 +50,14 @@ Found check(const ColoredFrame& colored, const Columns& columns) {
     for (const double v : components) {
       if (!is_part(v)) chunk.no_part = std::min(chunk.no_part, i);
       if (!is_code(v)) chunk.no_code = std::min(chunk.no_code, i);
+      if (!is_part(v) && !is_code(v)) chunk.neither = std::min(chunk.neither, i);
     }
   });
   Found all;
   for (const Found& chunk : found) {
     all.no_part = std::min(all.no_part, chunk.no_part);
     all.no_code = std::min(all.no_code, chunk.no_code);
+    all.neither = std::min(all.neither, chunk.neither);
   }
   return all;
 }
@@ -66,7 +69,7 @@ Diagnostic wrong_components(const ColoredFrame& colored, const Columns& columns,
     text += (text.empty() ? "" : ", ") + number_text(column.at(particle));
   }
   return Diagnostic::about("color", "the colour of " + colored.name_of(particle) + " is " + text +
-                                        ", expected numbers from 0 to 1");
+                                        ", expected numbers from 0 to 1, or whole numbers to 255");
 }
 
 }  // namespace
@@ -81,7 +84,10 @@ Result<ParticleMaterials> take_components(const ColoredFrame& colored,
   }
   const Found found = check(colored, columns);
   const bool codes = found.no_part != none;
-  if (codes && found.no_code != none) return wrong_components(colored, columns, found.no_part);
+  if (codes && found.no_code != none) {
+    const bool parts_and_codes = found.neither == none;
+    return wrong_components(colored, columns, parts_and_codes ? found.no_part : found.neither);
+  }
   ParticleMaterials made;
   made.materials.values.resize(colored.frame.size());
   const double scale = codes ? 1 : 255;

@@ -36,12 +36,15 @@ Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& reques
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
-                          (request.is_scene ? ", expected (N, 4): centre and radius"
-                                            : ", expected (N, 4), or (N, 3) and `radius`"));
+                          (request.is_scene
+                               ? ", expected (N, 4): centre and radius; as particles it is "
+                                 "read by --input-format npy"
+                               : ", expected (N, 4), or (N, 3) and `radius`"));
   }
   if (shape[1] == 3 && request.is_scene) {
     return Diagnostic::of(
-        "has 3 columns, centres alone: that needs a .toml scene with a key 'radius'");
+        "has 3 columns, centres alone: that needs a .toml scene with a key 'radius', or "
+        "--input-format npy, which reads particles");
   }
   if (shape[1] == 3 && !has_radius)
     return Diagnostic::of("has 3 columns: the key 'radius' is missing");

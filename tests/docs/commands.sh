@@ -36,7 +36,7 @@ cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv} "$work/here"
 cd "$work/here"
 ln -s . scenes
 npy '2, 3' 24 >cloud.npy
-npy '3, 8' 96 >rays.npy
+npy '3, 8' 96 | tee rays.npy >bounded.npy
 for block in "$work"/blocks/*.{toml,nff}; do
   [[ -f "$block" ]] || continue
   name="$(sed -n '2s/^# \([a-z_0-9]*\.\(toml\|nff\)\)$/\1/p' "$block")"

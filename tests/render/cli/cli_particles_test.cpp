@@ -86,6 +86,8 @@ TEST_F(Particles, FilesOfNoKnownKindAreRefused) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("notes.abc: error: neither a scene nor particles"),
                              HasSubstr(".toml .nff .npy"), HasSubstr(".xyz")));
   EXPECT_EQ(refused_run({"info", file}, 3).err, run.err);
+  EXPECT_THAT(refused_run({"info", path("none")}, 3).err,
+              HasSubstr("none: error: cannot read it: No such file or directory"));
   EXPECT_THAT(refused_run({"scene", file}, 2).err,
               AllOf(HasSubstr("notes.abc: error: particles are expected"), HasSubstr(".xyz")));
   EXPECT_THAT(refused_run({"info", write("part.film", "x")}, 3).err, HasSubstr("boule merge"));
@@ -188,9 +190,13 @@ TEST_F(Particles, HaveALegend) {
   const std::string flat = "no particles whose colours mean";
   EXPECT_THAT(refused_run(with({"--color", "#ffffff", "--legend", path("l.svg")}), 2).err,
               HasSubstr(flat));
-  EXPECT_THAT(refused_run(with({"--legend", path("water.xyz")}), 2).err,
+  EXPECT_THAT(refused_run(with({"--legend", path("l.png")}), 2).err, HasSubstr("ends with .svg"));
+  write("water.svg", read("water.xyz"));
+  EXPECT_THAT(refused_run({"render", path("water.svg"), "--input-format", "xyz", "-o",
+                           path("b.ppm"), "--legend", path("water.svg")},
+                          2)
+                  .err,
               HasSubstr("the legend would replace"));
-  EXPECT_THAT(refused_run(with({"--legend", path("b.ppm")}), 2).err, HasSubstr("would replace"));
   EXPECT_THAT(refused_run(with({"--legend", path("none/l.svg")}), 1).err, HasSubstr("l.svg"));
 }
 

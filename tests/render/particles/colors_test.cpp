@@ -127,11 +127,19 @@ TEST(Colors, AreThoseOfComponents) {
   EXPECT_THAT(colors_of(frame, {.color = ColorColumns{{"blue", "red", "red"}}}),
               ElementsAre("#ff0000", "#01ffff"));
   frame.numbers[0].values = {0, 256};
-  EXPECT_EQ(
-      error_of(frame, {}),
-      "color: the colour of particle 2 of 2 is 256, 0.25, 0.002, expected numbers from 0 to 1");
+  EXPECT_EQ(error_of(frame, {}),
+            "color: the colour of particle 2 of 2 is 256, 0.25, 0.002, expected numbers from 0 to "
+            "1, or whole numbers to 255");
   frame.numbers[0].values = {-0.001, 0};
   EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 1 of 2 is -0.001, 0.5, 1"));
+}
+
+TEST(Colors, NameTheParticleWhoseComponentsAreNeitherPartsNorCodes) {
+  ParticleFrame frame = row_of_particles(3);
+  frame.numbers = {{"red", {255, 1, 0}}, {"green", {0, 0, 0}}, {"blue", {0, 0, 300}}};
+  EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 3 of 3 is 0, 0, 300"));
+  frame.numbers[2].values = {0, 0.5, 0};  // codes and parts together
+  EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 1 of 3 is 255, 0, 0"));
 }
 
 TEST(Colors, ComponentsMayBeCodes) {
