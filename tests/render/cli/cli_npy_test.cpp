@@ -87,8 +87,11 @@ TEST_F(NpyScene, WhatIsNoneSaysWhatWouldBe) {
   };
   const std::pair<std::string, std::string> cases[] = {
       {file("(1, 3)", centers),
-       "has 3 columns, centres alone: that needs a .toml scene with a key 'radius'"},
-      {file("(1, 5)", row), "has shape (1, 5), expected (N, 4): centre and radius"},
+       "has 3 columns, centres alone: that needs a .toml scene with a key 'radius', or "
+       "--input-format npy, which reads particles"},
+      {file("(1, 5)", row),
+       "has shape (1, 5), expected (N, 4): centre and radius; as particles it is read by "
+       "--input-format npy"},
       {file("(1, 4)", row.substr(4)), "row 0: radius must be finite and above 0, is 0"},
       {"", "not a readable .npy file: it does not begin with \\x93NUMPY"}};
   for (const auto& [bytes, words] : cases) {

@@ -148,7 +148,7 @@ TEST(Colors, ComponentsMayBeCodes) {
   EXPECT_THAT(colors_of(frame), ElementsAre("#008003", "#ff01c8"));
   EXPECT_THAT(notes_of(frame), HasSubstr("'red', 'green' and 'blue' are taken as codes"));
   frame.numbers[2].values[1] = 200.5;
-  EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 1 of 2 is 0, 128, 3, expected numbers"));
+  EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 2 of 2 is 255, 1, 200.5, expected numbers"));
 }
 
 TEST(Colors, AreMapped) {
