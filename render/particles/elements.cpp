@@ -75,7 +75,25 @@ bool same_letters(std::string_view a, std::string_view b) {
 
 std::span<const Element> all_elements() { return elements; }
 
+namespace {
+
+/// "Fe" for "Fe+2", "Fe2+" and "Fe++"; what has no charge as it is.
+std::string_view without_charge(std::string_view symbol) {
+  const auto is_digit = [](char c) { return c >= '1' && c <= '9'; };
+  const std::size_t at = symbol.find_first_of("+-");
+  if (at == std::string_view::npos) return symbol;
+  const std::string_view rest = symbol.substr(at + 1);
+  const bool is_charge =
+      rest.empty() || (rest.size() == 1 && (is_digit(rest[0]) || rest[0] == symbol[at]));
+  if (!is_charge) return symbol;
+  const bool digit_before = at > 1 && rest.empty() && is_digit(symbol[at - 1]);
+  return symbol.substr(0, digit_before ? at - 1 : at);
+}
+
+}  // namespace
+
 const Element* find_element(std::string_view symbol) {
+  symbol = without_charge(symbol);
   if (same_letters(symbol, "D") || same_letters(symbol, "T")) return elements.data();
   const auto found = std::find_if(elements.begin(), elements.end(), [&](const Element& element) {
     return same_letters(element.symbol, symbol);

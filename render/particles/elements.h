@@ -21,7 +21,8 @@ struct Element {
 /// Hydrogen to meitnerium, by atomic number from 1.
 std::span<const Element> all_elements();
 
-/// The element of a symbol in any case ("Fe", "FE", "fe"), or null. "D" and "T" are hydrogen.
+/// The element of a symbol in any case ("Fe", "FE", "fe"), or null. "D" and "T" are hydrogen. A
+/// charge behind it changes nothing: "Na+", "Fe+2", "Fe2+", "O--".
 const Element* find_element(std::string_view symbol);
 
 }  // namespace boule

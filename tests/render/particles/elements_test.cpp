@@ -16,8 +16,12 @@ TEST(Elements, AreFoundInAnyCase) {
   EXPECT_EQ(find_element("CA")->symbol, "Ca");
   EXPECT_EQ(find_element("D")->symbol, "H");
   EXPECT_EQ(find_element("T")->symbol, "H");
-  for (const char* other :
-       {"", "1", "26", "Fe1", "C ", "CA1", "X", "Xx", "bead", "carbon", "O2-"}) {
+  for (const char* charged : {"O2-", "o-2", "O--", "O-"}) {
+    ASSERT_NE(find_element(charged), nullptr) << charged;
+    EXPECT_EQ(find_element(charged)->symbol, "O");
+  }
+  for (const char* other : {"", "1", "26", "Fe1", "C ", "CA1", "X", "Xx", "bead", "carbon", "+",
+                            "2+", "Fe+22", "Fe+-", "Fe1+2", "C-H"}) {
     EXPECT_EQ(find_element(other), nullptr) << other;
   }
 }
