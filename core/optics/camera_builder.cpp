@@ -97,8 +97,7 @@ LensOptics build_lens(const Camera& camera, int width, int height) {
 
 CameraView build_camera(const Camera& camera, int width, int height, const DistortionMap* map,
                         const LensOptics* lens) {
-  const CameraPose& pose =
-      std::visit([](const auto& any) -> const CameraPose& { return any.pose; }, camera);
+  const CameraPose& pose = *std::visit([](const auto& any) { return &any.pose; }, camera);
   CameraView view{};
   view.eye = vec_cast<double>(pose.eye);
   view.forward = view_direction(pose);

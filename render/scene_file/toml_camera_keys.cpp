@@ -112,8 +112,7 @@ std::optional<Problem> find_problem_at(const CameraMotion& motion, double frame,
   };
   std::visit(move_it, camera);
   if (auto bad = find_problem(camera)) return bad;
-  const CameraPose& pose =
-      std::visit([](const auto& kind) -> const CameraPose& { return kind.pose; }, camera);
+  const CameraPose& pose = *std::visit([](const auto& kind) { return &kind.pose; }, camera);
   if (!sharp || depth_of(pose, *sharp) > 0) return std::nullopt;
   return Problem{"focus", "must lie in front of the camera"};
 }
