@@ -19,14 +19,15 @@
 namespace boule::test {
 namespace {
 
-constexpr auto most = static_cast<std::size_t>(-1);
+constexpr auto most_rays = static_cast<std::size_t>(-1);
 constexpr auto nan = std::numeric_limits<float>::quiet_NaN();
 
 // The sanitizers' operator new ends the program where it should throw.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr std::size_t impossible[] = {most,          most - 1,      most - 14,    most - 15,
-                                      most - 16,     most / 2,      most / 4 + 1, most / 8 - 2,
-                                      most / 8 - 16, most / 8 - 17, most / 64};
+constexpr std::size_t impossible[] = {most_rays,          most_rays - 1,     most_rays - 14,
+                                      most_rays - 15,     most_rays - 16,    most_rays / 2,
+                                      most_rays / 4 + 1,  most_rays / 8 - 2, most_rays / 8 - 16,
+                                      most_rays / 8 - 17, most_rays / 64};
 
 TEST(BadInput, ArraysOfImpossibleSizesAreRefusedAndStay) {
   AlignedArray<double> array(20, 3);
