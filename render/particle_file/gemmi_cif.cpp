@@ -236,9 +236,7 @@ class CifAtoms {
     return false;
   }
 
-  [[nodiscard]] bool wants(const char* name) const {
-    return !wanted_ || std::count(wanted_->begin(), wanted_->end(), name) > 0;
-  }
+  [[nodiscard]] bool wants(const char* name) const { return is_wanted(wanted_, name); }
 
   Diagnostic error_in(const cif::Table& table, std::string message, std::string key = {}) const {
     const int line = table.loop_item == nullptr ? 0 : table.loop_item->line_number;

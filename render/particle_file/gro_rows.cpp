@@ -63,7 +63,7 @@ class GroPlanner {
 
  private:
   void add_number(GroField field) {
-    if (wanted_ && std::count(wanted_->begin(), wanted_->end(), field.name) == 0) {
+    if (!is_wanted(wanted_, field.name)) {
       frame_.unread.push_back(field.name);
       return;
     }
@@ -227,7 +227,7 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
   }
   frame.species = elements_of(frame.texts[0], frame.texts[1]);
   std::erase_if(frame.texts, [&](const TextColumn& column) {
-    const bool unread = wanted && std::count(wanted->begin(), wanted->end(), column.name) == 0;
+    const bool unread = !is_wanted(wanted, column.name);
     if (unread) frame.unread.push_back(column.name);
     return unread;
   });

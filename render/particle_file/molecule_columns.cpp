@@ -123,10 +123,10 @@ ParticleFrame MoleculeColumns::finish(const std::optional<std::vector<std::strin
   frame.species = std::move(elements_.column);
   const auto keep = [&](auto& columns, auto& column, MoleculeKind kind) {
     if (kind_ == MoleculeKind::sites && kind != kind_) return;
-    if (wanted && std::count(wanted->begin(), wanted->end(), column.name) == 0) {
-      frame.unread.push_back(column.name);
-    } else {
+    if (is_wanted(wanted, column.name)) {
       columns.push_back(std::move(column));
+    } else {
+      frame.unread.push_back(column.name);
     }
   };
   keep(frame.numbers, ids_, MoleculeKind::sites);

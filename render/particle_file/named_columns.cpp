@@ -74,9 +74,7 @@ void NamedColumns::add_kept(const std::string& name, ColumnUse use) {
   }
 }
 
-bool NamedColumns::wants(const std::string& name) const {
-  return !wanted_ || std::find(wanted_->begin(), wanted_->end(), name) != wanted_->end();
-}
+bool NamedColumns::wants(const std::string& name) const { return is_wanted(wanted_, name); }
 
 Status NamedColumns::check_positions() const {
   constexpr std::array axes{"x", "y", "z"};

@@ -28,4 +28,8 @@ const TextColumn* find_text_column(const ParticleFrame& frame, const std::string
   return find_column(frame.texts, name);
 }
 
+bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name) {
+  return !wanted || std::find(wanted->begin(), wanted->end(), name) != wanted->end();
+}
+
 }  // namespace boule

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/math/vec.h"
@@ -60,5 +61,8 @@ struct ParticleFrame {
 /// The column of this name, or null.
 const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name);
 const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name);
+
+/// Whether a column is to be read: all are where nobody says which.
+bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name);
 
 }  // namespace boule

@@ -39,10 +39,7 @@ class PdbReader : public ParticleReader {
   }
 
  private:
-  [[nodiscard]] bool wants(const char* name) const {
-    const auto& wanted = options_.wanted;
-    return !wanted || std::count(wanted->begin(), wanted->end(), name) > 0;
-  }
+  [[nodiscard]] bool wants(const char* name) const { return is_wanted(options_.wanted, name); }
 
   [[nodiscard]] Result<std::optional<ParticleCell>> cell_of(const PdbFrame& place) const {
     if (place.cell_line == 0) return std::optional<ParticleCell>();

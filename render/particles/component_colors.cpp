@@ -48,9 +48,10 @@ Found check(const ColoredFrame& colored, const Columns& columns) {
   for_components(colored, columns, [&](std::size_t i, const Components& components) {
     Found& chunk = found[i / chunk_size];
     for (const double v : components) {
-      if (!is_part(v)) chunk.no_part = std::min(chunk.no_part, i);
-      if (!is_code(v)) chunk.no_code = std::min(chunk.no_code, i);
-      if (!is_part(v) && !is_code(v)) chunk.neither = std::min(chunk.neither, i);
+      const bool part = is_part(v), code = is_code(v);
+      if (!part) chunk.no_part = std::min(chunk.no_part, i);
+      if (!code) chunk.no_code = std::min(chunk.no_code, i);
+      if (!part && !code) chunk.neither = std::min(chunk.neither, i);
     }
   });
   Found all;
