@@ -14,6 +14,7 @@ std::optional<double> parse_above_0(const std::string& text);
 
 /// Any text but an empty one.
 std::optional<std::string> parse_words(const std::string& text);
+/// The name of an SVG file, by its ending.
 std::optional<std::string> parse_svg_name(const std::string& text);
 
 /// Names with commas between them, none of them empty.

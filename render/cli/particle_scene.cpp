@@ -1,10 +1,8 @@
 #include "render/cli/particle_scene.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "core/base/ascii.h"
@@ -82,22 +80,16 @@ bool is_scene_name(const std::string& path) {
 }  // namespace
 
 Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& options) {
-  auto loaded = load_scene(path, options);
-  if (loaded || is_scene_name(path)) return loaded;
-  Diagnostic error = loaded.error();
+  if (is_scene_name(path)) return load_scene(path, options);
   if (has_ending(path, ".film")) {
-    error.message = "is a film by its name, not a scene: boule merge makes a picture of films";
-    return error;
+    return Diagnostic::in_file(
+        path, "is a film by its name, not a scene: boule merge makes a picture of films");
   }
-  if (std::error_code reason; !std::filesystem::exists(path, reason)) {
-    const std::error_code none = std::make_error_code(std::errc::no_such_file_or_directory);
-    error.message = "cannot read it: " + (reason ? reason : none).message();
-    return error;
-  }
-  error.message =
+  if (auto file = InputFile::open(path); !file) return file.error();
+  return Diagnostic::in_file(
+      path,
       "neither a scene nor particles by its name or content, expected .toml .nff .npy .boule or " +
-      known_particle_endings();
-  return error;
+          known_particle_endings());
 }
 
 ParticleFileOptions file_options_of(const LookOptions& look) {

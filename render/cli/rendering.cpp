@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <new>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "render/cli/camera_option.h"
 #include "render/cli/interrupt.h"
@@ -148,12 +149,15 @@ RenderOptions combine(const Scene& scene, const RenderCommand& command) {
   return options;
 }
 
-/// The option that a render option was given by: "--min-spp" for "render.min_spp".
+/// The command line's name for a key of the render options, which alone knows whether they agree;
+/// other keys are the scene's and stay.
 std::string option_of(const std::string& key) {
-  if (key == "exposure_stops") return "--exposure";
-  std::string option = "--" + key.substr(key.find('.') + 1);  // npos + 1 is 0
-  std::replace(option.begin(), option.end(), '_', '-');
-  return option;
+  constexpr std::pair<std::string_view, const char*> options[] = {
+      {"image.size", "--size"}, {"image.spp", "--spp"}, {"aov", "--aov"}, {"crop", "--crop"}};
+  for (const auto& [of_options, option] : options) {
+    if (key == of_options) return option;
+  }
+  return key;
 }
 
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
@@ -163,7 +167,7 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
                         (error.key == "image.spp" && !command.spp && !command.min_spp);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
-  if (of_usage && !error.key.starts_with('-')) error.key = option_of(error.key);
+  if (of_usage) error.key = option_of(error.key);
   return refuse(std::move(error), command,
                 of_scene   ? invalid_input
                 : of_usage ? wrong_usage

@@ -149,6 +149,16 @@ TEST_F(Errors, AnOutputDoesNotReplaceWhatItIsMadeOf) {
   refused({small_scene(), "-o", path("scene.png"), "-q"}, 2);
 }
 
+TEST_F(Errors, OptionsThatDoNotAgreeAreNamedAsTheyAreGiven) {
+  const auto error = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {small_scene(), "-o", path("x.ppm"), "-q"});
+    return refused(options, 2).err;
+  };
+  EXPECT_THAT(error({"--crop", "0,0,5000,5000"}), HasSubstr("(key '--crop')"));
+  EXPECT_THAT(error({"--noise", "0.01", "--spp", "8"}), HasSubstr("(key '--spp')"));
+  EXPECT_THAT(error({"--aov", "noise"}), HasSubstr("(key '--aov')"));
+}
+
 TEST_F(Errors, CropsThatCannotSayWhichTheyAreCannotBeSkipped) {
   for (const char* name : {"x.png", "x.tif"}) {
     const ProgramRun run = refused(
