@@ -1,5 +1,5 @@
 // Build rates: Boule's Geometry (tree and leaves) against Embree's built-in spheres at its default
-// build quality, with 1 and 2 threads, interleaved in one run; medians.
+// build quality, with 1, 2, 4 ... threads, interleaved in one run; medians.
 //
 //   bench_build [spheres...]
 //
@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -87,8 +88,9 @@ int main(int argc, char** argv) {
   std::vector<std::size_t> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::strtoull(argv[i], nullptr, 10));
   if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
+  const unsigned most = std::max(std::thread::hardware_concurrency(), 2U);
   for (const std::size_t n : sizes) {
-    for (const unsigned threads : {1U, 2U}) boule::bench::compare(n, threads);
+    for (unsigned threads = 1; threads <= most; threads *= 2) boule::bench::compare(n, threads);
   }
   return 0;
 }

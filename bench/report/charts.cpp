@@ -97,6 +97,17 @@ Series path_series(const char* name, Look look, const std::vector<PathError>& er
   return series;
 }
 
+Series noise_series(const char* name, Look look, const std::vector<NoiseError>& errors) {
+  Series series{name, look, true, {}};
+  for (const NoiseError& e : errors) {
+    series.points.push_back(
+        {e.seconds, e.within_99,
+         fmt::format("{}, {:.3g} samples a pixel: 99 % within {:.3g} after {:.3g} s", name,
+                     e.mean_samples, e.within_99, e.seconds)});
+  }
+  return series;
+}
+
 /// Keeps each label at its fastest point only.
 void label_fastest(std::vector<Series>& series) {
   for (Series& one : series) {
@@ -247,6 +258,19 @@ Chart path_error_chart(const ScenePathErrors& scene) {
           {path_series(our_name, ours, scene.errors.sequence),
            path_series(their_name, theirs, scene.errors.random)},
           {{our_name, ours}, {their_name, theirs}}};
+}
+
+Chart noise_chart(const SceneNoiseErrors& scene) {
+  constexpr Look to_order{8, 0}, uniform{0, 2}, random{1, 1};
+  return {"Error of pictures over time, " + scene.scene,
+          {"seconds, one thread", true},
+          {"99 % of the pixels are within, displayed values", true},
+          {noise_series("noise to order", to_order, scene.errors.to_order),
+           noise_series("as many samples everywhere", uniform, scene.errors.uniform),
+           noise_series("the same, plain random numbers", random, scene.errors.random)},
+          {{"noise to order", to_order},
+           {"as many samples everywhere", uniform},
+           {"the same, plain random numbers", random}}};
 }
 
 }  // namespace boule::bench

@@ -35,6 +35,9 @@ Chart secondary_chart(const Figures& figures);
 /// Error over time, ours beside random samples.
 Chart path_error_chart(const ScenePathErrors& scene);
 
+/// Error over time: as many samples everywhere, in sequence and at random, and noise to order.
+Chart noise_chart(const SceneNoiseErrors& scene);
+
 /// The names, colours and shapes of solvers.
 std::string solver_name(const std::string& solver);
 Look solver_look(const std::string& solver, const std::string& isa);

@@ -7,6 +7,7 @@
 
 #include "bench/epsilons.h"
 #include "bench/hard_errors.h"
+#include "bench/noise_errors.h"
 #include "bench/path_errors.h"
 #include "bench/report/error_map.h"
 #include "bench/report/growth.h"
@@ -42,6 +43,12 @@ struct ScenePathErrors {
   PathErrors errors;
 };
 
+/// A scene of the gallery with as many samples everywhere, and with as many as pixels need.
+struct SceneNoiseErrors {
+  std::string scene;
+  NoiseErrors errors;
+};
+
 /// All figures and pictures that the report shows.
 struct Figures {
   ReportSettings settings;
@@ -54,6 +61,7 @@ struct Figures {
   std::vector<EpsilonPicture> pictures;
   std::vector<Growth> growth;
   std::vector<ScenePathErrors> paths;
+  std::vector<SceneNoiseErrors> noise;
   std::optional<PeerRows> peers;  ///< none without Embree
 };
 

@@ -77,7 +77,15 @@ Json to_json(const PeerRow& r) {
           {"mismatches", r.mismatches}};
 }
 
+Json to_json(const NoiseError& e) {
+  return {{"asked", e.asked},        {"mean_samples", e.mean_samples},
+          {"seconds", e.seconds},    {"mrays", e.mrays},
+          {"rms_error", e.rms},      {"within_95", e.within_95},
+          {"within_99", e.within_99}};
+}
+
 Json to_json(ScenePathErrors& s);
+Json to_json(SceneNoiseErrors& s);
 
 template <class T>
 Json list(std::vector<T>& values) {
@@ -91,6 +99,13 @@ Json to_json(ScenePathErrors& s) {
       {"scene", s.scene}, {"sequence", list(s.errors.sequence)}, {"random", list(s.errors.random)}};
 }
 
+Json to_json(SceneNoiseErrors& s) {
+  return {{"scene", s.scene},
+          {"uniform", list(s.errors.uniform)},
+          {"random", list(s.errors.random)},
+          {"to_order", list(s.errors.to_order)}};
+}
+
 }  // namespace
 
 std::string to_json(Figures& figures) {
@@ -101,6 +116,7 @@ std::string to_json(Figures& figures) {
                  {"epsilons", list(figures.epsilons)},
                  {"growth", list(figures.growth)},
                  {"path_errors", list(figures.paths)},
+                 {"noise_errors", list(figures.noise)},
                  {"embree", nullptr}};
   if (figures.peers)
     report["embree"] = {{"version", figures.peers->embree}, {"rows", list(figures.peers->rows)}};

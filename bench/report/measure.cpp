@@ -6,6 +6,7 @@
 #include "bench/cpu_model.h"
 #include "bench/report/commit.h"
 #include "bench/report/figures.h"
+#include "render/scene_file/scene_file.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
@@ -60,6 +61,23 @@ std::vector<ScenePathErrors> measure_paths(int reference) {
   return all;
 }
 
+/// The same for noise to order.
+std::vector<SceneNoiseErrors> measure_noise(bool quick) {
+  std::vector<SceneNoiseErrors> all;
+  for (const char* name : {"spheres_on_plane", "first_light", "soft_light"}) {
+    const auto loaded = load_scene(std::string(BOULE_SCENES "/") + name + ".toml");
+    if (!loaded) {
+      std::fprintf(stderr, "report: %s\n", format_diagnostic(loaded.error()).c_str());
+      continue;
+    }
+    NoiseSettings settings;
+    if (quick) settings = {.width = 64, .height = 36, .reference = 512};
+    settings.threads = 0;
+    all.push_back({name, measure_noise_errors(loaded.value().scene, settings)});
+  }
+  return all;
+}
+
 void say(const char* what) { std::fprintf(stderr, "report: %s\n", what); }
 
 }  // namespace
@@ -86,6 +104,8 @@ Figures measure(const ReportSettings& settings, const std::string& command) {
   figures.growth = measure_growth(quick ? 5 : 6, quick ? 256 : 512, quick ? 3 : 7);
   say("path tracing");
   figures.paths = measure_paths(quick ? 512 : 8192);
+  say("noise to order");
+  figures.noise = measure_noise(quick);
   say("Embree");
   figures.peers = measure_peers(quick);
   return figures;

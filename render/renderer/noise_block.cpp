@@ -12,6 +12,8 @@ namespace {
 /// How many samples of a pixel's own the variance around it counts for.
 constexpr double samples_around = 32;
 
+constexpr double steepest = 12.92;  ///< slope of the sRGB curve, at black
+
 float as_float(double number) {
   constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::min(number, largest));
@@ -40,6 +42,11 @@ void NoiseBlock::begin(const PixelRect& block, const PixelRect& frame) {
 }
 
 bool NoiseBlock::look(MeasuredPicture& picture) {
+  for (const Pixel& pixel : wanted_) {
+    State& state = at(pixel.x, pixel.y);
+    for (std::size_t half = 0; half < 2; ++half)
+      state.variances[half] = state.halves[half].variance();
+  }
   if (first_ == 0) look_around();
   const auto is_done = [&](const Pixel& pixel) {
     State& state = at(pixel.x, pixel.y);
@@ -70,8 +77,7 @@ PixelNumbers NoiseBlock::variance_around(int x, int y) {
   for (int at_y = std::max(y - rim, area_.y0); at_y < std::min(y + rim + 1, area_.y1); ++at_y) {
     for (int at_x = std::max(x - rim, area_.x0); at_x < std::min(x + rim + 1, area_.x1); ++at_x) {
       if (at_x == x && at_y == y) continue;
-      for (const SampleHalf& half : at(at_x, at_y).halves) {
-        const PixelNumbers variance = half.variance();
+      for (const PixelNumbers& variance : at(at_x, at_y).variances) {
         for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += variance[c];
         ++halves;
       }
@@ -85,7 +91,7 @@ PixelNumbers NoiseBlock::variance_around(int x, int y) {
 /// around: a pixel whose first samples all miss what is rare there does not end too early.
 PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) const {
   const double count = state.halves[half].count();
-  PixelNumbers variance = state.halves[half].variance();
+  PixelNumbers variance = state.variances[half];
   for (std::size_t c = 0; c < variance.size(); ++c) {
     const double with_others =
         (count * variance[c] + samples_around * state.around[c]) / (count + samples_around);
@@ -106,9 +112,18 @@ double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_
 bool NoiseBlock::is_enough(const State& state, std::size_t half) const {
   const SampleHalf& samples = state.halves[half];
   const double factor = student_quantile(samples.batches() - 1);
-  PixelNumbers half_width = careful_variance(state, half);
-  for (double& number : half_width) number = factor * std::sqrt(number / (2 * samples.count()));
-  return displayed(samples.mean(), half_width) <= static_cast<double>(target_.half_width);
+  const auto most = static_cast<double>(target_.half_width);
+  const PixelNumbers mean = samples.mean(), variance = careful_variance(state, half);
+  const auto half_width = [&](std::size_t c) {
+    return factor * std::sqrt(variance[c] / (2 * samples.count()));
+  };
+  if (target_.alpha && half_width(3) > most) return false;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double width = half_width(c) * scale_;
+    if (steepest * width > most && displayed_half_width(mean[c] * scale_, width) > most)
+      return false;
+  }
+  return true;
 }
 
 /// Settles the halves that have enough samples. True if both have.

@@ -59,6 +59,7 @@ class NoiseBlock {
   struct State {
     std::array<SampleHalf, 2> halves;
     std::array<Settled, 2> settled;
+    std::array<PixelNumbers, 2> variances;  ///< of the halves, at the last look
     PixelNumbers around{};  ///< mean variance of the first samples of the pixels around
   };
 

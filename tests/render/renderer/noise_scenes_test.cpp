@@ -86,11 +86,12 @@ double covered(const MeasuredPicture& picture, const MeasuredPicture& reference)
 TEST(NoiseOfScenes, StatedIntervalsHoldAndMeansAreUnbiased) {
   const auto reference_spp = static_cast<int>(test_size("BOULE_NOISE_REFERENCE", 1024));
   const auto pictures = static_cast<int>(test_size("BOULE_NOISE_PICTURES", 4));
+  const std::size_t first = test_size("BOULE_NOISE_FIRST", 0);
   const std::size_t step = test_size("BOULE_NOISE_STEP", 9);  // from scene to scene
   const TempDir folder;
   write_sun((folder.path() / "sun.exr").string());
   const std::vector<NoiseScene> scenes = noise_scenes();
-  for (std::size_t i = 0; i < scenes.size(); i += step) {
+  for (std::size_t i = first; i < scenes.size(); i += step) {
     const Scene scene = load(scenes[i], folder);
     RenderOptions options = options_for(scenes[i], scene);
     RenderOptions fixed = options;
