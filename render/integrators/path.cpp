@@ -24,36 +24,12 @@ RandomSet random_set(int depth, unsigned use) {
                                 uses_per_depth * static_cast<unsigned>(depth) + use);
 }
 
-void copy(const Color& color, float* to) {
-  to[0] = color.r;
-  to[1] = color.g;
-  to[2] = color.b;
-}
-
 LightSphere light_sphere(const AreaLight& light, double before) {
-  LightSphere sphere{
-      {light.center.x, light.center.y, light.center.z}, light.radius, light.share, before, {}};
-  copy(light.radiance, sphere.radiance);
-  return sphere;
-}
-
-/// The background as the kernels see it. Images are not for them.
-SeenBackground flat_background(const Background& background) {
-  SeenBackground seen{};
-  seen.kind = SeenBackground::Kind::other;
-  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
-    seen.kind = SeenBackground::Kind::constant;
-    copy(constant->color, seen.bottom);
-  } else if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
-    seen.kind = SeenBackground::Kind::gradient;
-    copy(gradient->bottom, seen.bottom);
-    copy(gradient->top, seen.top);
-    const Vec3d up = normalize(vec_cast<double>(gradient->up));
-    seen.up[0] = up.x;
-    seen.up[1] = up.y;
-    seen.up[2] = up.z;
-  }
-  return seen;
+  return {{light.center.x, light.center.y, light.center.z},
+          light.radius,
+          light.share,
+          before,
+          {light.radiance.r, light.radiance.g, light.radiance.b}};
 }
 
 HitWeight hit_weight(LightSampling sampling) {
@@ -84,11 +60,11 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
   }
   for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
     light_spheres_.push_back(light_sphere(scene.area_lights[i], scene.area_lights.before(i)));
-  seen_ = {flat_background(scene.background), light_spheres_.data(),
+  seen_ = {seen_background(scene.background), light_spheres_.data(),
            scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_};
   seen_by_camera_ = seen_;
   if (scene.backdrop)
-    seen_by_camera_.background = flat_background(ConstantBackground{*scene.backdrop});
+    seen_by_camera_.background = seen_background(ConstantBackground{*scene.backdrop});
   kinds_.resize(most_points);
   lobes_.resize(most_points);
   going_on_buffer_.resize(most_points);
@@ -148,7 +124,7 @@ void Path::meet_materials(const Block& block) {
     if (!is_black(material.flat.constant))
       radiance_.add(k, emitted(block.stream, k, met, material.flat.constant));
     if (delta_lights_ && takes_direct_light(material.flat) && is_black(material.flat.constant))
-      illumination_.add_point(k, material.flat);
+      illumination_.add_point(k, material.lobes);
   }
 }
 
@@ -276,7 +252,7 @@ void Path::add_more_light() {
 
 /// The background that a ray sees, weighted if light sampling could have found it too.
 Color Path::weighted_background(const PathStream& stream, std::uint32_t ray) const {
-  const Color radiance = seen_background(stream, ray);
+  const Color radiance = background_seen_by(stream, ray);
   const double density{stream.density[ray]};
   if (!(environment_share_ > 0) || !(density > 0)) return radiance;
   const double other =

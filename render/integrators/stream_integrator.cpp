@@ -19,7 +19,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       geometry_(scene.geometry.view()) {}
 
 void StreamIntegrator::use_light(const Light& light) {
-  lights_.push_back({&light, shadow_target(light)});
+  lights_.push_back({&light, shadow_target(light), light_intensity(light)});
 }
 
 bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
@@ -85,7 +85,7 @@ void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
   }
 }
 
-Color StreamIntegrator::seen_background(const PathStream& stream, std::size_t ray) const {
+Color StreamIntegrator::background_seen_by(const PathStream& stream, std::size_t ray) const {
   return stream.depth == 0 && scene_.backdrop
              ? *scene_.backdrop
              : background_radiance(scene_.background, stream.rays->dir(ray));
@@ -101,7 +101,7 @@ void StreamIntegrator::add_light(const TargetedLight& light) {
       illumination_.make_shadow_rays(kernels_, light.target, surfaces_, epsilon());
   if (rays.size == 0) return;
   const std::uint8_t* blocked = find_blocked(rays, shadow_coherence(*light.light));
-  illumination_.add_unblocked(*light.light, surfaces_, blocked, radiance_.view());
+  illumination_.add_unblocked(kernels_, light.intensity, surfaces_, blocked, radiance_.view());
   if (settings_.record != nullptr) record_shadow(light, rays, blocked);
 }
 
@@ -112,7 +112,7 @@ void StreamIntegrator::record_shadow(const TargetedLight& light, const RayStream
   HitBuffer met(1);
   if (blocked[0] != 0) kernels_.closest_hit(geometry_, rays, query, met.view());
   Color arriving;
-  illumination_.add_unblocked(*light.light, surfaces_, blocked,
+  illumination_.add_unblocked(kernels_, light.intensity, surfaces_, blocked,
                               {&arriving.r, &arriving.g, &arriving.b});
   const auto index = static_cast<std::size_t>(light.light - scene_.lights.data());
   settings_.record->add_shadow(index, illumination_.shadow_ray(0),

@@ -59,7 +59,7 @@ class StreamIntegrator : public Integrator {
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
   /// What a ray of the stream sees of the background: the camera's own rays see the backdrop.
-  [[nodiscard]] Color seen_background(const PathStream& stream, std::size_t ray) const;
+  [[nodiscard]] Color background_seen_by(const PathStream& stream, std::size_t ray) const;
   /// How shadow rays start by the lecture's epsilon; none: by themselves.
   [[nodiscard]] std::optional<Illumination::Epsilon> epsilon() const;
   [[nodiscard]] bool ends(const PathStream& stream) const {
@@ -81,6 +81,7 @@ class StreamIntegrator : public Integrator {
   struct TargetedLight {
     const Light* light;
     ShadowTarget target;
+    LightIntensity intensity;
   };
 
   void trace_stream(const PathStream& stream, const CameraRays& camera);

@@ -1,52 +1,106 @@
 #include "render/integrators/whitted.h"
 
+#include <algorithm>
+
+#include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
 
 namespace boule {
+namespace {
+
+constexpr std::size_t most_rays = StreamSurfaces::block_size;
+
+/// The background alone: lights cannot be seen.
+SeenLight seen_light(const Background& background) {
+  return {seen_background(background), nullptr, 0, 0, HitWeight::none};
+}
+
+}  // namespace
 
 Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
                  const IntegratorSettings& settings)
-    : StreamIntegrator(scene, kernels, settings), materials_(scene) {
-  scattering_hits_.reserve(StreamSurfaces::block_size);
+    : StreamIntegrator(scene, kernels, settings),
+      seen_(seen_light(scene.background)),
+      seen_by_camera_(scene.backdrop ? seen_light(ConstantBackground{*scene.backdrop}) : seen_),
+      materials_(scene),
+      lobes_(most_rays) {
+  scatters_.resize(most_rays);
+  going_on_.resize(2 * most_rays);
   for (const Light& light : scene.lights) use_light(light);
 }
 
 /// Finds the radiance that needs no shadow rays (background, emission, ambient), and then the rays
 /// that go on.
 void Whitted::shade(const Block& block) {
-  const bool last = ends(block.stream);
-  bool any_lit = false;
-  scattering_hits_.clear();
-  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
-    const Hit met = hit(k);
-    if (met.id == no_primitive) {
-      radiance_.set(k, seen_background(block.stream, k));
-      continue;
-    }
-    const FlatMaterial& material = materials_.find(met);
-    radiance_.set(k, material.constant);
-    if (takes_direct_light(material)) {
-      illumination_.add_point(k, material);
-      any_lit = true;
-    }
-    if (!last && scatters(material)) scattering_hits_.push_back({k, &material});
-  }
-  if (!any_lit && scattering_hits_.empty()) return;
-  find_surfaces(block);
-  for (const ScatteringHit& one : scattering_hits_) {
-    spawn_rays(one, surfaces_.get(one.ray - block.first));
+  see_background(block);
+  const Found found = meet_materials(block);
+  if (found.lit || found.scattering) find_surfaces(block);
+  if (!found.scattering) return;
+  if (settings_.record != nullptr) {
+    record_ray(block);
+  } else {
+    scatter_rays(block);
   }
 }
 
-/// Spawns the reflected ray before the refracted one: the picture's bits depend on this order.
-void Whitted::spawn_rays(const ScatteringHit& hit, const Surface& surface) {
-  const Scatter weights = scatter(*hit.material, surface);
+void Whitted::see_background(const Block& block) {
+  const PathStream& stream = block.stream;
+  const std::size_t size = block.end - block.first;
+  const SeenLight& seen = stream.depth == 0 ? seen_by_camera_ : seen_;
+  kernels_.see_light(
+      seen, {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
+             stream.density + block.first, part(radiance_.view(), block.first)});
+  if (seen.background.kind != SeenBackground::Kind::other) return;
+  for (std::size_t k = block.first; k < block.end; ++k) {
+    if (hit(k).id == no_primitive) radiance_.set(k, background_seen_by(stream, k));
+  }
+}
+
+/// Finds the materials that the rays met, and which of them light falls on or send rays on.
+Whitted::Found Whitted::meet_materials(const Block& block) {
+  const bool last = ends(block.stream);
+  Found found;
+  std::fill_n(scatters_.data(), padded(block.end - block.first), std::uint8_t{0});
+  for (std::size_t k = block.first; k < block.end; ++k) {
+    const Hit met = hit(k);
+    if (met.id == no_primitive) continue;
+    const WhittedMaterial& material = materials_.find(met);
+    radiance_.set(k, material.flat.constant);
+    if (material.takes_light) {
+      illumination_.add_point(k, material.lobes);
+      found.lit = true;
+    }
+    if (last || !material.sends_on) continue;
+    scatters_[k - block.first] = 1;
+    lobes_[k - block.first] = &material.lobes;
+    recorded_ = &material.flat;
+    found.scattering = true;
+  }
+  return found;
+}
+
+void Whitted::scatter_rays(const Block& block) {
+  const PathStream& stream = block.stream;
+  GoingOn going_on = going_on_.view();
+  kernels_.scatter_rays(
+      {scatters_.data(), surfaces_.of_block(), lobes_.data(), hits_.view().id + block.first,
+       surfaces_.first_plane(), part(stream.throughput, block.first), stream.sample + block.first,
+       block.end - block.first},
+      going_on);
+  wavefront_.spawn(going_on);
+}
+
+/// The same for the only ray of a record, one ray after the other.
+void Whitted::record_ray(const Block& block) {
+  const std::size_t ray = block.first;
+  const Surface surface = surfaces_.get(0);
+  const Scatter weights = scatter(*recorded_, surface);
   if (!is_black(weights.reflection)) {
-    spawn(hit.ray, leave(surface, Side::viewer, surface.mirrored), weights.reflection,
+    spawn(ray, leave(surface, Side::viewer, surface.mirrored), weights.reflection,
           RayKind::reflection);
   }
   if (!is_black(weights.refraction)) {
-    spawn(hit.ray, leave(surface, Side::beyond, weights.refracted), weights.refraction,
+    spawn(ray, leave(surface, Side::beyond, weights.refracted), weights.refraction,
           RayKind::refraction);
   }
 }
@@ -54,8 +108,7 @@ void Whitted::spawn_rays(const ScatteringHit& hit, const Surface& surface) {
 void Whitted::spawn(std::size_t parent, const Ray& ray, const Color& weight, RayKind kind) {
   const std::uint64_t before = wavefront_.spawned();
   wavefront_.spawn(parent, ray, weight);
-  if (settings_.record != nullptr && wavefront_.spawned() != before)
-    settings_.record->expect(kind, weight);
+  if (wavefront_.spawned() != before) settings_.record->expect(kind, weight);
 }
 
 }  // namespace boule

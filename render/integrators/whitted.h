@@ -7,6 +7,7 @@
 #include "render/integrators/ray_record.h"
 #include "render/integrators/stream_integrator.h"
 #include "render/shading/material_finder.h"
+#include "render/shading/path_material.h"
 
 namespace boule {
 
@@ -19,19 +20,26 @@ class Whitted final : public StreamIntegrator {
           const IntegratorSettings& settings);
 
  private:
-  /// A ray of the block, and the material that it met, which sends light on.
-  struct ScatteringHit {
-    std::uint32_t ray;
-    const FlatMaterial* material;
+  /// What a block has.
+  struct Found {
+    bool lit = false, scattering = false;
   };
 
   void make_room(std::size_t rays) override { materials_.start(rays); }
   void shade(const Block& block) override;
-  void spawn_rays(const ScatteringHit& hit, const Surface& surface);
+  void see_background(const Block& block);
+  Found meet_materials(const Block& block);
+  void scatter_rays(const Block& block);
+  void record_ray(const Block& block);
   void spawn(std::size_t parent, const Ray& ray, const Color& weight, RayKind kind);
 
-  MaterialFinder<FlatMaterial> materials_;
-  std::vector<ScatteringHit> scattering_hits_;  ///< working memory of one block
+  SeenLight seen_, seen_by_camera_;
+  MaterialFinder<WhittedMaterial> materials_;
+  // Working memory of one block.
+  AlignedArray<std::uint8_t> scatters_;  ///< by ray
+  std::vector<const LobeMaterial*> lobes_;
+  const FlatMaterial* recorded_ = nullptr;  ///< that the only ray met
+  GoingOnBuffer going_on_;
 };
 
 }  // namespace boule

@@ -29,17 +29,6 @@ inline CoefficientsOf<double> coefficients(const FlatMaterial& m) {
           m.fresnel};
 }
 
-/// The light that a surface sends to the viewer when light of `intensity` arrives from the unit
-/// direction `to_light`: reflected_light(). The highlight is multiplied by n.l if
-/// FlatMaterial::cosine_highlight. Precondition: n.l > 0.
-inline Color direct_light(const FlatMaterial& material, double n_dot_l, const Vec3d& to_light,
-                          const Vec3d& mirrored, const Color& intensity) {
-  const CoefficientsOf<double> flat = coefficients(material);
-  const double power = highlight_power(flat, mirrored, to_light);
-  const float share = material.cosine_highlight ? static_cast<float>(n_dot_l) : 1.0F;
-  return color_of(reflected_light(flat, n_dot_l, power, share, vector_of(intensity)));
-}
-
 /// The weights of the reflected and the refracted ray.
 inline Scatter scatter(const FlatMaterial& material, const Surface& surface) {
   const IncidenceOf<double> met{surface.normal, surface.view, surface.mirrored, surface.cosine,

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "render/shading/bsdf.h"
-#include "render/shading/lights.h"
-
 namespace boule {
 
 void Illumination::start(std::size_t rays) {
@@ -43,24 +40,13 @@ void Illumination::start_by(const Epsilon& epsilon, const ShadowTarget& light) {
   }
 }
 
-template <class AnyLight>
-void Illumination::add_light(const AnyLight& light, const StreamSurfaces& surfaces,
-                             const std::uint8_t* blocked, const ColorStream& radiance) const {
-  for (std::size_t k = 0; k < shadow_count_; ++k) {
-    if (blocked[k] != 0) continue;
-    const std::size_t ray = rays_[k];
-    const Color intensity = intensity_at(light, surfaces.point(ray));
-    const Color light_sent = direct_light(*materials_[ray], cosines_[k], to_light_.get(k),
-                                          surfaces.mirrored(ray), intensity);
-    radiance.r[ray] += light_sent.r;
-    radiance.g[ray] += light_sent.g;
-    radiance.b[ray] += light_sent.b;
-  }
-}
-
-void Illumination::add_unblocked(const Light& light, const StreamSurfaces& surfaces,
-                                 const std::uint8_t* blocked, const ColorStream& radiance) const {
-  std::visit([&](const auto& any) { add_light(any, surfaces, blocked, radiance); }, light);
+void Illumination::add_unblocked(const KernelTable& kernels, const LightIntensity& light,
+                                 StreamSurfaces& surfaces, const std::uint8_t* blocked,
+                                 const ColorStream& radiance) {
+  kernels.add_direct_light(light,
+                           {blocked, to_light_.view(), cosines_.data(), rays_.data(), shadow_count_,
+                            surfaces.points(), surfaces.mirrored(), materials_.data()},
+                           radiance);
 }
 
 }  // namespace boule

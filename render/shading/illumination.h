@@ -7,7 +7,6 @@
 
 #include "core/math/color.h"
 #include "core/scene/light.h"
-#include "render/prepare/flat_material.h"
 #include "render/shading/stream_surfaces.h"
 #include "simd/abi/paths.h"
 #include "simd/stream/aligned_array.h"
@@ -23,7 +22,7 @@ class Illumination {
   void start(std::size_t rays);
 
   /// Adds the hit of ray `ray` of the stream, on which light may fall.
-  void add_point(std::size_t ray, const FlatMaterial& material) {
+  void add_point(std::size_t ray, const LobeMaterial& material) {
     lit_[ray] = 1;
     materials_[ray] = &material;
     any_ = true;
@@ -45,19 +44,17 @@ class Illumination {
 
   /// Adds the light to radiance[ray] for every shadow ray k with blocked[k] = 0, where the shadow
   /// ray belongs to ray `ray`. The light is that of the last shadow rays.
-  void add_unblocked(const Light& light, const StreamSurfaces& surfaces,
-                     const std::uint8_t* blocked, const ColorStream& radiance) const;
+  void add_unblocked(const KernelTable& kernels, const LightIntensity& light,
+                     StreamSurfaces& surfaces, const std::uint8_t* blocked,
+                     const ColorStream& radiance);
 
  private:
-  template <class AnyLight>
-  void add_light(const AnyLight& light, const StreamSurfaces& surfaces, const std::uint8_t* blocked,
-                 const ColorStream& radiance) const;
   void start_by(const Epsilon& epsilon, const ShadowTarget& light);
 
   std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;
   AlignedArray<std::uint8_t> lit_;              ///< by ray
-  std::vector<const FlatMaterial*> materials_;  ///< by ray
+  std::vector<const LobeMaterial*> materials_;  ///< by ray
   // By shadow ray:
   std::size_t shadow_count_ = 0;
   RayBuffer shadow_rays_;

@@ -6,11 +6,36 @@
 
 namespace boule {
 
+/// A material as the kernels read it.
+inline LobeMaterial lobe_material(const FlatMaterial& m) {
+  return {{m.diffuse.r, m.diffuse.g, m.diffuse.b, 0},
+          {m.mirror.r, m.mirror.g, m.mirror.b, 0},
+          {m.transmission.r, m.transmission.g, m.transmission.b, 0},
+          m.highlight,
+          m.shininess,
+          m.ior,
+          m.fresnel,
+          m.cosine_highlight};
+}
+
 /// The kind of a material of flatten_for_paths(), by which its points are sorted.
 inline LobeKind lobe_kind(const FlatMaterial& m) {
   if (!takes_direct_light(m)) return scatters(m) ? LobeKind::clear : LobeKind::none;
   return scatters(m) || m.highlight > 0 ? LobeKind::glossy : LobeKind::matte;
 }
+
+/// A material as Whitted's method reads it.
+struct WhittedMaterial {
+  FlatMaterial flat;
+  LobeMaterial lobes;
+  bool takes_light, sends_on;  ///< takes_direct_light(), scatters()
+
+  explicit WhittedMaterial(const FlatMaterial& m)
+      : flat(m),
+        lobes(lobe_material(m)),
+        takes_light(takes_direct_light(m)),
+        sends_on(scatters(m)) {}
+};
 
 /// A material as path tracing reads it.
 struct PathMaterial {
@@ -20,13 +45,7 @@ struct PathMaterial {
 
   explicit PathMaterial(const FlatMaterial& m)
       : flat(m),
-        lobes{{m.diffuse.r, m.diffuse.g, m.diffuse.b, 0},
-              {m.mirror.r, m.mirror.g, m.mirror.b, 0},
-              {m.transmission.r, m.transmission.g, m.transmission.b, 0},
-              m.highlight,
-              m.shininess,
-              m.ior,
-              m.fresnel},
+        lobes(lobe_material(m)),
         kind(is_black(m.constant) ? lobe_kind(m) : LobeKind::none) {}
 };
 

@@ -21,16 +21,19 @@ void StreamSurfaces::find(const RayStream& rays, const HitStream& hits, std::siz
                           std::size_t size) {
   first_ = first;
   ids_ = hits.id;
-  const SurfaceStream found{part(points_.view(), first),
-                            part(normals_.view(), first),
-                            views_.view(),
-                            part(mirrored_.view(), first),
-                            part(orgs_.view(), first),
-                            cosines_.data(),
-                            reaches_.data(),
-                            inner_.data(),
-                            inside_.data() + first};
-  kernels_.find_surfaces(geometry_, part(rays, first, size), part(hits, first, size), found);
+  kernels_.find_surfaces(geometry_, part(rays, first, size), part(hits, first, size), of_block());
+}
+
+SurfaceStream StreamSurfaces::of_block() {
+  return {part(points_.view(), first_),
+          part(normals_.view(), first_),
+          views_.view(),
+          part(mirrored_.view(), first_),
+          part(orgs_.view(), first_),
+          cosines_.data(),
+          reaches_.data(),
+          inner_.data(),
+          inside_.data() + first_};
 }
 
 Surface StreamSurfaces::get(std::size_t k) const {

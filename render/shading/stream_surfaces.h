@@ -29,13 +29,17 @@ class StreamSurfaces {
   /// multiple of block_size, and size <= block_size.
   void find(const RayStream& rays, const HitStream& hits, std::size_t first, std::size_t size);
 
+  /// The surfaces of the block that was found last, by its rays.
+  SurfaceStream of_block();
+  /// Ids below it are those of spheres.
+  [[nodiscard]] std::int32_t first_plane() const { return geometry_.planes.first_id; }
+
   /// The surface that ray k of the block met. Precondition: it met one.
   [[nodiscard]] Surface get(std::size_t k) const;
 
-  /// Surface::point of ray k of the stream.
-  [[nodiscard]] Vec3d point(std::size_t k) const { return points_.get(k); }
-  /// Surface::mirrored of ray k of the stream.
-  [[nodiscard]] Vec3d mirrored(std::size_t k) const { return mirrored_.get(k); }
+  /// Surface::point and Surface::mirrored, by ray of the stream.
+  VectorStream points() { return points_.view(); }
+  VectorStream mirrored() { return mirrored_.view(); }
 
   /// Where rays leave from the hit of ray k of the stream, to the viewer's side.
   [[nodiscard]] Departure departure(std::size_t k) const {

@@ -9,6 +9,7 @@
 #include "simd/abi/paths.h"
 #include "simd/abi/shading.h"
 #include "simd/abi/stream.h"
+#include "simd/abi/whitted.h"
 
 namespace boule {
 
@@ -71,6 +72,15 @@ struct KernelTable {
                           GoingOn& spawned);
   void (*continue_clear)(const LobePoints& points, const PathStep& step, SampledLights& shadows,
                          GoingOn& spawned);
+
+  /// Whitted's method: adds the mirrored and the refracted rays of these hits whose throughput is
+  /// not black, hit by hit, the mirrored one first. They have the density 0.
+  void (*scatter_rays)(const ScatteringHits& hits, GoingOn& spawned);
+
+  /// Adds to the radiance of rays what their points send back of the light along those shadow rays
+  /// that nothing blocks: reflected_light() of core/optics/reflectance.h.
+  void (*add_direct_light)(const LightIntensity& light, const ShadowedPoints& shadows,
+                           const ColorStream& radiance);
 };
 
 }  // namespace boule

@@ -20,12 +20,13 @@ inline ColorStream part(const ColorStream& colors, std::size_t first) {
   return {colors.r + first, colors.g + first, colors.b + first};
 }
 
-/// A material of flatten_for_paths() (render/prepare/flat_material.h); the fourth number of a
-/// colour is 0.
+/// A material of flatten() (render/prepare/flat_material.h), whose meanings it has; the fourth
+/// number of a colour is 0.
 struct LobeMaterial {
   float diffuse[4], mirror[4], transmission[4];
   double highlight, shininess, ior;
   bool fresnel;
+  bool cosine_highlight;
 };
 
 /// A sphere that gives light, as AreaLight (render/prepare/area_lights.h). It is picked by a number

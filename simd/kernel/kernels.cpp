@@ -11,8 +11,10 @@
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/scattered_stream.h"
+#include "simd/kernel/shading/direct_light.h"
 #include "simd/kernel/shading/lobe_points.h"
 #include "simd/kernel/shading/path_step.h"
+#include "simd/kernel/shading/scatter.h"
 #include "simd/kernel/shading/seen_light.h"
 #include "simd/kernel/shading/shadow_rays.h"
 #include "simd/kernel/shading/sobol_points.h"
@@ -148,12 +150,18 @@ void clear_paths(const LobePoints& points, const PathStep& step, SampledLights& 
   continue_points<LobeKind::clear>(points, step, shadows, spawned);
 }
 
+void scattered(const ScatteringHits& hits, GoingOn& spawned) { scatter_rays(hits, spawned); }
+void direct_light(const LightIntensity& light, const ShadowedPoints& shadows,
+                  const ColorStream& radiance) {
+  add_direct_light(light, shadows, radiance);
+}
+
 }  // namespace
 
 extern const KernelTable kernel_table;
 const KernelTable kernel_table = {
     Isa::BOULE_KERNEL_ISA, width,        camera_rays, closest_hit,        any_hit,
     surfaces_of_hits,      shadow_rays,  numbers,     light_by_direction, points_by_kind,
-    matte_paths,           glossy_paths, clear_paths};
+    matte_paths,           glossy_paths, clear_paths, scattered,          direct_light};
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -82,6 +82,8 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
   kernels->continue_matte(points, {}, shadows, going_on);
   kernels->continue_glossy(points, {}, shadows, going_on);
   kernels->continue_clear(points, {}, shadows, going_on);
+  kernels->scatter_rays({}, going_on);
+  kernels->add_direct_light({}, {}, {});
   EXPECT_EQ(points.size + shadows.size + going_on.size, 0U);
 }
 

@@ -16,15 +16,14 @@
 /// direction.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The materials of W points. Lanes behind the last point have that of the first.
+/// The materials of W points.
 template <LobeKind kind>
-BOULE_INLINE CoefficientsOf<Wide> load_materials(const PathStep& step, const std::uint32_t* ray,
-                                                 std::size_t live) {
+BOULE_INLINE CoefficientsOf<Wide> load_materials(const LobeMaterial* const* of_lane) {
   const float *diffuse[width], *mirror[width], *transmission[width];
   alignas(64) double numbers[3][width];
   std::uint8_t fresnel[width];
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const LobeMaterial& material = *step.material[ray[lane < live ? lane : 0]];
+    const LobeMaterial& material = *of_lane[lane];
     diffuse[lane] = material.diffuse;
     if constexpr (kind != LobeKind::matte) {
       mirror[lane] = material.mirror;
@@ -276,7 +275,10 @@ BOULE_INLINE void continue_points(const LobePoints& points, const PathStep& step
   for (std::size_t first = 0; first < points.size; first += width) {
     const std::size_t live = points.size - first;
     const unsigned lanes = live < width ? (1U << live) - 1 : all_lanes;
-    const CoefficientsOf<Wide> material = load_materials<kind>(step, points.ray + first, live);
+    const LobeMaterial* of_lane[width];  // behind the last point that of the first
+    for (std::size_t lane = 0; lane < width; ++lane)
+      of_lane[lane] = step.material[points.ray[first + (lane < live ? lane : 0)]];
+    const CoefficientsOf<Wide> material = load_materials<kind>(of_lane);
     const IncidenceOf<Wide> met = load_incidence<kind>(points, first);
     const LobesOf<Wide, kind> lobes(material, met);
     if constexpr (kind != LobeKind::clear) {

@@ -8,6 +8,7 @@
 #include "render/shading/background_radiance.h"
 #include "render/shading/bsdf.h"
 #include "render/shading/lights.h"
+#include "tests/render/shading/direct_light_twin.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {

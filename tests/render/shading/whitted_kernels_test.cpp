@@ -1,0 +1,185 @@
+// The kernels of Whitted's method, of every table, against the scalar formulas, bit for bit.
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/math/geometry.h"
+#include "render/shading/lights.h"
+#include "render/shading/path_material.h"
+#include "simd/stream/path_buffers.h"
+#include "tests/render/shading/direct_light_twin.h"
+#include "tests/render/shading/kernel_rays.h"
+#include "tests/support/kernel_runs.h"
+
+namespace boule::test {
+namespace {
+
+constexpr std::size_t count = 251;  // the last packet is not whole
+
+/// light_product() of the renderer.
+float product(float a, float b) { return a == 0 || b == 0 ? 0 : a * b; }
+
+/// Rays of a block, the surfaces that they met, and their materials.
+class WhittedKernels : public OnEachIsa {
+ protected:
+  void make_rays(Method method) {
+    scene = scene_of_all(random, method);
+    met.clear();
+    for (const FlatMaterial& flat : scene->materials) met.emplace_back(flat);
+    std::vector<Ray> shot;
+    for (std::size_t i = 0; i < count; ++i)
+      shot.push_back(
+          {random.direction() * random.uniform(0, 3), vec_cast<float>(random.direction())});
+    rays = to_stream(shot);
+    hits.resize(count);
+    kernels->closest_hit(scene->geometry.view(), rays.view(), {}, hits.view());
+    for (VectorBuffer* vectors : {&points, &normals, &views, &mirrored, &orgs})
+      vectors->resize(count);
+    cosines.resize(count);
+    reaches.resize(count);
+    inner.resize(count);
+    inside.resize(count);
+    kernels->find_surfaces(scene->geometry.view(), rays.view(), hits.view(), surfaces());
+    lobes.assign(count, nullptr);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_hit(i)) lobes[i] = &material(i).lobes;
+    }
+  }
+
+  SurfaceStream surfaces() {
+    return {points.view(),  normals.view(), views.view(), mirrored.view(), orgs.view(),
+            cosines.data(), reaches.data(), inner.data(), inside.data()};
+  }
+  [[nodiscard]] bool is_hit(std::size_t i) const { return hits.get(i).id != no_primitive; }
+  [[nodiscard]] const WhittedMaterial& material(std::size_t i) const {
+    return met[scene->material_ref(hits.get(i)).index()];
+  }
+  [[nodiscard]] Surface surface(std::size_t i) const {
+    return find_surface(*scene, rays.get(i), hits.get(i));
+  }
+
+  /// What the scalar formulas send on from a hit.
+  void expect_scattered(std::size_t i, const Color& before, std::uint32_t sample,
+                        std::vector<Written>& expected) const {
+    const Surface met_surface = surface(i);
+    const Scatter weights = scatter(material(i).flat, met_surface);
+    const auto add = [&](Side side, const Vec3d& direction, const Color& weight) {
+      const Color after{product(before.r, weight.r), product(before.g, weight.g),
+                        product(before.b, weight.b)};
+      if (!is_black(after))
+        expected.push_back({leave(met_surface, side, direction), sample, after});
+    };
+    add(Side::viewer, met_surface.mirrored, weights.reflection);
+    add(Side::beyond, weights.refracted, weights.refraction);
+  }
+
+  void check_scattering(bool sparse);
+  void check_light(const Light& light, Method method);
+
+  CaseRandom random{4};
+  std::optional<PreparedScene> scene;
+  std::vector<WhittedMaterial> met;
+  RayBuffer rays;
+  HitBuffer hits;
+  VectorBuffer points, normals, views, mirrored, orgs;
+  AlignedArray<double> cosines, reaches;
+  AlignedArray<std::uint8_t> inner, inside;
+  std::vector<const LobeMaterial*> lobes;
+};
+
+void WhittedKernels::check_scattering(bool sparse) {
+  make_rays(Method::whitted);
+  ColorBuffer throughput;
+  throughput.resize(count);
+  AlignedArray<std::uint32_t> sample(count);
+  AlignedArray<std::uint8_t> scatters(count);
+  std::fill_n(scatters.data(), padded(count), std::uint8_t{0});
+  std::vector<Written> expected;
+  std::size_t sending = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Color before{static_cast<float>(random.uniform(0, 1)), i % 7 == 0 ? 0.0F : 0.5F,
+                       i % 11 == 0 ? 0.0F : 1.0F};
+    throughput.set(i, before);
+    sample[i] = static_cast<std::uint32_t>(3 * i);
+    if (!is_hit(i) || !material(i).sends_on || (sparse && i % 6 != 0)) continue;
+    scatters[i] = 1;
+    ++sending;
+    expect_scattered(i, before, sample[i], expected);
+  }
+  GoingOnBuffer buffer;
+  buffer.resize(2 * count);
+  GoingOn spawned = buffer.view();
+  kernels->scatter_rays(
+      {scatters.data(), surfaces(), lobes.data(), hits.view().id,
+       scene->geometry.view().planes.first_id, throughput.view(), sample.data(), count},
+      spawned);
+  EXPECT_GT(sending, sparse ? count / 16 : count / 4);
+  EXPECT_GT(expected.size(), sending);  // glass sends two
+  expect_same_rays(
+      written(spawned.rays, spawned.size, spawned.sample, spawned.throughput, spawned.density),
+      expected);
+}
+
+TEST_P(WhittedKernels, RaysScatterAsTheScalarOnesDo) { check_scattering(false); }
+TEST_P(WhittedKernels, AlsoWhereFewDo) { check_scattering(true); }
+
+void WhittedKernels::check_light(const Light& light, Method method) {
+  make_rays(method);
+  AlignedArray<std::uint8_t> lit(count), blocked(count);
+  std::fill_n(lit.data(), padded(count), std::uint8_t{0});
+  for (std::size_t i = 0; i < count; ++i) lit[i] = is_hit(i) && material(i).takes_light ? 1 : 0;
+  RayBuffer shadow_rays(count);
+  VectorBuffer to_light;
+  to_light.resize(count);
+  AlignedArray<double> cosine(count);
+  AlignedArray<std::uint32_t> ray(count);
+  const std::size_t size =
+      kernels->make_shadow_rays(shadow_target(light),
+                                {points.view(), normals.view(), orgs.view(), hits.view().id,
+                                 inside.data(), lit.data(), count},
+                                {shadow_rays.view(), to_light.view(), cosine.data(), ray.data()});
+  ASSERT_GT(size, count / 8);
+  ColorBuffer radiance;
+  radiance.resize(count);
+  std::vector<Color> expected(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    expected[i] = {static_cast<float>(random.uniform(0, 1)), 0.25F, 0};
+    radiance.set(i, expected[i]);
+  }
+  for (std::size_t k = 0; k < size; ++k) {
+    blocked[k] = random.chance(0.3) ? 1 : 0;
+    if (blocked[k] != 0) continue;
+    const Surface at = surface(ray[k]);
+    const Color intensity =
+        std::visit([&](const auto& any) { return intensity_at(any, at.point); }, light);
+    expected[ray[k]] = expected[ray[k]] + direct_light(material(ray[k]).flat, cosine[k],
+                                                       to_light.get(k), at.mirrored, intensity);
+  }
+  kernels->add_direct_light(light_intensity(light),
+                            {blocked.data(), to_light.view(), cosine.data(), ray.data(), size,
+                             points.view(), mirrored.view(), lobes.data()},
+                            radiance.view());
+  for (std::size_t i = 0; i < count && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    expect_same_color(radiance.get(i), expected[i]);
+  }
+}
+
+TEST_P(WhittedKernels, PointsGetTheLightOfAPoint) {
+  check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::whitted);
+  check_light(PointLight{{-1, 2, 0.5f}, {30, 20, 10}, Falloff::inverse_square}, Method::whitted);
+}
+TEST_P(WhittedKernels, OfTheSun) {
+  check_light(DirectionalLight{{1, -2, 0.5f}, {3, 2, 1}}, Method::whitted);
+}
+TEST_P(WhittedKernels, OfABall) {
+  check_light(SphereLight{{0, 1, 1}, 0.5f, {3, 2, 1}}, Method::whitted);
+}
+TEST_P(WhittedKernels, AndWithHighlightsOfPaths) {
+  check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, WhittedKernels, each_isa(), isa_name);
+
+}  // namespace
+}  // namespace boule::test
