@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <string>
 #include <utility>
 
 #include "core/scene/instances.h"
@@ -23,6 +24,12 @@
 
 namespace boule::cli {
 namespace {
+
+/// "12.3 KiB" or, from 1 MiB on, "1.5 MiB".
+std::string size_text(std::uint64_t bytes) {
+  const auto kib = static_cast<double>(bytes) / 1024;
+  return kib < 1024 ? fmt::format("{:.1f} KiB", kib) : fmt::format("{:.1f} MiB", kib / 1024);
+}
 
 /// A scene without its spheres, and where these come from.
 struct Input {
@@ -113,9 +120,9 @@ ExitCode write(const PackCommand& command, Input input, const ParallelFor& paral
   if (!packed) return report(packed.error(), packed.error().file.empty() ? failed : invalid_input);
   if (!command.quiet) {
     const PackResult& result = packed.value();
-    print_note(fmt::format("boule: {}: {}, {:.1f} MiB{}", command.output,
+    print_note(fmt::format("boule: {}: {}, {}{}", command.output,
                            counted(static_cast<std::size_t>(result.spheres), "sphere"),
-                           static_cast<double>(result.bytes) / (1 << 20),
+                           size_text(result.bytes),
                            result.chunks > 1 ? fmt::format(", {} chunks", result.chunks) : ""));
   }
   return done;

@@ -6,6 +6,7 @@
 
 #include "core/math/color.h"
 #include "render/integrators/sample_faults.h"
+#include "simd/abi/paths.h"
 
 namespace boule {
 
@@ -19,7 +20,7 @@ class DepthSums {
 
   /// The sums of one depth, one per sample, to which the caller adds; valid until the next call.
   /// Precondition: `depth` is not below that of the last finish_below().
-  Color* at_depth(int depth);
+  ColorSum* at_depth(int depth);
 
   /// Adds up the depths below `depth`, to which nothing is added any more.
   void finish_below(int depth);
@@ -31,11 +32,13 @@ class DepthSums {
   [[nodiscard]] const SampleFaults& faults() const { return faults_; }
 
  private:
+  void clear(std::vector<ColorSum>& row) const;
+
   std::size_t samples_ = 0;
-  int first_depth_ = 0;                   ///< the depth of rows_[0]
-  std::vector<std::vector<Color>> rows_;  ///< by depth - first_depth_
-  std::vector<std::vector<Color>> spare_;
-  std::vector<Color> total_;
+  int first_depth_ = 0;                      ///< the depth of rows_[0]
+  std::vector<std::vector<ColorSum>> rows_;  ///< by depth - first_depth_
+  std::vector<std::vector<ColorSum>> spare_;
+  std::vector<ColorSum> total_;
   SampleFaults faults_;
 };
 

@@ -22,11 +22,15 @@ class RandomNumbers {
 
   /// Asks for pair i, which is that of a pixel's key, a set and a sample.
   void ask(std::size_t i, std::uint64_t key, RandomSet set, std::uint32_t sample) {
-    const SobolSeeds seeds = sobol_seeds(key, set);
+    if (key != key_ || set != set_) {  // samples of one pixel often follow each other
+      key_ = key;
+      set_ = set;
+      seeds_ = sobol_seeds(key, set);
+    }
     sample_[i] = sample;
-    shuffle_[i] = seeds.shuffle;
-    seed_u_[i] = seeds.u;
-    seed_v_[i] = seeds.v;
+    shuffle_[i] = seeds_.shuffle;
+    seed_u_[i] = seeds_.u;
+    seed_v_[i] = seeds_.v;
   }
 
   /// Finds the first `size` pairs. Precondition: all of them were asked for.
@@ -39,6 +43,9 @@ class RandomNumbers {
   [[nodiscard]] UnitPairs view() const { return {u_.data(), v_.data()}; }
 
  private:
+  std::uint64_t key_ = 0;
+  RandomSet set_ = RandomSet::film;
+  SobolSeeds seeds_ = sobol_seeds(0, RandomSet::film);  ///< of these two
   AlignedArray<std::uint32_t> sample_, shuffle_, seed_u_, seed_v_;
   AlignedArray<double> u_, v_;
 };

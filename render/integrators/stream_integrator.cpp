@@ -14,7 +14,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
     : scene_(scene),
       kernels_(kernels),
       settings_(settings),
-      wavefront_(settings.stream_size),
+      wavefront_(kernels, settings.stream_size),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {}
 

@@ -53,28 +53,9 @@ void Wavefront::use(PathStream stream) {
   sums_ = depth_sums_.at_depth(stream.depth);
 }
 
-namespace {
-
-/// light_product() of all of them, into `b`; without branches, so that it becomes vector code.
-void multiply_all(const float* a, float* b, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool none = (a[k] == 0) | (b[k] == 0);
-    const float product = a[k] * b[k];
-    b[k] = none ? 0 : product;
-  }
-}
-
-}  // namespace
-
 void Wavefront::add(const ColorStream& radiance) {
-  const std::size_t count = current_.rays->size();
-  multiply_all(current_.throughput.r, radiance.r, count);
-  multiply_all(current_.throughput.g, radiance.g, count);
-  multiply_all(current_.throughput.b, radiance.b, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    Color& sum = sums_[current_.sample[k]];
-    sum = sum + Color{radiance.r[k], radiance.g[k], radiance.b[k]};
-  }
+  kernels_.add_weighted_light(
+      {current_.throughput, radiance, current_.sample, current_.rays->size()}, sums_);
 }
 
 /// The stream to which the next ray belongs.

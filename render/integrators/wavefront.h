@@ -8,6 +8,7 @@
 #include "core/math/color.h"
 #include "core/math/ray.h"
 #include "render/integrators/depth_sums.h"
+#include "simd/abi/kernel_table.h"
 #include "simd/stream/path_buffers.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -31,8 +32,10 @@ struct PathStream {
 /// on the size of the streams.
 class Wavefront {
  public:
-  /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1.
-  explicit Wavefront(std::size_t stream_size) : stream_size_(stream_size) {}
+  /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1. `kernels` must outlive
+  /// it.
+  Wavefront(const KernelTable& kernels, std::size_t stream_size)
+      : kernels_(kernels), stream_size_(stream_size) {}
 
   /// Begins with the camera's rays, one per sample. The caller keeps them alive.
   void start(RayBuffer& camera_rays);
@@ -40,7 +43,7 @@ class Wavefront {
   /// The next stream, or null when none is left. Ends the life of the stream before.
   const PathStream* next();
 
-  /// Adds the radiance that each ray of the current stream found. `radiance` is overwritten.
+  /// Adds the radiance that each ray of the current stream found.
   void add(const ColorStream& radiance);
 
   /// Adds a ray that goes on from ray `parent` of the current stream, unless its weight in the
@@ -76,6 +79,7 @@ class Wavefront {
   void recycle(std::vector<StreamPtr>& streams);
   void use(PathStream stream);
 
+  const KernelTable& kernels_;
   std::size_t stream_size_;
   std::size_t most_samples_ = 0;               ///< of a camera's rays so far
   ColorBuffer camera_throughput_;              ///< all 1
@@ -83,7 +87,7 @@ class Wavefront {
   AlignedArray<float> camera_density_;         ///< all 0
   DepthSums depth_sums_;
   PathStream current_;
-  Color* sums_ = nullptr;            ///< of the current depth
+  ColorSum* sums_ = nullptr;         ///< of the current depth
   bool started_ = false;             ///< next() has returned the camera's rays
   StreamPtr running_;                ///< what current_ points to, unless that is the camera's rays
   std::vector<StreamPtr> waiting_;   ///< a stack, in which depths never fall towards the top

@@ -64,6 +64,7 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
   if (is_packed_name(path)) return read_packed_scene(path, options);
   const bool is_npy = has_extension(path, ".npy");
   if (!is_npy && !has_extension(path, ".toml") && !has_extension(path, ".nff")) {
+    if (const auto file = InputFile::open(path); !file) return file.error();
     return Diagnostic::in_file(
         path, "not a scene file by its name, expected an extension .toml, .nff, .npy or .boule");
   }

@@ -56,6 +56,10 @@ struct KernelTable {
   /// Random numbers: the stream says how.
   void (*sobol_points)(const SobolStream& points);
 
+  /// Adds light to the sums of samples, ray by ray: light_product() of the throughput and the
+  /// radiance (render/integrators/sample_faults.h).
+  void (*add_weighted_light)(const WeightedLight& light, ColorSum* sums);
+
   // Path tracing, a block of rays at a time; what the streams say.
 
   /// Finds the light that rays see by their direction.

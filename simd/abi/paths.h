@@ -20,6 +20,19 @@ inline ColorStream part(const ColorStream& colors, std::size_t first) {
   return {colors.r + first, colors.g + first, colors.b + first};
 }
 
+/// A sum of colours: red, green, blue, and 0.
+struct alignas(16) ColorSum {
+  float rgb0[4];
+};
+
+/// The light that rays have found, and what of it counts in which sample. By ray.
+struct WeightedLight {
+  ColorStream throughput;
+  ColorStream radiance;
+  const std::uint32_t* sample;
+  std::size_t size;
+};
+
 /// A material of flatten() (render/prepare/flat_material.h), whose meanings it has; the fourth
 /// number of a colour is 0.
 struct LobeMaterial {

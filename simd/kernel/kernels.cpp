@@ -19,6 +19,7 @@
 #include "simd/kernel/shading/shadow_rays.h"
 #include "simd/kernel/shading/sobol_points.h"
 #include "simd/kernel/shading/surfaces.h"
+#include "simd/kernel/shading/weighted_light.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
@@ -128,6 +129,8 @@ std::size_t shadow_rays(const ShadowTarget& light, const LitStream& points,
 void numbers(const SobolStream& points) { sobol_points(points); }
 void light_by_direction(const SeenLight& seen, const SeeingRays& rays) { see_light(seen, rays); }
 
+void weighted_light(const WeightedLight& light, ColorSum* sums) { add_weighted_light(light, sums); }
+
 void points_by_kind(const GeometryView& geometry, const PathRays& paths, LobePoints& matte,
                     LobePoints& glossy, LobePoints& clear) {
   if (geometry.parts.size != 0) {
@@ -160,8 +163,9 @@ void direct_light(const LightIntensity& light, const ShadowedPoints& shadows,
 
 extern const KernelTable kernel_table;
 const KernelTable kernel_table = {
-    Isa::BOULE_KERNEL_ISA, width,        camera_rays, closest_hit,        any_hit,
-    surfaces_of_hits,      shadow_rays,  numbers,     light_by_direction, points_by_kind,
-    matte_paths,           glossy_paths, clear_paths, scattered,          direct_light};
+    Isa::BOULE_KERNEL_ISA, width,       camera_rays,  closest_hit,    any_hit,
+    surfaces_of_hits,      shadow_rays, numbers,      weighted_light, light_by_direction,
+    points_by_kind,        matte_paths, glossy_paths, clear_paths,    scattered,
+    direct_light};
 
 }  // namespace boule::BOULE_KERNEL_ISA

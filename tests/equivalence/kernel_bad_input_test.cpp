@@ -75,6 +75,7 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
   EXPECT_EQ(kernels->make_shadow_rays({}, {}, {}), 0U);
   kernels->sobol_points({});
   kernels->see_light({}, {});
+  kernels->add_weighted_light({}, nullptr);
   LobePoints points{};
   SampledLights shadows{};
   GoingOn going_on{};

@@ -65,8 +65,10 @@ TEST_F(TraceErrors, ABadSceneIsInvalidInput) {
   const std::string scene = write("bad.toml", "schema = 1\n[[sphere]]\nradius = -1\n");
   EXPECT_THAT(refused({scene, "--rays", rays, "-o", path("h.npy")}, 3).err,
               StartsWith(scene + ":3:10: error: "));
-  EXPECT_THAT(refused({path("none.toml"), "--rays", rays, "-o", path("h.npy")}, 3).err,
-              HasSubstr("No such file or directory"));
+  for (const char* name : {"none.toml", "none"}) {
+    EXPECT_THAT(refused({path(name), "--rays", rays, "-o", path("h.npy")}, 3).err,
+                HasSubstr("No such file or directory"));
+  }
 }
 
 TEST_F(TraceErrors, BadRaysAreNamedWithWhatWasExpected) {

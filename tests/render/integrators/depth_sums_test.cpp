@@ -12,6 +12,8 @@ constexpr float largest = std::numeric_limits<float>::max();
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
+ColorSum sum_of(float grey) { return {{grey, grey, grey, 0}}; }
+
 TEST(Settled, LeavesWhatIsFinite) {
   SampleFaults faults;
   for (const Color& good : {Color{}, Color{1.5f, 0, 1e-45f}, gray(largest)}) {
@@ -38,10 +40,10 @@ TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
   DepthSums sums;
   for (int run = 0; run < 2; ++run) {
     sums.start(3);
-    sums.at_depth(0)[0] = gray(1);
-    sums.at_depth(0)[1] = gray(1);
-    sums.at_depth(1)[1] = {0, nan, 0};  // NaN spoils this sample and no other
-    sums.at_depth(1)[2] = gray(2);
+    sums.at_depth(0)[0] = sum_of(1);
+    sums.at_depth(0)[1] = sum_of(1);
+    sums.at_depth(1)[1] = {{0, nan, 0, 0}};  // NaN spoils this sample and no other
+    sums.at_depth(1)[2] = sum_of(2);
     Color result[3];
     sums.finish(result);
     EXPECT_EQ(result[0], gray(1));
@@ -58,16 +60,16 @@ TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
   DepthSums sums;
   Color result;
   sums.start(1);
-  sums.at_depth(2)[0] = gray(1);
-  sums.at_depth(0)[0] = gray(1);
-  sums.at_depth(1)[0] = gray(big);
+  sums.at_depth(2)[0] = sum_of(1);
+  sums.at_depth(0)[0] = sum_of(1);
+  sums.at_depth(1)[0] = sum_of(big);
   sums.finish(&result);
   EXPECT_EQ(result, gray((1 + big) + 1));
   sums.start(1);
-  sums.at_depth(0)[0] = gray(1);
-  sums.at_depth(1)[0] = gray(1);
+  sums.at_depth(0)[0] = sum_of(1);
+  sums.at_depth(1)[0] = sum_of(1);
   sums.finish_below(2);
-  sums.at_depth(2)[0] = gray(big);
+  sums.at_depth(2)[0] = sum_of(big);
   sums.finish(&result);
   EXPECT_EQ(result, gray(big + 2));
 }
@@ -75,10 +77,10 @@ TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
 TEST(DepthSums, ForgetsWhatWasBeforeStart) {
   DepthSums sums;
   sums.start(3);
-  sums.at_depth(4)[2] = gray(9);
+  sums.at_depth(4)[2] = sum_of(9);
   sums.finish_below(2);
   sums.start(2);
-  sums.at_depth(0)[1] = gray(5);
+  sums.at_depth(0)[1] = sum_of(5);
   Color result[2];
   sums.finish(result);
   EXPECT_EQ(result[0], gray(0));
@@ -89,7 +91,7 @@ TEST(DepthSums, ClampsTheTotal) {
   DepthSums sums;
   Color result;
   sums.start(1);
-  for (int depth = 0; depth < 3; ++depth) sums.at_depth(depth)[0] = gray(largest);
+  for (int depth = 0; depth < 3; ++depth) sums.at_depth(depth)[0] = sum_of(largest);
   sums.finish(&result);
   EXPECT_EQ(result, gray(largest));
   EXPECT_EQ(sums.faults().too_bright, 1u);

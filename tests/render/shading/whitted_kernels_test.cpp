@@ -1,5 +1,6 @@
 // The kernels of Whitted's method, of every table, against the scalar formulas, bit for bit.
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -177,6 +178,35 @@ TEST_P(WhittedKernels, OfABall) {
 }
 TEST_P(WhittedKernels, AndWithHighlightsOfPaths) {
   check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::path);
+}
+
+TEST_P(WhittedKernels, SamplesGetTheLightOfTheirRaysInOrder) {
+  constexpr std::size_t samples = 20;
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  ColorBuffer throughput, radiance;
+  throughput.resize(count);
+  radiance.resize(count);
+  AlignedArray<std::uint32_t> sample(count);
+  std::vector<ColorSum> sums(samples);
+  std::vector<Color> expected(samples);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Color weight{i % 5 == 0 ? 0.0F : static_cast<float>(random.uniform(0, 1)), 0.3F, 1};
+    const Color light{i % 10 == 0 ? inf : static_cast<float>(random.decade(-3, 3)),
+                      i % 7 == 0 ? 0.0F : 2.0F, static_cast<float>(random.decade(-3, 3))};
+    throughput.set(i, weight);
+    radiance.set(i, light);
+    sample[i] = static_cast<std::uint32_t>(i < count / 2 ? i % samples : random.uniform(0, 19.99));
+    expected[sample[i]] =
+        expected[sample[i]] +
+        Color{product(weight.r, light.r), product(weight.g, light.g), product(weight.b, light.b)};
+  }
+  kernels->add_weighted_light({throughput.view(), radiance.view(), sample.data(), count},
+                              sums.data());
+  for (std::size_t i = 0; i < samples; ++i) {
+    const auto& [r, g, b, zero] = sums[i].rgb0;
+    expect_same_color({r, g, b}, expected[i]);
+    EXPECT_EQ(zero, 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, WhittedKernels, each_isa(), isa_name);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "simd/abi/paths.h"
+#include "simd/kernel/shading/path_step.h"
+#include "simd/kernel/vectors.h"
+
+/// Light that rays bring to samples, W of them at a time.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Several rays can belong to one sample, so that sums are made one after the other, four numbers
+/// at a time.
+BOULE_INLINE void add_weighted_light(const WeightedLight& light, ColorSum* sums) {
+  alignas(64) float rows[4 * width];
+  for (std::size_t first = 0; first < light.size; first += width) {
+    const Vec3<Real> weight = load(light.throughput, first), found = load(light.radiance, first);
+    store_rows(rows, {light_product(weight.x, found.x), light_product(weight.y, found.y),
+                      light_product(weight.z, found.z), Real(0.0F)});
+    const std::size_t live = std::min<std::size_t>(light.size - first, width);
+    for (std::size_t lane = 0; lane < live; ++lane) {
+      float* const sum = sums[light.sample[first + lane]].rgb0;
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += rows[4 * lane + c];
+    }
+  }
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
