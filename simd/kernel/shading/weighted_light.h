@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "simd/abi/paths.h"
@@ -18,7 +17,7 @@ BOULE_INLINE void add_weighted_light(const WeightedLight& light, ColorSum* sums)
     const Vec3<Real> weight = load(light.throughput, first), found = load(light.radiance, first);
     store_rows(rows, {light_product(weight.x, found.x), light_product(weight.y, found.y),
                       light_product(weight.z, found.z), Real(0.0F)});
-    const std::size_t live = std::min<std::size_t>(light.size - first, width);
+    const std::size_t left = light.size - first, live = left < width ? left : width;
     for (std::size_t lane = 0; lane < live; ++lane) {
       float* const sum = sums[light.sample[first + lane]].rgb0;
       for (std::size_t c = 0; c < 4; ++c) sum[c] += rows[4 * lane + c];
