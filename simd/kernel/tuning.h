@@ -83,6 +83,26 @@ inline constexpr Few few_if_sparse = width < 16 ? Few{10, 48} : Few{12, 64};
 inline constexpr int grid_side = 32, grid_coarse = 4;
 inline constexpr std::size_t rays_per_leaf_if_sparse = 8;
 
+/// A sparse bundle of nearest hits compares boxes with its groups, one by one. Where that turned
+/// away less than a quarter of them it is left out for 1, 3, 7 and at last so many nodes. Primary
+/// rays gained 1.04 to 1.08 of their speed by the comparison on flake6 and slab2000000, 512 x 512
+/// pixels; without pauses 1.06 to 1.15, but u1000000 lost 3 to 4 %.
+/// Again: bench_peers --size 512 --scenes flake6,slab2000000,u1000000 --rays primary,orthographic
+inline constexpr int most_nodes_paused = 15;
+
+/// A sparse bundle is given up, and its rays fly, where a leaf is for fewer of them than this, on
+/// average; that is judged from a leaf for so many of its rays on. Flights divided by bundles,
+/// nearest hits, by rays of a leaf: 4 and more below 2 (ring1000000 at 512 x 512, flake6 at 128 x
+/// 128), 1.4 to 2.5 between 4 and 10 (flake6 and slab2000000 at 256 x 256), 0.4 to 0.9 between 8
+/// and 32 (flake6, slab2000000 at 512 x 512), below 0.2 from 32 on (dust: u1000000 with a tenth of
+/// its radii). Any hit: of sorted rays more are near a leaf than chance would have, and 2 was
+/// already worse than 1 on flake6 and ground100000 (0.79 and 0.94, AVX2).
+/// Again: bench_peers --size 512 --scenes ring1000000,flake6,slab2000000,ground100000 --rays
+/// primary,orthographic,shadow
+template <bool any>
+inline constexpr float fewest_rays_of_a_leaf = any ? 1.0F : 8.0F;
+inline constexpr std::size_t rays_per_leaf_judged = 16;
+
 /// A bundle is given up after so many double solves for each of its packets, on average, because
 /// packets would be no slower. Shadow rays amid specks that are 8.7e6 of their radii from their
 /// light: 0.16 Mray/s without this, 4.5 with it.

@@ -30,6 +30,13 @@ class BundleClosest {
   [[nodiscard]] const float* limits() const { return limits_; }
   /// The greatest of them, as of the last update().
   [[nodiscard]] float limit() const { return limit_; }
+  /// The least of limits().
+  [[nodiscard]] BOULE_INLINE float least_limit() const {
+    Real least = load(limits_);
+    for (int at = width; at < bundle_groups; at += width)
+      least = filter_min(least, load(limits_ + at));
+    return least_lane(least);
+  }
   [[nodiscard]] bool done() const { return false; }
   [[nodiscard]] bool too_close() const { return false; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/abi/bvh.h"
 #include "simd/kernel/search/ray_lanes.h"
 
 /// Ranges of a and b, the two coordinates by which a bundle's rays differ (bundle_frame.h): of some
@@ -18,6 +19,13 @@ BOULE_INLINE Extent extent_of_both(const Extent& a, const Extent& b) {
   return {a.a_low < b.a_low ? a.a_low : b.a_low, a.a_high > b.a_high ? a.a_high : b.a_high,
           a.b_low < b.b_low ? a.b_low : b.b_low, a.b_high > b.b_high ? a.b_high : b.b_high};
 }
+
+/// What a bundle sees of sixteen boxes: the a and b of the rays that may enter each.
+struct BoxViews {
+  static constexpr int size = bvh_width;
+  alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];
+  alignas(64) float area[size];  ///< of what lies within the extent of all rays
+};
 
 /// An extent that grows, W rays or spheres at a time.
 struct ExtentLanes {

@@ -14,9 +14,6 @@ namespace boule::BOULE_KERNEL_ISA {
 
 class RayGrid {
  public:
-  /// Whether it was filled; before that nothing is known.
-  [[nodiscard]] bool known() const { return known_; }
-
   /// Enters all rays but those whose bit is set in `done`, packet by packet. No ray lives beyond
   /// its v in `ends`.
   BOULE_NOINLINE void fill(const BundleRays& rays, const unsigned* done, const float* ends) {
@@ -36,21 +33,35 @@ class RayGrid {
         enter(static_cast<int>(column[lane]), static_cast<int>(row[lane]), ends[p * width + lane]);
       }
     }
-    known_ = true;
   }
 
-  /// The cells at the ends of W ranges of a and b, still to be rounded down. An end that is NaN,
-  /// because it is not known, gives the first or the last cell.
-  struct Cells {
-    Real a_low, a_high, b_low, b_high;
-  };
-  BOULE_INLINE Cells cells(const Real& a_low, const Real& a_high, const Real& b_low,
-                           const Real& b_high) const {
-    return {cell(a_, a_low), cell_above(a_, a_high), cell(b_, b_low), cell_above(b_, b_high)};
+  /// Of the boxes in `entered`, as bits, those that there are rays for. `near`: no ray enters the
+  /// box before that v.
+  BOULE_NOINLINE unsigned meet_boxes(const BoxViews& views, const float* near,
+                                     unsigned entered) const {
+    BoxViews cells;
+    for (int at = 0; at < BoxViews::size; at += width) {
+      store(cells.a_low + at, cell(a_, load(views.a_low + at)));
+      store(cells.a_high + at, cell_above(a_, load(views.a_high + at)));
+      store(cells.b_low + at, cell(b_, load(views.b_low + at)));
+      store(cells.b_high + at, cell_above(b_, load(views.b_high + at)));
+    }
+    unsigned result = 0;
+    for (unsigned left = entered; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (any_in(cells.a_low[k], cells.a_high[k], cells.b_low[k], cells.b_high[k], near[k]))
+        result |= 1U << k;
+    }
+    return result;
   }
 
-  /// Whether there are rays in these cells, and rays in the coarse cells around that live at
-  /// `near`.
+ private:
+  static constexpr int side = tuning::grid_side;
+  static constexpr int coarse = tuning::grid_coarse;
+  static_assert(side < 64 && side % coarse == 0);  // a row is 64 bits, and `columns` needs one more
+
+  /// Whether there are rays in these cells, whose ends are still to be rounded down, and rays in
+  /// the coarse cells around that live at `near`.
   [[nodiscard]] bool any_in(float a_low, float a_high, float b_low, float b_high,
                             float near) const {
     const int left = static_cast<int>(a_low), right = static_cast<int>(a_high);
@@ -61,11 +72,6 @@ class RayGrid {
     }
     return false;
   }
-
- private:
-  static constexpr int side = tuning::grid_side;
-  static constexpr int coarse = tuning::grid_coarse;
-  static_assert(side < 64 && side % coarse == 0);  // a row is 64 bits, and `columns` needs one more
 
   void enter(int column, int row, float end) {
     rows_[row] |= std::uint64_t{1} << column;
@@ -91,7 +97,7 @@ class RayGrid {
   BOULE_INLINE static Real cell(const Axis& axis, const Real& x) {
     return cut_to_cells((x - Real(axis.low)) * Real(axis.scale), side - 1);
   }
-  /// The same, but the last cell for NaN.
+  /// The same, but the last cell for NaN: where all rays have one coordinate, infinity times 0.
   BOULE_INLINE static Real cell_above(const Axis& axis, const Real& x) {
     const Real zero(0.0F), last(static_cast<float>(side - 1));
     const Real at = (x - Real(axis.low)) * Real(axis.scale);
@@ -99,7 +105,6 @@ class RayGrid {
     return select(low <= zero, zero, low);
   }
 
-  bool known_ = false;
   Axis a_, b_;
   std::uint64_t rows_[side];                  ///< for each row the columns that have a ray, as bits
   float ends_[side / coarse][side / coarse];  ///< the greatest end of the rays in a coarse cell

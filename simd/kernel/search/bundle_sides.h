@@ -1,12 +1,10 @@
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/bundle_discs.h"
-#include "simd/kernel/search/bundle_grid.h"
 #include "simd/kernel/search/bundle_rays.h"
 
 /// A bundle against the boxes of a node: sixteen of them, W at a time, against the four planes that
@@ -39,28 +37,27 @@ class BundleSides {
     shift_ = rays.shift + static_cast<float>(filter::floor);
   }
 
-  /// Of the boxes in `entered`, as bits, those that the grid has rays for. `near`: as
-  /// find_missed() gave it.
-  BOULE_NOINLINE unsigned meet_rays(const BvhNode& node, const RayGrid& grid, const float* near,
-                                    unsigned entered) const {
-    alignas(64) float a_low[Discs::size], a_high[Discs::size], b_low[Discs::size],
-        b_high[Discs::size];
+  /// Finds what the bundle sees of the boxes of a node. `extent`: that of all rays.
+  BOULE_NOINLINE void view(const BvhNode& node, const Extent& extent, BoxViews& views) const {
+    const Real none(static_cast<float>(no_hit)), zero(0.0F);
+    const auto known = [](const Real& x, const Real& otherwise) {
+      return select(x <= x, x, otherwise);  // NaN is not known
+    };
     for (std::size_t part = 0; part * width < bvh_width; ++part) {
       const Boxes boxes = boxes_of(node, part);
       const Range depth = distances(depth_, boxes);
       const Range a = slopes(across_[0], boxes, depth), b = slopes(across_[1], boxes, depth);
-      const RayGrid::Cells cells = grid.cells(a.low, a.high, b.low, b.high);
-      store(a_low + part * width, cells.a_low);
-      store(a_high + part * width, cells.a_high);
-      store(b_low + part * width, cells.b_low);
-      store(b_high + part * width, cells.b_high);
+      const Real a_low = known(a.low, zero - none), a_high = known(a.high, none);
+      const Real b_low = known(b.low, zero - none), b_high = known(b.high, none);
+      const std::size_t at = part * width;
+      store(views.a_low + at, a_low);
+      store(views.a_high + at, a_high);
+      store(views.b_low + at, b_low);
+      store(views.b_high + at, b_high);
+      const Real wide = filter_min(a_high, extent.a_high) - filter_max(a_low, extent.a_low);
+      const Real high = filter_min(b_high, extent.b_high) - filter_max(b_low, extent.b_low);
+      store(views.area + at, filter_max(wide, zero) * filter_max(high, zero));
     }
-    unsigned result = 0;
-    for (unsigned left = entered; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      if (grid.any_in(a_low[k], a_high[k], b_low[k], b_high[k], near[k])) result |= 1U << k;
-    }
-    return result;
   }
 
   /// The children of a node that no ray enters before `limit`, as bits. Writes to `near` a lower

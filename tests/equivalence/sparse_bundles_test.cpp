@@ -1,0 +1,130 @@
+// Bundles that have many leaves in sight for their rays. They look past groups of rays that are
+// done, and their rays fly where each leaf is for few of them: the hits are those of packets, and
+// those of the scalar path.
+#include <cmath>
+#include <vector>
+
+#include "tests/equivalence/bundle_tiles.h"
+
+namespace boule::test {
+namespace {
+
+class SparseBundle : public OnEachIsa {
+ protected:
+  /// The nearest hits of a tile of 1024 rays, from its eye and along one direction.
+  void check_tile(const BundleScene& scene, const Tile& tile) {
+    const Geometry geometry(scene.spheres, scene.planes);
+    for (const Coherence coherence : {Coherence::common_origin, Coherence::common_direction}) {
+      const bool one_origin = coherence == Coherence::common_origin;
+      const auto rays =
+          one_origin ? from_one_origin(tile, scene.eye) : in_one_direction(tile, scene.eye);
+      SCOPED_TRACE(one_origin ? "one origin" : "one direction");
+      const auto hits = run_closest(*kernels, geometry.view(), rays,
+                                    {Solver::robust, Form::automatic, coherence});
+      const auto packets = run_closest(*kernels, geometry.view(), rays, as_packets);
+      met = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same_bits(hits[i], packets[i])) << scene.name << " ray " << i;
+        met += hits[i].id < 0 ? 0U : 1U;
+        if (i % sample != 0) continue;
+        const Hit expected = reference::closest_hit(rays[i], scene.spheres, scene.planes);
+        ASSERT_TRUE(same_bits(hits[i], expected)) << scene.name << " ray " << i;
+      }
+      EXPECT_GT(met, rays.size() / 50);
+      EXPECT_LT(met, rays.size());
+    }
+  }
+  /// Whether rays meet anything.
+  void check_any(const BundleScene& scene, const std::vector<Ray>& rays, Coherence coherence) {
+    const Geometry geometry(scene.spheres, scene.planes);
+    const auto occluded =
+        run_any(*kernels, geometry.view(), rays, {Solver::robust, Form::automatic, coherence});
+    const auto packets = run_any(*kernels, geometry.view(), rays, as_packets);
+    met = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(occluded[i], packets[i]) << scene.name << " ray " << i;
+      met += occluded[i] != 0 ? 1U : 0U;
+      if (i % sample != 0) continue;
+      const bool expected = reference::any_hit(rays[i], scene.spheres, scene.planes);
+      ASSERT_EQ(occluded[i], expected ? 1 : 0) << scene.name << " ray " << i;
+    }
+    EXPECT_GT(met, rays.size() / 10);
+    EXPECT_LT(met, rays.size() * 9 / 10);
+  }
+  static constexpr Query as_packets = {Solver::robust, Form::packet, Coherence::none};
+  static constexpr std::size_t sample = 13;
+  std::size_t met = 0;  ///< rays that met something
+};
+
+/// Spheres in a flat disc around the origin, as high as 0.01 along z.
+BundleScene flat_disc(CaseRandom& random, int count, double radius) {
+  BundleScene scene{"disc", {}, {0, -4, 0.08}};
+  for (int i = 0; i < count; ++i) {
+    const Vec3d at = random.direction() * std::sqrt(random.uniform(0, 1));
+    const Vec3f center = vec_cast<float>(Vec3d{at.x, at.y, random.uniform(-0.005, 0.005)});
+    scene.spheres.push_back({center, static_cast<float>(radius * random.uniform(0.5, 1)), 0});
+  }
+  return scene;
+}
+
+/// A disc seen edge-on: each of its leaves is for about a ray, and most rays miss all.
+TEST_P(SparseBundle, FliesPastADisc) {
+  CaseRandom random(81);
+  BundleScene scene = flat_disc(random, 8000, 0.01);
+  const Tile tile{{0, 0, 0}, {1.05, 0, 0}, {0, 0, 0.5}, 1, 32};
+  check_tile(scene, tile);
+  scene.planes = {{{0, 0, -0.3F}, {0, 0.1F, 1}, 0}};
+  check_tile(scene, tile);
+}
+
+/// A cloud of specks, half of it hidden by spheres amid it.
+TEST_P(SparseBundle, LooksPastGroupsThatAreDone) {
+  for (const double shift : {0.0, 3.0, 1e4}) {
+    CaseRandom random(82);
+    const Vec3d middle{shift, -shift, shift};
+    BundleScene scene{"specks", {}, middle + Vec3d{0, 0, 4}};
+    const auto add = [&](const Vec3d& at, double radius) {
+      scene.spheres.push_back({vec_cast<float>(middle + at), static_cast<float>(radius), 0});
+    };
+    for (int i = 0; i < 6000; ++i) {
+      const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-2, 2);
+      add({x, y, z}, 0.01 * random.uniform(0.3, 1));
+    }
+    for (int i = 0; i < 40; ++i) add({random.uniform(-1, -0.1), random.uniform(-1, 1), 1.8}, 0.2);
+    check_tile(scene, {middle, {0.9, 0, 0}, {0, 0.9, 0}, 1, 32});
+  }
+}
+
+/// Shadow rays from a disc with more leaves than rays: their sorted bundles are sparse, and those
+/// that come later fly at once.
+TEST_P(SparseBundle, FliesToALight) {
+  for (const int count : {300, 2500}) {
+    CaseRandom random(83);
+    const BundleScene scene = flat_disc(random, 40 * count, count < 1000 ? 0.008 : 0.003);
+    for (const bool is_point : {true, false}) {
+      const Vec3d light{-1, -1.5, is_point ? 3.0 : 2.0};
+      std::vector<Ray> rays;
+      for (int i = 0; i < count; ++i) {
+        const auto source = static_cast<std::size_t>(random.below(40 * count));
+        const Sphere& sphere = scene.spheres[source];
+        const Vec3d normal = random.direction();
+        Ray ray{center_of(sphere) + normal * (double{sphere.radius} * (1 + 0x1p-40)),
+                vec_cast<float>(light)};
+        ray.source = static_cast<std::int32_t>(source);
+        if (is_point) {
+          ray.dir = vec_cast<float>(light - ray.org);
+          ray.tmax = 1 - 0x1p-22F;
+        }
+        rays.push_back(ray);
+      }
+      SCOPED_TRACE(testing::Message() << count << (is_point ? " to a point" : ""));
+      check_any(scene, rays, is_point ? Coherence::common_end : Coherence::common_direction);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, SparseBundle, each_isa(), isa_name);
+
+}  // namespace
+}  // namespace boule::test
