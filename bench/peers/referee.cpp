@@ -11,6 +11,7 @@
 #include "bench/peers/double_tree.h"
 #include "bench/peers/embree_peer.h"
 #include "bench/peers/judge.h"
+#include "bench/peers/ray_limit.h"
 #include "render/frame/scheduler.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -182,6 +183,8 @@ class Arena {
         {reference_samples, most_reference_tests / scene_.spheres.size(), workload.rays->size()});
     check = {scene_.name, name_of(workload.kind), workload.rays->size(), samples,
              judge.differ_from_reference(samples, parallel_for_)};
+    if (settings_.threads == 1 && !settings_.isas.empty())
+      check.limit = limit_of(workload, embree_isas().back());
     std::vector<Entrant> entrants;
     for (const auto& embree : embrees_) {
       for (auto& contender : embree->contenders(workload))

@@ -74,7 +74,8 @@ Json to_json(const PeerRow& r) {
           {"max", r.most},
           {"ratio_to_best_embree", r.ratio},
           {"count", r.count},
-          {"mismatches", r.mismatches}};
+          {"mismatches", r.mismatches},
+          {"limit_mrays_per_s", r.limit}};
 }
 
 Json to_json(const NoiseError& e) {

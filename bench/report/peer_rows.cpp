@@ -24,7 +24,8 @@ std::optional<PeerRows> measure_peers(bool quick) {
     std::fprintf(stderr, "  %s %s\n", check.scene.c_str(), check.rays.c_str());
     for (const Row& row : rows)
       result.rows.push_back({row.scene, row.rays, row.contender, row.solver, row.median, row.min,
-                             row.max, row.ratio_to_best_embree, check.count, row.mismatches});
+                             row.max, row.ratio_to_best_embree, check.count, row.mismatches,
+                             check.limit});
   };
   if (!compare(settings, report)) return std::nullopt;
   return result;

@@ -13,6 +13,7 @@ struct PeerRow {
   double mrays_per_s, least, most;
   double ratio;  ///< to the best Embree mode
   std::size_t count, mismatches;
+  double limit;  ///< Mray/s that no tracer can pass
 };
 
 struct PeerRows {

@@ -176,7 +176,7 @@ TEST_P(KernelBadInput, RaysOfOddCamerasMissOrAreRays) {
 TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
   constexpr std::size_t count = 20;
   const double odd[] = {double{nan}, double{inf}, 0};
-  const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false};
+  const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false, false};
   std::vector<const LobeMaterial*> materials(count, &white);
   const AlignedArray<double> half(count, 0.5);
   const AlignedArray<std::int32_t> ids(count, 0);
