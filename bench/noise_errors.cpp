@@ -45,6 +45,7 @@ class NoisePictures {
  public:
   NoisePictures(const Scene& scene, const NoiseSettings& settings)
       : options_(options_for(scene, settings)),
+        most_spp_(std::min(usual_max_spp, settings.reference / 8)),
         scene_(std::make_shared<PreparedScene>(
             prepare(scene, options_.width, options_.height, serial_for, options_.method).value())) {
     options_.spp = settings.reference;
@@ -60,19 +61,20 @@ class NoisePictures {
     options_.spp = spp;
     options_.seed = seed_of_errors;
     Renderer renderer = create();
+    Film film(renderer.rect());
     const double begin = thread_seconds();
-    const Image image = renderer.render().value();
+    if (renderer.render_pass(film, spp)) std::abort();
     const double seconds = thread_seconds() - begin;
-    return judged(shown(image), {.asked = static_cast<double>(spp),
-                                 .mean_samples = static_cast<double>(spp),
-                                 .seconds = seconds,
-                                 .mrays = mrays_of(renderer)});
+    return judged(shown(film.to_image()), {.asked = static_cast<double>(spp),
+                                           .mean_samples = static_cast<double>(spp),
+                                           .seconds = seconds,
+                                           .mrays = mrays_of(renderer)});
   }
 
   NoiseError to_order(float noise) {
     options_.noise = noise;
     options_.min_spp = 16;
-    options_.spp = usual_max_spp;
+    options_.spp = most_spp_;
     options_.seed = seed_of_errors;
     Renderer renderer = create();
     MeasuredPicture picture(renderer.rect());
@@ -97,8 +99,8 @@ class NoisePictures {
       Film film(renderer.rect());
       const double begin = thread_seconds();
       if (renderer.render_pass(film, 1)) std::abort();
-      const Image image = film.to_image();
       random_.seconds += thread_seconds() - begin;
+      const Image image = film.to_image();
       random_.mrays += mrays_of(renderer);
       for (std::size_t i = 0; i < sums_.size(); ++i) {
         const auto& [r, g, b] = image.pixels[i];
@@ -139,6 +141,7 @@ class NoisePictures {
   }
 
   RenderOptions options_;
+  int most_spp_;  ///< of noise to order: the reference knows better than any pixel
   std::shared_ptr<const PreparedScene> scene_;
   Shown reference_;
   std::vector<Vec3d> sums_;  ///< of random samples

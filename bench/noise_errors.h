@@ -6,13 +6,6 @@
 
 namespace boule::bench {
 
-/// How pixels get their samples.
-enum class Spread {
-  uniform,   ///< all as many, one sequence for each pixel
-  random,    ///< all as many, each drawn by itself
-  to_order,  ///< as many as the pixel needs for the noise that is asked for
-};
-
 /// A picture, and its distance from the reference. Errors are differences of pixels in displayed
 /// values (sRGB-coded, 0..1), of the channel where they are greatest.
 struct NoiseError {
@@ -25,9 +18,11 @@ struct NoiseError {
   double within_99 = 0;
 };
 
-/// Ascending in samples.
+/// Pictures of one scene, ascending in samples.
 struct NoiseErrors {
-  std::vector<NoiseError> uniform, random, to_order;
+  std::vector<NoiseError> uniform;   ///< all pixels have as many samples, of a sequence each
+  std::vector<NoiseError> random;    ///< all have as many, each drawn by itself
+  std::vector<NoiseError> to_order;  ///< as many as a pixel needs for the noise that is asked for
 };
 
 struct NoiseSettings {
@@ -37,11 +32,14 @@ struct NoiseSettings {
 };
 
 /// Pictures with 16, 32 ... samples, up to a 16th of the reference's, and with noise of 0.16, 0.08
-/// ... 0.02, all by the scene's own method. Precondition: the scene and the settings are valid.
+/// ... 0.02 and at most an eighth of the reference's samples in a pixel, all by the scene's own
+/// method. What is timed is rendering into memory. Precondition: the scene and the settings are
+/// valid.
 NoiseErrors measure_noise_errors(const Scene& scene, const NoiseSettings& settings);
 
 /// The seconds that pictures of `errors` need until 99 % of the pixels are within `error`, between
-/// neighbours on logarithmic axes; beyond the last one as if the error fell with the root of time.
+/// neighbours on logarithmic axes; beyond the last one as if the error fell with the root of time,
+/// and no less than the first one's.
 /// Preconditions: `errors` is not empty; error > 0.
 double seconds_until(double error, const std::vector<NoiseError>& errors);
 

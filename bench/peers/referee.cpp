@@ -11,7 +11,7 @@
 #include "bench/peers/double_tree.h"
 #include "bench/peers/embree_peer.h"
 #include "bench/peers/judge.h"
-#include "bench/peers/ray_limit.h"
+#include "bench/peers/one_solve.h"
 #include "render/frame/scheduler.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -42,7 +42,7 @@ double seconds_of(clockid_t clock) {
 }
 
 /// So few rays are traced once untimed, or they would pay for what the contender before them drove
-/// out of the caches: more of them pay for little else than their own.
+/// out of the caches. With more rays that cost is small beside their own.
 constexpr std::size_t few_rays = 32768;
 
 /// Seconds that one pass over all rays takes: CPU time of the one thread, or wall clock.
@@ -183,8 +183,9 @@ class Arena {
         {reference_samples, most_reference_tests / scene_.spheres.size(), workload.rays->size()});
     check = {scene_.name, name_of(workload.kind), workload.rays->size(), samples,
              judge.differ_from_reference(samples, parallel_for_)};
-    if (settings_.threads == 1 && !settings_.isas.empty())
-      check.limit = limit_of(workload, embree_isas().back());
+    const std::vector<std::string> isas = embree_isas();
+    if (settings_.threads == 1 && !isas.empty())
+      check.one_solve = one_solve_rate(workload, isas.back());
     std::vector<Entrant> entrants;
     for (const auto& embree : embrees_) {
       for (auto& contender : embree->contenders(workload))

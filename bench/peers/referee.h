@@ -44,7 +44,7 @@ struct Check {
   std::size_t count = 0;             ///< rays
   std::size_t sampled = 0;           ///< rays that the reference answered as well
   std::size_t truth_mismatches = 0;  ///< of these
-  double limit = 0;  ///< Mray/s that no tracer can pass (limit_of()); 0: not measured
+  double one_solve = 0;  ///< Mray/s of one_solve_rate(), with the widest ISA; 0: not measured
 };
 
 struct Results {

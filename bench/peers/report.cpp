@@ -36,7 +36,7 @@ Json to_json(const Check& check) {
           {"count", check.count},
           {"sampled", check.sampled},
           {"truth_mismatches", check.truth_mismatches},
-          {"limit_mrays_per_s", check.limit}};
+          {"one_solve_mrays_per_s", check.one_solve}};
 }
 
 Json to_json(const std::optional<OracleVerdict>& verdict) {
@@ -75,9 +75,9 @@ std::string to_text(const std::optional<OracleVerdict>& verdict) {
 }
 
 /// "12 %"
-std::string share_of_limit(const Row& row, const Check& check) {
-  if (!(check.limit > 0)) return "-";
-  return std::to_string(std::lround(100 * row.median / check.limit)) + " %";
+std::string share_of_one_solve(const Row& row, const Check& check) {
+  if (!(check.one_solve > 0)) return "-";
+  return std::to_string(std::lround(100 * row.median / check.one_solve)) + " %";
 }
 
 }  // namespace
@@ -95,17 +95,17 @@ void print_workload(const Check& check, const std::vector<Row>& rows) {
   std::printf("\n%s %s: %zu rays; truth against brute force: %zu of %zu differ\n",
               check.scene.c_str(), check.rays.c_str(), check.count, check.truth_mismatches,
               check.sampled);
-  if (check.limit > 0)
-    std::printf("limit: %.0f Mray/s, rays read, solved once each, and answers written\n",
-                check.limit);
+  if (check.one_solve > 0)
+    std::printf("one solve a ray, rays read and answers written: %.0f Mray/s\n", check.one_solve);
   std::printf("%-34s %-7s %6s %-7s %8s %17s %4s %6s %7s %10s %s\n", "contender", "isa", "width",
               "solver", "Mray/s", "min..max", "reps", "ratio", "in isa", "mismatches",
-              "oracle: wrong; of the limit");
+              "oracle: wrong; of one solve");
   for (const Row& row : rows) {
     std::printf("%-34s %-7s %6zu %-7s %8.3f %8.3f..%7.3f %4d %6.2f %7.2f %10zu %s; %s\n",
                 row.contender.c_str(), row.isa.c_str(), row.width, row.solver.c_str(), row.median,
                 row.min, row.max, row.repetitions, row.ratio_to_best_embree, row.ratio_within_isa,
-                row.mismatches, to_text(row.oracle).c_str(), share_of_limit(row, check).c_str());
+                row.mismatches, to_text(row.oracle).c_str(),
+                share_of_one_solve(row, check).c_str());
   }
   std::fflush(stdout);
 }

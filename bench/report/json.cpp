@@ -75,7 +75,7 @@ Json to_json(const PeerRow& r) {
           {"ratio_to_best_embree", r.ratio},
           {"count", r.count},
           {"mismatches", r.mismatches},
-          {"limit_mrays_per_s", r.limit}};
+          {"one_solve_mrays_per_s", r.one_solve}};
 }
 
 Json to_json(const NoiseError& e) {

@@ -25,7 +25,7 @@ std::optional<PeerRows> measure_peers(bool quick) {
     for (const Row& row : rows)
       result.rows.push_back({row.scene, row.rays, row.contender, row.solver, row.median, row.min,
                              row.max, row.ratio_to_best_embree, check.count, row.mismatches,
-                             check.limit});
+                             check.one_solve});
   };
   if (!compare(settings, report)) return std::nullopt;
   return result;

@@ -13,7 +13,7 @@ struct PeerRow {
   double mrays_per_s, least, most;
   double ratio;  ///< to the best Embree mode
   std::size_t count, mismatches;
-  double limit;  ///< Mray/s that no tracer can pass
+  double one_solve;  ///< Mray/s of one_solve_rate() (bench/peers/one_solve.h); 0: not measured
 };
 
 struct PeerRows {

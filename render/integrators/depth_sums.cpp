@@ -6,6 +6,7 @@
 
 namespace boule {
 
+/// By memset(), because assign() stores number by number.
 void DepthSums::clear(std::vector<ColorSum>& row) const {
   row.resize(samples_);
   if (samples_ > 0) std::memset(row.data(), 0, samples_ * sizeof(ColorSum));

@@ -46,8 +46,9 @@ class Wavefront {
   /// Adds the radiance that each ray of the current stream found.
   void add(const ColorStream& radiance);
 
-  /// Adds a ray that goes on from ray `parent` of the current stream, unless its weight in the
-  /// sample is black. Its PathStream::density is 0. Precondition: parents come in order.
+  /// For records: adds a ray that goes on from ray `parent` of the current stream, unless its
+  /// weight in the sample is black. Its PathStream::density is 0. Precondition: parents come in
+  /// order.
   void spawn(std::size_t parent, const Ray& ray, const Color& weight);
 
   /// Adds rays that go on from the current stream, parents in order or one to a sample.

@@ -90,7 +90,7 @@ void Whitted::scatter_rays(const Block& block) {
   wavefront_.spawn(going_on);
 }
 
-/// The same for the only ray of a record, one ray after the other.
+/// The same for the only ray of a record, which has the kinds and the weights of its rays as well.
 void Whitted::record_ray(const Block& block) {
   const std::size_t ray = block.first;
   const Surface surface = surfaces_.get(0);

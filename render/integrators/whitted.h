@@ -36,8 +36,8 @@ class Whitted final : public StreamIntegrator {
   SeenLight seen_, seen_by_camera_;
   MaterialFinder<WhittedMaterial> materials_;
   // Working memory of one block.
-  AlignedArray<std::uint8_t> scatters_;  ///< by ray
-  std::vector<const LobeMaterial*> lobes_;
+  AlignedArray<std::uint8_t> scatters_;     ///< by ray
+  std::vector<const LobeMaterial*> lobes_;  ///< by ray
   const FlatMaterial* recorded_ = nullptr;  ///< that the only ray met
   GoingOnBuffer going_on_;
 };

@@ -12,7 +12,8 @@ namespace {
 /// How many samples of a pixel's own the variance around it counts for.
 constexpr double samples_around = 32;
 
-constexpr double steepest = 12.92;  ///< slope of the sRGB curve, at black
+/// The steepest slope of the sRGB curve: no interval shows wider than so many times its width.
+constexpr double steepest = 12.92;
 
 float as_float(double number) {
   constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());

@@ -5,8 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/math/color.h"
-#include "core/scene/light.h"
 #include "render/shading/stream_surfaces.h"
 #include "simd/abi/paths.h"
 #include "simd/stream/aligned_array.h"

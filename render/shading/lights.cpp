@@ -1,5 +1,9 @@
 #include "render/shading/lights.h"
 
+#include <variant>
+
+#include "core/math/geometry.h"
+
 namespace boule {
 
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/math/geometry.h"
 #include "core/scene/light.h"
 #include "simd/abi/isa.h"
 #include "simd/abi/shading.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -40,11 +39,6 @@ class StreamSurfaces {
   /// Surface::point and Surface::mirrored, by ray of the stream.
   VectorStream points() { return points_.view(); }
   VectorStream mirrored() { return mirrored_.view(); }
-
-  /// Where rays leave from the hit of ray k of the stream, to the viewer's side.
-  [[nodiscard]] Departure departure(std::size_t k) const {
-    return {orgs_.get(k), ids_[k], inside_[k] != 0};
-  }
 
   /// The hits of the first `size` rays. lit[k] is 1 if light may fall on that of ray k, else 0,
   /// also up to padded(size).

@@ -82,7 +82,8 @@ struct KernelTable {
   void (*scatter_rays)(const ScatteringHits& hits, GoingOn& spawned);
 
   /// Adds to the radiance of rays what their points send back of the light along those shadow rays
-  /// that nothing blocks: reflected_light() of core/optics/reflectance.h.
+  /// that nothing blocks: reflected_light() of core/optics/reflectance.h. Of the radiance no other
+  /// rays are read or written.
   void (*add_direct_light)(const LightIntensity& light, const ShadowedPoints& shadows,
                            const ColorStream& radiance);
 };

@@ -7,8 +7,8 @@
 
 namespace boule {
 
-/// What the kernels of path tracing read and write. All streams are views: they own nothing and
-/// check nothing. Arrays are as in RayStream unless something else is said.
+/// What the kernels of path tracing and of light read and write. All streams are views: they own
+/// nothing and check nothing. Arrays are as in RayStream unless something else is said.
 
 /// Colours as a structure of arrays.
 struct ColorStream {
@@ -33,8 +33,8 @@ struct WeightedLight {
   std::size_t size;
 };
 
-/// A material of flatten() (render/prepare/flat_material.h), whose meanings it has; the fourth
-/// number of a colour is 0.
+/// A material of flatten() or flatten_for_paths() (render/prepare/flat_material.h), whose meanings
+/// it has; the fourth number of a colour is 0.
 struct LobeMaterial {
   float diffuse[4], mirror[4], transmission[4];
   double highlight, shininess, ior;

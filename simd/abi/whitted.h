@@ -13,7 +13,7 @@ namespace boule {
 
 /// The rays of a block, and the hits from which mirrored and refracted rays go on. By ray.
 struct ScatteringHits {
-  const std::uint8_t* scatters;         ///< 1: from this one; also those up to padded(size)
+  const std::uint8_t* scatters;         ///< 1: from this one; else 0, also up to padded(size)
   SurfaceStream surfaces;               ///< of those
   const LobeMaterial* const* material;  ///< of those
   const std::int32_t* id;               ///< what was hit
@@ -35,9 +35,9 @@ struct LightIntensity {
 /// Shadow rays to one light, with what blocks them, and the points that they leave.
 struct ShadowedPoints {
   const std::uint8_t* blocked;  ///< by shadow ray: 0 if nothing does
-  VectorStream to_light;        ///< likewise, as ShadowRayStream has them, with the next two
-  const double* cosine;
-  const std::uint32_t* ray;  ///< to which the point belongs; no two are the same
+  VectorStream to_light;        ///< by shadow ray, unit length
+  const double* cosine;         ///< by shadow ray: n.l
+  const std::uint32_t* ray;  ///< by shadow ray: that to which its point belongs; none comes twice
   std::size_t size;
   VectorStream point, mirrored;         ///< by ray, as Surface has them
   const LobeMaterial* const* material;  ///< by ray

@@ -91,7 +91,7 @@ inline constexpr std::size_t rays_per_leaf_if_sparse = 8;
 inline constexpr int most_nodes_paused = 15;
 
 /// A sparse bundle is given up, and its rays fly, where a leaf is for fewer of them than this, on
-/// average; that is judged from a leaf for so many of its rays on. Flights divided by bundles,
+/// average. Flights divided by bundles,
 /// nearest hits, by rays of a leaf: 4 and more below 2 (ring1000000 at 512 x 512, flake6 at 128 x
 /// 128), 1.4 to 2.5 between 4 and 10 (flake6 and slab2000000 at 256 x 256), 0.4 to 0.9 between 8
 /// and 32 (flake6, slab2000000 at 512 x 512), below 0.2 from 32 on (dust: u1000000 with a tenth of
@@ -101,6 +101,8 @@ inline constexpr int most_nodes_paused = 15;
 /// primary,orthographic,shadow
 template <bool any>
 inline constexpr float fewest_rays_of_a_leaf = any ? 1.0F : 8.0F;
+/// That is judged once a bundle, since it is sparse, has seen a leaf for so many of its rays. With
+/// half as many leaves flake6 lost its gain.
 inline constexpr std::size_t rays_per_leaf_judged = 16;
 
 /// A bundle is given up after so many double solves for each of its packets, on average, because

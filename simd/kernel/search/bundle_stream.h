@@ -10,9 +10,9 @@
 
 /// Streams of rays with something in common, bundle by bundle. Chosen where the caller promises a
 /// common origin, direction or end (Coherence) and asks for no other form. Rays that are no bundle
-/// after all are halved until they are, few rays go as packets, and those of sparse bundles fly, so
-/// that the hits do not depend on which rays make a bundle. Shadow rays (any hit) are taken in
-/// their order as long as that goes well, and then sorted (ray_pool.h).
+/// after all are halved until they are, few rays go as packets, and those of sparse bundles fly.
+/// The hits do not depend on which rays make a bundle. Shadow rays (any hit) are taken in their
+/// order as long as that goes well, and then sorted (ray_pool.h).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Traces rays that fit into no bundle, as packets. Geometry, here and below: GeometryView, or
@@ -45,7 +45,7 @@ BOULE_INLINE Outcome trace_in_order(const Geometry& geometry, const PaddedStream
 
 /// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they are one, or
 /// as packets where they are few or their bundle gave up. `sparse`: whether a bundle was sparse;
-/// from there on all fly.
+/// from there on there are no bundles.
 template <Common common, class Geometry, class Answers>
 void trace_halved(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
                   std::size_t end, Answers answers, bool& sparse) {

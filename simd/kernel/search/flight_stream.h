@@ -12,12 +12,13 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
 
-/// Streams of rays that have little in common, many of them in flight at a time. Chosen for the
-/// robust solver and scenes with a tree, where Form says flight or where a trial finds flights
-/// faster than packets (scattered_stream.h). In every round up to twelve flights take a step of the
-/// same kind and fetch the memory of their next one; a ray that is done makes room for the next of
-/// the stream. The hits are exact: floats only turn spheres away or shorten a ray, and what remains
-/// is solved in double. The order of the steps changes nothing but the time.
+/// Streams of rays that have little in common, many of them in flight at a time. Chosen in scenes
+/// with a tree where Form says flight, where a trial finds flights faster than packets
+/// (scattered_stream.h), and for the rays of sparse bundles (bundle_stream.h). In every round up to
+/// twelve flights take a step of the same kind and fetch the memory of their next one; a ray that
+/// is done makes room for the next of the stream. The hits are exact: floats only turn spheres away
+/// or shorten a ray, and what remains is solved in double. The order of the steps changes nothing
+/// but the time.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Many rays in flight at a time. Answers: HitStream for nearest hits, std::uint8_t* for any.

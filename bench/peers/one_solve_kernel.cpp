@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/peers/ray_limit.h"
+#include "bench/peers/one_solve.h"
 
 namespace boule::bench::BOULE_KERNEL_ISA {
 namespace {
 
 constexpr std::size_t block = 256;  ///< rays
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The nearest root of each ray, or infinity; `size` at most `block`.
 void solve(const RayStream& rays, std::size_t first, std::size_t size, double* __restrict t) {
@@ -25,50 +26,33 @@ void solve(const RayStream& rays, std::size_t first, std::size_t size, double* _
     const double discriminant = b * b - a * c;
     const double root = (b - std::sqrt(discriminant < 0 ? 0 : discriminant)) / a;
     const bool hit = (discriminant >= 0) & (root > double{tmin[k]}) & (root <= double{tmax[k]});
-    t[k] = hit ? root : std::numeric_limits<double>::infinity();
+    t[k] = hit ? root : infinity;
   }
 }
 
-/// What tells a ray not to meet the sphere that it leaves. Here no ray leaves this one.
-void leave_out_sources(const RayStream& rays, std::size_t first, std::size_t size,
-                       std::uint32_t* __restrict leaves) {
+/// Reads which primitive each ray leaves, for what that costs, and writes an id that depends on it.
+void name(const RayStream& rays, std::size_t first, std::size_t size, const double* t,
+          std::int32_t* __restrict id) {
   const std::int32_t* source = rays.source + first;
   const std::uint8_t* inside = rays.inside + first;
-  for (std::size_t k = 0; k < size; ++k)
-    leaves[k] = static_cast<std::uint32_t>(source[k] == std::numeric_limits<std::int32_t>::max()) &
-                inside[k];
-}
-
-void closest(const RayStream& rays, const HitStream& hits) {
-  std::uint32_t leaves[block];
-  for (std::size_t first = 0; first < rays.size; first += block) {
-    const std::size_t size = std::min(block, rays.size - first);
-    double* const t = hits.t + first;
-    solve(rays, first, size, t);
-    leave_out_sources(rays, first, size, leaves);
-    for (std::size_t k = 0; k < size; ++k) {
-      const bool hit = t[k] < std::numeric_limits<double>::infinity();
-      hits.id[first + k] = hit ? static_cast<std::int32_t>(leaves[k]) : -1;
-      hits.slot[first + k] = leaves[k];
-    }
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::int32_t found = (source[k] == 0) & inside[k];
+    id[k] = t[k] < infinity ? found : no_primitive;
   }
 }
 
-void any(const RayStream& rays, std::uint8_t* occluded) {
-  std::uint32_t leaves[block];
-  double t[block];
+void read_solve_write(const RayStream& rays, const HitStream& hits) {
   for (std::size_t first = 0; first < rays.size; first += block) {
     const std::size_t size = std::min(block, rays.size - first);
-    solve(rays, first, size, t);
-    leave_out_sources(rays, first, size, leaves);
-    for (std::size_t k = 0; k < size; ++k)
-      occluded[first + k] = t[k] < std::numeric_limits<double>::infinity() && leaves[k] == 0;
+    solve(rays, first, size, hits.t + first);
+    name(rays, first, size, hits.t + first, hits.id + first);
+    std::fill_n(hits.slot + first, size, 0U);
   }
 }
 
 }  // namespace
 
-extern const LimitKernel limit_kernel;
-const LimitKernel limit_kernel = {closest, any};
+extern const OneSolve one_solve;
+const OneSolve one_solve = read_solve_write;
 
 }  // namespace boule::bench::BOULE_KERNEL_ISA
