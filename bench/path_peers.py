@@ -141,9 +141,11 @@ def measure(contenders, references, options, folder):
                     error *= options.reference / (options.reference - n)
                 seconds[c.name, n].append(used)
                 errors[c.name, n].append(error)
-    rows = {}
+    rows, starts = {}, {c.name: np.median(seconds[c.name, 1]) for c in contenders}
+    print("  seconds of a picture of one sample, left out:",
+          ", ".join(f"{name} {start:.2f}" for name, start in starts.items()))
     for c in contenders:
-        start = np.median(seconds[c.name, 1])
+        start = starts[c.name]
         rows[c.name] = [(n, (np.median(seconds[c.name, n]) - start) * n / (n - 1), np.mean(errors[c.name, n]))
                         for n in options.samples]
     return rows

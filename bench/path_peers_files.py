@@ -61,7 +61,7 @@ def embree_matte(albedo):
 def write_embree(scene, path):
     """Writes the scene; gives the options that tell camera, light and depth.
 
-    Its spheres throw no shadows: the tutorial leaves out the filter by which points stop shadow rays. So each is a
+    Points throw no shadows: the tutorial's shadow rays rely on a filter that points do not get. So each sphere is a
     round curve whose length is a hundred thousandth of its radius.
 
     The tutorial adds a light from everywhere twice: by a shadow ray at every hit, and where a path meets nothing.
