@@ -2,9 +2,11 @@
 // done, and their rays fly where each leaf is for few of them: the hits are those of packets, and
 // those of the scalar path.
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "tests/equivalence/bundle_tiles.h"
+#include "tests/support/placed_groups.h"
 
 namespace boule::test {
 namespace {
@@ -13,7 +15,10 @@ class SparseBundle : public OnEachIsa {
  protected:
   /// The nearest hits of a tile of 1024 rays, from its eye and along one direction.
   void check_tile(const BundleScene& scene, const Tile& tile) {
-    const Geometry geometry(scene.spheres, scene.planes);
+    check_tile(scene, Geometry(scene.spheres, scene.planes), tile);
+  }
+  /// The same in another geometry of the scene.
+  void check_tile(const BundleScene& scene, const Geometry& geometry, const Tile& tile) {
     for (const Coherence coherence : {Coherence::common_origin, Coherence::common_direction}) {
       const bool one_origin = coherence == Coherence::common_origin;
       const auto rays =
@@ -75,6 +80,17 @@ TEST_P(SparseBundle, FliesPastADisc) {
   check_tile(scene, tile);
   scene.planes = {{{0, 0, -0.3F}, {0, 0.1F, 1}, 0}};
   check_tile(scene, tile);
+}
+
+/// A disc of two parts, where nothing flies.
+TEST_P(SparseBundle, GoesAsPacketsPastParts) {
+  CaseRandom random(81);
+  const BundleScene part = flat_disc(random, 4000, 0.01);
+  const PlacedGroups groups{
+      "parts", {part.spheres}, {{0, std::nullopt}, {0, placed({0, 0, 57}, 1, {0.1, 0, 0})}}};
+  const BundleScene scene{groups.name, groups.written_out(), part.eye};
+  check_tile(scene, groups.in_parts({}, Structure::bvh),
+             {{0, 0, 0}, {1.05, 0, 0}, {0, 0, 0.5}, 1, 32});
 }
 
 /// A cloud of specks, half of it hidden by spheres amid it.
