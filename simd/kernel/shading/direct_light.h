@@ -79,7 +79,7 @@ class LitLanes {
 
 BOULE_INLINE Vec3<Real> intensity_at(const LightIntensity& light, const LitLanes& lanes,
                                      const VectorStream& point) {
-  const Vec3<Real> all{light.intensity[0], light.intensity[1], light.intensity[2]};
+  Vec3<Real> all{light.intensity[0], light.intensity[1], light.intensity[2]};
   if (!light.falls_off) return all;
   const Vec3<Wide> position{light.position[0], light.position[1], light.position[2]};
   const Vec3<Wide> way = position - lanes.pick(point);
