@@ -9,29 +9,22 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "bench/median.h"
 #include "bench/uniform_spheres.h"
+#include "bench/wall_seconds.h"
 #include "core/base/parallel.h"
 #include "render/frame/scheduler.h"
 #include "simd/geometry/geometry.h"
 
 namespace boule::bench {
 namespace {
-
-double seconds(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Four floats a sphere, in the layout of Embree's spheres.
 std::vector<float> embree_points(const std::vector<Sphere>& spheres) {
@@ -49,14 +42,14 @@ double embree_seconds(RTCDevice device, std::vector<float>& points) {
   RTCScene scene = rtcNewScene(device);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  const double time = seconds([&] { rtcCommitScene(scene); });
+  const double time = wall_seconds([&] { rtcCommitScene(scene); });
   rtcReleaseScene(scene);
   return time;
 }
 
 double our_seconds(std::vector<Sphere> spheres, const ParallelFor& loop) {
   std::optional<Geometry> built;
-  return seconds(
+  return wall_seconds(
       [&] { built.emplace(std::move(spheres), std::vector<Plane>(), Structure::bvh, loop); });
 }
 
@@ -88,9 +81,8 @@ int main(int argc, char** argv) {
   std::vector<std::size_t> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::strtoull(argv[i], nullptr, 10));
   if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
-  const unsigned most = std::max(std::thread::hardware_concurrency(), 2U);
   for (const std::size_t n : sizes) {
-    for (unsigned threads = 1; threads <= most; threads *= 2) boule::bench::compare(n, threads);
+    for (const unsigned threads : boule::bench::thread_counts()) boule::bench::compare(n, threads);
   }
   return 0;
 }

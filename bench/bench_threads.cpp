@@ -3,19 +3,17 @@
 //   bench_threads [--repetitions N] [--width N] [--height N] [--spp N] [--spheres N] SCENE...
 //                                                                              SCENE: .toml
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "bench/median.h"
 #include "bench/uniform_spheres.h"
+#include "bench/wall_seconds.h"
 #include "render/renderer/renderer.h"
 #include "render/scene_file/scene_file.h"
 
@@ -29,21 +27,6 @@ struct Arguments {
   int spp = 16;
   std::size_t spheres = 0;  ///< of a scene uN whose preparation is timed; 0: none
 };
-
-double seconds(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// 1, 2, 4 ... and the number of threads that this machine runs at once.
-std::vector<unsigned> thread_counts() {
-  const unsigned most = std::max(std::thread::hardware_concurrency(), 1U);
-  std::vector<unsigned> counts;
-  for (unsigned threads = 1; threads < most; threads *= 2) counts.push_back(threads);
-  counts.push_back(most);
-  return counts;
-}
 
 /// `run` returns the seconds that as many threads take; all numbers of threads take turns.
 template <class Run>
@@ -83,7 +66,7 @@ void compare_pictures(const std::string& file, const Arguments& arguments) {
     auto renderer = Renderer::create(scene, options);
     if (!renderer) fail(renderer.error());
     Image image;
-    const double time = seconds([&] { image = renderer.value().render().value(); });
+    const double time = wall_seconds([&] { image = renderer.value().render().value(); });
     if (expected.empty()) expected = image.pixels;
     if (image.pixels != expected) std::abort();
     return time;
@@ -104,7 +87,7 @@ void compare_preparation(const Arguments& arguments) {
     options.threads = threads;
     std::optional<Result<Renderer>> renderer;  // is destroyed untimed
     const double time =
-        seconds([&] { renderer.emplace(Renderer::create(std::move(scene), options)); });
+        wall_seconds([&] { renderer.emplace(Renderer::create(std::move(scene), options)); });
     if (!*renderer) fail(renderer->error());
     return time;
   };

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::uint64_t seed_of_errors = 1, seed_of_reference = 1'000'000;
 
-double displayed(double v) { return srgb_from_linear(std::clamp(v, 0.0, 1.0)); }
-
 /// Colours of a picture, as they are displayed.
 using Shown = std::vector<Vec3d>;
 
@@ -25,7 +23,7 @@ Shown shown(const Image& image) {
   Shown colors;
   for (const auto& [r, g, b] : image.pixels) {
     const auto [x, y, z] = vec_cast<double>(Vec3f{r, g, b});
-    colors.push_back({displayed(x), displayed(y), displayed(z)});
+    colors.push_back({srgb_displayed(x), srgb_displayed(y), srgb_displayed(z)});
   }
   return colors;
 }
@@ -38,6 +36,13 @@ RenderOptions options_for(const Scene& scene, const NoiseSettings& settings) {
   options.outline = 0;
   options.transparent = false;
   return options;
+}
+
+/// Processor seconds of rendering that must not fail.
+double seconds_of(const auto& render) {
+  const double begin = thread_seconds();
+  if (render()) std::abort();
+  return thread_seconds() - begin;
 }
 
 /// The pictures of one scene, which is prepared once, and their errors.
@@ -62,9 +67,7 @@ class NoisePictures {
     options_.seed = seed_of_errors;
     Renderer renderer = create();
     Film film(renderer.rect());
-    const double begin = thread_seconds();
-    if (renderer.render_pass(film, spp)) std::abort();
-    const double seconds = thread_seconds() - begin;
+    const double seconds = seconds_of([&] { return renderer.render_pass(film, spp); });
     return judged(shown(film.to_image()), {.asked = static_cast<double>(spp),
                                            .mean_samples = static_cast<double>(spp),
                                            .seconds = seconds,
@@ -78,9 +81,7 @@ class NoisePictures {
     options_.seed = seed_of_errors;
     Renderer renderer = create();
     MeasuredPicture picture(renderer.rect());
-    const double begin = thread_seconds();
-    if (renderer.render_measured(picture)) std::abort();
-    const double seconds = thread_seconds() - begin;
+    const double seconds = seconds_of([&] { return renderer.render_measured(picture); });
     return judged(shown(picture.image(Alpha::none)),
                   {.asked = static_cast<double>(noise),
                    .mean_samples = noise_reached(picture, options_.spp).mean_samples,
@@ -97,9 +98,7 @@ class NoisePictures {
       options_.seed = seed_of_errors + static_cast<std::uint64_t>(random_.asked);
       Renderer renderer = create();
       Film film(renderer.rect());
-      const double begin = thread_seconds();
-      if (renderer.render_pass(film, 1)) std::abort();
-      random_.seconds += thread_seconds() - begin;
+      random_.seconds += seconds_of([&] { return renderer.render_pass(film, 1); });
       const Image image = film.to_image();
       random_.mrays += mrays_of(renderer);
       for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -111,7 +110,7 @@ class NoisePictures {
     Shown means;
     for (const Vec3d& sum : sums_) {
       const Vec3d mean = sum * (1.0 / spp);
-      means.push_back({displayed(mean.x), displayed(mean.y), displayed(mean.z)});
+      means.push_back({srgb_displayed(mean.x), srgb_displayed(mean.y), srgb_displayed(mean.z)});
     }
     return judged(means, random_);
   }

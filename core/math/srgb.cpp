@@ -49,6 +49,8 @@ double srgb_from_linear(double v) {
   return v <= 0.0031308 ? v * 12.92 : 1.055 * elementary::pow(v, 1 / 2.4) - 0.055;
 }
 
+double srgb_displayed(double v) { return srgb_from_linear(std::clamp(v, 0.0, 1.0)); }
+
 SrgbTable::SrgbTable() {
   const FloatEnvironment environment;  // the table serves later calls, too
   step_[0] = 0;

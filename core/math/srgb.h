@@ -30,6 +30,9 @@ double linear_from_srgb(double s);
 /// The other way round, for 0..1.
 double srgb_from_linear(double v);
 
+/// What a display shows of any number: the same after it is cut to 0..1.
+double srgb_displayed(double v);
+
 /// From linear values to codes and back by tables, without a power for each. The upper 16 bits of a
 /// float below 1 choose a bucket, whose relative width is 2^-7. Any two steps from code to code are
 /// further apart than that, so a bucket holds at most one step, and one comparison decides.

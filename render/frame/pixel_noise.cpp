@@ -58,11 +58,10 @@ double student_quantile(int degrees) {
 }
 
 double displayed_half_width(double value, double half_width) {
-  const auto shown = [](double x) { return srgb_from_linear(std::clamp(x, 0.0, 1.0)); };
   if (!(half_width > 0) || value - half_width >= 1) return 0;
-  const double middle = shown(value), below = middle - shown(value - half_width);
+  const double middle = srgb_displayed(value), below = middle - srgb_displayed(value - half_width);
   // The curve is steeper on the dark side, so that part is the longer one unless black cuts it off.
-  return value >= half_width ? below : std::max(below, shown(value + half_width) - middle);
+  return value >= half_width ? below : std::max(below, srgb_displayed(value + half_width) - middle);
 }
 
 int next_look(int count) {

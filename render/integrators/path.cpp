@@ -60,11 +60,8 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
   }
   for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
     light_spheres_.push_back(light_sphere(scene.area_lights[i], scene.area_lights.before(i)));
-  seen_ = {seen_background(scene.background), light_spheres_.data(),
-           scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_};
-  seen_by_camera_ = seen_;
-  if (scene.backdrop)
-    seen_by_camera_.background = seen_background(ConstantBackground{*scene.backdrop});
+  use_seen({seen_background(scene.background), light_spheres_.data(),
+            scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_});
   kinds_.resize(most_points);
   lobes_.resize(most_points);
   going_on_buffer_.resize(most_points);
@@ -94,21 +91,6 @@ void Path::shade(const Block& block) {
   meet_materials(block);
   if (delta_lights_) light_points(block);
   continue_paths(block);
-}
-
-/// Sets the radiance that rays find by their directions: of lights that they cross, and of the
-/// background.
-void Path::see_light(const Block& block) {
-  const PathStream& stream = block.stream;
-  const std::size_t size = block.end - block.first;
-  const SeenLight& seen = stream.depth == 0 ? seen_by_camera_ : seen_;
-  kernels_.see_light(
-      seen, {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
-             stream.density + block.first, part(radiance_.view(), block.first)});
-  if (seen.background.kind != SeenBackground::Kind::other) return;
-  for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
-    if (hit(k).id == no_primitive) radiance_.add(k, weighted_background(stream, k));
-  }
 }
 
 /// Finds the materials that the rays met, and adds the light that these emit.
@@ -250,9 +232,9 @@ void Path::add_more_light() {
   }
 }
 
-/// The background that a ray sees, weighted if light sampling could have found it too.
-Color Path::weighted_background(const PathStream& stream, std::uint32_t ray) const {
-  const Color radiance = background_seen_by(stream, ray);
+/// Weighted if light sampling could have found it too.
+Color Path::see_image(const PathStream& stream, std::size_t ray) const {
+  const Color radiance = StreamIntegrator::see_image(stream, ray);
   const double density{stream.density[ray]};
   if (!(environment_share_ > 0) || !(density > 0)) return radiance;
   const double other =

@@ -41,7 +41,7 @@ class Path final : public StreamIntegrator {
   void make_room(std::size_t rays) override;
   void shade(const Block& block) override;
   void add_more_light() override;
-  void see_light(const Block& block);
+  [[nodiscard]] Color see_image(const PathStream& stream, std::size_t ray) const override;
   void meet_materials(const Block& block);
   [[nodiscard]] Color emitted(const PathStream& stream, std::uint32_t ray, const Hit& met,
                               const Color& radiance) const;
@@ -52,7 +52,6 @@ class Path final : public StreamIntegrator {
   void find_numbers(const PathStream& stream, const LobePoints& points, Use use,
                     RandomNumbers& numbers);
   void sample_environment(const LobePoints& points);
-  [[nodiscard]] Color weighted_background(const PathStream& stream, std::uint32_t ray) const;
   [[nodiscard]] double emitter_density(const Vec3d& org, const Hit& hit,
                                        const Color& radiance) const;
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
@@ -63,7 +62,6 @@ class Path final : public StreamIntegrator {
   bool delta_lights_ = false;  ///< there are point or directional lights
   HitWeight hit_weight_;
   std::vector<LightSphere> light_spheres_;
-  SeenLight seen_, seen_by_camera_;
   std::vector<RandomKey> random_keys_;  ///< by sample
   MaterialFinder<PathMaterial> materials_;
 

@@ -22,6 +22,12 @@ void StreamIntegrator::use_light(const Light& light) {
   lights_.push_back({&light, shadow_target(light), light_intensity(light)});
 }
 
+void StreamIntegrator::use_seen(const SeenLight& seen) {
+  seen_ = seen_by_camera_ = seen;
+  if (scene_.backdrop)
+    seen_by_camera_.background = seen_background(ConstantBackground{*scene_.backdrop});
+}
+
 bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
   primary_ += camera.rays.size();
   start(camera);
@@ -85,10 +91,21 @@ void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
   }
 }
 
-Color StreamIntegrator::background_seen_by(const PathStream& stream, std::size_t ray) const {
-  return stream.depth == 0 && scene_.backdrop
-             ? *scene_.backdrop
-             : background_radiance(scene_.background, stream.rays->dir(ray));
+void StreamIntegrator::see_light(const Block& block) {
+  const PathStream& stream = block.stream;
+  const std::size_t size = block.end - block.first;
+  const SeenLight& seen = stream.depth == 0 ? seen_by_camera_ : seen_;
+  kernels_.see_light(
+      seen, {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
+             stream.density + block.first, part(radiance_.view(), block.first)});
+  if (seen.background.kind != SeenBackground::Kind::other) return;
+  for (std::size_t k = block.first; k < block.end; ++k) {
+    if (hit(k).id == no_primitive) radiance_.add(k, see_image(stream, k));
+  }
+}
+
+Color StreamIntegrator::see_image(const PathStream& stream, std::size_t ray) const {
+  return background_radiance(scene_.background, stream.rays->dir(ray));
 }
 
 void StreamIntegrator::find_surfaces(const Block& block) {

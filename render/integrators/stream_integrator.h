@@ -38,6 +38,10 @@ class StreamIntegrator : public Integrator {
   /// From now on, direct light of this light of the scene is added to all lit hits.
   void use_light(const Light& light);
 
+  /// From now on rays see this by their direction; the camera's own rays see the backdrop in place
+  /// of the background, if the scene has one.
+  void use_seen(const SeenLight& seen);
+
   /// Called before the first stream of these camera rays.
   virtual void start(const CameraRays&) {}
   /// Called before each stream, with room for how many rays to make.
@@ -50,6 +54,12 @@ class StreamIntegrator : public Integrator {
   /// Called when all blocks of a stream are shaded and their direct light is added.
   virtual void add_more_light() {}
 
+  /// Sets the radiance of the block's rays to the light that they find by their direction.
+  void see_light(const Block& block);
+
+  /// What a ray that meets nothing sees of a background that is not for kernels: an image.
+  [[nodiscard]] virtual Color see_image(const PathStream& stream, std::size_t ray) const;
+
   /// Finds the surfaces of all hits of the block.
   void find_surfaces(const Block& block);
 
@@ -58,8 +68,6 @@ class StreamIntegrator : public Integrator {
   const std::uint8_t* find_blocked(const RayStream& shadow_rays, Coherence coherence);
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
-  /// What a ray of the stream sees of the background: the camera's own rays see the backdrop.
-  [[nodiscard]] Color background_seen_by(const PathStream& stream, std::size_t ray) const;
   /// How shadow rays start by the lecture's epsilon; none: by themselves.
   [[nodiscard]] std::optional<Illumination::Epsilon> epsilon() const;
   [[nodiscard]] bool ends(const PathStream& stream) const {
@@ -93,6 +101,7 @@ class StreamIntegrator : public Integrator {
   [[nodiscard]] bool cancelled() const;
 
   std::vector<TargetedLight> lights_;
+  SeenLight seen_, seen_by_camera_;
   std::uint64_t primary_ = 0, shadow_ = 0;
 
   // Working memory of one stream.

@@ -10,29 +10,21 @@ namespace {
 
 constexpr std::size_t most_rays = StreamSurfaces::block_size;
 
-/// The background alone: lights cannot be seen.
-SeenLight seen_light(const Background& background) {
-  return {seen_background(background), nullptr, 0, 0, HitWeight::none};
-}
-
 }  // namespace
 
 Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
                  const IntegratorSettings& settings)
-    : StreamIntegrator(scene, kernels, settings),
-      seen_(seen_light(scene.background)),
-      seen_by_camera_(scene.backdrop ? seen_light(ConstantBackground{*scene.backdrop}) : seen_),
-      materials_(scene),
-      lobes_(most_rays) {
+    : StreamIntegrator(scene, kernels, settings), materials_(scene), lobes_(most_rays) {
   scatters_.resize(most_rays);
   going_on_.resize(2 * most_rays);
   for (const Light& light : scene.lights) use_light(light);
+  use_seen({seen_background(scene.background), nullptr, 0, 0, HitWeight::none});
 }
 
 /// Finds the radiance that needs no shadow rays (background, emission, ambient), and then the rays
 /// that go on.
 void Whitted::shade(const Block& block) {
-  see_background(block);
+  see_light(block);
   const Found found = meet_materials(block);
   if (found.lit || found.scattering) find_surfaces(block);
   if (!found.scattering) return;
@@ -40,19 +32,6 @@ void Whitted::shade(const Block& block) {
     record_ray(block);
   } else {
     scatter_rays(block);
-  }
-}
-
-void Whitted::see_background(const Block& block) {
-  const PathStream& stream = block.stream;
-  const std::size_t size = block.end - block.first;
-  const SeenLight& seen = stream.depth == 0 ? seen_by_camera_ : seen_;
-  kernels_.see_light(
-      seen, {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
-             stream.density + block.first, part(radiance_.view(), block.first)});
-  if (seen.background.kind != SeenBackground::Kind::other) return;
-  for (std::size_t k = block.first; k < block.end; ++k) {
-    if (hit(k).id == no_primitive) radiance_.set(k, background_seen_by(stream, k));
   }
 }
 

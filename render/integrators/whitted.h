@@ -27,13 +27,11 @@ class Whitted final : public StreamIntegrator {
 
   void make_room(std::size_t rays) override { materials_.start(rays); }
   void shade(const Block& block) override;
-  void see_background(const Block& block);
   Found meet_materials(const Block& block);
   void scatter_rays(const Block& block);
   void record_ray(const Block& block);
   void spawn(std::size_t parent, const Ray& ray, const Color& weight, RayKind kind);
 
-  SeenLight seen_, seen_by_camera_;
   MaterialFinder<WhittedMaterial> materials_;
   // Working memory of one block.
   AlignedArray<std::uint8_t> scatters_;     ///< by ray

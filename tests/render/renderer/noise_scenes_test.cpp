@@ -54,7 +54,7 @@ MeasuredPicture render(const Scene& scene, const RenderOptions& options) {
   return picture;
 }
 
-double displayed(float v) { return srgb_from_linear(std::clamp(static_cast<double>(v), 0.0, 1.0)); }
+double displayed(float v) { return srgb_displayed(static_cast<double>(v)); }
 
 double difference(const Color& a, const Color& b) {
   return std::max({std::abs(displayed(a.r) - displayed(b.r)),
