@@ -47,14 +47,20 @@ void PathPicture::add(int sample, Samples samples) {
   const int away = samples == Samples::random ? 65536 * (sample + 1) : 0;
   const int index = samples == Samples::random ? 0 : sample;
   places_.resize(width * height);
+  numbers_.resize(width * height);
   rays_.resize(width * height);
   ids_.clear();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const RasterPoint place = sampler_.position({x + away, y, index});
-      places_.set(ids_.size(), place.x - away, place.y);
+      numbers_.ask(ids_.size(), sampler_.key(x + away, y), RandomSet::film,
+                   static_cast<std::uint32_t>(index));
       ids_.push_back({x + away, y, index});
     }
+  }
+  numbers_.find(kernels_, ids_.size());
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    const RasterPoint place = sampler_.position(ids_[k].x - away, ids_[k].y, numbers_.get(k));
+    places_.set(k, place.x, place.y);
   }
   radiance_.resize(ids_.size());
   kernels_.primary_rays(scene_.camera_view, places_.view(), rays_.view());

@@ -8,6 +8,7 @@
 #include "core/math/vec.h"
 #include "render/frame/sampler.h"
 #include "render/integrators/path.h"
+#include "render/integrators/random_numbers.h"
 
 namespace boule::bench {
 
@@ -47,6 +48,7 @@ class PathPicture {
   Path path_;
   std::vector<Vec3d> sums_;
   int count_ = 0;
+  RandomNumbers numbers_;
   SampleBuffer places_;
   RayBuffer rays_;
   std::vector<SampleId> ids_;
