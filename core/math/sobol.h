@@ -90,13 +90,12 @@ inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
 /// std::uint32_t, or W of them at a time.
 template <class Integer>
 BOULE_INLINE auto sobol_point(const SobolSeedsOf<Integer>& seeds, Integer sample) {
-  const Integer index =
-      detail::reverse_bits(detail::scramble(detail::reverse_bits(sample), seeds.shuffle));
+  using detail::reverse_bits;  // lanes have their own
+  const Integer index = reverse_bits(detail::scramble(reverse_bits(sample), seeds.shuffle));
   const Integer u = detail::scramble(index, seeds.u);
   const Integer v = detail::scramble(detail::pascal(index), seeds.v);
   using Number = decltype(unit_interval(u));
-  return UnitPairOf<Number>{unit_interval(detail::reverse_bits(u)),
-                            unit_interval(detail::reverse_bits(v))};
+  return UnitPairOf<Number>{unit_interval(reverse_bits(u)), unit_interval(reverse_bits(v))};
 }
 
 /// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel

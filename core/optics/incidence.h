@@ -49,16 +49,47 @@ BOULE_INLINE ContactOf<T> meet_plane(const ArrivalOf<T>& ray, const Vec3<T>& poi
           T(0.0) < dot(ray.dir, normal)};
 }
 
+/// A sphere, or a plane.
+template <class T>
+struct PrimitiveOf {
+  Mask<T> plane;      ///< it is a plane
+  Vec3<T> place;      ///< the sphere's centre, or the plane's point
+  T radius;           ///< of a sphere
+  Vec3<T> normal;     ///< of a plane
+  Vec3<T> direction;  ///< normalize(normal), of a plane
+};
+
+/// meet_plane() or meet_sphere(). Both need the distance of `place`, which is found once.
+template <class T>
+BOULE_INLINE ContactOf<T> meet_primitive(const ArrivalOf<T>& ray, const PrimitiveOf<T>& met) {
+  const ContactOf<T> sphere = meet_sphere(ray, met.place, met.radius);
+  if (!any(met.plane)) return sphere;
+  const T away = length(met.place - ray.org) + length(ray.point - ray.org);
+  return {select(met.plane, met.direction, sphere.outward), select(met.plane, away, sphere.reach),
+          select(met.plane, T(0.0) < dot(ray.dir, met.normal), sphere.inner)};
+}
+
+/// The normal on the side that a ray came from; not finite where `outward` is not.
+template <class T>
+BOULE_INLINE Vec3<T> turned_normal(const ContactOf<T>& contact) {
+  return contact.outward * select(contact.inner, T(-1.0), T(1.0));
+}
+
+/// True if no component is NaN or infinite.
+template <class T>
+BOULE_INLINE Mask<T> all_finite(const Vec3<T>& v) {
+  const T largest(std::numeric_limits<double>::max());
+  const Mask<T> x = abs(v.x) <= largest, y = abs(v.y) <= largest, z = abs(v.z) <= largest;
+  return x & y & z;
+}
+
 /// The unit normal on the side that a ray came from; `view` is the ray's unit direction.
 template <class T>
 BOULE_INLINE Vec3<T> facing_normal(const ContactOf<T>& contact, const Vec3<T>& view) {
-  const Vec3<T> turned = contact.outward * select(contact.inner, T(-1.0), T(1.0));
-  const T largest(std::numeric_limits<double>::max());
-  const Mask<T> x = abs(turned.x) <= largest, y = abs(turned.y) <= largest,
-                z = abs(turned.z) <= largest;
+  const Vec3<T> turned = turned_normal(contact);
   // Of a sphere that is too small for its distance from (0, 0, 0) the point is the centre. Any
   // normal is right then; this one faces the ray.
-  return select(x & y & z, turned, view * T(-1.0));
+  return select(all_finite(turned), turned, view * T(-1.0));
 }
 
 /// -N.V, in [0, 1].

@@ -21,6 +21,7 @@ void DepthSums::start(std::size_t samples) {
 }
 
 ColorSum* DepthSums::at_depth(int depth) {
+  if (rays_ == RaysPerDepth::one_at_most) return total_.data();
   const auto row = static_cast<std::size_t>(depth - first_depth_);
   while (rows_.size() <= row) {
     if (spare_.empty()) {

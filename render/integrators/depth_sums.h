@@ -10,11 +10,17 @@
 
 namespace boule {
 
+/// How many rays of one depth a sample has.
+enum class RaysPerDepth { one_at_most, many };
+
 /// The radiance of samples. It is summed per depth, and then over the depths from 0 on. A float sum
 /// depends on its order; this one does not depend on how the rays of a depth are cut into streams,
-/// as long as they come in order.
+/// as long as they come in order. Where a sample has one ray of each depth, and the ray of a lower
+/// depth comes first, sums per depth would be the rays' own numbers, and there are none.
 class DepthSums {
  public:
+  explicit DepthSums(RaysPerDepth rays = RaysPerDepth::many) : rays_(rays) {}
+
   /// Forgets everything. From now on the samples are 0 .. samples - 1.
   void start(std::size_t samples);
 
@@ -34,6 +40,7 @@ class DepthSums {
  private:
   void clear(std::vector<ColorSum>& row) const;
 
+  RaysPerDepth rays_;
   std::size_t samples_ = 0;
   int first_depth_ = 0;                      ///< the depth of rows_[0]
   std::vector<std::vector<ColorSum>> rows_;  ///< by depth - first_depth_

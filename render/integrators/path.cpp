@@ -41,7 +41,7 @@ HitWeight hit_weight(LightSampling sampling) {
 
 Path::Path(const PreparedScene& scene, const KernelTable& kernels,
            const IntegratorSettings& settings)
-    : StreamIntegrator(scene, kernels, settings),
+    : StreamIntegrator(scene, kernels, settings, RaysPerDepth::one_at_most),
       keys_(settings.seed),
       environment_share_(!scene.environment.shines() ? 0
                          : scene.area_lights.empty() ? 1
@@ -95,18 +95,17 @@ void Path::shade(const Block& block) {
 
 /// Finds the materials that the rays met, and adds the light that these emit.
 void Path::meet_materials(const Block& block) {
-  std::fill_n(kinds_.data(), padded(block.end - block.first), std::uint32_t{0});
+  std::uint32_t* const kinds = kinds_.data();
+  const LobeMaterial** const lobes = lobes_.data();
+  std::fill_n(kinds, padded(block.end - block.first), std::uint32_t{0});
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const Hit met = hit(k);
     if (met.id == no_primitive) continue;
     const PathMaterial& material = materials_.find(met);
-    kinds_[k - block.first] = static_cast<std::uint32_t>(material.kind);
-    lobes_[k - block.first] = &material.lobes;
-    // Only emissive materials have a constant, and they send nothing on.
-    if (!is_black(material.flat.constant))
-      radiance_.add(k, emitted(block.stream, k, met, material.flat.constant));
-    if (delta_lights_ && takes_direct_light(material.flat) && is_black(material.flat.constant))
-      illumination_.add_point(k, material.lobes);
+    kinds[k - block.first] = static_cast<std::uint32_t>(material.kind);
+    lobes[k - block.first] = &material.lobes;
+    if (material.emits) radiance_.add(k, emitted(block.stream, k, met, material.constant));
+    if (delta_lights_ && material.takes_light) illumination_.add_point(k, material.lobes);
   }
 }
 
@@ -165,7 +164,6 @@ void Path::continue_points(const Block& block, const LobePoints& points, Continu
   if (!last) find_numbers(stream, points, Use::bounce, bounce_numbers_);
   if (!last && may_end) find_numbers(stream, points, Use::roulette, roulette_numbers_);
   const PathStep step{.material = lobes_.data(),
-                      .id = hits_.view().id + block.first,
                       .first_ray = static_cast<std::uint32_t>(block.first),
                       .samples_lights = lit,
                       .goes_on = !last,
@@ -210,10 +208,7 @@ void Path::start_shadows_by_epsilon(std::size_t first) {
 void Path::find_numbers(const PathStream& stream, const LobePoints& points, Use use,
                         RandomNumbers& numbers) {
   const RandomSet set = random_set(stream.depth, static_cast<unsigned>(use));
-  for (std::size_t i = 0; i < points.size; ++i) {
-    const RandomKey& key = random_keys_[points.sample[i]];
-    numbers.ask(i, key.pixel, set, key.sample);
-  }
+  numbers.ask_all(points.size, set, [&](std::size_t i) { return random_keys_[points.sample[i]]; });
   numbers.find(kernels_, points.size);
 }
 
@@ -222,13 +217,14 @@ void Path::add_more_light() {
   RayStream rays = shadows_.rays;
   rays.size = shadows_.size;
   const std::uint8_t* blocked = find_blocked(rays, Coherence::none);
-  const ColorStream sum = radiance_.view(), &light = shadows_.radiance;
+  const ColorStream sum = radiance_.view(), light = shadows_.radiance;
+  const std::uint32_t* const ray = shadows_.ray;
+  // Black is added where light is blocked: a branch would often go the way that was not foreseen.
   for (std::size_t k = 0; k < shadows_.size; ++k) {
-    if (blocked[k] != 0) continue;
-    const std::size_t ray = shadows_.ray[k];
-    sum.r[ray] += light.r[k];
-    sum.g[ray] += light.g[k];
-    sum.b[ray] += light.b[k];
+    const bool arrives = blocked[k] == 0;
+    sum.r[ray[k]] += arrives ? light.r[k] : 0;
+    sum.g[ray[k]] += arrives ? light.g[k] : 0;
+    sum.b[ray[k]] += arrives ? light.b[k] : 0;
   }
 }
 

@@ -27,11 +27,7 @@ class Path final : public StreamIntegrator {
   Path(const PreparedScene& scene, const KernelTable& kernels, const IntegratorSettings& settings);
 
  private:
-  /// What the random numbers of a sample depend on, beside depth and use.
-  struct RandomKey {
-    std::uint64_t pixel;
-    std::uint32_t sample;
-  };
+  using RandomKey = RandomNumbers::Key;
   /// What the random numbers of one depth are used for.
   enum class Use { bounce, light, roulette };
   /// What a kernel does with the points of one kind.

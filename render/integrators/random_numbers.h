@@ -33,6 +33,31 @@ class RandomNumbers {
     seed_v_[i] = seeds_.v;
   }
 
+  /// What the numbers of a sample depend on, beside their set.
+  struct Key {
+    std::uint64_t pixel;
+    std::uint32_t sample;
+  };
+  /// Asks for the first `size` pairs, all of one set: pair i is that of key_of(i).
+  template <class KeyOf>
+  void ask_all(std::size_t size, RandomSet set, const KeyOf& key_of) {
+    std::uint32_t *const sample = sample_.data(), *const shuffle = shuffle_.data(),
+                         *const u = seed_u_.data(), *const v = seed_v_.data();
+    std::uint64_t pixel = 0;
+    SobolSeeds seeds = sobol_seeds(pixel, set);
+    for (std::size_t i = 0; i < size; ++i) {
+      const Key key = key_of(i);
+      if (key.pixel != pixel) {  // samples of one pixel often follow each other
+        pixel = key.pixel;
+        seeds = sobol_seeds(pixel, set);
+      }
+      sample[i] = key.sample;
+      shuffle[i] = seeds.shuffle;
+      u[i] = seeds.u;
+      v[i] = seeds.v;
+    }
+  }
+
   /// Finds the first `size` pairs. Precondition: all of them were asked for.
   void find(const KernelTable& kernels, std::size_t size) {
     kernels.sobol_points({sample_.data(), shuffle_.data(), seed_u_.data(), seed_v_.data(),

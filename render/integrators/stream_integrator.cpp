@@ -10,11 +10,11 @@
 namespace boule {
 
 StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
-                                   const IntegratorSettings& settings)
+                                   const IntegratorSettings& settings, RaysPerDepth rays)
     : scene_(scene),
       kernels_(kernels),
       settings_(settings),
-      wavefront_(kernels, settings.stream_size),
+      wavefront_(kernels, settings.stream_size, rays),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {}
 

@@ -33,7 +33,7 @@ class StreamIntegrator : public Integrator {
 
   /// `scene` and `kernels` must outlive the integrator.
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
-                   const IntegratorSettings& settings);
+                   const IntegratorSettings& settings, RaysPerDepth rays);
 
   /// From now on, direct light of this light of the scene is added to all lit hits.
   void use_light(const Light& light);
@@ -101,7 +101,7 @@ class StreamIntegrator : public Integrator {
   [[nodiscard]] bool cancelled() const;
 
   std::vector<TargetedLight> lights_;
-  SeenLight seen_, seen_by_camera_;
+  SeenLight seen_{}, seen_by_camera_{};
   std::uint64_t primary_ = 0, shadow_ = 0;
 
   // Working memory of one stream.

@@ -34,8 +34,8 @@ class Wavefront {
  public:
   /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1. `kernels` must outlive
   /// it.
-  Wavefront(const KernelTable& kernels, std::size_t stream_size)
-      : kernels_(kernels), stream_size_(stream_size) {}
+  Wavefront(const KernelTable& kernels, std::size_t stream_size, RaysPerDepth rays)
+      : kernels_(kernels), stream_size_(stream_size), depth_sums_(rays) {}
 
   /// Begins with the camera's rays, one per sample. The caller keeps them alive.
   void start(RayBuffer& camera_rays);

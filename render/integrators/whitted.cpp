@@ -14,7 +14,9 @@ constexpr std::size_t most_rays = StreamSurfaces::block_size;
 
 Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
                  const IntegratorSettings& settings)
-    : StreamIntegrator(scene, kernels, settings), materials_(scene), lobes_(most_rays) {
+    : StreamIntegrator(scene, kernels, settings, RaysPerDepth::many),
+      materials_(scene),
+      lobes_(most_rays) {
   scatters_.resize(most_rays);
   going_on_.resize(2 * most_rays);
   for (const Light& light : scene.lights) use_light(light);

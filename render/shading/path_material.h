@@ -39,14 +39,19 @@ struct WhittedMaterial {
 
 /// A material as path tracing reads it.
 struct PathMaterial {
-  FlatMaterial flat;  ///< of flatten_for_paths()
   LobeMaterial lobes;
+  Color constant;
   LobeKind kind;
+  bool emits;        ///< the constant is not black; then it sends nothing on
+  bool takes_light;  ///< takes_direct_light(), unless it emits
 
+  /// Of flatten_for_paths().
   explicit PathMaterial(const FlatMaterial& m)
-      : flat(m),
-        lobes(lobe_material(m)),
-        kind(is_black(m.constant) ? lobe_kind(m) : LobeKind::none) {}
+      : lobes(lobe_material(m)),
+        constant(m.constant),
+        kind(is_black(m.constant) ? lobe_kind(m) : LobeKind::none),
+        emits(!is_black(m.constant)),
+        takes_light(!emits && takes_direct_light(m)) {}
 };
 
 }  // namespace boule

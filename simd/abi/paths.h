@@ -70,11 +70,13 @@ inline constexpr std::uint32_t side_inner = 4;   ///< as Surface::inner
 /// Points of one LobeKind, one after the other, in the order of their rays. Arrays have room for
 /// padded(size) and max_width more. The first `size` are there; more may be written behind them.
 struct LobePoints {
-  VectorStream point, normal;
-  VectorStream org;           ///< where rays leave to the viewer's side
-  VectorStream view, beyond;  ///< not of matte points; where rays leave that go through
-  double* cosine;             ///< likewise
+  VectorStream normal;
+  VectorStream org;    ///< where rays leave to the viewer's side
+  VectorStream point;  ///< not of matte points
+  double* reach;       ///< likewise, as Surface::reach
+  ColorStream dir;     ///< likewise: x, y and z of the ray's direction
   std::uint32_t* side;
+  std::int32_t* id;    ///< of what was hit
   std::uint32_t* ray;  ///< of the block
   ColorStream throughput;
   std::uint32_t* sample;
@@ -98,7 +100,6 @@ struct GivenLight {
 /// How the paths of a block go on; by ray of the block what is met.
 struct PathStep {
   const LobeMaterial* const* material;
-  const std::int32_t* id;
   std::uint32_t first_ray;  ///< of the block in its stream
   bool samples_lights;
   bool goes_on;  ///< paths get another direction

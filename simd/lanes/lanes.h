@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 // The lane types of one instruction set, in a namespace of their own:
 //   Real   `width` floats            Bits   as many integers of 32 bits
 //   Wide   the same lanes in double  RealMask, WideMask   the lanes in which something is true
@@ -16,6 +19,19 @@ namespace boule::BOULE_KERNEL_ISA {
 /// The bits of a mask that is true in every lane.
 inline constexpr unsigned all_lanes = (1U << width) - 1;
 
+/// The bits of the first `count` lanes; of all where there are no more.
+BOULE_INLINE unsigned first_lanes(std::size_t count) {
+  return count < static_cast<std::size_t>(width) ? (1U << count) - 1 : all_lanes;
+}
+
+/// How many bits are set. Without an instruction for it, std::popcount() of a whole word would call
+/// a library function, which kernels must not do.
+BOULE_INLINE int count_bits(unsigned bits) {
+  bits -= bits >> 1 & 0x55555555U;
+  bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
+  return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);
+}
+
 template <class Mask>
 BOULE_INLINE bool any(Mask m) {
   return bits(m) != 0;
@@ -30,6 +46,15 @@ BOULE_INLINE WideMask select(const WideMask& m, const WideMask& a, const WideMas
 }
 BOULE_INLINE RealMask select(const RealMask& m, const RealMask& a, const RealMask& b) {
   return (m & a) | (~m & b);
+}
+
+/// For the lanes whose bit is set in `chosen`, one after the other, 1 where `set` is, else 0. W
+/// bytes are written: what follows those of `chosen` is undefined.
+BOULE_INLINE void store_chosen(std::uint8_t* p, const RealMask& set, unsigned chosen) {
+  const unsigned ones = bits(set) & chosen;
+  for (int lane = 0; lane < width; ++lane) p[lane] = 0;
+  if (ones == 0) return;  // as nearly always
+  for (; chosen != 0; chosen &= chosen - 1) *p++ = ones >> __builtin_ctz(chosen) & 1U;
 }
 
 BOULE_INLINE WideMask complement(const WideMask& m) { return ~m; }

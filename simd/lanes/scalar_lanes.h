@@ -7,6 +7,7 @@
 
 #include "core/base/platform.h"
 #include "core/math/number.h"
+#include "core/math/sobol.h"
 
 /// One lane of plain float and double, with the same functions as xsimd_lanes.h, which documents
 /// them: every kernel can also run, and be checked, without SIMD.
@@ -53,6 +54,7 @@ BOULE_INLINE Bits operator>>(Bits a, int by) { return Bits(a.v >> by); }
 BOULE_INLINE RealMask operator==(Bits a, Bits b) { return {a.v == b.v}; }
 BOULE_INLINE RealMask operator<=(Bits a, Bits b) { return {a.v <= b.v}; }
 BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return m.m ? a : b; }
+BOULE_INLINE Bits reverse_bits(Bits a) { return Bits(boule::detail::reverse_bits(a.v)); }
 BOULE_INLINE Wide to_wide(Bits a) { return static_cast<double>(a.v); }
 BOULE_INLINE Bits count_from(std::uint32_t first) { return Bits(first); }
 
@@ -65,6 +67,9 @@ BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
 BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }
 BOULE_INLINE void store_chosen(std::uint32_t* p, Bits a, unsigned) { *p = a.v; }
+BOULE_INLINE void store_chosen(std::int32_t* p, Bits a, unsigned) {
+  *p = static_cast<std::int32_t>(a.v);
+}
 BOULE_INLINE void store_chosen(double* p, Wide a, unsigned) { *p = a.v; }
 BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen) {
   const std::uint32_t whole = chosen.m ? std::bit_cast<std::uint32_t>(a.v) : 0xffffffffU;

@@ -116,4 +116,45 @@ BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {
 }
 #endif
 
+// The bits of each integer in reverse order. x86-64 looks them up by four.
+#if defined(__AVX512F__)
+BOULE_INLINE Integers reverse_bits(Integers a) {
+  const __m512i four = _mm512_set1_epi8(0x0f);
+  const __m512i swapped = _mm512_shuffle_epi8(
+      a, _mm512_broadcast_i32x4(_mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203)));
+  const __m512i table =
+      _mm512_broadcast_i32x4(_mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800));
+  const __m512i low = _mm512_shuffle_epi8(table, _mm512_and_si512(swapped, four));
+  const __m512i high =
+      _mm512_shuffle_epi8(table, _mm512_and_si512(_mm512_srli_epi32(swapped, 4), four));
+  return _mm512_or_si512(_mm512_slli_epi32(low, 4), high);
+}
+#elif defined(__AVX2__)
+BOULE_INLINE Integers reverse_bits(Integers a) {
+  const __m256i four = _mm256_set1_epi8(0x0f);
+  const __m256i swapped = _mm256_shuffle_epi8(
+      a, _mm256_broadcastsi128_si256(_mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203)));
+  const __m256i table =
+      _mm256_broadcastsi128_si256(_mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800));
+  const __m256i low = _mm256_shuffle_epi8(table, _mm256_and_si256(swapped, four));
+  const __m256i high =
+      _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32(swapped, 4), four));
+  return _mm256_or_si256(_mm256_slli_epi32(low, 4), high);
+}
+#elif defined(__SSE4_2__)
+BOULE_INLINE Integers reverse_bits(Integers a) {
+  const __m128i four = _mm_set1_epi8(0x0f);
+  const __m128i swapped =
+      _mm_shuffle_epi8(a, _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203));
+  const __m128i table = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
+  const __m128i low = _mm_shuffle_epi8(table, _mm_and_si128(swapped, four));
+  const __m128i high = _mm_shuffle_epi8(table, _mm_and_si128(_mm_srli_epi32(swapped, 4), four));
+  return _mm_or_si128(_mm_slli_epi32(low, 4), high);
+}
+#else
+BOULE_INLINE Integers reverse_bits(Integers a) {
+  return vreinterpretq_u32_u8(vrbitq_u8(vrev32q_u8(vreinterpretq_u8_u32(a))));
+}
+#endif
+
 }  // namespace boule::BOULE_KERNEL_ISA::gaps

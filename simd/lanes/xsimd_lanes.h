@@ -94,6 +94,8 @@ BOULE_INLINE Bits operator>>(Bits a, int by) { return a.v >> by; }
 BOULE_INLINE RealMask operator==(Bits a, Bits b) { return {gaps::equal(a.v, b.v)}; }
 BOULE_INLINE RealMask operator<=(Bits a, Bits b) { return {gaps::at_most(a.v, b.v)}; }
 BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return gaps::select(m.m, a.v, b.v); }
+/// The bits of each integer in reverse order.
+BOULE_INLINE Bits reverse_bits(Bits a) { return gaps::reverse_bits(a.v); }
 /// Exactly.
 BOULE_INLINE Wide to_wide(Bits a) { return {gaps::to_double_low(a.v), gaps::to_double_high(a.v)}; }
 /// first, first + 1, ...
@@ -122,6 +124,9 @@ BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
 }
 BOULE_INLINE void store_chosen(std::uint32_t* p, Bits a, unsigned chosen) {
   gaps::store_chosen(p, a.v, chosen);
+}
+BOULE_INLINE void store_chosen(std::int32_t* p, Bits a, unsigned chosen) {
+  gaps::store_chosen(reinterpret_cast<std::uint32_t*>(p), a.v, chosen);
 }
 BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
   const unsigned lo = chosen & ((1U << (width / 2)) - 1);

@@ -36,20 +36,22 @@ class LobePointBuffer {
  public:
   explicit LobePointBuffer(std::size_t size) {
     const std::size_t room = size + max_width;
-    for (auto* vectors : {&point_, &normal_, &org_, &view_, &beyond_}) vectors->resize(room);
-    cosine_.resize(room);
+    for (auto* vectors : {&normal_, &org_, &point_}) vectors->resize(room);
+    reach_.resize(room);
+    dir_.resize(room);
+    id_.resize(room);
     for (auto* numbers : {&side_, &ray_, &sample_}) numbers->resize(room);
     throughput_.resize(room);
   }
   /// Room for points; there are none.
   LobePoints view() {
-    return {point_.view(),
-            normal_.view(),
+    return {normal_.view(),
             org_.view(),
-            view_.view(),
-            beyond_.view(),
-            cosine_.data(),
+            point_.view(),
+            reach_.data(),
+            dir_.view(),
             side_.data(),
+            id_.data(),
             ray_.data(),
             throughput_.view(),
             sample_.data(),
@@ -57,10 +59,11 @@ class LobePointBuffer {
   }
 
  private:
-  VectorBuffer point_, normal_, org_, view_, beyond_;
-  AlignedArray<double> cosine_;
+  VectorBuffer normal_, org_, point_;
+  AlignedArray<double> reach_;
   AlignedArray<std::uint32_t> side_, ray_, sample_;
-  ColorBuffer throughput_;
+  AlignedArray<std::int32_t> id_;
+  ColorBuffer dir_, throughput_;
 };
 
 /// For SampledLights.

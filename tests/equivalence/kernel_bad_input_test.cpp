@@ -179,7 +179,6 @@ TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
   const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false, false};
   std::vector<const LobeMaterial*> materials(count, &white);
   const AlignedArray<double> half(count, 0.5);
-  const AlignedArray<std::int32_t> ids(count, 0);
   LobePointBuffer buffer(count);
   SampledLightBuffer shadow_buffer;
   shadow_buffer.resize(count);
@@ -194,7 +193,6 @@ TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
     const LightSphere light{{0, 0, 0}, bad, 1, 0, {1, 1, 1}};
     PathStep step{};
     step.material = materials.data();
-    step.id = ids.data();
     step.samples_lights = true;
     step.lights = &light;
     step.light_count = 1;

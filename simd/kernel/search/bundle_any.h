@@ -14,14 +14,6 @@
 /// Where few rays are near a leaf's spheres they are met one by one, W spheres at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// How many bits are set. Without an instruction for it, std::popcount() of a whole word would call
-/// a library function, which kernels must not do.
-BOULE_INLINE int count_bits(unsigned bits) {
-  bits -= bits >> 1 & 0x55555555U;
-  bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
-  return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);
-}
-
 template <Common common, class Source, class Spheres>
 class BundleAny {
  public:

@@ -5,7 +5,7 @@
 
 #include "core/optics/reflectance.h"
 #include "simd/abi/whitted.h"
-#include "simd/kernel/shading/path_step.h"
+#include "simd/kernel/shading/lane_materials.h"
 #include "simd/kernel/vectors.h"
 
 /// The light of one lamp on many points, W at a time.
@@ -17,10 +17,7 @@ class LitLanes {
  public:
   BOULE_INLINE LitLanes(const ShadowedPoints& shadows, std::size_t first, unsigned live)
       : shadows_(shadows) {
-    const std::uint32_t* const ray = shadows.ray + first;
-    const auto any = static_cast<std::size_t>(__builtin_ctz(live));
-    for (std::size_t lane = 0; lane < width; ++lane)
-      ray_[lane] = ray[(live >> lane & 1U) != 0 ? lane : any];
+    pick_live(shadows.ray + first, live, ray_);
   }
 
   [[nodiscard]] BOULE_INLINE Vec3<Wide> pick(const VectorStream& by_ray) const {
@@ -89,9 +86,8 @@ BOULE_INLINE Vec3<Real> intensity_at(const LightIntensity& light, const LitLanes
 BOULE_INLINE void add_direct_light(const LightIntensity& light, const ShadowedPoints& shadows,
                                    const ColorStream& radiance) {
   for (std::size_t first = 0; first < shadows.size; first += width) {
-    const std::size_t left = shadows.size - first;
-    const unsigned there = left < width ? (1U << left) - 1 : all_lanes;
-    const unsigned live = there & ~bits(load_set(shadows.blocked + first));
+    const unsigned live =
+        first_lanes(shadows.size - first) & ~bits(load_set(shadows.blocked + first));
     if (live == 0) continue;
     const LitLanes lanes(shadows, first, live);
     const CoefficientsOf<Wide> material = lanes.materials();

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "core/math/light_cone.h"
+#include "core/optics/incidence.h"
 #include "core/optics/lobes.h"
 #include "simd/abi/paths.h"
 #include "simd/kernel/camera/look_up.h"
-#include "simd/kernel/shading/lobe_points.h"
+#include "simd/kernel/shading/going_on.h"
+#include "simd/kernel/shading/lane_materials.h"
 #include "simd/kernel/tuning.h"
 #include "simd/kernel/vectors.h"
 
@@ -16,53 +18,17 @@
 /// direction.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The materials of W points.
-template <LobeKind kind>
-BOULE_INLINE CoefficientsOf<Wide> load_materials(const LobeMaterial* const* of_lane) {
-  const float *diffuse[width], *mirror[width], *transmission[width];
-  alignas(64) double numbers[3][width];
-  std::uint8_t fresnel[width];
-  for (std::size_t lane = 0; lane < width; ++lane) {
-    const LobeMaterial& material = *of_lane[lane];
-    diffuse[lane] = material.diffuse;
-    if constexpr (kind != LobeKind::matte) {
-      mirror[lane] = material.mirror;
-      transmission[lane] = material.transmission;
-      numbers[0][lane] = material.highlight;
-      numbers[1][lane] = material.shininess;
-      numbers[2][lane] = material.ior;
-      fresnel[lane] = material.fresnel ? 1 : 0;
-    }
-  }
-  CoefficientsOf<Wide> loaded{};
-  const auto color = [](const float* const* rows) {
-    const Columns columns = load_rows(rows);
-    return Vec3<Real>{columns.x, columns.y, columns.z};
-  };
-  if constexpr (kind != LobeKind::clear) loaded.diffuse = color(diffuse);
-  if constexpr (kind != LobeKind::matte) {
-    loaded.mirror = color(mirror);
-    loaded.transmission = color(transmission);
-    loaded.highlight = load(numbers[0]);
-    loaded.shininess = load(numbers[1]);
-    loaded.ior = load(numbers[2]);
-    loaded.fresnel = load_set(fresnel);
-  }
-  return loaded;
-}
-
 template <LobeKind kind>
 BOULE_INLINE IncidenceOf<Wide> load_incidence(const LobePoints& points, std::size_t first) {
-  IncidenceOf<Wide> met{};
-  met.normal = load(points.normal, first);
-  if constexpr (kind != LobeKind::matte) {
-    met.view = load(points.view, first);
-    met.cosine = load(points.cosine + first);
-    met.mirrored = mirror(met.view, met.normal, met.cosine);
-    const Bits side = load_integers(points.side + first) & Bits(side_inner);
-    met.inner = widen(side == Bits(side_inner));
+  const Vec3<Wide> normal = load(points.normal, first);
+  if constexpr (kind == LobeKind::matte) {
+    return {normal, {}, {}, {}, {}};
+  } else {
+    const Vec3<Wide> view = normalize(widen(load(points.dir, first)));
+    const Wide cosine = facing_cosine(normal, view);
+    const Bits inner = load_integers(points.side + first) & Bits(side_inner);
+    return {normal, view, mirror(view, normal, cosine), cosine, widen(inner == Bits(side_inner))};
   }
-  return met;
 }
 
 /// Lights that were picked for W points, and new numbers in place of those that picked them.
@@ -143,8 +109,9 @@ struct LightSamples {
 BOULE_INLINE LightSamples sample_spheres(const PathStep& step, const Vec3<Wide>& org, const Wide& u,
                                          const Wide& v) {
   const Wide sphere_share = 1 - step.environment_share;
-  const PickedSpheres picked =
-      pick_spheres(step, (u - Wide(step.environment_share)) / sphere_share);
+  const Wide rest =
+      0 < step.environment_share ? (u - Wide(step.environment_share)) / sphere_share : u;
+  const PickedSpheres picked = pick_spheres(step, rest);
   const LightConeOf<Wide> cone(org, picked.center, picked.radius);
   const Vec3<Wide> direction = cone.direction({picked.u, v});
   return {direction, sphere_share * picked.share * cone.density(), picked.radiance,
@@ -173,20 +140,9 @@ BOULE_INLINE Vec3<Real> multiply(const Vec3<Real>& a, const Vec3<Real>& b, const
   return {product(a.x, b.x), product(a.y, b.y), product(a.z, b.z)};
 }
 
-/// a b, but 0 where one of them is 0: light_product() of render/integrators/sample_faults.h.
-BOULE_INLINE Real light_product(const Real& a, const Real& b) {
-  const Real zero(0.0F);
-  return select((a == zero) | (b == zero), zero, a * b);
-}
-
-/// Stores those of W rays that are chosen one after the other, from `at` on, where there is room
-/// for W. They begin at their origins.
-BOULE_INLINE void store_chosen(const RayStream& rays, std::size_t at, const Vec3<Wide>& org,
-                               const Vec3<Wide>& direction, const Real& tmax, unsigned chosen) {
-  store_chosen(VectorStream{rays.org_x, rays.org_y, rays.org_z}, at, org, chosen);
-  store_chosen(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, at, narrow(direction), chosen);
-  store_anywhere(rays.tmin + at, Real(0.0F));
-  store_chosen(rays.tmax + at, tmax, chosen);
+/// Whether rays leave within a sphere; `side`: LobePoints::side.
+BOULE_INLINE RealMask is_inside(const Bits& side) {
+  return (side & Bits(side_inside)) == Bits(side_inside);
 }
 
 /// Adds the shadow rays that decide whether sampled light arrives, unless its weight is 0.
@@ -204,19 +160,13 @@ BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, u
   const Wide weight = step.weighs ? power_heuristic(light.density, response.density) : Wide(1.0);
   const Vec3<Real> arriving =
       multiply(response.reflected, light.radiance, weight / (Wide(elementary::pi) * light.density));
-  const RayStream& rays = shadows.rays;
-  std::size_t at = shadows.size;
-  store_chosen(rays, at, org, light.direction, light.tmax, chosen);
+  const std::size_t at = shadows.size;
+  shadows.size = store_leaving(shadows.rays, at,
+                               {org, light.direction, load_integers(points.id + first),
+                                is_inside(load_integers(points.side + first)), chosen});
+  store_chosen(shadows.rays.tmax + at, light.tmax, chosen);
   store_chosen(shadows.radiance, at, arriving, chosen);
-  for (unsigned left = chosen; left != 0; left &= left - 1) {
-    const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
-    const std::uint32_t ray = points.ray[i];
-    rays.source[at] = step.id[ray];
-    rays.inside[at] = points.side[i] & side_inside;
-    shadows.ray[at] = step.first_ray + ray;
-    ++at;
-  }
-  shadows.size = at;
+  store_chosen(shadows.ray + at, load_integers(points.ray + first) + Bits(step.first_ray), chosen);
 }
 
 /// Russian roulette: a path survives with some probability, by which its weight is divided.
@@ -233,51 +183,37 @@ BOULE_INLINE RealMask play_roulette(const Vec3<Real>& throughput, const Wide& u,
 /// Adds the rays with which paths go on, unless the roulette ends them.
 template <LobeKind kind>
 BOULE_INLINE void add_rays(const LobePoints& points, std::size_t first, unsigned live,
-                           const LobesOf<Wide, kind>& lobes, const PathStep& step,
-                           GoingOn& spawned) {
+                           const LobesOf<Wide, kind>& lobes, const Vec3<Wide>& normal,
+                           const PathStep& step, GoingOn& spawned) {
   BounceOf<Wide> bounce = lobes.bounce({load(step.bounce.u + first), load(step.bounce.v + first)});
   const Vec3<Real> before = load(points.throughput, first);
   unsigned chosen = live & bits(lobes.shine());
   if (step.survival != nullptr)
     chosen &= bits(play_roulette(before, load(step.survival + first), bounce.weight));
-  const Vec3<Real> throughput{light_product(before.x, bounce.weight.x),
-                              light_product(before.y, bounce.weight.y),
-                              light_product(before.z, bounce.weight.z)};
+  const Vec3<Real> throughput = light_product(before, bounce.weight);
   chosen &= bits(~is_black_in<Wide>(throughput));
   if (chosen == 0) return;
   Vec3<Wide> org = load(points.org, first);
   Bits side = load_integers(points.side + first);
   if constexpr (kind != LobeKind::matte) {
-    org = select(bounce.beyond, load(points.beyond, first), org);
+    const Vec3<Wide> beyond =
+        move_off(load(points.point, first), normal * Wide(-1.0), load(points.reach + first));
+    org = select(bounce.beyond, beyond, org);
     side = select(narrow(bounce.beyond), side >> 1, side);
   }
-  const RayStream& rays = spawned.rays;
-  std::size_t at = spawned.size;
-  store_chosen(rays, at, org, bounce.direction, Real(std::numeric_limits<float>::infinity()),
-               chosen);
-  store_chosen(spawned.throughput, at, throughput, chosen);
-  store_chosen(spawned.sample + at, load_integers(points.sample + first), chosen);
-  store_chosen(spawned.density + at, narrow(bounce.density), chosen);
-  alignas(64) std::uint32_t sides[width];
-  store(sides, side);
-  for (unsigned lanes = chosen; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-    rays.source[at] = step.id[points.ray[first + lane]];
-    rays.inside[at] = static_cast<std::uint8_t>(sides[lane] & side_inside);
-    ++at;
-  }
-  spawned.size = at;
+  add_going_on({org, bounce.direction, load_integers(points.id + first), is_inside(side), chosen},
+               throughput, load_integers(points.sample + first), narrow(bounce.density), spawned);
 }
 
 template <LobeKind kind>
 BOULE_INLINE void continue_points(const LobePoints& points, const PathStep& step,
                                   SampledLights& shadows, GoingOn& spawned) {
   for (std::size_t first = 0; first < points.size; first += width) {
-    const std::size_t live = points.size - first;
-    const unsigned lanes = live < width ? (1U << live) - 1 : all_lanes;
-    const LobeMaterial* of_lane[width];  // behind the last point that of the first
-    for (std::size_t lane = 0; lane < width; ++lane)
-      of_lane[lane] = step.material[points.ray[first + (lane < live ? lane : 0)]];
+    const unsigned lanes = first_lanes(points.size - first);
+    std::uint32_t ray[width];
+    pick_live(points.ray + first, lanes, ray);
+    const LobeMaterial* of_lane[width];
+    for (std::size_t lane = 0; lane < width; ++lane) of_lane[lane] = step.material[ray[lane]];
     const CoefficientsOf<Wide> material = load_materials<kind>(of_lane);
     const IncidenceOf<Wide> met = load_incidence<kind>(points, first);
     const LobesOf<Wide, kind> lobes(material, met);
@@ -285,7 +221,7 @@ BOULE_INLINE void continue_points(const LobePoints& points, const PathStep& step
       if (step.samples_lights)
         add_shadow_rays(points, first, lanes, lobes, met.normal, step, shadows);
     }
-    if (step.goes_on) add_rays(points, first, lanes, lobes, step, spawned);
+    if (step.goes_on) add_rays(points, first, lanes, lobes, met.normal, step, spawned);
   }
 }
 

@@ -5,7 +5,7 @@
 #include "core/math/light_cone.h"
 #include "core/optics/lobes.h"
 #include "simd/abi/paths.h"
-#include "simd/kernel/shading/lobe_points.h"
+#include "simd/kernel/shading/going_on.h"
 #include "simd/kernel/vectors.h"
 
 /// Light that paths find by their direction alone, W rays at a time.

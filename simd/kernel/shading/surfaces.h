@@ -23,16 +23,7 @@ BOULE_INLINE void store(std::uint8_t* p, const WideMask& m) {
 using Arrivals = ArrivalOf<Wide>;
 using Contacts = ContactOf<Wide>;
 
-BOULE_INLINE Contacts meet_plane(const Arrivals& rays, const PlaneView& planes, std::size_t k) {
-  const auto broadcast = [k](const float* x, const float* y, const float* z) {
-    return widen(Vec3<Real>{x[k], y[k], z[k]});
-  };
-  return boule::meet_plane(rays, broadcast(planes.point_x, planes.point_y, planes.point_z),
-                           broadcast(planes.normal_x, planes.normal_y, planes.normal_z));
-}
-
-/// What each lane of a packet met. The spheres are met in all lanes at once, then one plane after
-/// the other.
+/// What each lane of a packet met.
 class MetPrimitives {
  public:
   /// The first `live` hits, up to W, from `first` on. Geometry: GeometryView, or PartsGeometry.
@@ -40,22 +31,20 @@ class MetPrimitives {
   MetPrimitives(const Geometry& geometry, const HitStream& hits, std::size_t first,
                 std::size_t live)
       : planes_(geometry.planes), id_(hits.id + first) {
-    for (std::size_t lane = 0; lane < static_cast<std::size_t>(width); ++lane) {
-      const std::int32_t primitive = lane < live ? id_[lane] : no_primitive;
-      // Of what a file says of its slots, ids may be wrong: what is no plane is the slot's sphere.
-      const bool hit = primitive != no_primitive;
-      const std::size_t plane =
-          static_cast<std::uint32_t>(primitive) - static_cast<std::uint32_t>(planes_.first_id);
-      const bool is_plane = hit && plane < planes_.size;
-      const bool sphere = hit && !is_plane;
-      const SlotSphere met =
-          sphere ? get_slot(geometry.spheres, hits.slot[first + lane]) : SlotSphere{0, 0, 0, 1};
+    const Bits ids = load_integers(id_);
+    const unsigned hit = first_lanes(live) & ~bits(ids == Bits(no_primitive));
+    // Of what a file says of its slots, ids may be wrong: what is no plane is the slot's sphere.
+    if (planes_.size > 0) planes_met_ = hit & bits(is_plane(ids));
+    spheres_ = hit & ~planes_met_;
+    for (float* const numbers : {x_, y_, z_}) store(numbers, Real(0.0F));
+    store(radius_, Real(1.0F));
+    for (unsigned left = spheres_; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
+      const SlotSphere met = get_slot(geometry.spheres, hits.slot[first + lane]);
       x_[lane] = met.x;
       y_[lane] = met.y;
       z_[lane] = met.z;
       radius_[lane] = met.radius;
-      spheres_ |= static_cast<unsigned>(sphere) << lane;
-      planes_met_ |= static_cast<unsigned>(is_plane) << lane;
     }
   }
 
@@ -63,20 +52,18 @@ class MetPrimitives {
 
   /// `ids`: those of the primitives.
   [[nodiscard]] BOULE_INLINE Contacts meet(const Arrivals& rays, const Bits& ids) const {
-    Contacts met =
-        meet_sphere(rays, widen(Vec3<Real>{load(x_), load(y_), load(z_)}), widen(load(radius_)));
+    const Vec3<Wide> center = widen(Vec3<Real>{load(x_), load(y_), load(z_)});
+    const Wide radius = widen(load(radius_));
+    if (planes_met_ == 0) return meet_sphere(rays, center, radius);
+    PrimitiveOf<Wide> met{Wide(1.0) < Wide(0.0), center, radius, center, center};
     for (unsigned left = planes_met_; left != 0;) {
       const std::int32_t id = id_[__builtin_ctz(left)];
-      const WideMask same = widen(ids == Bits(id));
-      const Contacts plane =
-          meet_plane(rays, planes_,
-                     static_cast<std::uint32_t>(id) - static_cast<std::uint32_t>(planes_.first_id));
-      met.outward = select(same, plane.outward, met.outward);
-      met.reach = select(same, plane.reach, met.reach);
-      met.inner = select(same, plane.inner, met.inner);
+      const RealMask same = ids == Bits(id);
+      add_plane(static_cast<std::uint32_t>(id) - static_cast<std::uint32_t>(planes_.first_id),
+                widen(same), met);
       left &= ~bits(same);
     }
-    return met;
+    return meet_primitive(rays, met);
   }
 
   [[nodiscard]] BOULE_INLINE WideMask is_sphere(const Bits& ids) const {
@@ -84,17 +71,34 @@ class MetPrimitives {
   }
 
  private:
+  /// Precondition: there are planes.
+  [[nodiscard]] BOULE_INLINE RealMask is_plane(const Bits& ids) const {
+    const auto first = static_cast<std::uint32_t>(planes_.first_id);
+    return ids + Bits(0U - first) <= Bits(static_cast<std::uint32_t>(planes_.size - 1));
+  }
+
+  /// Plane k in these lanes. What is the same in all of them is calculated once, as one number.
+  BOULE_INLINE void add_plane(std::size_t k, const WideMask& lanes, PrimitiveOf<Wide>& met) const {
+    const auto broadcast = [](const Vec3d& v) { return Vec3<Wide>{v.x, v.y, v.z}; };
+    const Vec3d point{planes_.point_x[k], planes_.point_y[k], planes_.point_z[k]};
+    const Vec3d normal{planes_.normal_x[k], planes_.normal_y[k], planes_.normal_z[k]};
+    met.plane = met.plane | lanes;
+    met.place = select(lanes, broadcast(point), met.place);
+    met.normal = select(lanes, broadcast(normal), met.normal);
+    met.direction = select(lanes, broadcast(normalize(normal)), met.direction);
+  }
+
   const PlaneView& planes_;
   const std::int32_t* id_;
   alignas(64) float x_[width], y_[width], z_[width], radius_[width];
   unsigned spheres_ = 0, planes_met_ = 0;
 };
 
-/// The surfaces of a packet.
+/// Rays of a packet that arrived at surfaces.
 struct MetSurfaces {
-  Vec3<Wide> point, view, normal;
-  Wide cosine, reach;
-  WideMask inner, sphere;
+  Arrivals arrived;
+  Contacts met;
+  WideMask sphere;
 };
 
 BOULE_INLINE MetSurfaces surfaces_of_packet(const MetPrimitives& primitives, const RayStream& rays,
@@ -102,22 +106,13 @@ BOULE_INLINE MetSurfaces surfaces_of_packet(const MetPrimitives& primitives, con
   const VectorStream orgs{rays.org_x, rays.org_y, rays.org_z};
   const Real tmin = load(rays.tmin + first);
   const Bits ids = load_integers(hits.id + first);
-  Arrivals arrived{load(orgs, first),
-                   widen(Vec3<Real>{load(rays.dir_x + first), load(rays.dir_y + first),
-                                    load(rays.dir_z + first)}),
-                   {},
-                   widen(ids == load_integers(rays.source + first)),
-                   widen((tmin <= Real(0.0F)) & (Real(0.0F) <= tmin))};
-  arrived.point = arrived.org + arrived.dir * load(hits.t + first);
-  const Contacts met = primitives.meet(arrived, ids);
-  const Vec3<Wide> view = normalize(arrived.dir), normal = facing_normal(met, view);
-  return {arrived.point,
-          view,
-          normal,
-          facing_cosine(normal, view),
-          met.reach,
-          met.inner,
-          primitives.is_sphere(ids)};
+  const Vec3<Wide> org = load(orgs, first);
+  const Vec3<Wide> dir = widen(
+      Vec3<Real>{load(rays.dir_x + first), load(rays.dir_y + first), load(rays.dir_z + first)});
+  const Arrivals arrived{org, dir, org + dir * load(hits.t + first),
+                         widen(ids == load_integers(rays.source + first)),
+                         widen((tmin <= Real(0.0F)) & (Real(0.0F) <= tmin))};
+  return {arrived, primitives.meet(arrived, ids), primitives.is_sphere(ids)};
 }
 
 template <class Geometry>
@@ -126,16 +121,18 @@ BOULE_INLINE void find_surfaces(const Geometry& geometry, const RayStream& rays,
   for (std::size_t first = 0; first < rays.size; first += width) {
     const MetPrimitives primitives(geometry, hits, first, rays.size - first);
     if (primitives.none()) continue;
-    const MetSurfaces met = surfaces_of_packet(primitives, rays, hits, first);
-    store(surfaces.point, first, met.point);
-    store(surfaces.normal, first, met.normal);
-    store(surfaces.view, first, met.view);
-    store(surfaces.mirrored, first, mirror(met.view, met.normal, met.cosine));
-    store(surfaces.org, first, move_off(met.point, met.normal, met.reach));
-    store(surfaces.cosine + first, met.cosine);
+    const auto [arrived, met, sphere] = surfaces_of_packet(primitives, rays, hits, first);
+    const Vec3<Wide> view = normalize(arrived.dir), normal = facing_normal(met, view);
+    const Wide cosine = facing_cosine(normal, view);
+    store(surfaces.point, first, arrived.point);
+    store(surfaces.normal, first, normal);
+    store(surfaces.view, first, view);
+    store(surfaces.mirrored, first, mirror(view, normal, cosine));
+    store(surfaces.org, first, move_off(arrived.point, normal, met.reach));
+    store(surfaces.cosine + first, cosine);
     store(surfaces.reach + first, met.reach);
     store(surfaces.inner + first, met.inner);
-    store(surfaces.inside + first, met.inner & met.sphere);
+    store(surfaces.inside + first, met.inner & sphere);
   }
 }
 

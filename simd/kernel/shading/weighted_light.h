@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "simd/abi/paths.h"
-#include "simd/kernel/shading/path_step.h"
+#include "simd/kernel/shading/going_on.h"
 #include "simd/kernel/vectors.h"
 
 /// Light that rays bring to samples, W of them at a time.
@@ -14,9 +14,9 @@ namespace boule::BOULE_KERNEL_ISA {
 BOULE_INLINE void add_weighted_light(const WeightedLight& light, ColorSum* sums) {
   alignas(64) float rows[4 * width];
   for (std::size_t first = 0; first < light.size; first += width) {
-    const Vec3<Real> weight = load(light.throughput, first), found = load(light.radiance, first);
-    store_rows(rows, {light_product(weight.x, found.x), light_product(weight.y, found.y),
-                      light_product(weight.z, found.z), Real(0.0F)});
+    const Vec3<Real> sent =
+        light_product(load(light.throughput, first), load(light.radiance, first));
+    store_rows(rows, {sent.x, sent.y, sent.z, Real(0.0F)});
     const std::size_t left = light.size - first, live = left < width ? left : width;
     for (std::size_t lane = 0; lane < live; ++lane) {
       float* const sum = sums[light.sample[first + lane]].rgb0;

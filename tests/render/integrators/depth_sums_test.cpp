@@ -74,6 +74,27 @@ TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
   EXPECT_EQ(result, gray(big + 2));
 }
 
+TEST(DepthSums, OfOneRayPerDepthAreThoseOfMany) {
+  constexpr float big = 16777216;
+  const float found[][4] = {{1, big, 1, 0}, {0, -0.0F, 0, 3}, {inf, 1, 0, 0}, {inf, -inf, 1, 2}};
+  Color results[2][4];
+  for (const RaysPerDepth rays : {RaysPerDepth::many, RaysPerDepth::one_at_most}) {
+    DepthSums sums(rays);
+    sums.start(4);
+    for (int depth = 0; depth < 4; ++depth) {
+      sums.finish_below(depth);
+      ColorSum* const row = sums.at_depth(depth);
+      for (int k = 0; k < 4; ++k) {
+        for (float& sum : row[k].rgb0) sum += found[k][depth];
+      }
+    }
+    sums.finish(results[rays == RaysPerDepth::many ? 0 : 1]);
+    EXPECT_EQ(sums.faults().not_finite, 1U);
+    EXPECT_EQ(sums.faults().too_bright, 1U);
+  }
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(results[0][k], results[1][k]);
+}
+
 TEST(DepthSums, ForgetsWhatWasBeforeStart) {
   DepthSums sums;
   sums.start(3);

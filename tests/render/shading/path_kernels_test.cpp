@@ -207,7 +207,6 @@ void PathKernels::check(const Options& options) {
   const Numbers light(random, 1), bounce(random, 1), roulette(random, 0.6);
   GivenLightBuffer given = given_by_chance(light.u, options.environment_share);
   const PathStep step{.material = lobes.data(),
-                      .id = hits.view().id,
                       .first_ray = 512,
                       .samples_lights = true,
                       .goes_on = true,

@@ -24,15 +24,18 @@ void probe_integers(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.integer_equal = bits(load_integers(out.signed_integers) == j);
   out.integer_less_equal = bits(i <= j);
   store(out.integer_as_wide, to_wide(i));
+  store(out.reversed, reverse_bits(i));
   out.set_bytes = bits(load_set(in.bytes));
 }
 
 void probe_compressed(const test::LaneInputs& in, test::LaneOutputs& out) {
   const Real a = load(in.a), b = load(in.b);
   const Wide x = load(in.x), y = load(in.y);
-  const Bits i = load_integers(in.i);
+  const Bits i = load_integers(in.i), j = load_integers(in.j);
   store_chosen(out.chosen + 1, a, bits(a < b));
   store_chosen(out.chosen_integers + 1, i, bits(a < b));
+  store_chosen(out.chosen_signed + 1, i, bits(a < b));
+  store_chosen(out.chosen_set + 1, i == j, bits(a < b));
   store_chosen(out.wide_chosen + 1, x, bits(x < y));
   store_chosen_halves(out.chosen_halves + 1, abs(a), a < b);
   store_anywhere(out.anywhere + 1, i);

@@ -36,10 +36,13 @@ struct LaneOutputs {
   alignas(64) std::uint32_t integer_select[most_lanes];  ///< i where a < b, else j
   alignas(64) std::int32_t signed_integers[most_lanes];  ///< i, through signed arrays
   alignas(64) double integer_as_wide[most_lanes];        ///< of i
-  /// From index 1 on: the lanes where a < b, of a, one after the other; the same of i; the same of
-  /// x where x < y; and of |a| the halves.
+  alignas(64) std::uint32_t reversed[most_lanes];        ///< of i, its bits
+  /// From index 1 on: the lanes where a < b, of a, one after the other; the same of i, and of
+  /// whether i is j; the same of x where x < y; and of |a| the halves.
   alignas(64) float chosen[most_lanes + 1];
   alignas(64) std::uint32_t chosen_integers[most_lanes + 1];
+  alignas(64) std::int32_t chosen_signed[most_lanes + 1];
+  std::uint8_t chosen_set[most_lanes + 1];
   alignas(64) double wide_chosen[most_lanes + 1];
   alignas(64) std::uint16_t chosen_halves[most_lanes + 1];
   alignas(64) std::uint32_t anywhere[most_lanes + 1];  ///< i from index 1 on

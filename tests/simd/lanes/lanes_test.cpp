@@ -214,6 +214,8 @@ TEST_P(Lanes, Integers) {
     ASSERT_EQ(bit(out.integer_equal, k), i == j);
     ASSERT_EQ(bit(out.integer_less_equal, k), i <= j);
     ASSERT_EQ(out.integer_as_wide[k], static_cast<double>(i));
+    for (int digit = 0; digit < 32; ++digit)
+      ASSERT_EQ(out.reversed[k] >> digit & 1U, i >> (31 - digit) & 1U);
     ASSERT_EQ(bit(out.set_bytes, k), in.bytes[k] != 0);
     ASSERT_EQ(out.anywhere[k + 1], i);
   });
@@ -227,6 +229,8 @@ TEST_P(Lanes, ChosenOneAfterTheOther) {
       if (!(in.a[k] < in.b[k])) continue;
       ASSERT_TRUE(same(out.chosen[next], in.a[k]));
       ASSERT_EQ(out.chosen_integers[next], in.i[k]);
+      ASSERT_EQ(out.chosen_signed[next], static_cast<std::int32_t>(in.i[k]));
+      ASSERT_EQ(out.chosen_set[next], in.i[k] == in.j[k] ? 1 : 0);
       const auto whole = std::bit_cast<std::uint32_t>(std::fabs(in.a[k]));
       ASSERT_EQ(out.chosen_halves[next], whole >> 15);
       ++next;

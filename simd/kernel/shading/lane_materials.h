@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/optics/lobes.h"
+#include "simd/abi/paths.h"
+#include "simd/lanes/lanes.h"
+
+/// What W points read by an index: their materials.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// An entry for each lane: picked[lane] = of_packet[lane]. Lanes that are not live have that of one
+/// that is. Precondition: a lane is live.
+template <class T>
+BOULE_INLINE void pick_live(const T* of_packet, unsigned live, T* picked) {
+  const auto any = static_cast<std::size_t>(__builtin_ctz(live));
+  for (std::size_t lane = 0; lane < width; ++lane)
+    picked[lane] = of_packet[(live >> lane & 1U) != 0 ? lane : any];
+}
+
+/// The materials of W points.
+template <LobeKind kind>
+BOULE_INLINE CoefficientsOf<Wide> load_materials(const LobeMaterial* const* of_lane) {
+  const float *diffuse[width], *mirror[width], *transmission[width];
+  alignas(64) double numbers[3][width];
+  std::uint8_t fresnel[width];
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const LobeMaterial& material = *of_lane[lane];
+    diffuse[lane] = material.diffuse;
+    if constexpr (kind != LobeKind::matte) {
+      mirror[lane] = material.mirror;
+      transmission[lane] = material.transmission;
+      numbers[0][lane] = material.highlight;
+      numbers[1][lane] = material.shininess;
+      numbers[2][lane] = material.ior;
+      fresnel[lane] = material.fresnel ? 1 : 0;
+    }
+  }
+  const auto color = [](const float* const* rows) {
+    const Columns columns = load_rows(rows);
+    return Vec3<Real>{columns.x, columns.y, columns.z};
+  };
+  if constexpr (kind == LobeKind::matte) {
+    return {color(diffuse), {}, {}, {}, {}, {}, {}};
+  } else {
+    const Vec3<Real> black{0.0F, 0.0F, 0.0F};
+    return {kind == LobeKind::clear ? black : color(diffuse),
+            color(mirror),
+            color(transmission),
+            load(numbers[0]),
+            load(numbers[1]),
+            load(numbers[2]),
+            load_set(fresnel)};
+  }
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
