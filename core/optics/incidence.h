@@ -63,7 +63,6 @@ struct PrimitiveOf {
 template <class T>
 BOULE_INLINE ContactOf<T> meet_primitive(const ArrivalOf<T>& ray, const PrimitiveOf<T>& met) {
   const ContactOf<T> sphere = meet_sphere(ray, met.place, met.radius);
-  if (!any(met.plane)) return sphere;
   const T away = length(met.place - ray.org) + length(ray.point - ray.org);
   return {select(met.plane, met.direction, sphere.outward), select(met.plane, away, sphere.reach),
           select(met.plane, T(0.0) < dot(ray.dir, met.normal), sphere.inner)};

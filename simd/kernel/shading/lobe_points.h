@@ -25,7 +25,7 @@ BOULE_INLINE Bits side_of(const MetSurfaces& met) {
 
 /// facing_normal() in these lanes. The view takes a root and a quotient, and is hardly ever needed.
 BOULE_INLINE Vec3<Wide> normal_of(const MetSurfaces& met, unsigned lanes) {
-  const Vec3<Wide> turned = turned_normal(met.met);
+  Vec3<Wide> turned = turned_normal(met.met);
   if ((lanes & ~bits(all_finite(turned))) == 0) return turned;
   return facing_normal(met.met, normalize(met.arrived.dir));
 }
