@@ -38,6 +38,13 @@ inline constexpr std::size_t prefetch_distance = 4 * static_cast<std::size_t>(wi
 /// Again: bench_peers --scenes u1000,flake4 --rays mirror
 inline constexpr float least_beam_slope = 0x1p-20F;
 
+/// Short rays of which any hit will do visit so many children of a node, or fewer, that their reach
+/// box meets, without a test of the children's boxes; in a tree of one node all of them. Ambient
+/// rays, Mray/s by avx512 with no, 2, 4 and 16 untested: u100 84, 93, 99, 101 (so many in a tree of
+/// one node), u1000 47, 50, 50, 51, flake4 29.5, 29.9, 27.5, 19.6, u10000 22.9, 22.6, 19.3, 14.5.
+/// Again: bench_peers --size 512 --scenes u100,u1000,flake4,u10000 --rays ambient
+inline constexpr int most_untested = 2;
+
 /// With more leaves than this a tree counts as far away and what a visit will read is fetched
 /// ahead: a leaf and its share of the nodes take 400 bytes, and 640 of them a quarter of a MiB, a
 /// good part of a second-level cache. Set by trial.
@@ -172,14 +179,23 @@ inline constexpr std::size_t rays_on_trial = 32;
 inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
 inline constexpr float share_of_earlier_trials = 0.5F;
 
-/// A packet's visit takes as long as so many steps of rays in flight. Measured on scenes of 1,000
-/// to 600,000 spheres where the two are about as fast, 8 and 16 lanes: nearest hits of bounced rays
-/// 3.3 to 3.8, and 5.3 to 6.6; any hit 3.1 to 4.1, and 5 to 6.4, the more the larger the scene.
-/// Again: bench_trace --benchmark_filter='(packet|flight)/' and the visits of bench_tree; or
-/// bench_peers --scenes u1000,u10000,flake4,flake6 --rays mirror,diffuse,light
+/// Where one way took more than so many times what the other took, the next rays are as many as can
+/// be. Without it u100's mirrored rays lost 5 %.
+/// Again: bench_peers --scenes u100 --rays mirror, beside its form packet
+inline constexpr float clearly_more = 2;
+
+/// A packet's visit takes as long as so many steps of rays in flight, and what else a ray costs in
+/// a packet as so many steps more than in flight. Fitted to nine scenes (u100, u1000, u10000,
+/// u100000, flake4, flake6, protein50000, ground100000, grains200000), for mirrored and diffuse
+/// rays and chords, and for light and ambient ones: with these the choice is the faster form, or
+/// one that takes less than 3 % more, on all of them. The numbers of four lanes are those of eight.
+/// Again: bench_peers --isa avx512 avx2 --scenes (those) --rays mirror diffuse chord light ambient,
+/// beside the forms packet and flight
 template <bool any>
-inline constexpr float steps_a_visit = any ? (width < 16 ? 3.7F : 5.9F)
-                                           : (width < 16 ? 3.6F : 5.7F);
+inline constexpr float steps_a_visit = any ? (width < 16 ? 2.25F : 3.25F)
+                                           : (width < 16 ? 2.25F : 2.85F);
+template <bool any>
+inline constexpr float steps_a_ray = any ? 0.0F : 1.0F;
 
 // ---- Path tracing: shading/path_step.h --------------------------------------------------------
 

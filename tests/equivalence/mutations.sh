@@ -67,4 +67,10 @@ mutate "rays of sparse bundles are lost" simd/kernel/search/bundle_stream.h \
   's/\.run\(begin, end\)/.run(end, end)/'
 mutate "groups that are not done are taken for done" simd/kernel/search/bundle_walk.h \
   's/(hits_\.limits\(\), extent, near\[k\]\) )!= 0/\1== 0/'
+mutate "one ray alone enters a child" simd/kernel/search/ray_by_ray.h \
+  's/return all_lanes & ~(bits\(\(rows & .*\));/return all_lanes \& ~\1 \& 1U;/'
+mutate "rays never meet the sphere that they leave inside" simd/kernel/search/ray_by_ray.h \
+  's/= \(rays_\.inside >> lane & 1U\) != 0;/= false;/'
+mutate "spheres beyond the range of the filters are tested one by one" simd/kernel/search/ray_by_ray.h \
+  's/may_ = extent < filter::limit && /may_ = /'
 exit $((survivors != 0))

@@ -111,8 +111,8 @@ struct AnyHit {
     far = select(found, Real(-std::numeric_limits<float>::max()), far);
     return wants(low, out);
   }
-  BOULE_INLINE bool wants(const Real&, unsigned out) const {
-    return !done() && (out | hit) != all_lanes;
+  BOULE_INLINE bool wants(const Real& low, unsigned out) const {
+    return !done() && (bits(far < low) | out | hit) != all_lanes;
   }
   [[nodiscard]] BOULE_INLINE Real limit() const { return far; }
 

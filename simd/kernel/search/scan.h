@@ -19,11 +19,13 @@ namespace boule::BOULE_KERNEL_ISA {
 template <std::size_t capacity>
 struct Survivors {
   std::uint32_t offset[capacity + 4];  ///< from the chunk's first step
+  std::uint32_t out[capacity + 4];     ///< lanes that it turned away, as bits
   std::size_t count = 0;
 
-  BOULE_INLINE void append(std::uint32_t step, RealMask out) {
+  BOULE_INLINE void append(std::uint32_t step, unsigned turned_away) {
     offset[count] = step;
-    count += all(out) ? 0 : 1;
+    out[count] = turned_away;
+    count += turned_away == all_lanes ? 0 : 1;
   }
 };
 
@@ -36,7 +38,7 @@ BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres,
     return spheres.template out<origins_exact>(rays, step);
   };
   const auto append = [&](std::size_t step, RealMask out) {
-    survivors.append(static_cast<std::uint32_t>(step - begin), out);
+    survivors.append(static_cast<std::uint32_t>(step - begin), bits(out));
   };
   std::size_t step = begin;
   for (; step + 4 <= end; step += 4) {
@@ -75,11 +77,13 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     const std::size_t step = begin + survivors.offset[k];
     const RealMask own = spheres.own(rays, step);  // rays that leave this very sphere
     const unsigned leaving = bits(own);
+    unsigned out = survivors.out[k] | leaving;
     if ((leaving & rays.inside) != 0) {  // only the solver knows where they meet it again
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
     }
-    if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), 0))
+    if (out == all_lanes) continue;
+    if (!best.wants(before_roots(rays.filter, spheres.center(step), spheres.radius(step)), out))
       continue;
     RootBounds roots =
         bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
@@ -87,7 +91,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     // Those that leave it on its outside never meet it again.
     roots.certain = roots.certain & ~own;
     low = select(own, Real(static_cast<float>(no_hit)), low);
-    unsigned out = bits(dead(roots, rays.filter)) | leaving;
+    out |= bits(dead(roots, rays.filter));
     if (best.consider(roots, low, out, spheres.slot(step), rays.filter)) {
       candidates.append(survivors.offset[k], low, out);
     }

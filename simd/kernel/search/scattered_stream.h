@@ -13,6 +13,41 @@
 /// nothing but the time.
 namespace boule::BOULE_KERNEL_ISA {
 
+/// What trials have found out: whether packets or flights take less time, and for how many rays
+/// that is believed.
+template <bool any>
+class Choice {
+ public:
+  /// Takes a trial of packets, which visited so many nodes and leaves.
+  void add_packets(std::size_t visits) {
+    packets_ = packets_ * tuning::share_of_earlier_trials +
+               static_cast<float>(visits) * tuning::steps_a_visit<any> +
+               static_cast<float>(tuning::rays_on_trial) * tuning::steps_a_ray<any>;
+  }
+  /// Takes a trial of as many flights, and chooses.
+  void add_flights(std::size_t steps) {
+    flights_ = flights_ * tuning::share_of_earlier_trials + static_cast<float>(steps);
+    const bool packets = packets_ < flights_, agrees = packets == is_packets_;
+    const auto [less, more] = packets ? Pair{packets_, flights_} : Pair{flights_, packets_};
+    // As if a trial of half as many rays had preferred flights: one that agrees doubles the number.
+    std::size_t rays = agrees ? 2 * rays_that_way_ : tuning::rays_after_trial;
+    if (tuning::clearly_more * less < more) rays = tuning::most_after_trial;
+    rays_that_way_ = rays < tuning::most_after_trial ? rays : tuning::most_after_trial;
+    is_packets_ = packets;
+  }
+  [[nodiscard]] bool is_packets() const { return is_packets_; }
+  /// How many rays go that way before the next trial.
+  [[nodiscard]] std::size_t rays_that_way() const { return rays_that_way_; }
+
+ private:
+  struct Pair {
+    float less, more;
+  };
+  float packets_ = 0, flights_ = 0;  ///< in steps of flights
+  bool is_packets_ = false;
+  std::size_t rays_that_way_ = tuning::rays_after_trial / 2;
+};
+
 /// Traces all rays. `form`: automatic, or flight, which has no trials.
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
@@ -23,29 +58,20 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
     flights.run(0, size);
     return;
   }
-  // As if a trial of half as many rays had preferred flights: one that agrees doubles the number.
-  std::size_t begin = 0, rays_that_way = tuning::rays_after_trial / 2;
-  bool was_packets = false;
-  float visits = 0, steps = 0;
+  std::size_t begin = 0;
+  Choice<Flights<Answers>::any_hit> choice;
   const auto next = [&](std::size_t rays) { return size - begin < rays ? size : begin + rays; };
   while (begin < size) {
     const std::size_t packets_end = next(tuning::rays_on_trial);
-    visits = visits * tuning::share_of_earlier_trials +
-             static_cast<float>(trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
-                                                             Form::automatic, answers));
+    choice.add_packets(trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
+                                                    Form::automatic, answers));
     begin = packets_end;
     if (begin == size) return;
     const std::size_t flights_end = next(tuning::rays_on_trial);
-    steps = steps * tuning::share_of_earlier_trials +
-            static_cast<float>(flights.run(begin, flights_end));
+    choice.add_flights(flights.run(begin, flights_end));
     begin = flights_end;
-    const bool packets = visits * tuning::steps_a_visit<Flights<Answers>::any_hit> < steps;
-    rays_that_way = packets != was_packets                     ? tuning::rays_after_trial
-                    : rays_that_way < tuning::most_after_trial ? 2 * rays_that_way
-                                                               : tuning::most_after_trial;
-    was_packets = packets;
-    const std::size_t end = next(rays_that_way);
-    if (packets) {
+    const std::size_t end = next(choice.rays_that_way());
+    if (choice.is_packets()) {
       trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
     } else {
       flights.run(begin, end);

@@ -14,6 +14,7 @@ namespace boule::BOULE_KERNEL_ISA {
 struct Slab {
   Real inverse, near, far;
 
+  Slab() = default;
   BOULE_INLINE Slab(const Wide& org, const Real& unit, const Real& farthest) {
     const Real zero(0.0F), least(filter::slab_least), size = abs(unit);
     const RealMask tiny = size < least;
@@ -49,6 +50,7 @@ struct BoxRays {
   Vec3<Slab> slabs;
   Real from;  ///< nothing is live below this t |dir|; NaN: every box is entered
 
+  BoxRays() = default;
   BOULE_INLINE BoxRays(const RayLanes& rays, float extent)
       : slabs(slabs_of(rays, extent)),
         from(select(rays.filter.unit.x <= rays.filter.unit.x, rays.filter.dead_below,

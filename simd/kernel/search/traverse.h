@@ -4,9 +4,8 @@
 #include <cstdint>
 
 #include "simd/abi/bvh.h"
-#include "simd/kernel/search/beam.h"
+#include "simd/kernel/search/packet_walk.h"
 #include "simd/kernel/search/parts.h"
-#include "simd/kernel/search/reach_box.h"
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
 #include "simd/kernel/search/tree_blocks.h"
@@ -18,131 +17,13 @@
 /// are therefore the scan's, whatever the order of visits.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where the first of the rays that are not out enters a box; -inf where that is not known.
-BOULE_INLINE float first_entry(const Entry& entry) {
-  const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
-  const Real near = select(entry.near <= entry.near, entry.near, unknown);
-  return least_lane(select(entry.out, never, near));
-}
-
-/// Packets against the box of child k.
-BOULE_INLINE Entry enter_child(const BoxRays& rays, const BvhNode& node, int k, const Real& limit) {
-  return enter_boxes(rays,
-                     {{node.min_x[k], node.min_y[k], node.min_z[k]},
-                      {node.max_x[k], node.max_y[k], node.max_z[k]}},
-                     limit);
-}
-
-/// Lists those of a leaf's spheres, named by bits, that float does not rule out for every ray.
-template <bool origins_exact>
-BOULE_INLINE void list_among(const FilterRays& rays, const LeafSpheres<OneForAll>& leaf,
-                             unsigned in, Survivors<bvh_leaf_size>& survivors) {
-  for (; in != 0; in &= in - 1) {
-    const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
-    survivors.append(step, leaf.template out<origins_exact>(rays, step));
-  }
-}
-
-/// A packet on its way through a tree. `ordered`: the nearest child is visited first. `extent`:
-/// BvhView::extent.
-template <bool ordered>
-class PacketWalk {
- public:
-  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
-      : rays_(rays.filter), box_rays_(rays, extent), beam_(box_rays_, rays.filter, extent) {}
-
-  /// Adds the children of a node that some ray enters before its limit. `farthest`: the greatest of
-  /// the limits.
-  BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float farthest,
-                                   VisitStack& stack) const {
-    const int base = stack.count();
-    alignas(64) float near[bvh_width];
-    unsigned in = (1U << node.size) - 1;
-    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
-    if (beam_.is_straight()) {
-      const Beam::Rows rows = beam_.rows_of(node);
-      for (; in != 0; in &= in - 1) {
-        const int k = std::countr_zero(in);
-        const Entry entry =
-            enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
-                          {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit);
-        push(node, k, entry, near + k, base, stack);
-      }
-    } else {
-      for (; in != 0; in &= in - 1) {
-        const int k = std::countr_zero(in);
-        push(node, k, enter_child(box_rays_, node, k, limit), nullptr, base, stack);
-      }
-    }
-  }
-
-  /// Lists the spheres of a leaf that float does not rule out for every ray.
-  template <bool origins_exact>
-  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size,
-                                   float farthest, Survivors<bvh_leaf_size>& survivors) const {
-    if (!beam_.is_beam()) {
-      boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, size, survivors);
-      return;
-    }
-    const unsigned in = beam_.meet(leaf.leaf, farthest) & ((1U << size) - 1);
-    list_among<origins_exact>(rays_, leaf, in, survivors);
-  }
-
- private:
-  /// Adds child k unless all rays are out. `near`: where the beam enters it, or null.
-  BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, const float* near,
-                                int base, VisitStack& stack) {
-    const bool in = bits(entry.out) != all_lanes;
-    Visit visit{-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]};
-    if constexpr (!ordered) {
-      stack.push_if(in, visit);
-    } else if (in) {
-      visit.near = near != nullptr ? *near : first_entry(entry);
-      stack.push(visit, base);
-    }
-  }
-
-  const FilterRays& rays_;
-  BoxRays box_rays_;
-  Beam beam_;
-};
-
-/// A packet of short rays, of which any hit will do, on its way through a tree. (Nearest hits
-/// shorten rays again and again, which a box that is made once knows nothing of.)
-class ShortWalk {
- public:
-  /// `reach`: is_short().
-  BOULE_INLINE ShortWalk(const RayLanes& rays, const ReachBox& reach, float extent)
-      : rays_(rays.filter), reach_(reach), box_rays_(rays, extent) {}
-
-  BOULE_INLINE void visit_children(const BvhNode& node, const Real& limit, float,
-                                   VisitStack& stack) const {
-    for (unsigned in = reach_.enter(node) & ((1U << node.size) - 1); in != 0; in &= in - 1) {
-      const int k = std::countr_zero(in);
-      const bool is_entered = bits(enter_child(box_rays_, node, k, limit).out) != all_lanes;
-      stack.push_if(is_entered, {-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]});
-    }
-  }
-  template <bool origins_exact>
-  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, std::uint32_t size, float,
-                                   Survivors<bvh_leaf_size>& survivors) const {
-    const unsigned in = reach_.meet(leaf.leaf) & ((1U << size) - 1);
-    list_among<origins_exact>(rays_, leaf, in, survivors);
-  }
-
- private:
-  const FilterRays& rays_;
-  const ReachBox& reach_;
-  BoxRays box_rays_;
-};
-
 /// One ray, the same in every lane, on its way through a tree: W children at a time.
 class SingleWalk {
  public:
   BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
       : rays_(rays.filter), box_rays_(rays, extent) {}
 
-  BOULE_INLINE void visit_children(const BvhNode& node, const Real&, float limit,
+  BOULE_INLINE void visit_children(const BvhNode& node, unsigned, const Real&, float limit,
                                    VisitStack& stack) const {
     const int base = stack.count();
     for (int first = 0; first < node.size; first += width) {
@@ -161,10 +42,10 @@ class SingleWalk {
     }
   }
   template <bool origins_exact>
-  BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, std::uint32_t size, float,
-                                   Survivors<bvh_leaf_size>& survivors) const {
-    boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, OnePerLane::steps(size),
-                                                           survivors);
+  BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, unsigned, const Real&,
+                                   float, Survivors<bvh_leaf_size>& survivors) const {
+    boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0,
+                                                           OnePerLane::steps(leaf.size), survivors);
   }
 
  private:
@@ -182,14 +63,22 @@ BOULE_INLINE float limit_of_all(const Real& limit) {
 
 /// Calls search(walk) with the way that these rays go through a tree. Returns what it returns.
 template <class Access, class Best, class Search>
-BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, float extent,
+BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, const BvhView& bvh,
                                    const Search& search) {
-  if constexpr (Access::one_ray) return search(SingleWalk(rays, extent));
-  if constexpr (!Access::one_ray && !Best::ordered) {
-    const ReachBox reach(rays.filter, best.limit(), extent);
-    if (reach.is_short() && !forms_beam(rays.filter)) return search(ShortWalk(rays, reach, extent));
+  if constexpr (Access::one_ray) {
+    SingleWalk walk(rays, bvh.extent);
+    return search(walk);
+  } else {
+    if constexpr (!Best::ordered) {
+      const ReachBox reach(rays.filter, best.limit(), bvh.extent);
+      if (reach.is_short() && !forms_beam(rays.filter)) {
+        ShortWalk walk(rays, reach, bvh.size == 1 ? bvh_width : tuning::most_untested, bvh.extent);
+        return search(walk);
+      }
+    }
+    PacketWalk<Best::ordered> walk(rays, bvh.extent);
+    return search(walk);
   }
-  if constexpr (!Access::one_ray) return search(PacketWalk<Best::ordered>(rays, extent));
 }
 
 /// Whether all of `visit` lies certainly beyond `limit`.
@@ -201,11 +90,11 @@ BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
 
 /// Meets up to sixteen spheres. `all`: what has the spheres of all slots.
 template <Solver solver, class Access, bool origins_exact, class Walk, class All, class Best>
-BOULE_INLINE void meet_leaf(const RayLanes& rays, const Walk& walk, const All& all,
-                            const LeafRef& at, std::uint32_t size, float& limit, Best& best) {
+BOULE_INLINE void meet_leaf(const RayLanes& rays, Walk& walk, const All& all, const LeafRef& at,
+                            std::uint32_t size, unsigned lanes, float& limit, Best& best) {
   const LeafSpheres<Access> leaf(at, size);
   Survivors<bvh_leaf_size> survivors;
-  walk.template list_survivors<origins_exact>(leaf, size, limit, survivors);
+  walk.template list_survivors<origins_exact>(leaf, lanes, best.limit(), limit, survivors);
   if (survivors.count == 0) return;
   meet_survivors<solver>(rays, all, leaf, 0, survivors, best);
   limit = limit_of_all<Access>(best.limit());
@@ -214,7 +103,7 @@ BOULE_INLINE void meet_leaf(const RayLanes& rays, const Walk& walk, const All& a
 /// Searches a tree. Returns how many nodes and leaves were visited.
 template <Solver solver, class Access, bool origins_exact, class Walk, class Tree, class All,
           class Best>
-BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, const Walk& walk, const Tree& tree,
+BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Walk& walk, const Tree& tree,
                                        const All& all, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
@@ -225,10 +114,10 @@ BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, const Walk& walk, c
     if (is_beyond(visit, limit)) continue;
     ++visits;
     if (visit.leaf_size == 0) {
-      walk.visit_children(tree.node(visit.child), best.limit(), limit, stack);
+      walk.visit_children(tree.node(visit.child), visit.lanes, best.limit(), limit, stack);
     } else {
       meet_leaf<solver, Access, origins_exact>(rays, walk, all, tree.leaf(visit.child),
-                                               visit.leaf_size, limit, best);
+                                               visit.leaf_size, visit.lanes, limit, best);
     }
   }
   return visits;
@@ -239,7 +128,7 @@ template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
                                           Best& best) {
   if (geometry.bvh.size == 0) return 0;
-  return with_walk<Access>(rays, best, geometry.bvh.extent, [&](const auto& walk) {
+  return with_walk<Access>(rays, best, geometry.bvh, [&](auto& walk) {
     return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
                                                         geometry.spheres, best);
   });
@@ -253,17 +142,26 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView
   return traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
 }
 
+/// Meets up to sixteen spheres that are in no leaf, and may be beyond the range of most filters.
+template <Solver solver, class Access, bool origins_exact, class All, class Best>
+BOULE_INLINE void meet_scanned(const RayLanes& rays, const All& all, const LeafRef& at,
+                               std::uint32_t size, Best& best) {
+  const LeafSpheres<Access> spheres(at, size);
+  Survivors<bvh_leaf_size> survivors;
+  list_survivors<origins_exact>(rays.filter, spheres, 0, Access::steps(size), survivors);
+  meet_survivors<solver>(rays, all, spheres, 0, survivors, best);
+}
+
 /// Searches a part: its spheres that are in no leaf first, then its tree.
 template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
-BOULE_INLINE std::size_t search_part(const RayLanes& rays, const Walk& walk, const PartTree& tree,
+BOULE_INLINE std::size_t search_part(const RayLanes& rays, Walk& walk, const PartTree& tree,
                                      const PartSpheres& all, Best& best) {
-  float limit = limit_of_all<Access>(best.limit());
   const std::uint32_t scanned = tree.part().scanned_spheres;
   for (std::uint32_t slot = 0; slot < scanned && !best.done(); slot += bvh_leaf_size) {
     const std::uint32_t rest = scanned - slot;
-    meet_leaf<solver, Access, origins_exact>(
-        rays, walk, all, tree.block(slot),
-        rest < bvh_leaf_size ? rest : static_cast<std::uint32_t>(bvh_leaf_size), limit, best);
+    meet_scanned<solver, Access, origins_exact>(
+        rays, all, tree.block(slot),
+        rest < bvh_leaf_size ? rest : static_cast<std::uint32_t>(bvh_leaf_size), best);
   }
   if (tree.part().nodes == nullptr) return 0;
   return traverse_tree<solver, Access, origins_exact>(rays, walk, tree, all, best);
@@ -271,7 +169,7 @@ BOULE_INLINE std::size_t search_part(const RayLanes& rays, const Walk& walk, con
 
 /// Searches all parts, near ones first.
 template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
-BOULE_INLINE std::size_t search_parts(const RayLanes& rays, const Walk& walk,
+BOULE_INLINE std::size_t search_parts(const RayLanes& rays, Walk& walk,
                                       const PartsGeometry& geometry, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
@@ -282,7 +180,7 @@ BOULE_INLINE std::size_t search_parts(const RayLanes& rays, const Walk& walk,
     if (is_beyond(visit, limit)) continue;
     ++visits;
     if (visit.leaf_size == 0) {
-      walk.visit_children(geometry.bvh.nodes[visit.child], best.limit(), limit, stack);
+      walk.visit_children(geometry.bvh.nodes[visit.child], visit.lanes, best.limit(), limit, stack);
     } else {
       const PartTree tree(geometry.spheres.part(index_of(visit.child)));
       visits +=
@@ -294,7 +192,7 @@ BOULE_INLINE std::size_t search_parts(const RayLanes& rays, const Walk& walk,
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
                                         Best& best) {
-  return with_walk<Access>(rays, best, geometry.bvh.extent, [&](const auto& walk) {
+  return with_walk<Access>(rays, best, geometry.bvh, [&](auto& walk) {
     return search_parts<solver, Access, origins_exact>(rays, walk, geometry, best);
   });
 }

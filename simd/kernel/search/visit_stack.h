@@ -13,6 +13,7 @@ struct Visit {
   float near;  ///< where the first ray enters it, or less
   std::uint32_t child;
   std::uint32_t leaf_size;
+  unsigned lanes = all_lanes;  ///< of a packet, the rays that may enter it
 };
 
 /// Children to visit, the nearest of those of one node on top. Its size follows from the depth of
@@ -20,24 +21,41 @@ struct Visit {
 class VisitStack {
  public:
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  Visit pop() { return visits_[--count_]; }
+  BOULE_INLINE Visit pop() {
+    --count_;
+    return {near_[count_], child_[count_], leaf_size_[count_], lanes_[count_]};
+  }
   /// Adds a child of a node and keeps the node's children in order, farthest first. `base` is the
   /// count before the first of them was added.
-  void push(const Visit& visit, int base) {
+  BOULE_INLINE void push(const Visit& visit, int base) {
     int at = count_++;
-    for (; at > base && visits_[at - 1].near < visit.near; --at) visits_[at] = visits_[at - 1];
-    visits_[at] = visit;
+    for (; at > base && near_[at - 1] < visit.near; --at) {
+      near_[at] = near_[at - 1];
+      child_[at] = child_[at - 1];
+      leaf_size_[at] = leaf_size_[at - 1];
+      lanes_[at] = lanes_[at - 1];
+    }
+    set(at, visit);
   }
   /// Adds a child in no order, if `really`; without a branch, which no CPU could predict.
-  void push_if(bool really, const Visit& visit) {
-    visits_[count_] = visit;
+  BOULE_INLINE void push_if(bool really, const Visit& visit) {
+    set(count_, visit);
     count_ += really ? 1 : 0;
   }
   [[nodiscard]] int count() const { return count_; }
 
  private:
+  BOULE_INLINE void set(int at, const Visit& visit) {
+    near_[at] = visit.near;
+    child_[at] = visit.child;
+    leaf_size_[at] = static_cast<std::uint16_t>(visit.leaf_size);
+    lanes_[at] = static_cast<std::uint16_t>(visit.lanes);
+  }
   /// push_if() writes one more than it adds.
-  Visit visits_[bvh_max_depth * (bvh_width - 1) + 2];
+  static constexpr int room = bvh_max_depth * (bvh_width - 1) + 2;
+  float near_[room];
+  std::uint32_t child_[room];
+  std::uint16_t leaf_size_[room], lanes_[room];
   int count_ = 0;
 };
 

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "simd/kernel/search/beam.h"
+#include "simd/kernel/search/ray_by_ray.h"
+#include "simd/kernel/search/reach_box.h"
+#include "simd/kernel/search/scan.h"
+#include "simd/kernel/search/visit_stack.h"
+#include "simd/kernel/tuning.h"
+
+/// How packets go through a tree: which children of a node they visit, with which of their rays,
+/// and which spheres of a leaf they may hit. Few rays are tested one by one (ray_by_ray.h), many
+/// box by box and sphere by sphere, whichever takes fewer steps.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Where the first of the rays that are not out enters a box; -inf where that is not known.
+BOULE_INLINE float first_entry(const Entry& entry) {
+  const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
+  const Real near = select(entry.near <= entry.near, entry.near, unknown);
+  return least_lane(select(entry.out, never, near));
+}
+
+/// Packets against the box of child k.
+BOULE_INLINE Entry enter_child(const BoxRays& rays, const BvhNode& node, int k, const Real& limit) {
+  return enter_boxes(rays,
+                     {{node.min_x[k], node.min_y[k], node.min_z[k]},
+                      {node.max_x[k], node.max_y[k], node.max_z[k]}},
+                     limit);
+}
+
+/// Lists those of a leaf's spheres, named by bits, that float does not rule out for every ray of
+/// `lanes`.
+template <bool origins_exact>
+BOULE_INLINE void list_among(const FilterRays& rays, const LeafSpheres<OneForAll>& leaf,
+                             unsigned in, unsigned lanes, Survivors<bvh_leaf_size>& survivors) {
+  const unsigned others = all_lanes & ~lanes;
+  for (; in != 0; in &= in - 1) {
+    const auto step = static_cast<std::uint32_t>(std::countr_zero(in));
+    survivors.append(step, bits(leaf.template out<origins_exact>(rays, step)) | others);
+  }
+}
+
+/// A packet on its way through a tree. `ordered`: the nearest child is visited first. `extent`:
+/// BvhView::extent.
+template <bool ordered>
+class PacketWalk {
+ public:
+  BOULE_INLINE PacketWalk(const RayLanes& rays, float extent)
+      : rays_(rays.filter),
+        box_rays_(rays, extent),
+        beam_(box_rays_, rays.filter, extent),
+        one_by_one_(rays, extent) {}
+
+  /// Adds the children of a node that some ray of `lanes` enters before its limit. `farthest`: the
+  /// greatest of the limits.
+  BOULE_INLINE void visit_children(const BvhNode& node, unsigned lanes, const Real& limit,
+                                   float farthest, VisitStack& stack) const {
+    const int base = stack.count();
+    alignas(64) float near[bvh_width];
+    unsigned in = (1U << node.size) - 1;
+    if (beam_.is_beam()) in &= beam_.enter(node, farthest, near);
+    if (one_by_one_.is_for(lanes, in)) {
+      one_by_one_.visit_children<ordered>(box_rays_, node, lanes, in, limit, stack);
+    } else if (beam_.is_straight()) {
+      const Beam::Rows rows = beam_.rows_of(node);
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        const Entry entry =
+            enter_ordered(box_rays_, {rows.first_x[k], rows.first_y[k], rows.first_z[k]},
+                          {rows.last_x[k], rows.last_y[k], rows.last_z[k]}, limit);
+        push(node, k, entry, lanes, near + k, base, stack);
+      }
+    } else {
+      for (; in != 0; in &= in - 1) {
+        const int k = std::countr_zero(in);
+        push(node, k, enter_child(box_rays_, node, k, limit), lanes, nullptr, base, stack);
+      }
+    }
+  }
+
+  /// Lists the spheres of a leaf that float does not rule out for every ray of `lanes`.
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
+                                   const Real& limit, float farthest,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    unsigned in = (1U << leaf.size) - 1;
+    if (beam_.is_beam()) in &= beam_.meet(leaf.leaf, farthest);
+    if (one_by_one_.is_for(lanes, in)) {
+      one_by_one_.list_survivors(leaf, lanes, in, limit, survivors);
+    } else if (beam_.is_beam()) {
+      list_among<origins_exact>(rays_, leaf, in, lanes, survivors);
+    } else {
+      boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, leaf.size, survivors);
+      for (std::size_t k = 0; k < survivors.count; ++k) survivors.out[k] |= all_lanes & ~lanes;
+    }
+  }
+
+ private:
+  /// Adds child k, unless all of `lanes` are out. `near`: where the beam enters it, or null.
+  BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, unsigned lanes,
+                                const float* near, int base, VisitStack& stack) {
+    const unsigned in = ~bits(entry.out) & lanes;
+    Visit visit{-static_cast<float>(no_hit), node.child[k], node.leaf_size[k], in};
+    if constexpr (!ordered) {
+      stack.push_if(in != 0, visit);
+    } else if (in != 0) {
+      visit.near = near != nullptr ? *near : first_entry(entry);
+      stack.push(visit, base);
+    }
+  }
+
+  const FilterRays& rays_;
+  BoxRays box_rays_;
+  Beam beam_;
+  RayByRay one_by_one_;
+};
+
+/// A packet of short rays, of which any hit will do, on its way through a tree. (Nearest hits
+/// shorten rays again and again, which a box that is made once knows nothing of.)
+class ShortWalk {
+ public:
+  /// `reach`: is_short(). `untested`: so many children, or fewer, are visited without a test of
+  /// their boxes by the rays. `extent`: BvhView::extent.
+  BOULE_INLINE ShortWalk(const RayLanes& rays, const ReachBox& reach, int untested, float extent)
+      : rays_(rays),
+        reach_(reach),
+        untested_(untested),
+        extent_(extent),
+        one_by_one_(rays, extent) {}
+
+  BOULE_INLINE void visit_children(const BvhNode& node, unsigned lanes, const Real& limit, float,
+                                   VisitStack& stack) {
+    unsigned in = reach_.enter(node) & ((1U << node.size) - 1);
+    if (std::popcount(in) <= untested_) {
+      for (; in != 0; in &= in - 1) push_if(true, node, std::countr_zero(in), lanes, stack);
+      return;
+    }
+    make_boxes();
+    if (one_by_one_.is_for(lanes, in)) {
+      one_by_one_.visit_children<false>(box_rays_, node, lanes, in, limit, stack);
+      return;
+    }
+    for (; in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      const unsigned entering = ~bits(enter_child(box_rays_, node, k, limit).out) & lanes;
+      push_if(entering != 0, node, k, entering, stack);
+    }
+  }
+  template <bool origins_exact>
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
+                                   const Real& limit, float,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    const unsigned in = reach_.meet(leaf.leaf) & ((1U << leaf.size) - 1);
+    if (one_by_one_.is_for(lanes, in)) {
+      one_by_one_.list_survivors(leaf, lanes, in, limit, survivors);
+    } else {
+      list_among<origins_exact>(rays_.filter, leaf, in, lanes, survivors);
+    }
+  }
+
+ private:
+  BOULE_INLINE static void push_if(bool really, const BvhNode& node, int k, unsigned lanes,
+                                   VisitStack& stack) {
+    stack.push_if(really, {-static_cast<float>(no_hit), node.child[k], node.leaf_size[k], lanes});
+  }
+
+  /// Only when a box is to be tested: many packets of short rays need none.
+  BOULE_INLINE void make_boxes() {
+    if (!has_boxes_) box_rays_ = BoxRays(rays_, extent_);
+    has_boxes_ = true;
+  }
+
+  const RayLanes& rays_;
+  const ReachBox& reach_;
+  int untested_;
+  float extent_;
+  BoxRays box_rays_;  ///< of make_boxes()
+  bool has_boxes_ = false;
+  RayByRay one_by_one_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/kernel/search/primitive_access.h"
+#include "simd/kernel/search/root_bounds.h"
+#include "simd/kernel/search/scan.h"
+#include "simd/kernel/search/slabs.h"
+#include "simd/kernel/search/visit_stack.h"
+
+/// The rays of a packet one by one, each against W boxes or W spheres at a time. Chosen where few
+/// rays of a packet are left: that takes fewer steps than box after box and sphere after sphere.
+/// The filters are those of flights (flight.h), in which every comparison with NaN turns away.
+/// Therefore only rays that float can judge, without hits behind their origins, and only trees
+/// within the range of the filters are tested here.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// The number in one lane.
+BOULE_INLINE float get_lane(const Real& lanes, std::size_t lane) {
+  float value;
+  __builtin_memcpy(&value, reinterpret_cast<const char*>(&lanes) + lane * sizeof value,
+                   sizeof value);
+  return value;
+}
+BOULE_INLINE std::uint32_t get_lane(const Bits& lanes, std::size_t lane) {
+  std::uint32_t value;
+  __builtin_memcpy(&value, reinterpret_cast<const char*>(&lanes) + lane * sizeof value,
+                   sizeof value);
+  return value;
+}
+/// The vector in one lane, in every lane.
+BOULE_INLINE Vec3<Real> get_lane(const Vec3<Real>& lanes, std::size_t lane) {
+  return {get_lane(lanes.x, lane), get_lane(lanes.y, lane), get_lane(lanes.z, lane)};
+}
+
+class RayByRay {
+ public:
+  /// `extent`: BvhView::extent.
+  BOULE_INLINE RayByRay(const RayLanes& rays, float extent) : rays_(rays) {
+    const Real zero(0.0F);
+    const Vec3<Real>& unit = rays.filter.unit;
+    may_ = extent < filter::limit && all((zero <= rays.filter.dead_below) & (unit.x <= unit.x));
+    down_[0] = bits(unit.x < zero);
+    down_[1] = bits(unit.y < zero);
+    down_[2] = bits(unit.z < zero);
+  }
+  /// Whether it takes fewer steps to test the rays `lanes` one by one than to test all rays against
+  /// `in`, up to sixteen boxes or spheres, both as bits.
+  [[nodiscard]] BOULE_INLINE bool is_for(unsigned lanes, unsigned in) const {
+    return may_ && std::popcount(lanes) * static_cast<int>(parts) <= std::popcount(in);
+  }
+
+  /// Adds those of the children `in` of a node that some ray of `lanes` enters before its limit.
+  template <bool ordered>
+  BOULE_INLINE void visit_children(const BoxRays& boxes, const BvhNode& node, unsigned lanes,
+                                   unsigned in, const Real& limit, VisitStack& stack) const {
+    const int base = stack.count();
+    Entered entered;
+    enter(boxes, node, lanes, limit, entered);
+    for (in &= entered.in; in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      const Visit visit{entered.near[k], node.child[k], node.leaf_size[k], entered.lanes(k)};
+      if constexpr (ordered) {
+        stack.push(visit, base);
+      } else {
+        stack.push_if(true, visit);
+      }
+    }
+  }
+  /// Lists those of the spheres `in` of a leaf that some ray of `lanes` may hit before its limit.
+  /// Rays that leave one of them on its outside never meet it again.
+  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes, unsigned in,
+                                   const Real& limit, Survivors<bvh_leaf_size>& survivors) const {
+    Met met;
+    meet(leaf, lanes, limit, met);
+    for (in &= met.in; in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      survivors.append(static_cast<std::uint32_t>(k), all_lanes & ~met.lanes(k));
+    }
+  }
+
+ private:
+  static constexpr std::size_t parts = bvh_width / width;
+  static_assert(bvh_width == bvh_leaf_size);
+
+  /// Boxes or spheres, up to sixteen, that some rays meet.
+  struct Met {
+    unsigned in = 0;  ///< as bits
+    Bits rows{0U};    ///< per ray those that it meets, as bits
+
+    /// The rays that meet the k-th, as bits.
+    [[nodiscard]] BOULE_INLINE unsigned lanes(int k) const {
+      return all_lanes & ~bits((rows & Bits(1U << k)) == Bits(0U));
+    }
+  };
+  struct Entered : Met {
+    alignas(64) float near[bvh_width];  ///< lower bounds of where the first ray enters each
+  };
+
+  BOULE_NOINLINE void enter(const BoxRays& boxes, const BvhNode& node, unsigned lanes,
+                            const Real& limit, Entered& entered) const {
+    alignas(64) std::uint32_t rows[width] = {};
+    Real first[parts];
+    for (Real& near : first) near = Real(static_cast<float>(no_hit));
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      unsigned row = 0;
+      for (std::size_t part = 0; part < parts; ++part)
+        row |= enter_part(boxes, node, lane, get_lane(limit, lane), part, first[part])
+               << part * width;
+      rows[lane] = row;
+      entered.in |= row;
+    }
+    for (std::size_t part = 0; part < parts; ++part)
+      store(entered.near + part * width, first[part]);
+    entered.rows = load_integers(rows);
+  }
+  /// One ray against W children. Lowers `first` to where it enters them.
+  BOULE_INLINE unsigned enter_part(const BoxRays& boxes, const BvhNode& node, std::size_t lane,
+                                   float limit, std::size_t part, Real& first) const {
+    static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
+    const auto* const rows = reinterpret_cast<const float*>(&node) + part * width;
+    // The row of the planes that are met first is `axis`, or axis + 3 where the ray goes down.
+    const auto meet = [&](const Slab& slab, std::size_t row, const Real& moved) {
+      return filter_fma(load(rows + row * bvh_width), Real(get_lane(slab.inverse, lane)),
+                        Real(get_lane(moved, lane)));
+    };
+    const auto near_of = [&](const Slab& slab, std::size_t axis) {
+      return meet(slab, axis + 3 * (down_[axis] >> lane & 1U), slab.near);
+    };
+    const auto far_of = [&](const Slab& slab, std::size_t axis) {
+      return meet(slab, axis + 3 - 3 * (down_[axis] >> lane & 1U), slab.far);
+    };
+    const auto& [x, y, z] = boxes.slabs;
+    const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
+    const Real near = filter_max(filter_max(near_of(x, 0), near_of(y, 1)),
+                                 filter_max(near_of(z, 2), Real(0.0F))) *
+                      less;
+    const Real far =
+        filter_min(filter_min(far_of(x, 0), far_of(y, 1)), filter_min(far_of(z, 2), Real(limit)));
+    const RealMask in = near <= far;
+    first = select(in & (near < first), near, first);
+    return bits(in);
+  }
+
+  BOULE_NOINLINE void meet(const LeafSpheres<OneForAll>& leaf, unsigned lanes, const Real& limit,
+                           Met& met) const {
+    alignas(64) std::uint32_t rows[width] = {};
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      rows[lane] = meet_all(leaf, lane, Real(get_lane(limit, lane)));
+      met.in |= rows[lane];
+    }
+    met.rows = load_integers(rows);
+  }
+  /// One ray against the spheres of a leaf.
+  BOULE_INLINE unsigned meet_all(const LeafSpheres<OneForAll>& leaf, std::size_t lane,
+                                 const Real& limit) const {
+    FilterRays ray;
+    ray.org = get_lane(rays_.filter.org, lane);
+    ray.unit = get_lane(rays_.filter.unit, lane);
+    ray.origin_error = get_lane(rays_.filter.origin_error, lane);
+    const bool inside = (rays_.inside >> lane & 1U) != 0;
+    const Bits left(inside ? static_cast<std::uint32_t>(no_primitive)
+                           : get_lane(rays_.exact.source, lane));
+    unsigned in = 0;
+    for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
+      const Vec3<Real> center{load(leaf.leaf.center_x + at), load(leaf.leaf.center_y + at),
+                              load(leaf.leaf.center_z + at)};
+      const Real radius = load(leaf.leaf.radius + at);
+      const RealMask own = load_integers(leaf.ids + at) == left;
+      in |= bits(may_meet(find_approach(ray, center, radius), radius, limit) & ~own) << at;
+    }
+    return in;
+  }
+
+  const RayLanes& rays_;
+  unsigned down_[3];  ///< the rays that go down along an axis, as bits
+  bool may_;
+};
+
+}  // namespace boule::BOULE_KERNEL_ISA
