@@ -72,5 +72,5 @@ mutate "one ray alone enters a child" simd/kernel/search/ray_by_ray.h \
 mutate "rays never meet the sphere that they leave inside" simd/kernel/search/ray_by_ray.h \
   's/= \(rays_\.inside >> lane & 1U\) != 0;/= false;/'
 mutate "spheres beyond the range of the filters are tested one by one" simd/kernel/search/ray_by_ray.h \
-  's/may_ = extent < filter::limit && /may_ = /'
+  's/may_ = extent < filter::limit && /may_ = extent < 3e38F \&\& /'
 exit $((survivors != 0))

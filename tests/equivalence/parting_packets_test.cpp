@@ -43,7 +43,7 @@ std::vector<PlacedGroups> scenes() {
                     cube_of_spheres(random, 1500, {1e5, -1e5, 1e5}, 10, 1)),
           one_group("copies", copies(random)),
           parts(random, "parts", 1),
-          parts(random, "parts beyond the range of the filters", 1e19)};
+          parts(random, "parts beyond the range of the filters", 1e22)};
 }
 
 const Sphere& any_of(CaseRandom& random, const std::vector<Sphere>& spheres) {
@@ -59,17 +59,22 @@ Vec3d to_a_rim(CaseRandom& random, const std::vector<Sphere>& spheres, const Vec
   return center + side * (beta * double{sphere.radius}) - eye;
 }
 
-/// Sixteen rays at a time that begin near one another, every other time on a surface, and go
-/// towards the rims of spheres anywhere. A third of them ends near the rim, a third far before it.
+/// Sixteen rays at a time that begin near one another, every other time on a surface, every fourth
+/// time near the origin, and go towards the rims of spheres anywhere. Many end near the rim, or far
+/// before it.
 std::vector<Ray> parting_rays(const std::vector<Sphere>& spheres, int packets) {
   CaseRandom random(62);
   std::vector<Ray> rays;
   for (int i = 0; i < packets; ++i) {
     const Sphere& near = any_of(random, spheres);
     const double radius{near.radius};
-    const Vec3d eye = vec_cast<double>(near.center) + random.direction() * (1.5 * radius);
+    const bool is_central = i % 4 == 1;
+    const double apart = 0.05 * (is_central ? 1 : radius);
+    const Vec3d eye = is_central
+                          ? random.direction()
+                          : vec_cast<double>(near.center) + random.direction() * (1.5 * radius);
     for (int k = 0; k < 16; ++k) {
-      const Vec3d org = eye + random.direction() * (0.05 * radius);
+      const Vec3d org = eye + random.direction() * apart;
       Ray ray{org, vec_cast<float>(to_a_rim(random, spheres, org))};
       const Hit hit = reference::closest_hit(ray, spheres, {});
       if (i % 2 == 0 && hit.id != no_primitive) {
