@@ -133,7 +133,7 @@ class ShortWalk {
   BOULE_INLINE void visit_children(const BvhNode& node, unsigned lanes, const Real& limit, float,
                                    VisitStack& stack) {
     unsigned in = reach_.enter(node) & ((1U << node.size) - 1);
-    if (std::popcount(in) <= untested_) {
+    if (count_bits(in) <= untested_) {
       for (; in != 0; in &= in - 1) push_if(true, node, std::countr_zero(in), lanes, stack);
       return;
     }

@@ -19,13 +19,13 @@ namespace boule::BOULE_KERNEL_ISA {
 
 /// The number in one lane.
 BOULE_INLINE float get_lane(const Real& lanes, std::size_t lane) {
-  float value;
+  float value = 0;
   __builtin_memcpy(&value, reinterpret_cast<const char*>(&lanes) + lane * sizeof value,
                    sizeof value);
   return value;
 }
 BOULE_INLINE std::uint32_t get_lane(const Bits& lanes, std::size_t lane) {
-  std::uint32_t value;
+  std::uint32_t value = 0;
   __builtin_memcpy(&value, reinterpret_cast<const char*>(&lanes) + lane * sizeof value,
                    sizeof value);
   return value;
@@ -49,7 +49,7 @@ class RayByRay {
   /// Whether it takes fewer steps to test the rays `lanes` one by one than to test all rays against
   /// `in`, up to sixteen boxes or spheres, both as bits.
   [[nodiscard]] BOULE_INLINE bool is_for(unsigned lanes, unsigned in) const {
-    return may_ && std::popcount(lanes) * static_cast<int>(parts) <= std::popcount(in);
+    return may_ && count_bits(lanes) * static_cast<int>(parts) <= count_bits(in);
   }
 
   /// Adds those of the children `in` of a node that some ray of `lanes` enters before its limit.
