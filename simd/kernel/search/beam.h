@@ -58,12 +58,11 @@ struct BeamSlab {
   }
 };
 
-/// Whether these rays form a beam: two axes are enough, if no ray has hits behind its origin and
-/// float can judge them all. (It cannot where the direction is NaN.)
+/// Whether these rays form a beam: two axes are enough, if all rays are judged.
 BOULE_INLINE bool forms_beam(const FilterRays& rays) {
   const int axes = (goes_one_way(rays.unit.x) ? 1 : 0) + (goes_one_way(rays.unit.y) ? 1 : 0) +
                    (goes_one_way(rays.unit.z) ? 1 : 0);
-  return axes >= 2 && all((Real(0.0F) <= rays.dead_below) & (rays.unit.x <= rays.unit.x));
+  return axes >= 2 && all(is_judged(rays));
 }
 
 class Beam {

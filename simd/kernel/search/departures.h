@@ -21,9 +21,8 @@ class Departures {
     store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
     store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
     store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
-    const Real zero(0.0F);
-    judged_ = bits((rays.unit.x <= rays.unit.x) & (zero <= rays.dead_below));
-    open_ = bits(zero <= reach);
+    judged_ = bits(is_judged(rays));
+    open_ = bits(Real(0.0F) <= reach);
   }
   /// Copies the ray of a lane.
   BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {

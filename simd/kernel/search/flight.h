@@ -6,6 +6,7 @@
 
 #include "simd/kernel/search/pending_children.h"
 #include "simd/kernel/search/root_bounds.h"
+#include "simd/kernel/search/slabs.h"
 #include "simd/kernel/tuning.h"
 
 /// One ray on its own way through the tree, in steps: each visits a node or a leaf, W children or W
@@ -148,12 +149,8 @@ struct Flight {
   }
 
  private:
-  struct Entered {
-    Real near;    ///< lower bound of where
-    RealMask in;  ///< children that are entered
-  };
   /// Enters W children, from `first` on.
-  [[nodiscard]] BOULE_INLINE Entered enter(const BvhNode& node, std::size_t first) const {
+  [[nodiscard]] BOULE_INLINE Passage enter(const BvhNode& node, std::size_t first) const {
     static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
     const auto* const rows = reinterpret_cast<const float*>(&node) + first;
     const auto meet = [&](const std::uint32_t* row, const float* moved, int axis) {
@@ -161,12 +158,8 @@ struct Flight {
     };
     const auto near_of = [&](int axis) { return meet(near_at, ray.near, axis); };
     const auto far_of = [&](int axis) { return meet(far_at, ray.far, axis); };
-    const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
-    const Real near =
-        filter_max(filter_max(near_of(0), near_of(1)), filter_max(near_of(2), Real(0.0F))) * less;
-    const Real far =
-        filter_min(filter_min(far_of(0), far_of(1)), filter_min(far_of(2), Real(ray.reach)));
-    return {near, near <= far};
+    return pass_boxes({near_of(0), near_of(1), near_of(2)}, {far_of(0), far_of(1), far_of(2)},
+                      ray.reach);
   }
 };
 

@@ -41,7 +41,7 @@ class RayByRay {
   BOULE_INLINE RayByRay(const RayLanes& rays, float extent) : rays_(rays) {
     const Real zero(0.0F);
     const Vec3<Real>& unit = rays.filter.unit;
-    may_ = extent < filter::limit && all((zero <= rays.filter.dead_below) & (unit.x <= unit.x));
+    may_ = extent < filter::limit && all(is_judged(rays.filter));
     down_[0] = bits(unit.x < zero);
     down_[1] = bits(unit.y < zero);
     down_[2] = bits(unit.z < zero);
@@ -134,13 +134,8 @@ class RayByRay {
       return meet(slab, axis + 3 - 3 * (down_[axis] >> lane & 1U), slab.far);
     };
     const auto& [x, y, z] = boxes.slabs;
-    const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
-    const Real near = filter_max(filter_max(near_of(x, 0), near_of(y, 1)),
-                                 filter_max(near_of(z, 2), Real(0.0F))) *
-                      less;
-    const Real far =
-        filter_min(filter_min(far_of(x, 0), far_of(y, 1)), filter_min(far_of(z, 2), Real(limit)));
-    const RealMask in = near <= far;
+    const auto [near, in] = pass_boxes({near_of(x, 0), near_of(y, 1), near_of(z, 2)},
+                                       {far_of(x, 0), far_of(y, 1), far_of(z, 2)}, limit);
     first = select(in & (near < first), near, first);
     return bits(in);
   }

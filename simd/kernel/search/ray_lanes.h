@@ -41,6 +41,12 @@ struct FilterRays {
   Real dead_below;          ///< nothing is live below this t |dir|: 0, or -inf where tmin < 0
 };
 
+/// Lanes that float can judge, and that have no hits behind their origins. (Where it cannot, the
+/// direction is NaN.)
+BOULE_INLINE RealMask is_judged(const FilterRays& rays) {
+  return (rays.unit.x <= rays.unit.x) & (Real(0.0F) <= rays.dead_below);
+}
+
 struct RayLanes {
   ExactRays exact;
   FilterRays filter;

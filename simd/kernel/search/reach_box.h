@@ -15,10 +15,7 @@ class ReachBox {
  public:
   /// `far`: nothing is of interest beyond this t |dir|. `extent`: BvhView::extent.
   BOULE_INLINE ReachBox(const FilterRays& rays, const Real& far, float extent) : boxes_(extent) {
-    const Real zero(0.0F);
-    const bool forward = all(zero <= rays.dead_below) && all(zero <= far);
-    // Where float cannot judge a ray, its direction is NaN.
-    is_short_ = forward && all(rays.unit.x <= rays.unit.x) && all(far < Real(extent));
+    is_short_ = all(is_judged(rays) & (Real(0.0F) <= far) & (far < Real(extent)));
     if (!is_short_) return;
     set(0, rays.org.x, rays.unit.x, far);
     set(1, rays.org.y, rays.unit.y, far);

@@ -29,7 +29,6 @@ class Choice {
     flights_ = flights_ * tuning::share_of_earlier_trials + static_cast<float>(steps);
     const bool packets = packets_ < flights_, agrees = packets == is_packets_;
     const auto [less, more] = packets ? Pair{packets_, flights_} : Pair{flights_, packets_};
-    // As if a trial of half as many rays had preferred flights: one that agrees doubles the number.
     std::size_t rays = agrees ? 2 * rays_that_way_ : tuning::rays_after_trial;
     if (tuning::clearly_more * less < more) rays = tuning::most_after_trial;
     rays_that_way_ = rays < tuning::most_after_trial ? rays : tuning::most_after_trial;
@@ -44,6 +43,7 @@ class Choice {
     float less, more;
   };
   float packets_ = 0, flights_ = 0;  ///< in steps of flights
+  // As if a trial had preferred flights for half as many rays: one that agrees doubles the number.
   bool is_packets_ = false;
   std::size_t rays_that_way_ = tuning::rays_after_trial / 2;
 };

@@ -86,6 +86,24 @@ BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
   return {near, is_empty(near, far)};
 }
 
+/// One ray's way through W boxes: lower bounds of where it enters them, and those that it may
+/// enter.
+struct Passage {
+  Real near;
+  RealMask in;
+};
+
+/// From where the ray meets the planes that it meets first, and the others. It has no hits behind
+/// its origin, and float can judge it: comparisons with NaN turn away.
+BOULE_INLINE Passage pass_boxes(const Vec3<Real>& first, const Vec3<Real>& last,
+                                const Real& reach) {
+  const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));
+  const Real near =
+      filter_max(filter_max(first.x, first.y), filter_max(first.z, Real(0.0F))) * less;
+  const Real far = filter_min(filter_min(last.x, last.y), filter_min(last.z, reach));
+  return {near, near <= far};
+}
+
 BOULE_INLINE Entry enter_boxes(const BoxRays& rays, const Boxes& boxes, const Real& limit) {
   const Real zero(0.0F);
   const RealMask x = rays.slabs.x.inverse < zero, y = rays.slabs.y.inverse < zero,
