@@ -11,6 +11,7 @@
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/scattered_stream.h"
+#include "simd/kernel/search/shadow_stream.h"
 #include "simd/kernel/shading/direct_light.h"
 #include "simd/kernel/shading/lobe_points.h"
 #include "simd/kernel/shading/path_step.h"
@@ -41,7 +42,7 @@ template <class Answers>
 void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Query& query,
                const Answers& answers) {
   if (may_fly(geometry, query)) {
-    trace_scattered(geometry, stream, query.form, answers);
+    trace_scattered(geometry, stream, 0, stream.rays().size, query.form, answers);
   } else if (query.solver == Solver::fast) {
     trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
   } else {

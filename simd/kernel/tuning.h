@@ -123,6 +123,26 @@ inline constexpr int most_unclear = 2;
 /// Again: bench_peers --scenes u10000,u100000 --rays shadow
 inline constexpr std::size_t rays_per_leaf_in_order = 12;
 
+/// Then so many packets show what the others would cost, if there are at least so many rays. Not
+/// with less than sixteen lanes: packets and flights would gain on slab2000000 only, and trials
+/// lost 5 to 15 % on six scenes. Again: bench_peers --size 512 --rays shadow with the scenes of the
+/// next lines
+inline constexpr std::size_t packets_on_trial = 8;
+inline constexpr std::size_t fewest_rays_judged =
+    width < 16 ? ~std::size_t{0} : std::size_t{bundle_size};
+
+/// Sorted, a ray costs at least so many steps of flights more than in any case, and so many for
+/// each of the tree's nodes, divided by the rays. Fitted to what sorted bundles of the scenes below
+/// visited. Shadow rays by avx512, 512 x 512, Mray/s always sorted and with this choice:
+/// ground100000 25.5, 34.1; flake6 8.1, 10.1; ring1000000 7.0, 8.3; slab2000000 4.9, 7.3; eight
+/// others within 5 %.
+inline constexpr float steps_sorted = 0.1F, steps_sorted_a_node = 40;
+
+/// A sorted bundle takes so many steps of flights for each leaf, and what else it does for a ray
+/// takes so many fewer than in packets. Fitted to times and leaves of 3700 bundles of nine scenes
+/// (avx512): 610 cycles a leaf, within 20 % on all but ground100000, and 27 cycles a step.
+inline constexpr float steps_a_bundled_leaf = 22.5F, steps_of_no_bundle = 0.5F;
+
 // ---- Sorted shadow rays: search/ray_pool.h, light_grid.h --------------------------------------
 
 /// Rays that are sorted together, at most. A stack frame holds them: 1.5 MiB. Set by trial, with

@@ -65,6 +65,8 @@ bundle_far 1e38F
 BOUNDS
 mutate "rays of sparse bundles are lost" simd/kernel/search/bundle_stream.h \
   's/\.run\(begin, end\)/.run(end, end)/'
+mutate "shadow rays that are not sorted are lost" simd/kernel/search/shadow_stream.h \
+  's/trace_scattered\(geometry, stream, begin, end, /trace_scattered(geometry, stream, end, end, /'
 mutate "groups that are not done are taken for done" simd/kernel/search/bundle_walk.h \
   's/(hits_\.limits\(\), extent, near\[k\]\) )!= 0/\1== 0/'
 mutate "one ray alone enters a child" simd/kernel/search/ray_by_ray.h \

@@ -48,36 +48,43 @@ class Choice {
   std::size_t rays_that_way_ = tuning::rays_after_trial / 2;
 };
 
-/// Traces all rays. `form`: automatic, or flight, which has no trials.
+/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight, which
+/// has no trials.
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
-                                    Form form, const Answers& answers) {
-  const std::size_t size = stream.rays().size;
+                                    std::size_t begin, std::size_t end, Form form,
+                                    const Answers& answers) {
   Flights<Answers> flights(geometry, stream, answers);
   if (form == Form::flight) {
-    flights.run(0, size);
+    flights.run(begin, end);
     return;
   }
-  std::size_t begin = 0;
   Choice<Flights<Answers>::any_hit> choice;
-  const auto next = [&](std::size_t rays) { return size - begin < rays ? size : begin + rays; };
-  while (begin < size) {
+  const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
+  while (begin < end) {
     const std::size_t packets_end = next(tuning::rays_on_trial);
     choice.add_packets(trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
                                                     Form::automatic, answers));
     begin = packets_end;
-    if (begin == size) return;
+    if (begin == end) return;
     const std::size_t flights_end = next(tuning::rays_on_trial);
     choice.add_flights(flights.run(begin, flights_end));
     begin = flights_end;
-    const std::size_t end = next(choice.rays_that_way());
+    const std::size_t chosen_end = next(choice.rays_that_way());
     if (choice.is_packets()) {
-      trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
+      trace_groups<Solver::robust>(geometry, stream, begin, chosen_end, Form::automatic, answers);
     } else {
-      flights.run(begin, end);
+      flights.run(begin, chosen_end);
     }
-    begin = end;
+    begin = chosen_end;
   }
+}
+/// The same through parts: as packets.
+template <class Answers>
+BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStream& stream,
+                                  std::size_t begin, std::size_t end, Form form,
+                                  const Answers& answers) {
+  trace_groups<Solver::robust>(geometry, stream, begin, end, form, answers);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA
