@@ -134,8 +134,9 @@ inline constexpr std::size_t fewest_rays_judged =
 /// Sorted, a ray costs at least so many steps of flights more than in any case, and so many for
 /// each of the tree's nodes, divided by the rays. Fitted to what sorted bundles of the scenes below
 /// visited. Shadow rays by avx512, 512 x 512, Mray/s always sorted and with this choice:
-/// ground100000 25.5, 34.1; flake6 8.1, 10.1; ring1000000 7.0, 8.3; slab2000000 4.9, 7.3; eight
-/// others within 5 %.
+/// ground100000 26.7, 34.0; flake6 8.2, 9.9; ring1000000 7.6, 9.6; slab2000000 5.0, 7.5;
+/// protein50000 35.5, 31.7; eight others 0.96 to 1.09 of it.
+/// Again: bench_peers --size 512 --rays shadow --scenes ground100000,flake6,ring1000000,slab2000000
 inline constexpr float steps_sorted = 0.1F, steps_sorted_a_node = 40;
 
 /// A sorted bundle takes so many steps of flights for each leaf, and what else it does for a ray
