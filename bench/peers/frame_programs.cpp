@@ -96,6 +96,7 @@ Result<std::vector<FrameProgram>> make_frame_programs(const BenchScene& flake,
   if (auto bad = write_text(with_plane, tachyon(Floor::plane))) return *bad;
   if (auto bad = write_text(with_square, tachyon(Floor::square))) return *bad;
   std::vector<FrameProgram> programs;
+  programs.reserve(isas.size() + 3);
   for (const std::string& isa : isas) programs.push_back(boule_program(isa, nff));
   programs.push_back(pov_program(pov));
   programs.push_back(tachyon_program("tachyon-plane", with_plane));

@@ -33,7 +33,8 @@ Spread less(std::vector<double> whole, const std::vector<double>& start_ups) {
 /// One program on one scene, with the files of its pictures and its times so far.
 class Run {
  public:
-  Run(FrameProgram program, path folder) : program_(std::move(program)), folder_(folder) {}
+  Run(FrameProgram program, path folder)
+      : program_(std::move(program)), folder_(std::move(folder)) {}
 
   [[nodiscard]] const FrameProgram& program() const { return program_; }
   [[nodiscard]] bool installed() const { return !program_.path.empty(); }

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <map>
 
@@ -139,18 +140,27 @@ int run(const Arguments& arguments) {
   return all_right(results.value()) ? 0 : 1;
 }
 
-}  // namespace
-}  // namespace boule::bench
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Compares Boule with Embree: the same rays, one process, answers checked.");
-  boule::bench::Arguments arguments;
-  boule::bench::add_options(app, arguments);
-  boule::bench::add_frame_options(app, arguments);
+  Arguments arguments;
+  add_options(app, arguments);
+  add_frame_options(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return boule::bench::run(arguments);
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  try {
+    return boule::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
 }

@@ -15,7 +15,8 @@ constexpr std::uint64_t seed = 61;
 /// Rays from near the world's origin, a unit sphere each at that distance in any direction.
 test::HardCase aim(int distance, int grazing, std::size_t rays) {
   test::HardCase pairs;
-  const auto stream = static_cast<std::uint64_t>(distance * 100 + grazing);
+  const auto stream =
+      static_cast<std::uint64_t>(distance) * 100 + static_cast<std::uint64_t>(grazing);
   CaseRandom random(seed, stream);
   for (std::size_t i = 0; i < rays; ++i) {
     const Vec3d org = vec_cast<double>(vec_cast<float>(random.direction()));

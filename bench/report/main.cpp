@@ -7,6 +7,7 @@
 // robust solver was wrong, or a file could not be written; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -72,12 +73,7 @@ int run(const Arguments& arguments) {
   return written && robust_is_right(figures) ? 0 : 1;
 }
 
-}  // namespace
-}  // namespace boule::bench
-
-int main(int argc, char** argv) {
-  CLI::App app("Measures speed against error and writes one page about it.");
-  boule::bench::Arguments arguments;
+void add_options(CLI::App& app, Arguments& arguments) {
   app.add_flag("--quick", arguments.settings.quick, "Under two minutes, smaller samples");
   app.add_option("-o,--output", arguments.page, "The page, .html; figures go beside it, .json")
       ->required();
@@ -85,10 +81,28 @@ int main(int argc, char** argv) {
   app.add_option("--path-chart", arguments.path_chart, "That of path tracing by itself, .svg");
   app.add_option("--readme", arguments.readme, "A text whose table is brought up to date")
       ->check(CLI::ExistingFile);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Measures speed against error and writes one page about it.");
+  Arguments arguments;
+  add_options(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return boule::bench::run(arguments);
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  try {
+    return boule::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
 }

@@ -47,6 +47,12 @@ sources() {
       }
       close(file)
       if (seen[group, file]++) next
+      # What the shell would unquote: without its blanks, for words are told apart by them.
+      while (match(command, /\\"[^\\]*\\"/)) {
+        quoted = substr(command, RSTART + 2, RLENGTH - 4)
+        gsub(/ /, "_", quoted)
+        command = substr(command, 1, RSTART - 1) quoted substr(command, RSTART + RLENGTH)
+      }
       options = ""
       words = split(command, word, / +/)
       for (i = 1; i <= words; ++i) {

@@ -331,7 +331,7 @@ struct RaysToCopy {
     }
     primary = all;
     for (std::size_t i = 0; i < 16; ++i) {  // rays that leave what the others have met
-      const Surface surface = find_surface(spheres, planes, all[i], expected[i]);
+      const Surface surface = find_surface(spheres, planes_, all[i], expected[i]);
       const Vec3d way = random.direction() * 0.1 + Vec3d{0, 0, i % 2 == 0 ? 1.0 : -1.0};
       const bool out = dot(way, surface.normal) > 0;
       add(leave(surface, out ? Side::viewer : Side::beyond, way));
@@ -343,7 +343,7 @@ struct RaysToCopy {
  private:
   void add(const Ray& ray) {
     all.push_back(ray);
-    expected.push_back(reference::closest_hit(ray, spheres, planes));
+    expected.push_back(reference::closest_hit(ray, spheres, planes_));
   }
   /// The id in the whole scene.
   [[nodiscard]] std::int32_t moved(std::int32_t id, std::uint32_t copy) const {
@@ -353,7 +353,7 @@ struct RaysToCopy {
     return static_cast<std::int32_t>(is_plane ? 3'000'000'000U : own + copy * ManyCopies::spheres);
   }
 
-  std::vector<Plane> planes{{{0, 0, -2}, {0, 0, 1}, 0}};
+  std::vector<Plane> planes_{{{0, 0, -2}, {0, 0, 1}, 0}};
 };
 
 TEST_P(Parts, IdsAndSlotsBeyond31BitsAreRight) {
