@@ -13,10 +13,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <map>
 
+#include "bench/command_line.h"
 #include "bench/peers/frame_report.h"
 #include "bench/peers/frame_scene.h"
 #include "bench/peers/report.h"
@@ -33,7 +33,7 @@ struct Arguments {
   FrameSettings frames;
 };
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void add_ray_options(CLI::App& app, Arguments& arguments) {
   RefereeSettings& settings = arguments.settings;
   settings.scenes = scene_names();
   settings.kinds = ray_kinds();
@@ -81,6 +81,11 @@ void add_frame_options(CLI::App& app, Arguments& arguments) {
     settings.isas = arguments.settings.isas;
     settings.side = arguments.settings.side;
   });
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  add_ray_options(app, arguments);
+  add_frame_options(app, arguments);
 }
 
 /// The first ISA that this machine lacks, or the first unknown name; empty if there is none.
@@ -140,27 +145,12 @@ int run(const Arguments& arguments) {
   return all_right(results.value()) ? 0 : 1;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Compares Boule with Embree: the same rays, one process, answers checked.");
-  Arguments arguments;
-  add_options(app, arguments);
-  add_frame_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  return run(arguments);
-}
-
 }  // namespace
 }  // namespace boule::bench
 
 int main(int argc, char** argv) {
-  try {
-    return boule::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  using namespace boule::bench;
+  return run_program<Arguments>(
+      "Compares Boule with Embree: the same rays, one process, answers checked.", argc, argv,
+      add_options, run);
 }

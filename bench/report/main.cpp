@@ -7,11 +7,11 @@
 // robust solver was wrong, or a file could not be written; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "bench/command_line.h"
 #include "bench/report/figures.h"
 
 namespace boule::bench {
@@ -83,26 +83,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->check(CLI::ExistingFile);
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Measures speed against error and writes one page about it.");
-  Arguments arguments;
-  add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  return run(arguments);
-}
-
 }  // namespace
 }  // namespace boule::bench
 
 int main(int argc, char** argv) {
-  try {
-    return boule::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  using namespace boule::bench;
+  return run_program<Arguments>("Measures speed against error and writes one page about it.", argc,
+                                argv, add_options, run);
 }

@@ -1,6 +1,7 @@
 // The kernels of one instruction set and the table that exports them. This file is compiled once
 // per instruction set (simd/isa.cmake), each time into a namespace of its own. Which rays go which
-// way through search/ is decided here, but for the trial in scattered_stream.h:
+// way through search/ is decided here, but for the trials in scattered_stream.h and
+// shadow_stream.h:
 //   bundles    the caller promises a common origin, direction or end and leaves the form open
 //   scattered  nothing is promised, there is a tree, and the solver is robust: in flight, or as
 //              packets, whichever a trial finds faster

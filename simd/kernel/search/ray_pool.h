@@ -12,7 +12,7 @@
 
 /// Pools of shadow rays, sorted by where they lie for their light, and the bundles that are made of
 /// them. Chosen for any hit where a stream's neighbours have too little in common
-/// (bundle_stream.h).
+/// (shadow_stream.h).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Rays of a stream in an order of their own. What a bundle needs of a ray is kept together,
