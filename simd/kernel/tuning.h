@@ -45,6 +45,21 @@ inline constexpr float least_beam_slope = 0x1p-20F;
 /// Again: bench_peers --size 512 --scenes u100,u1000,flake4,u10000 --rays ambient
 inline constexpr int most_untested = 2;
 
+/// So few of these rays, or fewer, are tested one by one before their reach box is. Ambient rays as
+/// packets with none, one and two, by avx2, Mray/s: u10000 12.7, 13.3, 14.6; protein50000 11.7,
+/// 11.7, 12.6; grains200000 5.7, 5.6, 6.2; four are as good as two. Not with one lane, where each
+/// ray is always alone.
+/// Again: bench_peers --size 512 --scenes u10000,protein50000,grains200000 --rays ambient
+inline constexpr int most_rays_alone = width == 1 ? 0 : 2;
+
+/// Two packets of them share their visits where the box that holds all they reach has no more than
+/// so many times the sides of either one's. Ambient rays as packets, Mray/s, each alone and two
+/// together: by avx512 u100 104, 113; u10000 22.3, 23.8; protein50000 19.4, 20.1; u100000 and
+/// grains200000 the same within 2 %; by avx2 u1000 29.6, 31.6; protein50000 13.0, 13.8. With 1.2
+/// and 2.5 both lose 2 to 4 % on u100000 or grains200000.
+/// Again: bench_peers --size 512 --scenes u100,u10000,protein50000,u100000 --rays ambient
+inline constexpr float most_shared_growth = 1.5F;
+
 /// With more leaves than this a tree counts as far away and what a visit will read is fetched
 /// ahead: a leaf and its share of the nodes take 400 bytes, and 640 of them a quarter of a MiB, a
 /// good part of a second-level cache. Set by trial.

@@ -71,8 +71,12 @@ mutate "groups that are not done are taken for done" simd/kernel/search/bundle_w
   's/(hits_\.limits\(\), extent, near\[k\]\) )!= 0/\1== 0/'
 mutate "one ray alone enters a child" simd/kernel/search/ray_by_ray.h \
   's/return all_lanes & ~(bits\(\(rows & .*\));/return all_lanes \& ~\1 \& 1U;/'
-mutate "rays never meet the sphere that they leave inside" simd/kernel/search/ray_by_ray.h \
-  's/= \(rays_\.inside >> lane & 1U\) != 0;/= false;/'
+mutate "rays never meet the sphere that they leave inside" simd/kernel/search/scan.h \
+  's/if \(\(leaving & rays\.inside\) != 0\)/if (false)/'
+mutate "the second of two packets meets nothing" simd/kernel/search/short_search.h \
+  's/const unsigned of_packet = (.*)\(lanes, p\);/const unsigned of_packet = p == 0 ? \1(lanes, p) : 0;/'
+mutate "two packets reach no lower than the first" simd/kernel/search/reach_box.h \
+  's/low_\[axis\] = low\[axis\];//'
 mutate "spheres beyond the range of the filters are tested one by one" simd/kernel/search/ray_by_ray.h \
   's/may_ = extent < filter::limit && /may_ = extent < 3e38F \&\& /'
 exit $((survivors != 0))

@@ -59,13 +59,14 @@ Vec3d to_a_rim(CaseRandom& random, const std::vector<Sphere>& spheres, const Vec
   return center + side * (beta * double{sphere.radius}) - eye;
 }
 
-/// Sixteen rays at a time that begin near one another, every other time on a surface, every fourth
-/// time near the origin, and go towards the rims of spheres anywhere. Many end near the rim, or far
-/// before it.
-std::vector<Ray> parting_rays(const std::vector<Sphere>& spheres, int packets) {
+/// Two packets of up to sixteen rays at a time that begin near one another, every other time on a
+/// surface, every fourth time near the origin, and go towards the rims of spheres anywhere. Many
+/// end near the rim, or far before it; of those that begin on a surface, all: they are short, and
+/// both packets share their way where any hit will do.
+std::vector<Ray> parting_rays(const std::vector<Sphere>& spheres, int pairs) {
   CaseRandom random(62);
   std::vector<Ray> rays;
-  for (int i = 0; i < packets; ++i) {
+  for (int i = 0; i < pairs; ++i) {
     const Sphere& near = any_of(random, spheres);
     const double radius{near.radius};
     const bool is_central = i % 4 == 1;
@@ -73,14 +74,16 @@ std::vector<Ray> parting_rays(const std::vector<Sphere>& spheres, int packets) {
     const Vec3d eye = is_central
                           ? random.direction()
                           : vec_cast<double>(near.center) + random.direction() * (1.5 * radius);
-    for (int k = 0; k < 16; ++k) {
+    for (int k = 0; k < 32; ++k) {
       const Vec3d org = eye + random.direction() * apart;
       Ray ray{org, vec_cast<float>(to_a_rim(random, spheres, org))};
       const Hit hit = reference::closest_hit(ray, spheres, {});
-      if (i % 2 == 0 && hit.id != no_primitive) {
-        const Surface surface = find_surface(spheres, {}, ray, hit);
-        ray = leave(surface, k % 3 == 0 ? Side::beyond : Side::viewer,
-                    normalize(to_a_rim(random, spheres, surface.point)));
+      if (i % 2 == 0) {
+        if (hit.id != no_primitive) {
+          const Surface surface = find_surface(spheres, {}, ray, hit);
+          ray = leave(surface, k % 3 == 0 ? Side::beyond : Side::viewer,
+                      normalize(to_a_rim(random, spheres, surface.point)));
+        }
         ray.tmax = static_cast<float>(radius * random.decade(-1, 2));
       } else if (i % 3 != 0) {
         ray.tmax = static_cast<float>(i % 3 == 1 ? random.uniform(0.8, 1.2) : random.decade(-2, 0));

@@ -80,6 +80,8 @@ struct ClosestHit {
     is_pending = uniform(false);
   }
   static constexpr bool done() { return false; }
+  /// Those of `lanes` that may still have something to find.
+  static constexpr unsigned open(unsigned lanes) { return lanes; }
   static constexpr bool ordered = true;  ///< visiting near children first saves work
   static constexpr std::size_t chunk = tuning::nearest_chunk;
 
@@ -122,6 +124,7 @@ struct AnyHit {
   template <class Spheres>
   static void settle(const Spheres&, const RayLanes&) {}
   [[nodiscard]] bool done() const { return one_ray ? hit != 0 : hit == all_lanes; }
+  [[nodiscard]] unsigned open(unsigned lanes) const { return one_ray ? lanes : lanes & ~hit; }
   static constexpr bool ordered = false;
   static constexpr std::size_t chunk = tuning::any_chunk;
 };

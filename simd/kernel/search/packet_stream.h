@@ -5,6 +5,7 @@
 
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/padded_stream.h"
+#include "simd/kernel/search/short_search.h"
 #include "simd/kernel/search/traverse.h"
 #include "simd/kernel/tuning.h"
 
@@ -18,6 +19,13 @@ namespace boule::BOULE_KERNEL_ISA {
 BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
   if (form == Form::automatic) return remaining <= tuning::most_single_rays;
   return form == Form::single;
+}
+
+/// Loads a packet, and fetches one of the next into the cache.
+BOULE_INLINE void load_ahead(const PaddedStream& stream, std::size_t first, RayLanes& rays) {
+  const PacketRef from = stream.packet(first);
+  prefetch_packet(stream.rays(), first + tuning::prefetch_distance);
+  load_packet(*from.rays, from.first, rays);
 }
 
 /// Calls packet(rays, first, live) for packets, `live` of whose lanes are rays of the stream, and
@@ -34,9 +42,7 @@ BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, 
       single(rays, first);
       ++first;
     } else {
-      const PacketRef from = stream.packet(first);
-      prefetch_packet(stream.rays(), first + tuning::prefetch_distance);
-      load_packet(*from.rays, from.first, rays);
+      load_ahead(stream, first, rays);
       packet(rays, first, stream.live(first));
       first += width;
     }
@@ -62,6 +68,12 @@ BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, st
     hits.id[first + lane] = id[lane];
     hits.slot[first + lane] = slot[lane];
   }
+}
+
+BOULE_INLINE void store_packet(const AnyHit<false>& best, std::uint8_t* occluded, std::size_t first,
+                               std::size_t live) {
+  for (std::size_t lane = 0; lane < live; ++lane)
+    occluded[first + lane] = static_cast<std::uint8_t>((best.hit >> lane) & 1U);
 }
 
 /// One ray's hit is the nearest over the lanes; equal t: the lower id.
@@ -103,20 +115,41 @@ BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedSt
   return visits;
 }
 
+/// Traces pairs of packets while there are any. Returns how many nodes and leaves were visited, and
+/// moves `begin` on.
+template <Solver solver>
+BOULE_INLINE std::size_t trace_pairs(const GeometryView& geometry, const PaddedStream& stream,
+                                     std::size_t& begin, std::size_t end, std::uint8_t* occluded) {
+  std::size_t visits = 0;
+  TwoPackets packets;
+  for (; begin + 2 * width <= end; begin += 2 * width) {
+    load_ahead(stream, begin, packets.rays[0]);
+    load_ahead(stream, begin + width, packets.rays[1]);
+    AnyHit<false> best[2] = {AnyHit<false>(packets.rays[0]), AnyHit<false>(packets.rays[1])};
+    visits += search_two<solver>(packets, geometry, best);
+    for (std::size_t p = 0; p < 2; ++p) store_packet(best[p], occluded, begin + p * width, width);
+  }
+  return visits;
+}
+template <Solver solver>
+std::size_t trace_pairs(const PartsGeometry&, const PaddedStream&, std::size_t&, std::size_t,
+                        std::uint8_t*) {
+  return 0;
+}
+
 /// Finds whether they hit anything. Returns the same.
 template <Solver solver, class Geometry>
 BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,
                                         std::uint8_t* occluded) {
   std::size_t visits = 0;
+  if (form != Form::single) visits += trace_pairs<solver>(geometry, stream, begin, end, occluded);
   for_each_group(
       stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         AnyHit<false> best(packet);
         visits += search<solver, OneForAll>(packet, geometry, best);
-        for (std::size_t lane = 0; lane < live; ++lane) {
-          occluded[first + lane] = static_cast<std::uint8_t>((best.hit >> lane) & 1U);
-        }
+        store_packet(best, occluded, first, live);
       },
       [&](const RayLanes& ray, std::size_t index) {
         AnyHit<true> best(ray);

@@ -5,10 +5,8 @@
 
 #include "simd/kernel/search/beam.h"
 #include "simd/kernel/search/ray_by_ray.h"
-#include "simd/kernel/search/reach_box.h"
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/visit_stack.h"
-#include "simd/kernel/tuning.h"
 
 /// How packets go through a tree: which children of a node they visit, with which of their rays,
 /// and which spheres of a leaf they may hit. Few rays are tested one by one (ray_by_ray.h), many
@@ -114,70 +112,6 @@ class PacketWalk {
   const FilterRays& rays_;
   BoxRays box_rays_;
   Beam beam_;
-  RayByRay one_by_one_;
-};
-
-/// A packet of short rays, of which any hit will do, on its way through a tree. (Nearest hits
-/// shorten rays again and again, which a box that is made once knows nothing of.)
-class ShortWalk {
- public:
-  /// `reach`: is_short(). `untested`: so many children, or fewer, are visited without a test of
-  /// their boxes by the rays. `extent`: BvhView::extent.
-  BOULE_INLINE ShortWalk(const RayLanes& rays, const ReachBox& reach, int untested, float extent)
-      : rays_(rays),
-        reach_(reach),
-        untested_(untested),
-        extent_(extent),
-        one_by_one_(rays, extent) {}
-
-  BOULE_INLINE void visit_children(const BvhNode& node, unsigned lanes, const Real& limit, float,
-                                   VisitStack& stack) {
-    unsigned in = reach_.enter(node) & ((1U << node.size) - 1);
-    if (count_bits(in) <= untested_) {
-      for (; in != 0; in &= in - 1) push_if(true, node, std::countr_zero(in), lanes, stack);
-      return;
-    }
-    make_boxes();
-    if (one_by_one_.is_for(lanes, in)) {
-      one_by_one_.visit_children<false>(box_rays_, node, lanes, in, limit, stack);
-      return;
-    }
-    for (; in != 0; in &= in - 1) {
-      const int k = std::countr_zero(in);
-      const unsigned entering = ~bits(enter_child(box_rays_, node, k, limit).out) & lanes;
-      push_if(entering != 0, node, k, entering, stack);
-    }
-  }
-  template <bool origins_exact>
-  BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
-                                   const Real& limit, float,
-                                   Survivors<bvh_leaf_size>& survivors) const {
-    const unsigned in = reach_.meet(leaf.leaf) & ((1U << leaf.size) - 1);
-    if (one_by_one_.is_for(lanes, in)) {
-      one_by_one_.list_survivors(leaf, lanes, in, limit, survivors);
-    } else {
-      list_among<origins_exact>(rays_.filter, leaf, in, lanes, survivors);
-    }
-  }
-
- private:
-  BOULE_INLINE static void push_if(bool really, const BvhNode& node, int k, unsigned lanes,
-                                   VisitStack& stack) {
-    stack.push_if(really, {-static_cast<float>(no_hit), node.child[k], node.leaf_size[k], lanes});
-  }
-
-  /// Only when a box is to be tested: many packets of short rays need none.
-  BOULE_INLINE void make_boxes() {
-    if (!has_boxes_) box_rays_ = BoxRays(rays_, extent_);
-    has_boxes_ = true;
-  }
-
-  const RayLanes& rays_;
-  const ReachBox& reach_;
-  int untested_;
-  float extent_;
-  BoxRays box_rays_;  ///< of make_boxes()
-  bool has_boxes_ = false;
   RayByRay one_by_one_;
 };
 

@@ -37,8 +37,29 @@ BOULE_INLINE Vec3<Real> get_lane(const Vec3<Real>& lanes, std::size_t lane) {
 
 class RayByRay {
  public:
+  /// Boxes or spheres, up to sixteen, that some rays meet.
+  struct Met {
+    unsigned in = 0;  ///< as bits
+    Bits rows{0U};    ///< per ray those that it meets, as bits
+
+    /// Adds the ray of a lane, and what it meets.
+    BOULE_INLINE void add(std::size_t lane, unsigned row) {
+      in |= row;
+      rows = select(count_from(0) == Bits(static_cast<std::uint32_t>(lane)), Bits(row), rows);
+    }
+    /// The rays that meet the k-th, as bits.
+    [[nodiscard]] BOULE_INLINE unsigned lanes(int k) const {
+      return all_lanes & ~bits((rows & Bits(1U << k)) == Bits(0U));
+    }
+  };
+  struct Entered : Met {
+    /// Lower bounds of where the first ray enters each, if that was asked for.
+    alignas(64) float near[bvh_width];
+  };
+
+  RayByRay() = default;
   /// `extent`: BvhView::extent.
-  BOULE_INLINE RayByRay(const RayLanes& rays, float extent) : rays_(rays) {
+  BOULE_INLINE RayByRay(const RayLanes& rays, float extent) : rays_(&rays) {
     const Real zero(0.0F);
     const Vec3<Real>& unit = rays.filter.unit;
     may_ = extent < filter::limit && all(is_judged(rays.filter));
@@ -52,17 +73,21 @@ class RayByRay {
     return may_ && count_bits(lanes) * static_cast<int>(parts) <= count_bits(in);
   }
 
+  /// Whether rays may be tested one by one at all.
+  [[nodiscard]] BOULE_INLINE bool may() const { return may_; }
+
   /// Adds those of the children `in` of a node that some ray of `lanes` enters before its limit.
   template <bool ordered>
   BOULE_INLINE void visit_children(const BoxRays& boxes, const BvhNode& node, unsigned lanes,
                                    unsigned in, const Real& limit, VisitStack& stack) const {
     const int base = stack.count();
     Entered entered;
-    enter(boxes, node, lanes, limit, entered);
+    enter<ordered>(boxes, node, lanes, in, limit, entered);
     for (in &= entered.in; in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);
-      const Visit visit{entered.near[k], node.child[k], node.leaf_size[k], entered.lanes(k)};
+      Visit visit{-static_cast<float>(no_hit), node.child[k], node.leaf_size[k], entered.lanes(k)};
       if constexpr (ordered) {
+        visit.near = entered.near[k];
         stack.push(visit, base);
       } else {
         stack.push_if(true, visit);
@@ -81,42 +106,38 @@ class RayByRay {
     }
   }
 
- private:
-  static constexpr std::size_t parts = bvh_width / width;
-  static_assert(bvh_width == bvh_leaf_size);
-
-  /// Boxes or spheres, up to sixteen, that some rays meet.
-  struct Met {
-    unsigned in = 0;  ///< as bits
-    Bits rows{0U};    ///< per ray those that it meets, as bits
-
-    /// The rays that meet the k-th, as bits.
-    [[nodiscard]] BOULE_INLINE unsigned lanes(int k) const {
-      return all_lanes & ~bits((rows & Bits(1U << k)) == Bits(0U));
-    }
-  };
-  struct Entered : Met {
-    alignas(64) float near[bvh_width];  ///< lower bounds of where the first ray enters each
-  };
-
-  BOULE_NOINLINE void enter(const BoxRays& boxes, const BvhNode& node, unsigned lanes,
+  /// Finds which of the children `in` of a node the rays `lanes` enter before their limits, and, if
+  /// `ordered`, where.
+  template <bool ordered>
+  BOULE_NOINLINE void enter(const BoxRays& boxes, const BvhNode& node, unsigned lanes, unsigned in,
                             const Real& limit, Entered& entered) const {
-    alignas(64) std::uint32_t rows[width] = {};
     Real first[parts];
     for (Real& near : first) near = Real(static_cast<float>(no_hit));
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       unsigned row = 0;
-      for (std::size_t part = 0; part < parts; ++part)
+      for (std::size_t part = 0; part < parts; ++part) {
+        if (!has_part(in, part)) continue;
         row |= enter_part(boxes, node, lane, get_lane(limit, lane), part, first[part])
                << part * width;
-      rows[lane] = row;
-      entered.in |= row;
+      }
+      entered.add(lane, row);
     }
-    for (std::size_t part = 0; part < parts; ++part)
-      store(entered.near + part * width, first[part]);
-    entered.rows = load_integers(rows);
+    if constexpr (ordered) {
+      for (std::size_t part = 0; part < parts; ++part)
+        store(entered.near + part * width, first[part]);
+    }
   }
+
+ private:
+  static constexpr std::size_t parts = bvh_width / width;
+  static_assert(bvh_width == bvh_leaf_size);
+
+  /// Whether some of the bits are of the part-th W boxes or spheres.
+  BOULE_INLINE static bool has_part(unsigned in, std::size_t part) {
+    return parts == 1 || (in >> part * width & all_lanes) != 0;
+  }
+
   /// One ray against W children. Lowers `first` to where it enters them.
   BOULE_INLINE unsigned enter_part(const BoxRays& boxes, const BvhNode& node, std::size_t lane,
                                    float limit, std::size_t part, Real& first) const {
@@ -142,36 +163,29 @@ class RayByRay {
 
   BOULE_NOINLINE void meet(const LeafSpheres<OneForAll>& leaf, unsigned lanes, const Real& limit,
                            Met& met) const {
-    alignas(64) std::uint32_t rows[width] = {};
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      rows[lane] = meet_all(leaf, lane, Real(get_lane(limit, lane)));
-      met.in |= rows[lane];
+      const Real until(get_lane(limit, lane));
+      unsigned row = 0;
+      for (std::size_t part = 0; part < parts; ++part)
+        row |= meet_part(lane, leaf.leaf, part, until) << part * width;
+      met.add(lane, row);
     }
-    met.rows = load_integers(rows);
   }
-  /// One ray against the spheres of a leaf.
-  BOULE_INLINE unsigned meet_all(const LeafSpheres<OneForAll>& leaf, std::size_t lane,
-                                 const Real& limit) const {
+  /// One ray against W spheres.
+  BOULE_INLINE unsigned meet_part(std::size_t lane, const SphereBlock& leaf, std::size_t part,
+                                  const Real& limit) const {
     FilterRays ray;
-    ray.org = get_lane(rays_.filter.org, lane);
-    ray.unit = get_lane(rays_.filter.unit, lane);
-    ray.origin_error = get_lane(rays_.filter.origin_error, lane);
-    const bool inside = (rays_.inside >> lane & 1U) != 0;
-    const Bits left(inside ? static_cast<std::uint32_t>(no_primitive)
-                           : get_lane(rays_.exact.source, lane));
-    unsigned in = 0;
-    for (std::size_t at = 0; at < bvh_leaf_size; at += width) {
-      const Vec3<Real> center{load(leaf.leaf.center_x + at), load(leaf.leaf.center_y + at),
-                              load(leaf.leaf.center_z + at)};
-      const Real radius = load(leaf.leaf.radius + at);
-      const RealMask own = load_integers(leaf.ids + at) == left;
-      in |= bits(may_meet(find_approach(ray, center, radius), radius, limit) & ~own) << at;
-    }
-    return in;
+    ray.org = get_lane(rays_->filter.org, lane);
+    ray.h = get_lane(rays_->filter.h, lane);
+    ray.origin_error = get_lane(rays_->filter.origin_error, lane);
+    const std::size_t at = part * width;
+    const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
+                            load(leaf.center_z + at)};
+    return bits(may_meet(ray, center, Outskirts(load(leaf.radius + at)), limit));
   }
 
-  const RayLanes& rays_;
+  const RayLanes* rays_;
   unsigned down_[3];  ///< the rays that go down along an axis, as bits
   bool may_;
 };

@@ -24,6 +24,25 @@ class ReachBox {
   /// Whether the rays are short; else nothing else here may be used.
   [[nodiscard]] BOULE_INLINE bool is_short() const { return is_short_; }
 
+  /// Grows to hold `other` too, unless that would make its sides, added up, more than `most` times
+  /// those of the larger of both. Returns whether it did. Both are short.
+  BOULE_INLINE bool grow(const ReachBox& other, float most) {
+    float low[3], high[3], sides = 0, first = 0, second = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = low_[axis] < other.low_[axis] ? low_[axis] : other.low_[axis];
+      high[axis] = high_[axis] < other.high_[axis] ? other.high_[axis] : high_[axis];
+      sides += high[axis] - low[axis];
+      first += high_[axis] - low_[axis];
+      second += other.high_[axis] - other.low_[axis];
+    }
+    if (most * (first < second ? second : first) < sides) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+      low_[axis] = low[axis];
+      high_[axis] = high[axis];
+    }
+    return true;
+  }
+
   /// The children of a node that may be reached, as bits.
   [[nodiscard]] BOULE_INLINE unsigned enter(const BvhNode& node) const {
     unsigned in = 0;

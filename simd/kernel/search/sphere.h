@@ -14,8 +14,15 @@ struct SphereLanes {
   Bits id;
 };
 
-/// Lanes that certainly miss (filter_bounds.h). `origins_exact` must be FilterRays::origins_exact;
-/// without it the sphere grows by the rounding error of the origin.
+/// Below zero where a line certainly misses (filter_bounds.h): f = c - o, b = f.h.
+BOULE_INLINE Real reject_sum(const Vec3<Real>& f, const Real& b, const Real& reject_squared) {
+  const Real rest =
+      filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, reject_squared)));
+  return filter_fma(b, b, rest);
+}
+
+/// Lanes that certainly miss. `origins_exact` must be FilterRays::origins_exact; without it the
+/// sphere grows by the rounding error of the origin.
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& reject_squared, const Real& reject_radius) {
@@ -26,19 +33,23 @@ BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
     const Real grown = reject_radius + rays.origin_error;
     r2p = grown * grown;
   }
-  const Real rest = filter_fnma(f.z, f.z, filter_fnma(f.y, f.y, filter_fnma(f.x, f.x, r2p)));
-  return filter_fma(b, b, rest) < Real(0.0F);
+  return reject_sum(f, b, r2p) < Real(0.0F);
 }
 
-/// The same for a sphere whose reject_squared and reject_radius were not computed in advance.
+/// The radius that rejected() wants where it was not computed in advance.
+BOULE_INLINE Real grown_on_the_spot(const Real& radius) {
+  return filter_fma(abs(radius),
+                    Real(static_cast<float>(1 + filter::slack_on_the_spot * filter::u)),
+                    Real(static_cast<float>(2 * filter::floor)));
+}
+/// rejected() for a sphere whose reject_squared and reject_radius were not computed in advance.
 template <bool origins_exact>
 BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Real>& center,
                                            const Real& radius) {
   const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u));
   const Real squared =
       filter_fma(radius * radius, outward, Real(static_cast<float>(2 * filter::squared_floor)));
-  const Real grown = abs(radius) * outward + Real(static_cast<float>(2 * filter::floor));
-  return rejected<origins_exact>(rays, center, squared, grown);
+  return rejected<origins_exact>(rays, center, squared, grown_on_the_spot(radius));
 }
 
 /// Solver robust: closest approach in double, never fused. core/reference.cpp derives the formula.

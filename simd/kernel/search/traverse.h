@@ -7,6 +7,7 @@
 #include "simd/kernel/search/packet_walk.h"
 #include "simd/kernel/search/parts.h"
 #include "simd/kernel/search/scan.h"
+#include "simd/kernel/search/short_walk.h"
 #include "simd/kernel/search/slabs.h"
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/search/visit_stack.h"
@@ -61,6 +62,11 @@ BOULE_INLINE float limit_of_all(const Real& limit) {
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
+/// How many children of a node short rays visit untested.
+BOULE_INLINE int untested_of(const BvhView& bvh) {
+  return bvh.size == 1 ? static_cast<int>(bvh_width) : tuning::most_untested;
+}
+
 /// Calls search(walk) with the way that these rays go through a tree. Returns what it returns.
 template <class Access, class Best, class Search>
 BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, const BvhView& bvh,
@@ -72,7 +78,7 @@ BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, const
     if constexpr (!Best::ordered) {
       const ReachBox reach(rays.filter, best.limit(), bvh.extent);
       if (reach.is_short() && !forms_beam(rays.filter)) {
-        ShortWalk walk(rays, reach, bvh.size == 1 ? bvh_width : tuning::most_untested, bvh.extent);
+        ShortWalk<1> walk(&rays, reach, untested_of(bvh), bvh.extent);
         return search(walk);
       }
     }
@@ -112,12 +118,14 @@ BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Walk& walk, const T
   while (!stack.empty() && !best.done()) {
     const Visit visit = stack.pop();
     if (is_beyond(visit, limit)) continue;
+    const unsigned lanes = best.open(visit.lanes);
+    if (lanes == 0) continue;
     ++visits;
     if (visit.leaf_size == 0) {
-      walk.visit_children(tree.node(visit.child), visit.lanes, best.limit(), limit, stack);
+      walk.visit_children(tree.node(visit.child), lanes, best.limit(), limit, stack);
     } else {
       meet_leaf<solver, Access, origins_exact>(rays, walk, all, tree.leaf(visit.child),
-                                               visit.leaf_size, visit.lanes, limit, best);
+                                               visit.leaf_size, lanes, limit, best);
     }
   }
   return visits;

@@ -13,7 +13,7 @@ struct Visit {
   float near;  ///< where the first ray enters it, or less
   std::uint32_t child;
   std::uint32_t leaf_size;
-  unsigned lanes = all_lanes;  ///< of a packet, the rays that may enter it
+  unsigned lanes = all_lanes;  ///< of packets, the rays that may enter it
 };
 
 /// Children to visit, the nearest of those of one node on top. Its size follows from the depth of
@@ -43,19 +43,21 @@ class VisitStack {
     count_ += really ? 1 : 0;
   }
   [[nodiscard]] int count() const { return count_; }
+  /// The child that was added as the at-th.
+  [[nodiscard]] std::uint32_t child(int at) const { return child_[at]; }
 
  private:
   BOULE_INLINE void set(int at, const Visit& visit) {
     near_[at] = visit.near;
     child_[at] = visit.child;
     leaf_size_[at] = static_cast<std::uint16_t>(visit.leaf_size);
-    lanes_[at] = static_cast<std::uint16_t>(visit.lanes);
+    lanes_[at] = visit.lanes;
   }
   /// push_if() writes one more than it adds.
   static constexpr int room = bvh_max_depth * (bvh_width - 1) + 2;
   float near_[room];
-  std::uint32_t child_[room];
-  std::uint16_t leaf_size_[room], lanes_[room];
+  std::uint32_t child_[room], lanes_[room];
+  std::uint16_t leaf_size_[room];
   int count_ = 0;
 };
 

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+
+#include "simd/kernel/search/scan.h"
+#include "simd/kernel/search/short_walk.h"
+#include "simd/kernel/search/traverse.h"
+#include "simd/kernel/search/tree_blocks.h"
+#include "simd/kernel/search/visit_stack.h"
+#include "simd/kernel/tuning.h"
+
+/// Two packets of short rays that look for any hit and share their visits of the tree. Chosen where
+/// neighbouring packets reach about the same, as in ambient occlusion: what a visit asks once, it
+/// asks for twice as many rays.
+namespace boule::BOULE_KERNEL_ISA {
+
+struct TwoPackets {
+  RayLanes rays[2];  ///< of either one
+};
+
+/// The rays of two packets that have no hit yet: those of the first, then those of the second.
+BOULE_INLINE unsigned open_rays(const AnyHit<false> (&best)[2]) {
+  return (all_lanes & ~best[0].hit) | (all_lanes & ~best[1].hit) << width;
+}
+
+/// Searches the tree for both. Returns how many nodes and leaves each has visited, in all.
+template <Solver solver>
+BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, ShortWalk<2>& walk,
+                                           const GeometryView& geometry, AnyHit<false> (&best)[2]) {
+  using Walk = ShortWalk<2>;
+  const WholeTree tree(geometry);
+  std::size_t visits = 0;
+  VisitStack stack;
+  stack.push_if(true, {-static_cast<float>(no_hit), 0, 0, open_rays(best)});
+  while (!stack.empty()) {
+    const Visit visit = stack.pop();
+    const unsigned lanes = visit.lanes & open_rays(best);
+    if (lanes == 0) continue;
+    visits += (Walk::of_packet(lanes, 0) != 0 ? 1 : 0) + (Walk::of_packet(lanes, 1) != 0 ? 1 : 0);
+    if (visit.leaf_size == 0) {
+      const Real limits[2] = {best[0].limit(), best[1].limit()};
+      const int before = stack.count();
+      walk.visit_children(tree.node(visit.child), lanes, limits, stack);
+      for (int at = stack.count() - 1; at >= before; --at) tree.fetch(stack.child(at));
+      continue;
+    }
+    const LeafSpheres<OneForAll> leaf(tree.leaf(visit.child), visit.leaf_size);
+    const unsigned in = walk.reach(leaf, lanes);
+    if (in == 0) continue;
+    for (int p = 0; p < 2; ++p) {
+      const unsigned of_packet = Walk::of_packet(lanes, p);
+      if (of_packet == 0) continue;
+      Survivors<bvh_leaf_size> survivors;
+      walk.list_survivors<false>(p, leaf, of_packet, in, best[p].limit(), survivors);
+      if (survivors.count == 0) continue;
+      meet_survivors<solver>(packets.rays[p], geometry.spheres, leaf, 0, survivors, best[p]);
+    }
+  }
+  return visits;
+}
+
+/// Whether both are short, go all ways, and reach about the same. Grows `reach`, of the first, to
+/// hold both.
+BOULE_INLINE bool reach_the_same(const TwoPackets& packets, const AnyHit<false> (&best)[2],
+                                 float extent, ReachBox& reach) {
+  if (!reach.is_short()) return false;
+  const ReachBox second(packets.rays[1].filter, best[1].limit(), extent);
+  return second.is_short() && !forms_beam(packets.rays[0].filter) &&
+         !forms_beam(packets.rays[1].filter) && reach.grow(second, tuning::most_shared_growth);
+}
+
+/// Searches all primitives for two packets. Returns how many nodes and leaves each has visited, in
+/// all.
+template <Solver solver>
+BOULE_NOINLINE std::size_t search_two(const TwoPackets& packets, const GeometryView& geometry,
+                                      AnyHit<false> (&best)[2]) {
+  if (geometry.bvh.size != 0) {
+    ReachBox reach(packets.rays[0].filter, best[0].limit(), geometry.bvh.extent);
+    if (reach_the_same(packets, best, geometry.bvh.extent, reach)) {
+      for (int p = 0; p < 2; ++p)
+        scan_spheres<solver, OneForAll, false>(packets.rays[p], geometry.spheres, best[p]);
+      ShortWalk<2> walk(packets.rays, reach, untested_of(geometry.bvh), geometry.bvh.extent);
+      const std::size_t visits = traverse_together<solver>(packets, walk, geometry, best);
+      for (int p = 0; p < 2; ++p)
+        scan_planes<solver, OneForAll>(packets.rays[p], geometry.planes, best[p]);
+      return visits;
+    }
+  }
+  return search<solver, OneForAll>(packets.rays[0], geometry, best[0]) +
+         search<solver, OneForAll>(packets.rays[1], geometry, best[1]);
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA
