@@ -77,6 +77,8 @@ mutate "the second of two packets meets nothing" simd/kernel/search/short_search
   's/const unsigned of_packet = (.*)\(lanes, p\);/const unsigned of_packet = p == 0 ? \1(lanes, p) : 0;/'
 mutate "two packets reach no lower than the first" simd/kernel/search/reach_box.h \
   's/low_\[axis\] = low\[axis\];//'
+mutate "rays tested one by one have no slack along their way" simd/kernel/search/root_bounds.h \
+  's/(four_spreads = )[^;]+;/\10.0F;/; s/(outward = )[^;]+;/\11.0F;/'
 mutate "spheres beyond the range of the filters are tested one by one" simd/kernel/search/ray_by_ray.h \
   's/may_ = extent < filter::limit && /may_ = extent < 3e38F \&\& /'
 exit $((survivors != 0))

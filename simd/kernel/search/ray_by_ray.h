@@ -12,9 +12,9 @@
 
 /// The rays of a packet one by one, each against W boxes or W spheres at a time. Chosen where few
 /// rays of a packet are left: that takes fewer steps than box after box and sphere after sphere.
-/// The filters are those of flights (flight.h), in which every comparison with NaN turns away.
-/// Therefore only rays that float can judge, without hits behind their origins, and only trees
-/// within the range of the filters are tested here.
+/// Every comparison with NaN turns away, as in flights (flight.h). Therefore only rays that float
+/// can judge, without hits behind their origins, and only trees within the range of the filters are
+/// tested here.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The number in one lane.
@@ -95,7 +95,6 @@ class RayByRay {
     }
   }
   /// Lists those of the spheres `in` of a leaf that some ray of `lanes` may hit before its limit.
-  /// Rays that leave one of them on its outside never meet it again.
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes, unsigned in,
                                    const Real& limit, Survivors<bvh_leaf_size>& survivors) const {
     Met met;
@@ -161,6 +160,7 @@ class RayByRay {
     return bits(in);
   }
 
+  /// Finds which of a leaf's spheres the rays `lanes` may meet before their limits.
   BOULE_NOINLINE void meet(const LeafSpheres<OneForAll>& leaf, unsigned lanes, const Real& limit,
                            Met& met) const {
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -172,7 +172,7 @@ class RayByRay {
       met.add(lane, row);
     }
   }
-  /// One ray against W spheres.
+  /// One ray against W spheres. (Its own is among them: list_candidates() knows better.)
   BOULE_INLINE unsigned meet_part(std::size_t lane, const SphereBlock& leaf, std::size_t part,
                                   const Real& limit) const {
     FilterRays ray;
@@ -182,7 +182,7 @@ class RayByRay {
     const std::size_t at = part * width;
     const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
                             load(leaf.center_z + at)};
-    return bits(may_meet(ray, center, Outskirts(load(leaf.radius + at)), limit));
+    return bits(may_meet(ray, center, load(leaf.radius + at), limit));
   }
 
   const RayLanes* rays_;

@@ -62,25 +62,19 @@ BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radi
   return (Real(0.0F) <= discriminant + doubt) & (Real(0.0F) <= b + most) & (b - most <= reach);
 }
 
-/// What a ray that may hit a sphere must come near: found once, for many rays.
-struct Outskirts {
-  Real grown;  ///< the radius for rejected()
-  Real most;   ///< no root is farther from b than this and 4 (spread u |b| + E)
-
-  BOULE_INLINE explicit Outskirts(const Real& signed_radius)
-      : grown(grown_on_the_spot(signed_radius)),
-        most(abs(signed_radius) * Real(static_cast<float>(1 + 8 * filter::spread * filter::u))) {}
-};
-
 /// The same with the reject in place of the discriminant: it lets a few more through, and takes
-/// three quarters of the steps.
+/// three quarters of the steps. Its b is farther off than the other one's, by what docs/numerics.md
+/// says and 4 spread cover.
 BOULE_INLINE RealMask may_meet(const FilterRays& rays, const Vec3<Real>& center,
-                               const Outskirts& outskirts, const Real& reach) {
+                               const Real& signed_radius, const Real& reach) {
   constexpr auto four_spreads = static_cast<float>(4 * filter::spread * filter::u);
+  constexpr auto outward = static_cast<float>(1 + 8 * filter::spread * filter::u);
   const Vec3<Real> f = center - rays.org;
-  const Real b = filter_dot(f, rays.h), edge = outskirts.grown + rays.origin_error;
-  const Real most = filter_fma(Real(4.0F), rays.origin_error,
-                               filter_fma(abs(b), Real(four_spreads), outskirts.most));
+  const Real b = filter_dot(f, rays.h);
+  const Real edge = grown_on_the_spot(signed_radius) + rays.origin_error;
+  const Real most =
+      filter_fma(Real(4.0F), rays.origin_error,
+                 filter_fma(abs(b), Real(four_spreads), abs(signed_radius) * Real(outward)));
   return (Real(0.0F) <= reject_sum(f, b, edge * edge)) & (Real(0.0F) <= b + most) &
          (b - most <= reach);
 }

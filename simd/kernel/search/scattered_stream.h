@@ -27,7 +27,9 @@ class Choice {
   /// Takes a trial of as many flights, and chooses.
   void add_flights(std::size_t steps) {
     flights_ = flights_ * tuning::share_of_earlier_trials + static_cast<float>(steps);
-    const bool packets = packets_ < flights_, agrees = packets == is_packets_;
+    const bool others = is_packets_ ? flights_ * tuning::gain_to_change<any> < packets_
+                                    : packets_ * tuning::gain_to_change<any> < flights_;
+    const bool packets = is_packets_ != others, agrees = !others;
     const auto [less, more] = packets ? Pair{packets_, flights_} : Pair{flights_, packets_};
     std::size_t rays = agrees ? 2 * rays_that_way_ : tuning::rays_after_trial;
     if (tuning::clearly_more * less < more) rays = tuning::most_after_trial;
