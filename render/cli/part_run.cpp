@@ -39,7 +39,11 @@ Status PartRun::run(const std::vector<PixelRect>& blocks) {
 /// Renders these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
 Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
   LiveProgress& progress = live_.progress();
-  progress.begin_pass(blocks.size(), {share(), 1, renderer_.statistics().rays.total()});
+  std::uint64_t pixels = 0;
+  if (sheet_.kinds().measured) {
+    for (const PixelRect& block : blocks) pixels += static_cast<std::uint64_t>(block.area());
+  }
+  progress.begin_pass(blocks.size(), {share(), 1, renderer_.statistics().rays.total(), pixels});
   std::atomic<std::size_t> next{0};
   const auto task = [&](BlockTools& tools) {
     for (std::size_t i = next++; i < blocks.size() && !is_due(); i = next++) {

@@ -33,6 +33,13 @@ std::string json_number(double seconds) {
   return seconds < 0 ? "null" : fmt::format("{:.3f}", seconds);
 }
 
+double mean_spp(const NoiseSoFar& noise) {
+  return static_cast<double>(noise.samples) / static_cast<double>(noise.pixels);
+}
+double settled_share(const NoiseSoFar& noise) {
+  return static_cast<double>(noise.settled) / static_cast<double>(noise.pixels);
+}
+
 /// The time left after a share of `all` has taken `elapsed`; negative where it is not known.
 double extrapolate(double elapsed, double done, double all) {
   return done > 0 ? elapsed * (all - done) / done : -1;
@@ -153,8 +160,16 @@ std::string ProgressBar::state(double now) const {
   const std::string so_far = frame + duration(elapsed) + " elapsed, ";
   const std::string what = awaited(now);
   if (left < 0 && !what.empty()) return so_far + what;
-  const std::string speed = fmt::format("{:.1f} Mray/s", mrays_per_s_);
-  return so_far + (left < 0 ? "?" : duration(left)) + " left, " + (what.empty() ? speed : what);
+  return so_far + (left < 0 ? "?" : duration(left)) + " left, " + (what.empty() ? rate() : what);
+}
+
+/// "3.2 Mray/s"; where noise is measured and pixels are finished, what these have: "38.2 spp, 97 %
+/// settled", or "38.2 spp" in a series, whose line has no room for more.
+std::string ProgressBar::rate() const {
+  const NoiseSoFar& noise = progress_.noise;
+  if (noise.pixels == 0) return fmt::format("{:.1f} Mray/s", mrays_per_s_);
+  const std::string spp = fmt::format("{:.1f} spp", mean_spp(noise));
+  return is_series() ? spp : fmt::format("{}, {} % settled", spp, percent(settled_share(noise)));
 }
 
 /// "reading a.toml", "waiting for 2 blocks of pixels"; empty while all goes on.
@@ -199,10 +214,15 @@ std::string ProgressBar::json_line(double now) const {
                                  ? fmt::format(R"(,"frame":{},"frames":{},"series_remaining_s":{})",
                                                frame_, frames_, json_number(series_remaining(now)))
                                  : "";
+  const NoiseSoFar& so_far = progress_.noise;
+  const std::string noise =
+      so_far.pixels == 0 ? ""
+                         : fmt::format(R"(,"mean_spp":{:.2f},"settled":{:.4f})", mean_spp(so_far),
+                                       std::floor(settled_share(so_far) * 1e4) * 1e-4);
   return fmt::format(
-      R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}{}}})",
+      R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}{}{}}})",
       std::floor(progress_.share * 1e4) * 1e-4, now - pass_since_, json_number(pass_remaining(now)),
-      mrays_per_s_, series);
+      mrays_per_s_, noise, series);
 }
 
 }  // namespace boule::cli

@@ -14,12 +14,13 @@ namespace boule::cli {
 /// seconds have passed and ten per cent are done since the last, and at the end one if there were
 /// any before.
 /// json: a JSON object a line, at most ten a second: {"share", "elapsed_s", "remaining_s" (null at
-/// first), "mrays_per_s"}, in a series {"frame", "frames", "series_remaining_s"} too.
-/// automatic: bar on a terminal, else plain.
+/// first), "mrays_per_s"}, once noise is measured {"mean_spp", "settled"} too, in a series
+/// {"frame", "frames", "series_remaining_s"}. automatic: bar on a terminal, else plain.
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
 /// Decides what is told of a run while it goes on, and when: the share that is done, the time
-/// elapsed and remaining, rays per second, and, when nothing moves, what the run waits for. Stages,
+/// elapsed and remaining, rays per second or, where noise is measured, the samples of finished
+/// pixels, and, when nothing moves, what the run waits for. Stages,
 /// whose share is not known, are told of when they have taken two seconds, and on a pipe every ten
 /// seconds from then on. The class neither looks at a clock nor writes: `now` is in seconds from
 /// the run's start and never decreases.
@@ -65,6 +66,7 @@ class ProgressBar {
   [[nodiscard]] double next_drawing() const;
   [[nodiscard]] double next_plain_line() const;
   [[nodiscard]] std::string state(double now) const;
+  [[nodiscard]] std::string rate() const;
   [[nodiscard]] std::string awaited(double now) const;
   [[nodiscard]] std::string stage_line(double now) const;
   [[nodiscard]] std::string plain_line(double now) const;

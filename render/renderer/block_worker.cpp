@@ -82,7 +82,7 @@ bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) 
   NoiseBlock& noise = *noise_;
   noise.begin(part, setup_.frame);
   pixels_.clear();
-  do {
+  for (bool more = true; more;) {
     for (const NoiseBlock::Pixel& pixel : noise.wanted()) {
       for (const int x : {int{pixel.x}, pixel.x + NoiseBlock::half_distance}) {
         for (int sample = noise.first(); sample < noise.end(); ++sample) {
@@ -92,7 +92,9 @@ bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) 
       }
     }
     if (!trace(noise)) return false;
-  } while (noise.look(picture));
+    more = noise.look(picture);
+    if (setup_.live != nullptr) setup_.live->add_measured(noise.settled());
+  }
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "render/frame/film.h"
 #include "render/frame/live_passes.h"
 #include "render/frame/pixel_order.h"
+#include "render/frame/progress.h"
 #include "render/frame/sampler.h"
 #include "render/integrators/integrator.h"
 #include "render/integrators/random_numbers.h"
@@ -28,6 +29,7 @@ struct BlockSetup {
   Alpha alpha;                            ///< whether films learn which samples are covered
   PixelRect frame{};                      ///< of the picture, for noise
   NoiseTarget noise{};
+  LiveProgress* live = nullptr;  ///< learns of pixels whose noise was measured; null: nobody does
 };
 
 /// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not

@@ -49,10 +49,16 @@ bool NoiseBlock::look(MeasuredPicture& picture) {
       state.variances[half] = state.halves[half].variance();
   }
   if (first_ == 0) look_around();
+  settled_ = {};
+  const auto most =
+      static_cast<std::uint32_t>(target_.max_spp / 2 * 2);  // both halves have as many
   const auto is_done = [&](const Pixel& pixel) {
     State& state = at(pixel.x, pixel.y);
     if (!settle(state)) return false;
-    picture.at(pixel.x, pixel.y) = measured(state);
+    const MeasuredPixel& done = picture.at(pixel.x, pixel.y) = measured(state);
+    settled_.pixels += 1;
+    settled_.samples += done.samples;
+    settled_.settled += done.samples < most ? 1 : 0;
     return true;
   };
   wanted_.erase(std::remove_if(wanted_.begin(), wanted_.end(), is_done), wanted_.end());

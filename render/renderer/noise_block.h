@@ -11,6 +11,7 @@
 #include "render/frame/pixel_noise.h"
 #include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
+#include "render/frame/progress.h"
 
 namespace boule {
 
@@ -49,6 +50,8 @@ class NoiseBlock {
   /// To be called when all wanted samples were added. Sets the pixels that have enough of them, and
   /// wants more of the others. False if there are none: the block is done.
   bool look(MeasuredPicture& picture);
+  /// The pixels that the last look() set.
+  [[nodiscard]] const NoiseSoFar& settled() const { return settled_; }
 
  private:
   /// A half that has all its samples.
@@ -79,6 +82,7 @@ class NoiseBlock {
   std::vector<State> states_;
   std::vector<Pixel> wanted_;
   int first_ = 0, end_ = 0;
+  NoiseSoFar settled_;
 };
 
 }  // namespace boule

@@ -26,11 +26,11 @@ Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedS
                    const KernelTable& kernels)
     : options_(options),
       scene_(std::move(scene)),
-      setup_(std::make_unique<const BlockSetup>(
-          BlockSetup{*scene_, kernels, Sampler(options.spp, options.seed, options.filter),
-                     block_pixels(options.tile),
-                     fitting_stream_size(scene_->geometry.sphere_count()), alpha_of(options),
-                     PixelRect{0, 0, options.width, options.height}, noise_target(options)})),
+      setup_(std::make_unique<const BlockSetup>(BlockSetup{
+          *scene_, kernels, Sampler(options.spp, options.seed, options.filter),
+          block_pixels(options.tile), fitting_stream_size(scene_->geometry.sphere_count()),
+          alpha_of(options), PixelRect{0, 0, options.width, options.height}, noise_target(options),
+          options.live})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -90,7 +90,7 @@ Result<Image> Renderer::render() {
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
-    if (auto bad = run_blocks(std::cref(task), {})) return *bad;
+    if (auto bad = run_blocks(std::cref(task), whole_pass())) return *bad;
     if (!(options_.outline > 0)) return image;
     const auto lines = render_outline();
     if (!lines) return lines.error();
@@ -107,7 +107,13 @@ Status Renderer::render_measured(MeasuredPicture& picture) {
   const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.measure(block, picture);
   };
-  return run_blocks(std::cref(task), {});
+  return run_blocks(std::cref(task), whole_pass());
+}
+
+/// The pass that renders all there is.
+LiveProgress::PassSpan Renderer::whole_pass() const {
+  const bool measures = options_.live != nullptr && setup_->noise.half_width > 0;
+  return {.pixels = measures ? static_cast<std::uint64_t>(rect().area()) : 0};
 }
 
 Status Renderer::check_film(const Film& film) const {

@@ -131,6 +131,7 @@ class Renderer {
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
   BlockWorker& worker(unsigned index);
   Status check_film(const Film& film) const;
+  [[nodiscard]] LiveProgress::PassSpan whole_pass() const;
   Status run_slice(Film& film, const LivePass& pass, LivePosition& position,
                    const BlockRange& range);
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);

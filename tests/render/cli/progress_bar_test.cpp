@@ -275,6 +275,42 @@ TEST_F(SeriesProgress, ItFitsATerminal) {
   EXPECT_LE(line.size(), 79u) << line;
 }
 
+/// The same where noise is measured: samples stand in place of rays.
+TEST_F(SeriesProgress, ItFitsATerminalWithNoise) {
+  ProgressBar bar(ProgressStyle::bar, 99);
+  for (int i = 0; i < 12; ++i) run_frame(bar, i * 3000.0, 3000);
+  bar.start_frame();
+  bar.start_pass("pixels", 36000);
+  bar.update({0.5, std::uint64_t{1} << 40, 2, {1000, 4'096'000, 10}}, 38000);
+  const std::string line = bar.tell(38000).value_or("");
+  EXPECT_THAT(line, EndsWith(" % frame 13 of 99, 10:33:20 elapsed, 73:02:40 left, 4096.0 spp"));
+  EXPECT_LE(line.size(), 79u) << line;
+}
+
+/// Until a pixel is finished nothing is known of samples.
+TEST(NoiseProgress, TellsTheSamplesOfFinishedPixels) {
+  ProgressBar bar(ProgressStyle::bar);
+  bar.start_pass("pixels", 0);
+  bar.update({0.25, 10'000'000, 2, {}}, 5);
+  EXPECT_THAT(bar.tell(5).value_or(""), EndsWith("5.0 s elapsed, 15.0 s left, 2.0 Mray/s"));
+  bar.update({0.5, 20'000'000, 2, {400, 15'280, 399}}, 10);
+  const std::string line = bar.tell(10).value_or("");
+  EXPECT_THAT(line, EndsWith("10.0 s elapsed, 10.0 s left, 38.2 spp, 99 % settled"));
+  EXPECT_LE(line.size(), 79u) << line;
+}
+
+TEST(NoiseProgress, JsonHasItWhenPixelsAreFinished) {
+  ProgressBar bar(ProgressStyle::json);
+  bar.start_pass("pixels", 0);
+  bar.update({0.25, 10'000'000, 2, {}}, 5);
+  EXPECT_EQ(nlohmann::json::parse(bar.tell(5).value_or("{}")).size(), 4u);
+  bar.update({0.5, 20'000'000, 2, {400, 15'280, 399}}, 10);
+  const auto json = nlohmann::json::parse(bar.tell(10).value_or("{}"));
+  EXPECT_EQ(json.at("mean_spp"), 38.2);
+  EXPECT_EQ(json.at("settled"), 0.9975);
+  EXPECT_EQ(json.size(), 6u);
+}
+
 TEST_F(SeriesProgress, JsonIsThatOfTheFrameAndMore) {
   ProgressBar bar(ProgressStyle::json, 4);
   run_frame(bar, 0, 10);
