@@ -64,7 +64,6 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
             scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_});
   kinds_.resize(most_points);
   lobes_.resize(most_points);
-  going_on_buffer_.resize(most_points);
   for (RandomNumbers* numbers : {&light_numbers_, &bounce_numbers_, &roulette_numbers_})
     numbers->resize(most_points);
   given_light_.resize(most_points);
@@ -138,12 +137,12 @@ void Path::continue_paths(const Block& block) {
       {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
        kinds_.data(), part(stream.throughput, block.first), stream.sample + block.first},
       matte, glossy, clear);
-  going_on_ = going_on_buffer_.view();
+  going_on_ = wavefront_.begin_spawning(size);
   const std::size_t first_shadow = shadows_.size;
   continue_points(block, matte, kernels_.continue_matte);
   continue_points(block, glossy, kernels_.continue_glossy);
   if (!ends(stream)) continue_points(block, clear, kernels_.continue_clear);
-  wavefront_.spawn(going_on_);
+  wavefront_.end_spawning(going_on_);
   start_shadows_by_epsilon(first_shadow);
 }
 

@@ -68,7 +68,6 @@ class Path final : public StreamIntegrator {
   AlignedArray<std::uint32_t> kinds_;       ///< by ray
   std::vector<const LobeMaterial*> lobes_;  ///< by ray
   LobePointBuffer matte_, glossy_, clear_;
-  GoingOnBuffer going_on_buffer_;
   GoingOn going_on_{};
   RandomNumbers light_numbers_, bounce_numbers_, roulette_numbers_;  ///< by point
   GivenLightBuffer given_light_;                                     ///< by point

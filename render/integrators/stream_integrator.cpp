@@ -14,7 +14,7 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
     : scene_(scene),
       kernels_(kernels),
       settings_(settings),
-      wavefront_(kernels, settings.stream_size, rays),
+      wavefront_(kernels, settings.stream_size, most_spawned * StreamSurfaces::block_size, rays),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {}
 

@@ -31,6 +31,9 @@ class StreamIntegrator : public Integrator {
     std::size_t first, end;
   };
 
+  /// The most rays that go on from one.
+  static constexpr std::size_t most_spawned = 2;
+
   /// `scene` and `kernels` must outlive the integrator.
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                    const IntegratorSettings& settings, RaysPerDepth rays);

@@ -35,16 +35,18 @@ const PathStream* Wavefront::next() {
   }
   if (running_) spare_.push_back(std::move(running_));
   while (!children_.empty()) {  // so that the first child is on top
-    waiting_.push_back(std::move(children_.back()));
+    auto& to = children_.back()->size > 0 ? waiting_ : spare_;
+    to.push_back(std::move(children_.back()));
     children_.pop_back();
   }
   if (waiting_.empty()) return nullptr;
   depth_sums_.finish_below(waiting_.front()->depth);
   running_ = std::move(waiting_.back());
   waiting_.pop_back();
-  running_->rays.resize(running_->size);
-  use({&running_->rays, running_->throughput.view(), running_->sample.data(),
-       running_->density.data(), running_->depth});
+  RayBuffer& rays = running_->rays.rays();
+  rays.resize(running_->size);
+  const GoingOn all = running_->rays.view();
+  use({&rays, all.throughput, all.sample, all.density, running_->depth});
   return &current_;
 }
 
@@ -58,9 +60,12 @@ void Wavefront::add(const ColorStream& radiance) {
       {current_.throughput, radiance, current_.sample, current_.rays->size()}, sums_);
 }
 
-/// The stream to which the next ray belongs.
-Wavefront::Stream& Wavefront::open_stream() {
-  if (children_.empty() || children_.back()->size == stream_size_) {
+/// The stream to which the next `rays` rays belong.
+Wavefront::Stream& Wavefront::open_stream(std::size_t rays) {
+  const auto is_full = [&](const Stream& stream) {
+    return stream.size > 0 && stream.size + rays > stream_size_;
+  };
+  if (children_.empty() || is_full(*children_.back())) {
     children_.push_back(take_stream());
     children_.back()->depth = current_.depth + 1;
   }
@@ -72,48 +77,32 @@ void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight) {
   const Color throughput =
       light_product({before.r[parent], before.g[parent], before.b[parent]}, weight);
   if (is_black(throughput)) return;
-  Stream& stream = open_stream();
-  stream.rays.set(stream.size, ray);
-  stream.throughput.set(stream.size, throughput);
-  stream.sample[stream.size] = current_.sample[parent];
-  stream.density[stream.size] = 0;
+  Stream& stream = open_stream(1);
+  stream.rays.set(stream.size, ray, throughput, current_.sample[parent]);
   ++stream.size;
   ++spawned_;
 }
 
-void Wavefront::spawn(const GoingOn& rays) {
-  for (std::size_t done = 0; done < rays.size;) {
-    Stream& stream = open_stream();
-    const std::size_t count = std::min(rays.size - done, stream_size_ - stream.size);
-    const auto copy = [&](const auto* from, auto* to) {
-      std::copy_n(from + done, count, to + stream.size);
-    };
-    RayStream to = stream.rays.view();
-    each_array(copy, rays.rays, to);
-    const ColorStream throughput = stream.throughput.view();
-    copy(rays.throughput.r, throughput.r);
-    copy(rays.throughput.g, throughput.g);
-    copy(rays.throughput.b, throughput.b);
-    copy(rays.sample, stream.sample.data());
-    copy(rays.density, stream.density.data());
-    stream.size += count;
-    done += count;
-  }
-  spawned_ += rays.size;
+GoingOn Wavefront::begin_spawning(std::size_t most) {
+  Stream& stream = open_stream(most);
+  return stream.rays.view(stream.size);
+}
+
+void Wavefront::end_spawning(const GoingOn& rays) {
+  Stream& stream = *children_.back();
+  spawned_ += rays.size - stream.size;
+  stream.size = rays.size;
 }
 
 Wavefront::StreamPtr Wavefront::take_stream() {
   StreamPtr stream;
   if (spare_.empty()) {
     stream = std::make_unique<Stream>();
-    stream->throughput.resize(stream_size_);
-    stream->sample.resize(stream_size_);
-    stream->density.resize(stream_size_);
   } else {
     stream = std::move(spare_.back());
     spare_.pop_back();
   }
-  stream->rays.resize(stream_size_);
+  stream->rays.resize(room_);
   stream->size = 0;
   return stream;
 }

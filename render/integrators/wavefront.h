@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,10 +33,14 @@ struct PathStream {
 /// on the size of the streams.
 class Wavefront {
  public:
-  /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1. `kernels` must outlive
-  /// it.
-  Wavefront(const KernelTable& kernels, std::size_t stream_size, RaysPerDepth rays)
-      : kernels_(kernels), stream_size_(stream_size), depth_sums_(rays) {}
+  /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1, or `most_together`, if
+  /// that is more: no more are spawned at once. `kernels` must outlive it.
+  Wavefront(const KernelTable& kernels, std::size_t stream_size, std::size_t most_together,
+            RaysPerDepth rays)
+      : kernels_(kernels),
+        stream_size_(stream_size),
+        room_(std::max(stream_size, most_together)),
+        depth_sums_(rays) {}
 
   /// Begins with the camera's rays, one per sample. The caller keeps them alive.
   void start(RayBuffer& camera_rays);
@@ -51,8 +56,10 @@ class Wavefront {
   /// order.
   void spawn(std::size_t parent, const Ray& ray, const Color& weight);
 
-  /// Adds rays that go on from the current stream, parents in order or one to a sample.
-  void spawn(const GoingOn& rays);
+  /// Room for `most` more rays behind others that go on from the current stream: kernels add them,
+  /// parents in order or one to a sample. Then end_spawning() takes them.
+  GoingOn begin_spawning(std::size_t most);
+  void end_spawning(const GoingOn& rays);
 
   /// Writes the radiance of every sample. Precondition: next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
@@ -66,22 +73,20 @@ class Wavefront {
  private:
   /// What a PathStream points to. The first `size` entries are in use.
   struct Stream {
-    RayBuffer rays;
-    ColorBuffer throughput;
-    AlignedArray<std::uint32_t> sample;
-    AlignedArray<float> density;
+    GoingOnBuffer rays;
     std::size_t size = 0;
     int depth = 0;
   };
   using StreamPtr = std::unique_ptr<Stream>;
 
   StreamPtr take_stream();
-  Stream& open_stream();
+  Stream& open_stream(std::size_t rays);
   void recycle(std::vector<StreamPtr>& streams);
   void use(PathStream stream);
 
   const KernelTable& kernels_;
   std::size_t stream_size_;
+  std::size_t room_;                           ///< of each stream
   std::size_t most_samples_ = 0;               ///< of a camera's rays so far
   ColorBuffer camera_throughput_;              ///< all 1
   AlignedArray<std::uint32_t> camera_sample_;  ///< 0, 1, 2 ...

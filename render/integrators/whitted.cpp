@@ -18,7 +18,6 @@ Whitted::Whitted(const PreparedScene& scene, const KernelTable& kernels,
       materials_(scene),
       lobes_(most_rays) {
   scatters_.resize(most_rays);
-  going_on_.resize(2 * most_rays);
   for (const Light& light : scene.lights) use_light(light);
   use_seen({seen_background(scene.background), nullptr, 0, 0, HitWeight::none});
 }
@@ -62,13 +61,13 @@ Whitted::Found Whitted::meet_materials(const Block& block) {
 
 void Whitted::scatter_rays(const Block& block) {
   const PathStream& stream = block.stream;
-  GoingOn going_on = going_on_.view();
+  GoingOn going_on = wavefront_.begin_spawning(most_spawned * (block.end - block.first));
   kernels_.scatter_rays(
       {scatters_.data(), surfaces_.of_block(), lobes_.data(), hits_.view().id + block.first,
        surfaces_.first_plane(), part(stream.throughput, block.first), stream.sample + block.first,
        block.end - block.first},
       going_on);
-  wavefront_.spawn(going_on);
+  wavefront_.end_spawning(going_on);
 }
 
 /// The same for the only ray of a record, which has the kinds and the weights of its rays as well.

@@ -37,7 +37,6 @@ class Whitted final : public StreamIntegrator {
   AlignedArray<std::uint8_t> scatters_;     ///< by ray
   std::vector<const LobeMaterial*> lobes_;  ///< by ray
   const FlatMaterial* recorded_ = nullptr;  ///< that the only ray met
-  GoingOnBuffer going_on_;
 };
 
 }  // namespace boule

@@ -94,8 +94,18 @@ class GoingOnBuffer {
     sample_.resize(size + max_width);
     density_.resize(size + max_width);
   }
-  /// Room for rays; there are none.
-  GoingOn view() { return {rays_.view(), throughput_.view(), sample_.data(), density_.data(), 0}; }
+  /// Ray i, whose direction is that of a mirror or of refraction.
+  void set(std::size_t i, const Ray& ray, const Color& throughput, std::uint32_t sample) {
+    rays_.set(i, ray);
+    throughput_.set(i, throughput);
+    sample_[i] = sample;
+    density_[i] = 0;
+  }
+  RayBuffer& rays() { return rays_; }
+  /// Room for rays behind the first `size`.
+  GoingOn view(std::size_t size = 0) {
+    return {rays_.view(), throughput_.view(), sample_.data(), density_.data(), size};
+  }
 
  private:
   RayBuffer rays_;
