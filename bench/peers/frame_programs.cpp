@@ -19,7 +19,6 @@ FrameProgram boule_program(const std::string& isa, const path& scene) {
   program.binary = program.path = BOULE_PROGRAM;
   program.ours = true;
   program.curve = Curve::srgb;
-  program.extension = ".bmp";  // OpenImageIO writes PPM three bytes at a time
   program.command = [isa, scene](int side, unsigned threads, const std::string& picture) {
     return std::vector<std::string>{BOULE_PROGRAM,
                                     "render",

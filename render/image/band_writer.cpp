@@ -148,7 +148,7 @@ struct BandWriter::State {
 };
 
 Status BandWriter::State::begin(int descriptor, int threads) {
-  const auto loaded = load_image_module(*format, threads);
+  const auto loaded = load_image_writer(*format, threads);
   if (!loaded) return cannot_write(path, loaded.error().message);
   table = loaded.value().table;
   plan->picture.threads = loaded.value().threads;

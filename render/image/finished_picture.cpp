@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/base/float_environment.h"
+#include "render/image/built_in_table.h"
 #include "render/image/file_damage.h"
 #include "render/image/image_format.h"
 #include "render/image/module_loader.h"
@@ -41,8 +42,12 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
   if (format == nullptr || path.find('\0') != std::string::npos) return false;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   if (!file_damage(path, *format).empty()) return false;
-  const auto loaded = load_image_module(*format);
-  if (!loaded) return false;
+  const image_module::Table* table = built_in_table(*format);
+  if (table == nullptr || table->inspect == nullptr) {
+    const auto loaded = load_image_module(*format);
+    if (!loaded) return false;
+    table = loaded.value().table;
+  }
   std::vector<const char*> names = {"R", "G", "B"};
   for (const std::string& name : shape.channels) names.push_back(name.c_str());
   const Wanted shape_and_format{shape, *format};
@@ -53,7 +58,7 @@ bool is_finished_picture(const std::string& path, const PictureShape& shape) {
                                            .accepts = has_shape,
                                            .context = &shape_and_format};
   image_module::Report report{};
-  loaded.value().table->inspect(&wanted, &report);
+  table->inspect(&wanted, &report);
   return report.outcome == image_module::Outcome::done;
 }
 

@@ -10,9 +10,9 @@ namespace boule {
 
 class Threads;
 
-/// Loads OpenImageIO for a picture that write_image() will write later, and starts all threads that
-/// this will need. It does so in a thread of its own, beside the rendering. So what can fail there
-/// fails before the rendering is done and not after it.
+/// Loads OpenImageIO for a picture that write_image() will write later, where its format needs it,
+/// and starts all threads that this will need. It does so in a thread of its own, beside the
+/// rendering. So what can fail there fails before the rendering is done and not after it.
 class ImageStart {
  public:
   /// Begins, for a picture of this name and with these ImageFileOptions::threads. Takes any values.

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "render/image/built_in_table.h"
 #include "render/image/module_search.h"
 #include "render/memory/available_memory.h"
 #include "render/threads/threads.h"
@@ -150,6 +151,11 @@ Result<LoadedModule> load_image_module(const ImageFormat& format, int threads) {
   if (wanted == 1) return *bad;
   if (auto worse = start(one, format, 1)) return *worse;
   return LoadedModule{one.table, 1};
+}
+
+Result<LoadedModule> load_image_writer(const ImageFormat& format, int threads) {
+  if (const auto* const table = built_in_table(format)) return LoadedModule{table, 1};
+  return load_image_module(format, threads);
 }
 
 }  // namespace boule

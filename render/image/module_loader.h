@@ -21,4 +21,7 @@ struct LoadedModule {
 /// - that this process was forked from one whose threads it would need.
 Result<LoadedModule> load_image_module(const ImageFormat& format, int threads = 1);
 
+/// The same for writing alone, which some formats do without the module (built_in_table.h).
+Result<LoadedModule> load_image_writer(const ImageFormat& format, int threads);
+
 }  // namespace boule

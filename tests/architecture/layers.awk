@@ -60,6 +60,7 @@ BEGIN {
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <png\\.h>", "^render/image/png_table\\.cpp$", "libpng")
   owner("#include <boost/", "^render/view/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/view/jpeg\\.cpp$", "libjpeg-turbo")
   owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")

@@ -13,15 +13,15 @@ hits='ray 0: primitive 0 at t = 5
 ray 1: primitive 1 at t = 0.5
 ray 2: primitive -1 at t = inf'
 prints "$hits" "$here/module_used.sh" "$work/build/boule_image_io.so" build/example
-[[ "$(head -c 8 example.png | od -An -tx1)" == ' 89 50 4e 47 0d 0a 1a 0a' ]] ||
-  { echo "example.png is no picture"; exit 1; }
+[[ "$(head -c 3 example.jpg | od -An -tx1)" == ' ff d8 ff' ]] ||
+  { echo "example.jpg is no picture"; exit 1; }
 
 # The same with the shared library, which brings the module that is installed with it.
-rm -r "$work/build" "$work/example.png"
+rm -r "$work/build" "$work/example.jpg"
 build find_package -DCMAKE_PREFIX_PATH="$prefix" -DBOULE_LIBRARY=boule::shared
 inherits example.cpp "-isystem $prefix/include/boule -isystem $prefix/include"
 prints "$hits" "$here/module_used.sh" "$lib/boule/boule_image_io.so" build/example
-[[ -s example.png ]] || { echo "no picture with the shared library"; exit 1; }
+[[ -s example.jpg ]] || { echo "no picture with the shared library"; exit 1; }
 
 (cd "$prefix/include/boule" && find . -name '*.h' -printf '#include "%P"\n') >headers.cpp
 "$cxx" -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I"$prefix/include/boule" headers.cpp

@@ -23,13 +23,13 @@ example_works() {
   pkg-config --validate "$1"
   read -ra options <<<"$flags $(pkg-config --cflags "$1")"
   read -ra libraries <<<"$(pkg-config --libs "$1")"
-  rm -f example.png
+  rm -f example.jpg
   "$cxx" -std=c++20 "${options[@]}" "$prefix/share/doc/boule/examples/example.cpp" -o example \
     "${libraries[@]}"
   said="$("$here/module_used.sh" "$2" ./example)"
   [[ "$said" == "$expected" ]] || { printf 'said\n%s\nexpected\n%s\n' "$said" "$expected"; exit 1; }
-  [[ "$(head -c 8 example.png | od -An -tx1)" == ' 89 50 4e 47 0d 0a 1a 0a' ]] ||
-    { echo "example.png is no picture"; exit 1; }
+  [[ "$(head -c 3 example.jpg | od -An -tx1)" == ' ff d8 ff' ]] ||
+    { echo "example.jpg is no picture"; exit 1; }
 }
 
 cp "$(pkg-config --variable=image_module boule-static)" .

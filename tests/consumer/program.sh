@@ -8,5 +8,5 @@ trap 'rm -rf "$work"' EXIT
 
 module="$(find "$prefix" -name boule_image_io.so -path '*/lib*/boule/*' -not -path '*-packages/*')"
 "$here/module_used.sh" "$module" \
-  "$prefix/bin/boule" render "$scene" -o "$work/picture.png" --size 32x18 -q
-[[ -s "$work/picture.png" ]] || { echo "no picture"; exit 1; }
+  "$prefix/bin/boule" render "$scene" -o "$work/picture.jpg" --size 32x18 -q
+[[ -s "$work/picture.jpg" ]] || { echo "no picture"; exit 1; }

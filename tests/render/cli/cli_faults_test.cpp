@@ -175,7 +175,8 @@ TEST_F(Faults, PicturesAreReadOnlyWhereTheThreadsForThatCanBeHad) {
         EXPECT_THAT(run->err, testing::HasSubstr("error: ")) << what;
         EXPECT_THAT(run->err, testing::HasSubstr(std::strerror(EAGAIN))) << what;
       }
-      EXPECT_GT(n, 4) << "the program starts no such threads";
+      const bool reads_by_itself = extension == "png" && command.back() == "--skip-existing";
+      EXPECT_GT(n, reads_by_itself ? 1 : 4) << "the program starts no such threads";
     }
   }
 }

@@ -105,8 +105,26 @@ TEST_P(ImageStartTest, AChildOfOneWithoutPoolsWritesAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ImageStartTest,
-                         testing::Values("exr", "png", "tif", "jpg", "webp", "hdr"),
+                         testing::Values("exr", "bmp", "tif", "jpg", "webp", "hdr"),
                          [](const auto& format) { return format.param; });
+
+/// PNG and PPM are written without OpenImageIO.
+TEST(ImageStart, SomeFormatsNeedNothing) {
+  const TempDir dir;
+  for (const char* name : {"a.png", "a.ppm"}) {
+    const std::string path = (dir.path() / name).string();
+    const int code = run_in_child([&] {
+      ImageFileOptions options;
+      options.threads = 3;
+      ImageStart start(path, options.threads);
+      if (!start.done() || start.wait()) return 1;
+      if (write_image(noise(200, 300), path, options)) return 2;
+      if (thread_count() != 1) return 3;
+      return read_bytes("/proc/self/maps").find("libOpenImageIO") == std::string::npos ? 0 : 4;
+    });
+    EXPECT_EQ(code, 0) << name;
+  }
+}
 
 TEST(ImageStart, WhatIsNoPictureIsAnError) {
   ImageStart start("a.xyz", 7);

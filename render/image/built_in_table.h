@@ -1,0 +1,82 @@
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "render/image/byte_sink.h"
+#include "render/image/byte_source.h"
+#include "render/image/image_format.h"
+#include "render/image/image_module.h"
+
+namespace boule {
+
+/// The functions for a format that the program writes without OpenImageIO, whose libraries take a
+/// fifth of a second to load: PPM, and PNG where the program was built with libpng. Their files are
+/// those that OpenImageIO would write. Null for other formats. `read` is null, and so is `inspect`
+/// of PPM: these need OpenImageIO.
+const image_module::Table* built_in_table(const ImageFormat& format);
+
+/// The same for PNG alone (png_table.cpp).
+const image_module::Table* png_table();
+
+/// Says that a call failed, and why.
+void report_failure(image_module::Report& report, const std::string& text);
+/// Says which errno code a file has, unless that is 0. Returns whether it has one.
+bool is_failure(int code, image_module::Report& report);
+
+/// What the tables share: a picture of 8 bits that is written row by row.
+class RowWriter {
+ public:
+  /// `picture` must outlive it.
+  RowWriter(const image_module::Picture& picture, int descriptor)
+      : picture_(picture), sink_(descriptor) {}
+
+  /// Calls write(row) for the next rows, the samples of each pixel side by side. Ends early where
+  /// the picture's `stop` asks for that, or the file cannot be written.
+  template <class Write>
+  void put(const image_module::Samples* samples, int rows, image_module::Report& report,
+           const Write& write) {
+    row_.resize(row_bytes());
+    for (int row = 0; row < rows; ++row) {
+      gather(samples, static_cast<std::size_t>(row));
+      if (!write(row_.data()) || is_failure(sink_.code(), report) || is_stopped(report)) return;
+      ++written_;
+    }
+  }
+  /// Ends the file.
+  void finish(image_module::Report& report) {
+    sink_.flush();
+    is_failure(sink_.code(), report);
+  }
+
+  [[nodiscard]] bool is_whole() const { return written_ == picture_.height; }
+  [[nodiscard]] const image_module::Picture& picture() const { return picture_; }
+  [[nodiscard]] std::size_t row_bytes() const {
+    return static_cast<std::size_t>(picture_.width) * picture_.channel_count;
+  }
+  [[nodiscard]] ByteSink& sink() { return sink_; }
+
+ private:
+  void gather(const image_module::Samples* samples, std::size_t row);
+  bool is_stopped(image_module::Report& report);
+
+  const image_module::Picture& picture_;
+  ByteSink sink_;
+  std::vector<unsigned char> row_;
+  int written_ = 0;
+  std::size_t since_asked_ = 0;  ///< bytes written since `stop` was asked
+};
+
+/// Runs a step and turns its exceptions into a report.
+template <class Step>
+void run_reported(image_module::Report& report, const Step& step) {
+  report = {};
+  try {
+    step();
+  } catch (const std::exception& error) {
+    report_failure(report, error.what());
+  }
+}
+
+}  // namespace boule
