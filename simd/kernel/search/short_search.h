@@ -20,7 +20,7 @@ struct TwoPackets {
 
 /// The rays of two packets that have no hit yet: those of the first, then those of the second.
 BOULE_INLINE unsigned open_rays(const AnyHit<false> (&best)[2]) {
-  return (all_lanes & ~best[0].hit) | (all_lanes & ~best[1].hit) << width;
+  return best[0].open(all_lanes) | best[1].open(all_lanes) << width;
 }
 
 /// Searches the tree for both. Returns how many nodes and leaves each has visited, in all.

@@ -54,13 +54,10 @@ BOULE_INLINE std::size_t make_rays(const ShadowTarget& light, const LitStream& p
     store_anywhere(rays.tmax + count, Real(tmax));
     store_chosen(shadows.to_light, count, to.unit, chosen);
     store_chosen(shadows.cosine + count, cosine, chosen);
-    for (unsigned left = chosen; left != 0; left &= left - 1) {
-      const std::size_t point = first + static_cast<std::size_t>(__builtin_ctz(left));
-      rays.source[count] = points.id[point];
-      rays.inside[count] = points.inside[point];
-      shadows.point[count] = static_cast<std::uint32_t>(point);
-      ++count;
-    }
+    store_chosen(rays.source + count, load_integers(points.id + first), chosen);
+    store_chosen(rays.inside + count, narrow(load_set(points.inside + first)), chosen);
+    store_chosen(shadows.point + count, count_from(static_cast<std::uint32_t>(first)), chosen);
+    count += static_cast<std::size_t>(count_bits(chosen));
   }
   return count;
 }
