@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
+#include <random>
 
 #include "bench/camera_rays.h"
 #include "bench/peers/boule_peer.h"
@@ -41,18 +43,14 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// So few rays are traced once untimed, or they would pay for what the contender before them drove
-/// out of the caches. With more rays that cost is small beside their own.
-constexpr std::size_t few_rays = 32768;
-
-/// Seconds that one pass over all rays takes: CPU time of the one thread, or wall clock.
+/// Seconds that one pass over all rays takes: CPU time of the one thread, or wall clock. A pass
+/// goes before it that is not timed: it would pay for what the contender before drove out of the
+/// caches, and that is little where the one before reads the same copy of the rays, as Embree's do.
 double time_pass(Contender& contender, const Workload& workload, unsigned threads) {
   const std::size_t size = workload.rays->size(), block_rays = block_size(workload);
   contender.prepare();
-  if (size <= few_rays) {
-    contender.trace(0, size);
-    contender.prepare();
-  }
+  contender.trace(0, size);
+  contender.prepare();
   const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
   const double begin = seconds_of(clock);
   if (threads == 1) {
@@ -97,15 +95,22 @@ void judge_one(Entrant& entrant, const Judge& judge, OracleJudge& oracle, Answer
   entrant.oracle = oracle.judge(answers, wrong);
 }
 
+/// In every repetition the contenders come in another order: of those that share a copy of the
+/// rays, the later ones find it in the caches.
 void run_all(std::vector<Entrant>& entrants, const Workload& workload, const Judge& judge,
              OracleJudge& oracle, const RefereeSettings& settings) {
   constexpr int fewest = 3;
   Answers answers;
+  std::vector<std::size_t> order(entrants.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::minstd_rand random(1);
   const double begin = seconds_of(CLOCK_MONOTONIC);
   for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
     const bool late = seconds_of(CLOCK_MONOTONIC) - begin > settings.patience;
     if (late && repetition >= fewest) return;
-    for (Entrant& entrant : entrants) {
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t at : order) {
+      Entrant& entrant = entrants[at];
       if (is_out(entrant, entrants)) continue;
       run_one(entrant, workload, settings.threads);
       if (repetition == 0) judge_one(entrant, judge, oracle, answers);

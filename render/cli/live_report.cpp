@@ -55,7 +55,7 @@ void LiveReport::end_stage() {
 void LiveReport::start_pass(const char* of_what) {
   const auto now = Clock::now();
   const std::lock_guard lock(mutex_);
-  progress_.begin_pass(1, {});  // forgets the one before
+  progress_.restart();
   bar_.start_pass(of_what, since_start(now));
   tell_in_time(now);
 }

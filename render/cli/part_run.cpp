@@ -14,6 +14,9 @@ Status PartRun::load() {
   const auto loaded = checkpoint_->load(head_, sheet_);
   if (!loaded) return loaded.error();
   resumed_ = loaded.value() ? share() : 0;
+  for (const PixelRect& block : head_.blocks) {
+    if (is_finished(block)) tell_measured(block);
+  }
   due_ = Clock::now() + time_span(checkpoint_->interval());
   return std::nullopt;
 }
@@ -39,11 +42,8 @@ Status PartRun::run(const std::vector<PixelRect>& blocks) {
 /// Renders these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
 Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
   LiveProgress& progress = live_.progress();
-  std::uint64_t pixels = 0;
-  if (sheet_.kinds().measured) {
-    for (const PixelRect& block : blocks) pixels += static_cast<std::uint64_t>(block.area());
-  }
-  progress.begin_pass(blocks.size(), {share(), 1, renderer_.statistics().rays.total(), pixels});
+  const std::uint64_t rays = renderer_.statistics().rays.total();
+  progress.begin_pass(blocks.size(), {share(), 1, rays, measured_pixels(blocks)});
   std::atomic<std::size_t> next{0};
   const auto task = [&](BlockTools& tools) {
     for (std::size_t i = next++; i < blocks.size() && !is_due(); i = next++) {
@@ -87,6 +87,17 @@ void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& 
 
 bool PartRun::is_finished(const PixelRect& block) const {
   return sheet_.is_finished(block, renderer_.options().spp);
+}
+
+std::uint64_t PartRun::measured_pixels(const std::vector<PixelRect>& blocks) const {
+  std::uint64_t pixels = 0;
+  for (const PixelRect& block : blocks) pixels += static_cast<std::uint64_t>(block.area());
+  return head_.kinds.measured ? pixels : 0;
+}
+
+void PartRun::tell_measured(const PixelRect& block) {
+  if (!head_.kinds.measured) return;
+  live_.progress().add_measured(noise_so_far(sheet_.measured(), block, renderer_.options().spp));
 }
 
 bool PartRun::is_due() const { return Clock::now() >= due_; }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -59,6 +60,10 @@ class PartRun {
   /// Renders what a block has not yet. False if it was stopped.
   bool render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const;
   Status save();
+  /// How many pixels of the blocks are counted one by one: all where noise is measured, else 0.
+  [[nodiscard]] std::uint64_t measured_pixels(const std::vector<PixelRect>& blocks) const;
+  /// Tells the noise of a block that was not rendered here.
+  void tell_measured(const PixelRect& block);
 
   Renderer& renderer_;
   LiveReport& live_;

@@ -149,7 +149,8 @@ double ProgressBar::series_remaining(double now) const {
 }
 
 double ProgressBar::pass_remaining(double now) const {
-  return extrapolate(now - pass_since_, progress_.share, 1);
+  const double resumed = progress_.resumed;
+  return extrapolate(now - pass_since_, progress_.share - resumed, 1 - resumed);
 }
 
 /// "frame 3 of 20, 8.4 s elapsed, 12.1 s left, 3.2 Mray/s", or what it waits for.

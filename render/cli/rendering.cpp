@@ -234,7 +234,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   options.in_bands = options.in_bands && team_ == nullptr && !(options.noise > 0);
   if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
-  options.live = &live_.progress();
+  // The ranks of a team give their blocks to the leader, which tells of them.
+  options.live = team_ == nullptr ? &live_.progress() : nullptr;
   // Begun only here, so that a command that is refused above loads no module.
   const bool encodes = writes() && !command_.shard;
   if (const auto file = encodes ? file_to_encode(command_) : std::nullopt) {

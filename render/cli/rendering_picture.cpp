@@ -73,8 +73,7 @@ Result<Image> Rendering::make_measured_image(Renderer& renderer,
   if (!lines) return lines.error();
   MeasuredPicture measured(renderer.rect());
   Film film(command_.partial ? renderer.rect() : PixelRect{});
-  Status status = command_.partial ? renderer.render_pass(film, 1) : std::nullopt;
-  if (!status) status = renderer.render_measured(measured);
+  Status status = renderer.render_measured(measured, command_.partial ? &film : nullptr);
   if (status && (!StopGuard::flag() || film.total_samples() == 0)) return *status;
   if (status) partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
   noise_ = noise_reached(measured, options.spp);

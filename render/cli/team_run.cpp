@@ -32,7 +32,10 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
       return bad;
     }
     picture.blocks = unfinished(blocks);
-    live_.progress().begin_pass(std::max<std::size_t>(picture.blocks.size(), 1), {share(), 1, 0});
+    std::vector<PixelRect> rest;
+    for (const std::uint32_t number : picture.blocks) rest.push_back(blocks[number]);
+    live_.progress().begin_pass(std::max<std::size_t>(rest.size(), 1),
+                                {share(), 1, 0, measured_pixels(rest)});
     picture.take = [this, &blocks](std::uint32_t block, std::string_view part) {
       return block < blocks.size() && take(blocks[block], part);
     };
@@ -89,6 +92,7 @@ bool TeamRun::take(const PixelRect& block, std::string_view part) {
   cost_.rays += cost.rays;
   cost_.faults += cost.faults;
   live_.progress().begin_block();
+  tell_measured(block);
   live_.progress().end_block(cost.rays.total());
   live_.update(live_.progress().read());
   return true;

@@ -38,16 +38,28 @@ std::uint64_t count_measured(const MeasuredPicture& picture) {
       std::count_if(picture.pixels().begin(), picture.pixels().end(), has_samples));
 }
 
+NoiseSoFar noise_so_far(const MeasuredPicture& picture, const PixelRect& block, int max_spp) {
+  NoiseSoFar noise;
+  for (int y = block.y0; y < block.y1; ++y) {
+    for (const MeasuredPixel& pixel : picture.row(block.x0, block.x1, y)) {
+      if (pixel.samples == 0) continue;
+      noise.pixels += 1;
+      noise.samples += pixel.samples;
+      noise.settled += pixel.samples < most_samples(max_spp) ? 1 : 0;
+    }
+  }
+  return noise;
+}
+
 NoiseReached noise_reached(const MeasuredPicture& picture, int max_spp) {
   std::vector<float> noise;
   std::uint64_t samples = 0;
   std::size_t settled = 0;
-  const auto most = static_cast<std::uint32_t>(max_spp / 2 * 2);  // both halves have the same
   for (const MeasuredPixel& pixel : picture.pixels()) {
     if (pixel.samples == 0) continue;
     noise.push_back(pixel.noise);
     samples += pixel.samples;
-    settled += pixel.samples < most ? 1 : 0;
+    settled += pixel.samples < most_samples(max_spp) ? 1 : 0;
   }
   if (noise.empty()) return {};
   const std::size_t place = (noise.size() - 1) * 95 / 100;

@@ -7,6 +7,7 @@
 
 #include "core/math/color.h"
 #include "render/frame/pixel_rect.h"
+#include "render/frame/progress.h"
 #include "render/image/image.h"
 
 namespace boule {
@@ -58,6 +59,9 @@ class MeasuredPicture {
   std::vector<MeasuredPixel> pixels_;
 };
 
+/// What is known of its pixels in `block`, which lies in the picture; `max_spp` as NoiseTarget.
+NoiseSoFar noise_so_far(const MeasuredPicture& picture, const PixelRect& block, int max_spp);
+
 /// How many of its pixels have samples.
 std::uint64_t count_measured(const MeasuredPicture& picture);
 
@@ -70,6 +74,11 @@ struct NoiseReached {
 
 /// Of the pixels that have samples; all zeros if none has. `max_spp` as NoiseTarget.
 NoiseReached noise_reached(const MeasuredPicture& picture, int max_spp);
+
+/// The most samples that a pixel can have: both halves have the same number.
+constexpr std::uint32_t most_samples(int max_spp) {
+  return static_cast<std::uint32_t>(max_spp / 2 * 2);
+}
 
 /// The half-width of a 95 % confidence interval in standard errors, as `noise` has them.
 inline constexpr double interval_in_errors = 1.96;

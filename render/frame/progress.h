@@ -20,6 +20,7 @@ struct Progress {
   std::uint64_t rays = 0;   ///< of all kinds, traced so far
   std::size_t running = 0;  ///< blocks that are being worked on; 0 if that is not known
   NoiseSoFar noise{};
+  double resumed = 0;  ///< the share that was done before the work began, by a run before
 };
 
 /// The progress of rendering, which any thread may read at any time, so also while the rendering
@@ -34,13 +35,18 @@ class LiveProgress {
     std::uint64_t pixels = 0;   ///< of all blocks, where noise is measured; 0: whole blocks count
   };
 
-  /// Begins a pass of `blocks` blocks. One that begins with a share of 0 forgets the noise of those
-  /// before. Precondition: blocks > 0.
+  /// Forgets all passes. Of the next one, what lies before it was done by a run before.
+  void restart() {
+    begin_pass(1, {});
+    measured_ = samples_ = settled_ = 0;
+    resumed_ = -1;
+  }
+  /// Begins a pass of `blocks` blocks. Precondition: blocks > 0.
   void begin_pass(std::size_t blocks, const PassSpan& span) {
     running_ = 0;
     ended_ = 0;
-    if (span.begin <= 0) measured_ = samples_ = settled_ = 0;
     measured_before_ = measured_.load();
+    if (resumed_ < 0) resumed_ = span.begin;
     pixels_ = span.pixels;
     rays_ = span.rays;
     blocks_ = blocks;
@@ -56,9 +62,9 @@ class LiveProgress {
   }
   /// Counts pixels whose noise was measured, of a block that is being worked on.
   void add_measured(const NoiseSoFar& noise) {
+    measured_ += noise.pixels;  // first, and read last: no more are settled than there are
     samples_ += noise.samples;
     settled_ += noise.settled;
-    measured_ += noise.pixels;
   }
   /// Ends a block that is not done, because it was cancelled.
   void drop_block() { --running_; }
@@ -69,10 +75,12 @@ class LiveProgress {
   [[nodiscard]] Progress read() const {
     // These two first: if a pass begins meanwhile, the share is too small rather than too large.
     const double begin = begin_, end = end_;
+    const std::uint64_t settled = settled_, samples = samples_;
     return {.share = begin + (end - begin) * share_of_pass(),
             .rays = rays_,
             .running = running_,
-            .noise = {measured_, samples_, settled_}};
+            .noise = {measured_, samples, settled},
+            .resumed = std::max(resumed_.load(), 0.0)};
   }
 
  private:
@@ -89,6 +97,7 @@ class LiveProgress {
   }
 
   std::atomic<double> begin_{0}, end_{1};
+  std::atomic<double> resumed_{-1};  ///< negative: no pass has begun
   std::atomic<std::size_t> blocks_{1}, running_{0}, ended_{0};
   std::atomic<std::uint64_t> rays_{0};
   std::atomic<std::uint64_t> pixels_{0};  ///< of the pass; 0: not counted

@@ -97,11 +97,10 @@ bool is_failure(int code, module::Report& report) {
   return true;
 }
 
-/// Asks once in a while, so that writing stops soon after a signal.
+/// Asks at once, and then in a while, so that writing stops soon after a signal.
 bool RowWriter::is_stopped(module::Report& report) {
-  constexpr std::size_t often = 1 << 20;
   since_asked_ += row_bytes();
-  if (since_asked_ < often) return false;
+  if (since_asked_ < often_asked) return false;
   since_asked_ = 0;
   if (!picture_.stop(picture_.context)) return false;
   report.outcome = module::Outcome::stopped;

@@ -12,9 +12,9 @@
 namespace boule {
 
 /// The functions for a format that the program writes without OpenImageIO, whose libraries take a
-/// fifth of a second to load: PPM, and PNG where the program was built with libpng. Their files are
-/// those that OpenImageIO would write. Null for other formats. `read` is null, and so is `inspect`
-/// of PPM: these need OpenImageIO.
+/// fifth of a second to load: PPM, and PNG where the program was built with libpng. With the
+/// headers that Boule gives them their files are those that OpenImageIO would write. Null for other
+/// formats. `read` is null, and so is `inspect` of PPM: these need OpenImageIO.
 const image_module::Table* built_in_table(const ImageFormat& format);
 
 /// The same for PNG alone (png_table.cpp).
@@ -58,6 +58,8 @@ class RowWriter {
   [[nodiscard]] ByteSink& sink() { return sink_; }
 
  private:
+  static constexpr std::size_t often_asked = 1 << 20;
+
   void gather(const image_module::Samples* samples, std::size_t row);
   bool is_stopped(image_module::Report& report);
 
@@ -65,7 +67,7 @@ class RowWriter {
   ByteSink sink_;
   std::vector<unsigned char> row_;
   int written_ = 0;
-  std::size_t since_asked_ = 0;  ///< bytes written since `stop` was asked
+  std::size_t since_asked_ = often_asked;  ///< bytes written since `stop` was asked
 };
 
 /// Runs a step and turns its exceptions into a report.

@@ -114,7 +114,7 @@ struct Table {
   /// Ends the file and frees the writer. After all rows and no failure the picture is complete;
   /// else the file is useless.
   void (*close)(Writer* writer, Report* report);
-  /// Opens a written file and reads its header, its first and its last row.
+  /// Opens a written file and reads its header, its first and its last row, at least.
   void (*check)(const Picture* picture, const char* path, Report* report);
   /// Reads the header of a file and, if that is accepted, all rows.
   void (*inspect)(const WantedPicture* wanted, Report* report);

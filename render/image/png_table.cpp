@@ -201,16 +201,17 @@ class PngReader {
   [[nodiscard]] png_uint_32 height() const { return png_get_image_height(png_, info_); }
   [[nodiscard]] int channels() const { return png_get_channels(png_, info_); }
   [[nodiscard]] int bits() const { return png_get_bit_depth(png_, info_); }
-  /// Whether its description begins with this text.
+  /// Whether its description begins with this text; of several the last one counts.
   [[nodiscard]] bool is_described(std::string_view begin) const {
     png_textp texts = nullptr;
     int count = 0;
     png_get_text(png_, info_, &texts, &count);
+    bool begins = false;
     for (int i = 0; i < count; ++i) {
-      if (std::string_view(texts[i].key) != "Description") continue;
-      if (std::string_view(texts[i].text, texts[i].text_length).starts_with(begin)) return true;
+      const std::string_view key = texts[i].key, text = texts[i].text;
+      if (key == "Description" || key == "ImageDescription") begins = text.starts_with(begin);
     }
-    return false;
+    return begins;
   }
 
  private:

@@ -239,8 +239,7 @@ Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outli
   const RenderOptions& options = renderer.options();
   MeasuredPicture measured(renderer.rect());
   Film film(renderer.rect());
-  Status status = wishes_.partial ? renderer.render_pass(film, 1) : std::nullopt;
-  if (!status) status = renderer.render_measured(measured);
+  Status status = renderer.render_measured(measured, wishes_.partial ? &film : nullptr);
   if (status && (!call.cancel || film.total_samples() == 0)) return status;
   if (status)
     parts.partial = cli::PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};

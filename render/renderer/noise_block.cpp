@@ -50,8 +50,7 @@ bool NoiseBlock::look(MeasuredPicture& picture) {
   }
   if (first_ == 0) look_around();
   settled_ = {};
-  const auto most =
-      static_cast<std::uint32_t>(target_.max_spp / 2 * 2);  // both halves have as many
+  const std::uint32_t most = most_samples(target_.max_spp);
   const auto is_done = [&](const Pixel& pixel) {
     State& state = at(pixel.x, pixel.y);
     if (!settle(state)) return false;

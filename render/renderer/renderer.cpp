@@ -90,7 +90,7 @@ Result<Image> Renderer::render() {
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
-    if (auto bad = run_blocks(std::cref(task), whole_pass())) return *bad;
+    if (auto bad = run_blocks(std::cref(task), pass_from(0))) return *bad;
     if (!(options_.outline > 0)) return image;
     const auto lines = render_outline();
     if (!lines) return lines.error();
@@ -101,19 +101,30 @@ Result<Image> Renderer::render() {
   }
 }
 
-Status Renderer::render_measured(MeasuredPicture& picture) {
+Status Renderer::render_measured(MeasuredPicture& picture, Film* preview) {
   if (!scene_) return moved_away();
   const FloatEnvironment environment;
+  // What one sample is of those that pixels get: of few that are soon enough, or of thousands.
+  const double share_of_preview = preview != nullptr ? 0.02 : 0;
+  if (preview != nullptr) {
+    const auto one = [&](BlockWorker& worker, const PixelRect& block) {
+      return worker.render(block, 1, *preview);
+    };
+    if (auto bad = check_film(*preview)) return bad;
+    if (auto bad = run_blocks(std::cref(one), {.end = share_of_preview})) return bad;
+  }
   const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.measure(block, picture);
   };
-  return run_blocks(std::cref(task), whole_pass());
+  return run_blocks(std::cref(task), pass_from(share_of_preview));
 }
 
-/// The pass that renders all there is.
-LiveProgress::PassSpan Renderer::whole_pass() const {
+/// The pass that renders all that is left, from a share of it on.
+LiveProgress::PassSpan Renderer::pass_from(double begin) const {
   const bool measures = options_.live != nullptr && setup_->noise.half_width > 0;
-  return {.pixels = measures ? static_cast<std::uint64_t>(rect().area()) : 0};
+  return {.begin = begin,
+          .rays = begin > 0 ? count_rays().total() : 0,
+          .pixels = measures ? static_cast<std::uint64_t>(rect().area()) : 0};
 }
 
 Status Renderer::check_film(const Film& film) const {

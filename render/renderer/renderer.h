@@ -56,8 +56,9 @@ class Renderer {
 
   /// The same with the noise and the number of samples of each pixel, and without the outline, into
   /// a picture without samples. An error if it was cancelled; the picture keeps the pixels that
-  /// were finished. Preconditions: options().noise > 0, and the picture is of rect().
-  Status render_measured(MeasuredPicture& picture);
+  /// were finished. `preview`, if there is one, gets a sample of every pixel first, so that there
+  /// is something to be seen. Preconditions: options().noise > 0; both are of rect().
+  Status render_measured(MeasuredPicture& picture, Film* preview = nullptr);
 
   /// Renders the same picture in bands of rows from the top, so that only some of them are in
   /// memory (Bands::most_bytes). Calls take(band) for each of them in order, on the threads that
@@ -131,7 +132,7 @@ class Renderer {
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
   BlockWorker& worker(unsigned index);
   Status check_film(const Film& film) const;
-  [[nodiscard]] LiveProgress::PassSpan whole_pass() const;
+  [[nodiscard]] LiveProgress::PassSpan pass_from(double begin) const;
   Status run_slice(Film& film, const LivePass& pass, LivePosition& position,
                    const BlockRange& range);
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);

@@ -124,7 +124,7 @@ TEST_F(Signals, WhileBuildingEndItAtOnce) {
       write("cloud.toml", "schema = 1\n[[spheres]]\nfile = \"cloud.npy\"\nradius = 1\n");
   const std::string read_in = ", read in ";
   for (const std::string& told : expect_ended(
-           {"render", scene, "-o", path("out.png"), "-v", "-t", "3"}, {"thread", "", 1, read_in})) {
+           {"render", scene, "-o", path("out.exr"), "-v", "-t", "3"}, {"thread", "", 1, read_in})) {
     EXPECT_THAT(told, HasSubstr(read_in));
     EXPECT_THAT(told, testing::Not(HasSubstr("prepared in")));
   }

@@ -299,6 +299,15 @@ TEST(NoiseProgress, TellsTheSamplesOfFinishedPixels) {
   EXPECT_LE(line.size(), 79u) << line;
 }
 
+/// What a checkpoint held took none of this run's time.
+TEST(ResumedProgress, TheTimeLeftIsThatOfTheRest) {
+  ProgressBar bar(ProgressStyle::bar);
+  bar.start_pass("pixels", 0);
+  bar.update({.share = 0.6, .rays = 10'000'000, .resumed = 0.5}, 5);
+  EXPECT_THAT(bar.tell(5).value_or(""), HasSubstr(" 60 % "));
+  EXPECT_THAT(bar.tell(5.2).value_or(""), HasSubstr("5.2 s elapsed, 20.8 s left"));
+}
+
 TEST(NoiseProgress, JsonHasItWhenPixelsAreFinished) {
   ProgressBar bar(ProgressStyle::json);
   bar.start_pass("pixels", 0);

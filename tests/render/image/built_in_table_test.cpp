@@ -79,6 +79,9 @@ TEST_F(BuiltInTable, WritesTheFilesOfOpenImageIo) {
   told.metadata = {{"ImageDescription", std::string("partial: ä, 3 % of it")},
                    {"boule:solver", std::string("robust")},
                    {"boule:seed", 7},
+                   {"Software", std::string("another")},
+                   {"boule:twice", std::string("one")},
+                   {"boule:twice", std::string("two")},
                    {"Artist", std::string("A. N. Other")},
                    {"DocumentName", std::string("Spheres")},
                    {"boule:long", std::string(100'000, 'x')}};

@@ -288,57 +288,6 @@ TEST(LiveProgress, KnowsWhatIsBeingWorkedOn) {
   EXPECT_EQ(live.ended(), 1u);
 }
 
-/// Where noise is measured, pixels count, also those of blocks that still go on.
-TEST(LiveProgress, CountsMeasuredPixels) {
-  LiveProgress live;
-  live.begin_pass(2, {.begin = 0.5, .end = 1, .pixels = 40});
-  live.begin_block();
-  live.begin_block();
-  live.add_measured({10, 320, 9});
-  EXPECT_EQ(live.read().share, 0.625);
-  live.add_measured({10, 4096, 2});
-  live.end_block(1);
-  live.add_measured({20, 640, 20});
-  EXPECT_LT(live.read().share, 1);  // the last block has not ended
-  EXPECT_GT(live.read().share, 0.999);
-  live.end_block(1);
-  const Progress progress = live.read();
-  EXPECT_EQ(progress.share, 1);
-  EXPECT_EQ(progress.noise.pixels, 40u);
-  EXPECT_EQ(progress.noise.samples, 5056u);
-  EXPECT_EQ(progress.noise.settled, 31u);
-
-  live.begin_pass(1, {.begin = 0.5, .end = 1, .pixels = 10});  // goes on: what was measured stays
-  live.add_measured({5, 160, 5});
-  EXPECT_EQ(live.read().share, 0.75);
-  EXPECT_EQ(live.read().noise.pixels, 45u);
-  live.begin_pass(1, {});
-  EXPECT_EQ(live.read().noise.pixels, 0u);
-}
-
-/// What is told while noise is measured adds up to what the picture says.
-TEST(Renderer, TellsOfNoiseAsItGoesDown) {
-  const Scene scene = mixed_scene(96, 80);
-  RenderOptions options = options_of(scene);
-  options.noise = 0.05F;
-  options.spp = 128;
-  options.threads = 2;
-  LiveProgress live;
-  options.live = &live;
-  auto renderer = Renderer::create(scene, options);
-  ASSERT_TRUE(renderer);
-  MeasuredPicture picture(renderer.value().rect());
-  ASSERT_FALSE(renderer.value().render_measured(picture));
-  const NoiseReached reached = noise_reached(picture, options.spp);
-  const Progress progress = live.read();
-  EXPECT_EQ(progress.share, 1);
-  ASSERT_EQ(progress.noise.pixels, 96u * 80);
-  EXPECT_EQ(static_cast<double>(progress.noise.samples) / 7680, reached.mean_samples);
-  EXPECT_EQ(static_cast<double>(progress.noise.settled) / 7680, reached.share);
-  EXPECT_GT(reached.share, 0.5);
-  EXPECT_LT(reached.share, 1);
-}
-
 TEST(Renderer, KnowsWhatRanAndHowMuch) {
   const Scene scene = mixed_scene(20, 10);
   RenderOptions options = options_of(scene);
