@@ -33,13 +33,6 @@ std::string json_number(double seconds) {
   return seconds < 0 ? "null" : fmt::format("{:.3f}", seconds);
 }
 
-double mean_spp(const NoiseSoFar& noise) {
-  return static_cast<double>(noise.samples) / static_cast<double>(noise.pixels);
-}
-double settled_share(const NoiseSoFar& noise) {
-  return static_cast<double>(noise.settled) / static_cast<double>(noise.pixels);
-}
-
 /// The time left after a share of `all` has taken `elapsed`; negative where it is not known.
 double extrapolate(double elapsed, double done, double all) {
   return done > 0 ? elapsed * (all - done) / done : -1;
@@ -169,8 +162,8 @@ std::string ProgressBar::state(double now) const {
 std::string ProgressBar::rate() const {
   const NoiseSoFar& noise = progress_.noise;
   if (noise.pixels == 0) return fmt::format("{:.1f} Mray/s", mrays_per_s_);
-  const std::string spp = fmt::format("{:.1f} spp", mean_spp(noise));
-  return is_series() ? spp : fmt::format("{}, {} % settled", spp, percent(settled_share(noise)));
+  const std::string spp = fmt::format("{:.1f} spp", noise.mean_samples());
+  return is_series() ? spp : fmt::format("{}, {} % settled", spp, percent(noise.settled_share()));
 }
 
 /// "reading a.toml", "waiting for 2 blocks of pixels"; empty while all goes on.
@@ -217,9 +210,10 @@ std::string ProgressBar::json_line(double now) const {
                                  : "";
   const NoiseSoFar& so_far = progress_.noise;
   const std::string noise =
-      so_far.pixels == 0 ? ""
-                         : fmt::format(R"(,"mean_spp":{:.2f},"settled":{:.4f})", mean_spp(so_far),
-                                       std::floor(settled_share(so_far) * 1e4) * 1e-4);
+      so_far.pixels == 0
+          ? ""
+          : fmt::format(R"(,"mean_spp":{:.2f},"settled":{:.4f})", so_far.mean_samples(),
+                        std::floor(so_far.settled_share() * 1e4) * 1e-4);
   return fmt::format(
       R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}{}{}}})",
       std::floor(progress_.share * 1e4) * 1e-4, now - pass_since_, json_number(pass_remaining(now)),

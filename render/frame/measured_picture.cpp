@@ -42,10 +42,7 @@ NoiseSoFar noise_so_far(const MeasuredPicture& picture, const PixelRect& block, 
   NoiseSoFar noise;
   for (int y = block.y0; y < block.y1; ++y) {
     for (const MeasuredPixel& pixel : picture.row(block.x0, block.x1, y)) {
-      if (pixel.samples == 0) continue;
-      noise.pixels += 1;
-      noise.samples += pixel.samples;
-      noise.settled += pixel.samples < most_samples(max_spp) ? 1 : 0;
+      if (pixel.samples > 0) noise.add(pixel.samples, most_samples(max_spp));
     }
   }
   return noise;
@@ -53,20 +50,15 @@ NoiseSoFar noise_so_far(const MeasuredPicture& picture, const PixelRect& block, 
 
 NoiseReached noise_reached(const MeasuredPicture& picture, int max_spp) {
   std::vector<float> noise;
-  std::uint64_t samples = 0;
-  std::size_t settled = 0;
   for (const MeasuredPixel& pixel : picture.pixels()) {
-    if (pixel.samples == 0) continue;
-    noise.push_back(pixel.noise);
-    samples += pixel.samples;
-    settled += pixel.samples < most_samples(max_spp) ? 1 : 0;
+    if (pixel.samples > 0) noise.push_back(pixel.noise);
   }
   if (noise.empty()) return {};
   const std::size_t place = (noise.size() - 1) * 95 / 100;
   std::nth_element(noise.begin(), noise.begin() + static_cast<std::ptrdiff_t>(place), noise.end());
-  const auto count = static_cast<double>(noise.size());
-  return {static_cast<double>(noise[place]) * interval_in_errors,
-          static_cast<double>(samples) / count, static_cast<double>(settled) / count};
+  const NoiseSoFar all = noise_so_far(picture, picture.rect(), max_spp);
+  return {static_cast<double>(noise[place]) * interval_in_errors, all.mean_samples(),
+          all.settled_share()};
 }
 
 }  // namespace boule

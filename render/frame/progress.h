@@ -12,6 +12,21 @@ struct NoiseSoFar {
   std::uint64_t pixels = 0;   ///< 0: noise is not measured, or no pixel has them yet
   std::uint64_t samples = 0;  ///< of all of them
   std::uint64_t settled = 0;  ///< those that have fewer than the most samples
+
+  /// Adds a pixel that has so many samples, where so many are the most.
+  void add(std::uint32_t count, std::uint32_t most) {
+    pixels += 1;
+    samples += count;
+    settled += count < most ? 1 : 0;
+  }
+  /// The mean samples of a pixel, and the share that is settled. Precondition: there are pixels.
+  [[nodiscard]] double mean_samples() const { return of_pixels(samples); }
+  [[nodiscard]] double settled_share() const { return of_pixels(settled); }
+
+  /// `number` for each pixel.
+  [[nodiscard]] double of_pixels(std::uint64_t number) const {
+    return static_cast<double>(number) / static_cast<double>(pixels);
+  }
 };
 
 /// How far the work on pixels or rays has come.

@@ -23,7 +23,7 @@ std::string ppm_header(const module::Picture& picture) {
 
 module::Writer* open_ppm(const module::Picture* picture, int descriptor, module::Report* report) {
   std::unique_ptr<RowWriter> writer;
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     writer = std::make_unique<RowWriter>(*picture, descriptor);
     const std::string header = ppm_header(*picture);
     writer->sink().add(reinterpret_cast<const unsigned char*>(header.data()), header.size());
@@ -33,7 +33,7 @@ module::Writer* open_ppm(const module::Picture* picture, int descriptor, module:
 
 void put_ppm(module::Writer* writer, const module::Samples* samples, int rows,
              module::Report* report) {
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     RowWriter& file = *row_writer(writer);
     file.put(samples, rows, *report, [&file](const unsigned char* row) {
       file.sink().add(row, file.row_bytes());
@@ -44,12 +44,12 @@ void put_ppm(module::Writer* writer, const module::Samples* samples, int rows,
 
 void close_ppm(module::Writer* writer, module::Report* report) {
   const std::unique_ptr<RowWriter> file(row_writer(writer));
-  run_reported(*report, [&] { file->finish(*report); });
+  module::guarded(report, [&] { file->finish(*report); });
 }
 
 /// The header, and as many bytes as there are samples.
 void check_ppm(const module::Picture* picture, const char* path, module::Report* report) {
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     const std::string wanted = ppm_header(*picture);
     const auto samples = static_cast<std::uintmax_t>(picture->width) *
                          static_cast<std::uintmax_t>(picture->height) * picture->channel_count;
@@ -62,8 +62,8 @@ void check_ppm(const module::Picture* picture, const char* path, module::Report*
       got = file.read(rest.data(), rest.size());
       same = got <= left;
     }
-    if (is_failure(file.code(), *report)) return;
-    if (!same || left != 0) report_failure(*report, "the file is not what was written");
+    if (module::fail_by(file.code(), report)) return;
+    if (!same || left != 0) module::fail(report, "the file is not what was written");
   });
 }
 
@@ -71,13 +71,6 @@ constexpr module::Table ppm = {module::version, start_nothing, open_ppm, put_ppm
                                close_ppm,       check_ppm,     nullptr,  nullptr};
 
 }  // namespace
-
-void report_failure(module::Report& report, const std::string& text) {
-  report.outcome = module::Outcome::failed;
-  const std::size_t length = std::min(text.size(), sizeof report.text - 1);
-  std::memcpy(report.text, text.data(), length);
-  report.text[length] = 0;
-}
 
 void RowWriter::gather(const module::Samples* samples, std::size_t row) {
   const auto width = static_cast<std::size_t>(picture_.width);

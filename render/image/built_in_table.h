@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include "render/image/byte_source.h"
 #include "render/image/image_format.h"
 #include "render/image/image_module.h"
+#include "render/image/module_report.h"
 
 namespace boule {
 
@@ -19,11 +19,6 @@ const image_module::Table* built_in_table(const ImageFormat& format);
 
 /// The same for PNG alone (png_table.cpp).
 const image_module::Table* png_table();
-
-/// Says that a call failed, and why.
-void report_failure(image_module::Report& report, const std::string& text);
-/// Says which errno code a file has, unless that is 0. Returns whether it has one.
-bool is_failure(int code, image_module::Report& report);
 
 /// What the tables share: a picture of 8 bits that is written row by row.
 class RowWriter {
@@ -40,14 +35,15 @@ class RowWriter {
     row_.resize(row_bytes());
     for (int row = 0; row < rows; ++row) {
       gather(samples, static_cast<std::size_t>(row));
-      if (!write(row_.data()) || is_failure(sink_.code(), report) || is_stopped(report)) return;
+      if (!write(row_.data()) || image_module::fail_by(sink_.code(), &report) || is_stopped(report))
+        return;
       ++written_;
     }
   }
   /// Ends the file.
   void finish(image_module::Report& report) {
     sink_.flush();
-    is_failure(sink_.code(), report);
+    image_module::fail_by(sink_.code(), &report);
   }
 
   [[nodiscard]] bool is_whole() const { return written_ == picture_.height; }
@@ -69,16 +65,5 @@ class RowWriter {
   int written_ = 0;
   std::size_t since_asked_ = often_asked;  ///< bytes written since `stop` was asked
 };
-
-/// Runs a step and turns its exceptions into a report.
-template <class Step>
-void run_reported(image_module::Report& report, const Step& step) {
-  report = {};
-  try {
-    step();
-  } catch (const std::exception& error) {
-    report_failure(report, error.what());
-  }
-}
 
 }  // namespace boule

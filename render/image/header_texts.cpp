@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
-#include <set>
 #include <utility>
 
 namespace boule {
@@ -33,17 +31,26 @@ void end_texts_at_nul(Metadata& metadata) {
   }
 }
 
-/// Goes backwards, because the last entry of a name is the one that counts.
-void leave_out_empty(Metadata& metadata) {
-  std::set<std::string> empty;
+/// Leaves one entry of each name, in the place of the first and with what the last one says.
+void keep_last(Metadata& metadata) {
   Metadata kept;
-  for (auto entry = metadata.rbegin(); entry != metadata.rend(); ++entry) {
-    const std::string* const text = text_of(*entry);
-    if (text != nullptr && text->empty()) empty.insert(entry->first);
-    const bool counts = !entry->first.empty() && empty.count(entry->first) == 0;
-    if (counts) kept.push_back(std::move(*entry));
+  for (Entry& entry : metadata) {
+    const auto same = std::find_if(
+        kept.begin(), kept.end(), [&](const Entry& before) { return before.first == entry.first; });
+    if (same == kept.end()) {
+      kept.push_back(std::move(entry));
+    } else {
+      same->second = std::move(entry.second);
+    }
   }
-  metadata.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+  metadata = std::move(kept);
+}
+
+void leave_out_empty(Metadata& metadata) {
+  std::erase_if(metadata, [](const Entry& entry) {
+    const std::string* const text = text_of(entry);
+    return entry.first.empty() || (text != nullptr && text->empty());
+  });
 }
 
 /// What is wrong with an entry's name, or an empty text. Formats keep the bytes of an ICC profile
@@ -63,6 +70,7 @@ std::string name_problem(const std::string& name) {
 
 std::string prepare_header_texts(Metadata& metadata, const ImageFormat& format) {
   end_texts_at_nul(metadata);
+  keep_last(metadata);
   leave_out_empty(metadata);
   const auto room = static_cast<std::size_t>(format.text_room);
   std::size_t taken = 0, largest = 0;

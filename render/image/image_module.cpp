@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "render/image/image_module.h"
+#include "render/image/module_report.h"
 #include "render/image/module_writer.h"
 
 namespace boule::image_module {
@@ -214,19 +214,6 @@ void read_picture(PictureFile& file, Report* report) {
                         : read_samples<unsigned short>(*input, OIIO::TypeDesc::UINT16, file);
   if (!done) return fail(report, reason_of(input->geterror()));
   file.is_integer = !spec.format.is_floating_point();
-}
-
-/// Runs a step and turns its exceptions into reports: none may leave the module.
-template <class Step>
-void guarded(Report* report, Step step) {
-  *report = {};
-  try {
-    step();
-  } catch (const std::exception& error) {
-    fail(report, error.what());
-  } catch (...) {
-    fail(report, "an unknown exception");
-  }
 }
 
 void start(const char* format, int threads, Report* report) {

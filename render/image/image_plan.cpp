@@ -1,6 +1,5 @@
 #include "render/image/image_plan.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <set>
 
@@ -98,8 +97,7 @@ module::Attribute attribute_of(const std::string& name, const MetadataValue& val
   return {name.c_str(), AttributeType::matrix, std::get<MetadataMatrix>(value).data()};
 }
 
-/// The standard entries of a header, and after them those that were asked for. One that is asked
-/// for replaces the one of its name.
+/// The standard entries of a header, and after them those that were asked for.
 Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   const std::string writer = format.writer;
   Metadata header = {{"Software", "boule " BOULE_VERSION},
@@ -115,16 +113,7 @@ Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   } else if (writer == "tiff") {
     header.emplace_back("tiff:write_exif", 0);  // or libtiff rereads a half-written file
   }
-  for (const auto& [name, value] : options.metadata) {
-    const auto same = std::find_if(header.begin(), header.end(), [&name = name](const auto& entry) {
-      return entry.first == name;
-    });
-    if (same == header.end()) {
-      header.emplace_back(name, value);
-    } else {
-      same->second = value;
-    }
-  }
+  header.insert(header.end(), options.metadata.begin(), options.metadata.end());
   return header;
 }
 

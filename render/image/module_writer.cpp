@@ -25,13 +25,6 @@ int rows_at_once(const Picture& picture, const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-void fail(Report* report, const std::string& text) {
-  report->outcome = Outcome::failed;
-  const size_t length = std::min(text.size(), sizeof report->text - 1);
-  std::memcpy(report->text, text.data(), length);
-  report->text[length] = 0;
-}
-
 std::string reason_of(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -107,10 +100,7 @@ void Writer::write_gathered(Report* report) {
       proxy_.code() == 0) {
     return fail(report, reason_of(output_->geterror()));
   }
-  if (const int code = proxy_.code()) {
-    report->outcome = Outcome::system_error;
-    report->code = code;
-  }
+  fail_by(proxy_.code(), report);
   written_ += gathered_;
   gathered_ = 0;
 }
@@ -139,10 +129,7 @@ void Writer::close(Report* report) {
     write_noise();
   const bool closed = output_->close();
   if (!closed) fail(report, reason_of(output_->geterror()));
-  if (const int code = proxy_.finish()) {  // the cause of what OpenImageIO may complain about
-    report->outcome = Outcome::system_error;
-    report->code = code;
-  }
+  fail_by(proxy_.finish(), report);  // the cause of what OpenImageIO may complain about
 }
 
 }  // namespace boule::image_module

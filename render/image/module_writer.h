@@ -9,11 +9,10 @@
 
 #include "render/image/descriptor_proxy.h"
 #include "render/image/image_module.h"
+#include "render/image/module_report.h"
 
 /// The part of the image module that writes. Only the module's sources include this.
 namespace boule::image_module {
-
-void fail(Report* report, const std::string& text);
 
 /// OpenImageIO's message in one line.
 std::string reason_of(std::string text);

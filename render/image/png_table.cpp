@@ -64,19 +64,19 @@ class PngWriter {
       if (!texts.empty()) png_set_text(png_, info_, texts.data(), static_cast<int>(texts.size()));
       png_write_info(png_, info_);
     });
-    if (!begun) report_failure(report, complaint_.text);
+    if (!begun) module::fail(&report, complaint_.text);
   }
   void put(const module::Samples* samples, int rows, module::Report& report) {
     rows_.put(samples, rows, report, [&](const unsigned char* row) {
       const bool written = succeed(png_, [&] { png_write_row(png_, row); });
-      if (!written) report_failure(report, complaint_.text);
+      if (!written) module::fail(&report, complaint_.text);
       return written;
     });
   }
   void close(module::Report& report) {
     if (!rows_.is_whole()) return;
     if (!succeed(png_, [&] { png_write_end(png_, nullptr); }))
-      return report_failure(report, complaint_.text);
+      return module::fail(&report, complaint_.text);
     rows_.finish(report);
   }
 
@@ -223,8 +223,8 @@ class PngReader {
   template <class Calls>
   bool reported(module::Report& report, const Calls& calls) {
     const bool done = succeed(png_, calls);
-    if (!done && !is_failure(file_.code(), report))
-      report_failure(report, std::string("unreadable: ") + complaint_.text);
+    if (!done && !module::fail_by(file_.code(), &report))
+      module::fail(&report, std::string("unreadable: ") + complaint_.text);
     return done;
   }
 
@@ -241,7 +241,7 @@ void start(const char* /*format*/, int /*threads*/, module::Report* report) { *r
 
 module::Writer* open(const module::Picture* picture, int descriptor, module::Report* report) {
   std::unique_ptr<PngWriter> writer;
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     writer = std::make_unique<PngWriter>(*picture, descriptor);
     writer->begin(*report);
   });
@@ -249,29 +249,29 @@ module::Writer* open(const module::Picture* picture, int descriptor, module::Rep
 }
 
 void put(module::Writer* writer, const module::Samples* samples, int rows, module::Report* report) {
-  run_reported(*report, [&] { png_writer(writer)->put(samples, rows, *report); });
+  module::guarded(report, [&] { png_writer(writer)->put(samples, rows, *report); });
 }
 
 void close(module::Writer* writer, module::Report* report) {
   const std::unique_ptr<PngWriter> owner(png_writer(writer));
-  run_reported(*report, [&] { owner->close(*report); });
+  module::guarded(report, [&] { owner->close(*report); });
 }
 
 void check(const module::Picture* picture, const char* path, module::Report* report) {
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     PngReader file(path);
     if (!file.begin(*report)) return;
     const bool same = file.width() == static_cast<png_uint_32>(picture->width) &&
                       file.height() == static_cast<png_uint_32>(picture->height) &&
                       file.channels() == static_cast<int>(picture->channel_count) &&
                       file.bits() == 8;
-    if (!same) return report_failure(*report, "the file's header is not what was written");
+    if (!same) return module::fail(report, "the file's header is not what was written");
     file.finish(*report);
   });
 }
 
 void inspect(const module::WantedPicture* wanted, module::Report* report) {
-  run_reported(*report, [&] {
+  module::guarded(report, [&] {
     PngReader file(wanted->path);
     if (!file.begin(*report)) return;
     const auto width = static_cast<int>(file.width()), height = static_cast<int>(file.height());

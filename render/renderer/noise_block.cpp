@@ -55,9 +55,7 @@ bool NoiseBlock::look(MeasuredPicture& picture) {
     State& state = at(pixel.x, pixel.y);
     if (!settle(state)) return false;
     const MeasuredPixel& done = picture.at(pixel.x, pixel.y) = measured(state);
-    settled_.pixels += 1;
-    settled_.samples += done.samples;
-    settled_.settled += done.samples < most ? 1 : 0;
+    settled_.add(done.samples, most);
     return true;
   };
   wanted_.erase(std::remove_if(wanted_.begin(), wanted_.end(), is_done), wanted_.end());

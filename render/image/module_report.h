@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "render/image/image_module.h"
+
+/// How the functions of a Table fill in their Report: those of the module, and those that are built
+/// in.
+namespace boule::image_module {
+
+inline void fail(Report* report, const std::string& text) {
+  report->outcome = Outcome::failed;
+  const std::size_t length = std::min(text.size(), sizeof report->text - 1);
+  std::memcpy(report->text, text.data(), length);
+  report->text[length] = 0;
+}
+
+/// Says which errno code a file has, unless that is 0. Returns whether it has one.
+inline bool fail_by(int code, Report* report) {
+  if (code == 0) return false;
+  report->outcome = Outcome::system_error;
+  report->code = code;
+  return true;
+}
+
+/// Runs a step and turns its exceptions into reports: none may leave the module.
+template <class Step>
+void guarded(Report* report, const Step& step) {
+  *report = {};
+  try {
+    step();
+  } catch (const std::exception& error) {
+    fail(report, error.what());
+  } catch (...) {
+    fail(report, "an unknown exception");
+  }
+}
+
+}  // namespace boule::image_module
