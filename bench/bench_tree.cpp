@@ -70,7 +70,7 @@ void make_rays(RayBuffer& rays) {
   PinholeCamera camera;
   camera.pose = {{0.5F, 0.5F, -1.2F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   camera.fov = 25.61F;
-  rays.resize(std::size_t{side} * side);
+  rays.resize(std::size_t{side} * side, CommonPart::origin);
   reference_kernels().primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
 }
 

@@ -6,6 +6,7 @@
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/optics/camera_builder.h"
+#include "core/optics/cameras.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {
@@ -22,9 +23,10 @@ unsigned even_bits(unsigned long long k) {
 
 RayBuffer rays_of(const Camera& camera, int side) {
   SampleBuffer samples = pixel_centers(side);
-  RayBuffer rays(samples.size());
-  const KernelTable& kernels = *select_kernels("auto").value();
-  kernels.primary_rays(build_camera(camera, side, side), samples.view(), rays.view());
+  const CameraView view = build_camera(camera, side, side);
+  RayBuffer rays;
+  rays.resize(samples.size(), common_part(view.kind));
+  select_kernels("auto").value()->primary_rays(view, samples.view(), rays.view());
   return rays;
 }
 

@@ -48,7 +48,7 @@ void PathPicture::add(int sample, Samples samples) {
   const int index = samples == Samples::random ? 0 : sample;
   places_.resize(width * height);
   numbers_.resize(width * height);
-  rays_.resize(width * height);
+  rays_.resize(width * height, scene_.common);
   ids_.clear();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

@@ -31,6 +31,9 @@ struct Ray {
   bool inside = false;
 };
 
+/// What many rays have in common, such as all primary rays of a camera.
+enum class CommonPart { none, origin, direction };
+
 /// The segment from `from` to `to` as a ray, without its ends: dir = to - from, and tmax is
 /// short_of_the_end. A surface that the far end lies on, if it is tilted against the axes, may
 /// still be met by segments that graze it at sines below 1/4: rounding dir moves the end by up to

@@ -14,9 +14,6 @@ namespace boule {
 /// A further camera is a further struct here, its kind in CameraKind, a line in visit_camera() and
 /// its numbers in build_camera().
 
-/// What all primary rays of a camera have in common: bundles need to know it.
-enum class CommonPart { none, origin, direction };
-
 /// Where a camera is sampled: the raster point, and the lens, 0 .. 1 each, (0.5, 0.5) its centre.
 template <class T>
 struct CameraSampleOf {
@@ -130,7 +127,7 @@ struct LensCameraRay {
 
 /// Calls visit(formula) with the formula of this kind of camera.
 template <class Visitor>
-BOULE_INLINE auto visit_camera(CameraKind kind, const Visitor& visit) {
+BOULE_INLINE constexpr auto visit_camera(CameraKind kind, const Visitor& visit) {
   switch (kind) {
     case CameraKind::orthographic:
       return visit(OrthographicRay{});
@@ -144,6 +141,11 @@ BOULE_INLINE auto visit_camera(CameraKind kind, const Visitor& visit) {
       break;
   }
   return visit(PinholeRay{});
+}
+
+/// What all primary rays of this kind of camera have in common.
+constexpr CommonPart common_part(CameraKind kind) {
+  return visit_camera(kind, [](auto formula) { return decltype(formula)::common; });
 }
 
 }  // namespace boule

@@ -75,8 +75,8 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   return emissive;
 }
 
-Coherence primary_coherence(CameraKind kind) {
-  switch (visit_camera(kind, [](auto formula) { return decltype(formula)::common; })) {
+Coherence coherence_of(CommonPart common) {
+  switch (common) {
     case CommonPart::origin:
       return Coherence::common_origin;
     case CommonPart::direction:
@@ -90,7 +90,7 @@ Coherence primary_coherence(CameraKind kind) {
 /// What the rays through the centre of the camera's lens have in common, or all primary rays of a
 /// camera without a lens.
 Coherence central_coherence(CameraKind kind) {
-  return kind == CameraKind::thin_lens ? Coherence::common_origin : primary_coherence(kind);
+  return coherence_of(kind == CameraKind::thin_lens ? CommonPart::origin : common_part(kind));
 }
 
 /// Gives a scene without a camera one that frames its objects. An error where none can.
@@ -138,7 +138,8 @@ Status reframe(PreparedScene& scene, const Camera& camera, int width, int height
   scene.camera_view =
       build_camera(scene.camera, width, height,
                    scene.distortion.st.empty() ? nullptr : &scene.distortion, &scene.lens);
-  scene.coherence = primary_coherence(scene.camera_view.kind);
+  scene.common = common_part(scene.camera_view.kind);
+  scene.coherence = coherence_of(scene.common);
   scene.central_coherence = central_coherence(scene.camera_view.kind);
   return std::nullopt;
 }

@@ -14,7 +14,7 @@ AovWorker::AovWorker(const BlockSetup& setup, Solver solver)
   pixels_.reserve(stream_size);
   // Sets the samples' positions on a lens to its centre, where they stay.
   samples_.resize(stream_size, setup.scene.camera_view);
-  rays_.resize(stream_size);
+  rays_.resize(stream_size, setup_.scene.common);
 }
 
 void AovWorker::render(const PixelRect& block, AovChannels& channels) {
@@ -32,7 +32,7 @@ void AovWorker::render(const PixelRect& block, AovChannels& channels) {
 void AovWorker::trace(AovChannels& channels) {
   if (pixels_.empty()) return;
   samples_.resize(pixels_.size());
-  rays_.resize(pixels_.size());
+  rays_.resize(pixels_.size(), setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (camera.weighs) keep_live_rays(samples_, rays_);

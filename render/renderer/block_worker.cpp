@@ -104,7 +104,7 @@ bool BlockWorker::trace(Target& target) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
   position_samples();
-  rays_.resize(count);
+  rays_.resize(count, setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (!(camera.weighs ? trace_weighted(target) : trace_all(target))) return false;

@@ -15,7 +15,7 @@ inline void keep_live_rays(const SampleBuffer& samples, RayBuffer& rays) {
     if (live != k) rays.set(live, rays.get(k));
     ++live;
   }
-  rays.resize(live);
+  rays.shrink(live);
 }
 
 }  // namespace boule

@@ -106,7 +106,7 @@ void OutlineWorker::trace(int x0, int y0) {
     samples_.set(k, (x + 0.5) / outline_grid, (y + 0.5) / outline_grid);
   });
   samples_.resize(count);
-  rays_.resize(count);
+  rays_.resize(count, setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (camera.weighs) keep_live_rays(samples_, rays_);

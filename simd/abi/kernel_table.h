@@ -32,7 +32,7 @@ struct KernelTable {
   int width;  ///< float lanes of a packet
 
   /// rays[k] = the camera's ray through samples[k], tmin 0, tmax inf, no source; anything where
-  /// the weight is 0.
+  /// the weight is 0. The rays may share what all rays of such a camera have in common.
   void (*primary_rays)(const CameraView& camera, const SampleStream& samples,
                        const RayStream& rays);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/platform.h"
 #include "core/math/ray.h"
+#include "simd/abi/isa.h"
 
 namespace boule {
 
@@ -19,50 +20,94 @@ struct RayArrays {
   Array<std::uint8_t> inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
 };
 
-/// Calls visit(rays.org_x...), visit(rays.org_y...) and so on, once for each of the arrays. With
-/// more than one set of rays visit() gets the same array of each.
+/// For every number of a ray where its arrays have it: how rays share numbers.
+struct RayPlaces {
+  std::size_t org, dir;
+  std::size_t start;  ///< of tmin, source and inside
+  std::size_t tmax;
+};
+
+/// Calls visit(place, rays.org_x...), visit(place, rays.org_y...) and so on, once for each of the
+/// arrays, with its place. With more than one set of rays visit() gets the same array of each.
 template <class Visit, class... Rays>
-BOULE_INLINE constexpr void each_array(const Visit& visit, Rays&... rays) {
-  visit(rays.org_x...);
-  visit(rays.org_y...);
-  visit(rays.org_z...);
-  visit(rays.dir_x...);
-  visit(rays.dir_y...);
-  visit(rays.dir_z...);
-  visit(rays.tmin...);
-  visit(rays.tmax...);
-  visit(rays.source...);
-  visit(rays.inside...);
+BOULE_INLINE constexpr void each_array(const RayPlaces& places, const Visit& visit, Rays&... rays) {
+  visit(places.org, rays.org_x...);
+  visit(places.org, rays.org_y...);
+  visit(places.org, rays.org_z...);
+  visit(places.dir, rays.dir_x...);
+  visit(places.dir, rays.dir_y...);
+  visit(places.dir, rays.dir_z...);
+  visit(places.start, rays.tmin...);
+  visit(places.tmax, rays.tmax...);
+  visit(places.start, rays.source...);
+  visit(places.start, rays.inside...);
 }
 
 template <class T>
 using Pointer = T*;
 
-/// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long and
-/// aligned to stream_alignment. A view: owns nothing, checks nothing.
+/// Which numbers all rays of a stream share. Those stand in their arrays once, for the widest
+/// packet, and every ray is read from there: there is no ray that could differ. Kernels then read
+/// less, and need not compare what the rays are said to have in common.
+class SharedNumbers {
+ public:
+  SharedNumbers() = default;
+  /// With a common origin or direction rays also share tmin, source and inside.
+  explicit SharedNumbers(CommonPart common)
+      : org_(common == CommonPart::origin ? once : for_each),
+        dir_(common == CommonPart::direction ? once : for_each),
+        start_(common != CommonPart::none ? once : for_each) {}
+
+  [[nodiscard]] bool has_origin() const { return org_ == once; }
+  [[nodiscard]] bool has_direction() const { return dir_ == once; }
+  [[nodiscard]] bool has_start() const { return start_ == once; }  ///< tmin, source and inside
+  /// Where the numbers of ray i stand: with those of the next ones, up to its packet's last.
+  [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const {
+    return {i & org_, i & dir_, i & start_, i};
+  }
+  /// How long the arrays of `size` rays are.
+  [[nodiscard]] RayPlaces lengths(std::size_t size) const {
+    const auto length = [size](std::size_t mask) { return mask == once ? max_width : size; };
+    return {length(org_), length(dir_), length(start_), size};
+  }
+
+ private:
+  static constexpr std::size_t once = max_width - 1, for_each = ~std::size_t{0};
+  std::size_t org_ = for_each, dir_ = for_each, start_ = for_each;  ///< masks of indices
+};
+
+/// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long, or
+/// max_width where the rays share its number, and aligned to stream_alignment. A view: owns
+/// nothing, checks nothing.
 struct RayStream : RayArrays<Pointer> {
   std::size_t size;
+  SharedNumbers shared;
+
+  [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const { return shared.places(i); }
 };
 
 /// `size` rays from ray `first` on, a multiple of max_width. Precondition: the stream has them.
 inline RayStream part(const RayStream& rays, std::size_t first, std::size_t size) {
   RayStream some = rays;
-  each_array([first](auto& array) { array += first; }, some);
+  each_array(
+      rays.places(first), [](std::size_t at, auto& array) { array += at; }, some);
   some.size = size;
   return some;
 }
 
-/// Ray i of a stream, or of other RayArrays. Precondition: there is one.
+/// The ray whose numbers stand in these places of a stream, or of other RayArrays. Precondition:
+/// there is one.
 template <class Rays>
-Ray get_ray(const Rays& rays, std::size_t i) {
-  Ray ray{{rays.org_x[i], rays.org_y[i], rays.org_z[i]},
-          {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}};
-  ray.tmin = rays.tmin[i];
-  ray.tmax = rays.tmax[i];
-  ray.source = rays.source[i];
-  ray.inside = rays.inside[i] != 0;
+Ray get_ray(const Rays& rays, const RayPlaces& at) {
+  Ray ray{{rays.org_x[at.org], rays.org_y[at.org], rays.org_z[at.org]},
+          {rays.dir_x[at.dir], rays.dir_y[at.dir], rays.dir_z[at.dir]}};
+  ray.tmin = rays.tmin[at.start];
+  ray.tmax = rays.tmax[at.tmax];
+  ray.source = rays.source[at.start];
+  ray.inside = rays.inside[at.start] != 0;
   return ray;
 }
+inline Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
 /// miss. Of a sphere also the slot where it lies in the geometry; of other hits `slot` is anything.

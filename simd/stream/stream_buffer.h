@@ -19,42 +19,69 @@ class RayBuffer {
   RayBuffer() = default;
   explicit RayBuffer(std::size_t size) { resize(size); }
 
-  void resize(std::size_t size) {
-    each_array([size](auto& array) { array.resize(size); }, rays_);
+  /// Of rays that have an origin or a direction in common it is kept once, and likewise tmin,
+  /// source and inside: share() sets them. Kernels trace such rays faster, where the query's
+  /// coherence says the same.
+  void resize(std::size_t size, CommonPart common = CommonPart::none) {
+    const SharedNumbers shared(common);
+    each_array(
+        shared.lengths(size), [](std::size_t length, auto& array) { array.resize(length); }, rays_);
+    shared_ = shared;
     size_ = size;
   }
+  /// Keeps the first `size` rays. Precondition: there are so many.
+  void shrink(std::size_t size) { size_ = size; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  /// Gives all rays what they share of this one.
+  void share(const Ray& ray) {
+    for (std::size_t lane = 0; lane < max_width; ++lane) {
+      if (shared_.has_origin()) set_origin(lane, ray);
+      if (shared_.has_direction()) set_direction(lane, ray);
+      if (shared_.has_start()) set_start(lane, ray);
+    }
+  }
+  /// Sets what ray i does not share.
   void set(std::size_t i, const Ray& ray) {
-    rays_.org_x[i] = ray.org.x;
-    rays_.org_y[i] = ray.org.y;
-    rays_.org_z[i] = ray.org.z;
-    rays_.dir_x[i] = ray.dir.x;
-    rays_.dir_y[i] = ray.dir.y;
-    rays_.dir_z[i] = ray.dir.z;
-    rays_.tmin[i] = ray.tmin;
-    rays_.tmax[i] = ray.tmax;
-    rays_.source[i] = ray.source;
-    rays_.inside[i] = ray.inside ? 1 : 0;
+    const RayPlaces at = shared_.places(i);
+    if (!shared_.has_origin()) set_origin(at.org, ray);
+    if (!shared_.has_direction()) set_direction(at.dir, ray);
+    if (!shared_.has_start()) set_start(at.start, ray);
+    rays_.tmax[at.tmax] = ray.tmax;
   }
-  [[nodiscard]] Vec3d org(std::size_t i) const {
-    return {rays_.org_x[i], rays_.org_y[i], rays_.org_z[i]};
-  }
-  [[nodiscard]] Vec3f dir(std::size_t i) const {
-    return {rays_.dir_x[i], rays_.dir_y[i], rays_.dir_z[i]};
-  }
-  [[nodiscard]] Ray get(std::size_t i) const { return get_ray(rays_, i); }
+  [[nodiscard]] Ray get(std::size_t i) const { return get_ray(rays_, shared_.places(i)); }
+  [[nodiscard]] Vec3d org(std::size_t i) const { return get(i).org; }
+  [[nodiscard]] Vec3f dir(std::size_t i) const { return get(i).dir; }
 
   /// The rays as the kernels see them; valid until the next resize.
   RayStream view() {
     RayStream rays{};
-    each_array([](auto& pointer, auto& array) { pointer = array.data(); }, rays, rays_);
+    each_array(
+        {}, [](std::size_t, auto& to, auto& array) { to = array.data(); }, rays, rays_);
+    rays.shared = shared_;
     rays.size = size_;
     return rays;
   }
 
  private:
+  void set_origin(std::size_t i, const Ray& ray) {
+    rays_.org_x[i] = ray.org.x;
+    rays_.org_y[i] = ray.org.y;
+    rays_.org_z[i] = ray.org.z;
+  }
+  void set_direction(std::size_t i, const Ray& ray) {
+    rays_.dir_x[i] = ray.dir.x;
+    rays_.dir_y[i] = ray.dir.y;
+    rays_.dir_z[i] = ray.dir.z;
+  }
+  void set_start(std::size_t i, const Ray& ray) {
+    rays_.tmin[i] = ray.tmin;
+    rays_.source[i] = ray.source;
+    rays_.inside[i] = ray.inside ? 1 : 0;
+  }
+
   RayArrays<AlignedArray> rays_;
+  SharedNumbers shared_;
   std::size_t size_ = 0;
 };
 

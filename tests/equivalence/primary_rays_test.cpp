@@ -12,11 +12,13 @@ void expect_same(const KernelTable& kernels, const Camera& camera, int width, in
                  const DistortionMap* map = nullptr) {
   const CameraView view = build_camera(camera, width, height, map);
   SampleBuffer samples = random_samples(view, 203, width, height, 3);
-  RayBuffer wide(samples.size());
+  RayBuffer wide(samples.size()), shared;
   kernels.primary_rays(view, samples.view(), wide.view());
+  shared.resize(samples.size(), common_part(view.kind));
+  kernels.primary_rays(view, samples.view(), shared.view());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto [b, weight] = camera_ray(view, sample_of(samples, view, i));
-    const Ray a = wide.get(i);
+    const Ray a = wide.get(i), same = shared.get(i);
     ASSERT_EQ(view.weighs ? samples.weight(i) : 1, weight) << i;
     if (weight == 0) continue;
     ASSERT_EQ(a.org, b.org) << i;
@@ -25,6 +27,9 @@ void expect_same(const KernelTable& kernels, const Camera& camera, int width, in
     ASSERT_EQ(a.tmax, b.tmax);
     ASSERT_EQ(a.source, no_primitive);
     ASSERT_FALSE(a.inside);
+    ASSERT_TRUE(have_in_common({a, same}, CommonPart::origin)) << i;
+    ASSERT_TRUE(have_in_common({a, same}, CommonPart::direction)) << i;
+    ASSERT_EQ(same.tmax, b.tmax);
   }
 }
 

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/reference.h"
@@ -51,6 +54,36 @@ inline RayBuffer to_stream(const std::vector<Ray>& rays) {
   return buffer;
 }
 
+/// Whether all rays have the same bits of what rays with this in common share.
+inline bool have_in_common(const std::vector<Ray>& rays, CommonPart common) {
+  const auto bits = [common](const Ray& ray) {
+    const auto part = common == CommonPart::origin ? ray.org : vec_cast<double>(ray.dir);
+    return std::tuple(std::bit_cast<std::array<std::uint64_t, 3>>(part),
+                      std::bit_cast<std::uint32_t>(ray.tmin), ray.source, ray.inside);
+  };
+  return common != CommonPart::none && !rays.empty() &&
+         std::ranges::all_of(rays, [&](const Ray& ray) { return bits(ray) == bits(rays[0]); });
+}
+/// The rays with what they share once.
+inline RayBuffer to_shared_stream(const std::vector<Ray>& rays, CommonPart common) {
+  RayBuffer buffer;
+  buffer.resize(rays.size(), common);
+  buffer.share(rays.at(0));
+  for (std::size_t i = 0; i < rays.size(); ++i) buffer.set(i, rays[i]);
+  return buffer;
+}
+/// The streams that rays of this coherence come in: each with numbers of its own and, where they do
+/// have that in common, with what they share once.
+inline std::vector<RayBuffer> streams_of(const std::vector<Ray>& rays, Coherence coherence) {
+  std::vector<RayBuffer> all;
+  all.push_back(to_stream(rays));
+  const CommonPart common = coherence == Coherence::common_origin      ? CommonPart::origin
+                            : coherence == Coherence::common_direction ? CommonPart::direction
+                                                                       : CommonPart::none;
+  if (have_in_common(rays, common)) all.push_back(to_shared_stream(rays, common));
+  return all;
+}
+
 /// Whether a hit of a sphere names the slot where that sphere lies.
 inline bool names_its_slot(const GeometryView& geometry, const Hit& hit) {
   const auto id = static_cast<std::uint32_t>(hit.id);
@@ -66,32 +99,39 @@ inline bool names_its_slot(const GeometryView& geometry, const Hit& hit) {
          geometry.spheres.id[hit.slot] == hit.id;
 }
 
-/// The kernels' nearest hits of these rays.
+/// Same id and the same bits of t.
+inline bool same_bits(const Hit& a, const Hit& b) {
+  return a.id == b.id && std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
+}
+
+/// The kernels' nearest hits of these rays, which are the same in all of their streams.
 inline std::vector<Hit> run_closest(const KernelTable& kernels, const GeometryView& geometry,
                                     const std::vector<Ray>& rays, const Query& query) {
-  RayBuffer stream = to_stream(rays);
-  HitBuffer hits(rays.size());
-  kernels.closest_hit(geometry, stream.view(), query, hits.view());
   std::vector<Hit> result;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    result.push_back(hits.get(i));
-    EXPECT_TRUE(names_its_slot(geometry, result.back())) << "ray " << i;
+  for (RayBuffer& stream : streams_of(rays, query.coherence)) {
+    HitBuffer hits(rays.size());
+    kernels.closest_hit(geometry, stream.view(), query, hits.view());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit hit = hits.get(i);
+      EXPECT_TRUE(names_its_slot(geometry, hit)) << "ray " << i;
+      if (result.size() <= i) result.push_back(hit);
+      EXPECT_TRUE(same_bits(hit, result[i])) << "ray " << i << ", which shares numbers";
+    }
   }
   return result;
 }
 
-/// The kernels' occlusion of these rays, 0 or 1.
+/// The kernels' occlusion of these rays, 0 or 1, which is the same in all of their streams.
 inline std::vector<int> run_any(const KernelTable& kernels, const GeometryView& geometry,
                                 const std::vector<Ray>& rays, const Query& query) {
-  RayBuffer stream = to_stream(rays);
-  AlignedArray<std::uint8_t> occluded(rays.size(), 255);
-  kernels.any_hit(geometry, stream.view(), query, occluded.data());
-  return {occluded.data(), occluded.data() + rays.size()};
-}
-
-/// Same id and the same bits of t.
-inline bool same_bits(const Hit& a, const Hit& b) {
-  return a.id == b.id && std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
+  std::vector<std::vector<int>> found;
+  for (RayBuffer& stream : streams_of(rays, query.coherence)) {
+    AlignedArray<std::uint8_t> occluded(rays.size(), 255);
+    kernels.any_hit(geometry, stream.view(), query, occluded.data());
+    found.emplace_back(occluded.data(), occluded.data() + rays.size());
+    EXPECT_EQ(found.back(), found.front());
+  }
+  return found.front();
 }
 
 }  // namespace boule::test

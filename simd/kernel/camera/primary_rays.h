@@ -13,20 +13,26 @@
 /// Camera rays, W at a time: in double, the direction rounded to float once.
 namespace boule::BOULE_KERNEL_ISA {
 
-BOULE_INLINE void store_ray(const RayStream& rays, std::size_t first, const Vec3<Wide>& org,
-                            const Vec3<Wide>& dir) {
-  store(rays.org_x + first, org.x);
-  store(rays.org_y + first, org.y);
-  store(rays.org_z + first, org.z);
-  store(rays.dir_x + first, narrow(dir.x));
-  store(rays.dir_y + first, narrow(dir.y));
-  store(rays.dir_z + first, narrow(dir.z));
-  store(rays.tmin + first, Real(0.0F));
-  store(rays.tmax + first, Real(std::numeric_limits<float>::infinity()));
-  for (int lane = 0; lane < width; ++lane) {
-    rays.source[first + static_cast<std::size_t>(lane)] = no_primitive;
-    rays.inside[first + static_cast<std::size_t>(lane)] = 0;
+/// Stores W rays; of what all rays share each place but once.
+BOULE_INLINE void store_rays(const RayStream& rays, std::size_t first, const Vec3<Wide>& org,
+                             const Vec3<Wide>& dir) {
+  const bool begins = first < max_width;
+  if (begins || !rays.shared.has_origin()) {
+    store(rays.org_x + first, org.x);
+    store(rays.org_y + first, org.y);
+    store(rays.org_z + first, org.z);
   }
+  if (begins || !rays.shared.has_direction()) {
+    store(rays.dir_x + first, narrow(dir.x));
+    store(rays.dir_y + first, narrow(dir.y));
+    store(rays.dir_z + first, narrow(dir.z));
+  }
+  if (begins || !rays.shared.has_start()) {
+    store(rays.tmin + first, Real(0.0F));
+    store(rays.source + first, Bits(no_primitive));
+    __builtin_memset(rays.inside + first, 0, width);
+  }
+  store(rays.tmax + first, Real(std::numeric_limits<float>::infinity()));
 }
 
 /// The rays of all samples of a camera: for visit_camera().
@@ -44,7 +50,7 @@ struct PrimaryRays {
         sample.lens_y = load(samples.lens_y + first);
       }
       const CameraRayOf<Wide> made = Formula::of(camera, sample);
-      store_ray(rays, first, made.org, made.dir);
+      store_rays(rays, first, made.org, made.dir);
       if (camera.weighs) store(samples.weight + first, narrow(made.weight));
     }
   }

@@ -84,12 +84,9 @@ template <Common common, Origins origins = Origins::own>
 BOULE_INLINE void load_exact(const PacketRef& packet, const BundleRays& bundle, ExactRays& out) {
   const RayStream& rays = *packet.rays;
   const std::size_t first = packet.first;
-  out.org = common == Common::origin && origins == Origins::bundle
-                ? wide_all(bundle.frame.org)
-                : Vec3<Wide>{load(rays.org_x + first), load(rays.org_y + first),
-                             load(rays.org_z + first)};
-  out.dir = {widen(load(rays.dir_x + first)), widen(load(rays.dir_y + first)),
-             widen(load(rays.dir_z + first))};
+  out.org = common == Common::origin && origins == Origins::bundle ? wide_all(bundle.frame.org)
+                                                                   : load_origins(rays, first);
+  out.dir = widen(load_directions(rays, first));
   out.a = dot(out.dir, out.dir);
   out.inverse_a = Wide(1.0) / out.a;
   const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));

@@ -20,10 +20,12 @@ enum class Common { origin, direction, end };
 enum class Sought { nearest, any };
 
 BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
-  return {double{rays.dir_x[i]}, double{rays.dir_y[i]}, double{rays.dir_z[i]}};
+  const std::size_t at = rays.places(i).dir;
+  return {double{rays.dir_x[at]}, double{rays.dir_y[at]}, double{rays.dir_z[at]}};
 }
 BOULE_INLINE Vec3d origin_of(const RayStream& rays, std::size_t i) {
-  return {rays.org_x[i], rays.org_y[i], rays.org_z[i]};
+  const std::size_t at = rays.places(i).org;
+  return {rays.org_x[at], rays.org_y[at], rays.org_z[at]};
 }
 BOULE_INLINE Vec3<Real> narrow_all(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -72,7 +74,10 @@ class SharedByRays {
  public:
   SharedByRays(const RayStream& rays, std::size_t one)
       : dir_(direction_of(rays, one)),
-        org_(common == Common::end ? origin_of(rays, one) + dir_ : origin_of(rays, one)) {}
+        org_(common == Common::end ? origin_of(rays, one) + dir_ : origin_of(rays, one)),
+        once_(stands_once(rays.shared)),
+        from_zero_(rays.tmin[rays.places(one).start] == 0.0F),
+        leaves_none_(rays.source[rays.places(one).start] == no_primitive) {}
 
   [[nodiscard]] const Vec3d& org() const { return org_; }
   [[nodiscard]] const Vec3d& dir() const { return dir_; }
@@ -80,13 +85,13 @@ class SharedByRays {
   BOULE_INLINE Sight sight(const PacketRef& packet) const {
     const RayStream& rays = *packet.rays;
     if constexpr (common == Common::origin) {
-      return {load_direction(rays, packet.first), Real(0.0F)};
+      return {load_directions(rays, packet.first), Real(0.0F)};
     } else if constexpr (common == Common::end) {
-      const Vec3<Real> dir = load_direction(rays, packet.first);
-      const Vec3<Wide> end = load_origin(rays, packet.first) + widen(dir);
+      const Vec3<Real> dir = load_directions(rays, packet.first);
+      const Vec3<Wide> end = load_origins(rays, packet.first) + widen(dir);
       return {dir, sum_abs(narrow(end - wide_all(org_)))};
     } else {
-      return {narrow(load_origin(rays, packet.first) - wide_all(org_)), Real(0.0F)};
+      return {narrow(load_origins(rays, packet.first) - wide_all(org_)), Real(0.0F)};
     }
   }
 
@@ -94,36 +99,37 @@ class SharedByRays {
   /// nearest hit is sought, they leave no primitive.
   template <Sought sought>
   BOULE_INLINE RealMask belongs(const PacketRef& packet) const {
+    if (once_) return uniform(from_zero_ && (sought == Sought::any || leaves_none_));
     const RayStream& rays = *packet.rays;
-    const std::size_t first = packet.first;
-    const Real zero(0.0F), tmin = load(rays.tmin + first);
+    const std::size_t first = packet.first, start = rays.places(first).start;
+    const Real zero(0.0F), tmin = load(rays.tmin + start);
     RealMask fresh = (tmin <= zero) & (zero <= tmin);
     if constexpr (sought == Sought::nearest)
-      fresh = fresh & uniform(none_leaves(rays.source + first));
+      fresh = fresh & uniform(none_leaves(rays.source + start));
     if constexpr (common == Common::end) {
       // Whether they share their end is judged later, by Sight::shift. Nothing beyond the end is
       // seen from there: rays must not go on behind it.
       return fresh & (load(rays.tmax + first) <= Real(1.0F));
     } else if constexpr (common == Common::origin) {
-      const Vec3<Wide> org = load_origin(rays, first), same_org = wide_all(org_);
+      const Vec3<Wide> org = load_origins(rays, first), same_org = wide_all(org_);
       const WideMask same = (org.x == same_org.x) & (org.y == same_org.y) & (org.z == same_org.z);
       return fresh & uniform(all(same));
     } else {
-      const Vec3<Real> dir = load_direction(rays, first), one = narrow_all(dir_);
+      const Vec3<Real> dir = load_directions(rays, first), one = narrow_all(dir_);
       return fresh & (dir.x <= one.x) & (one.x <= dir.x) & (dir.y <= one.y) & (one.y <= dir.y) &
              (dir.z <= one.z) & (one.z <= dir.z);
     }
   }
 
  private:
-  BOULE_INLINE static Vec3<Real> load_direction(const RayStream& rays, std::size_t first) {
-    return {load(rays.dir_x + first), load(rays.dir_y + first), load(rays.dir_z + first)};
-  }
-  BOULE_INLINE static Vec3<Wide> load_origin(const RayStream& rays, std::size_t first) {
-    return {load(rays.org_x + first), load(rays.org_y + first), load(rays.org_z + first)};
+  static bool stands_once(const SharedNumbers& shared) {
+    if constexpr (common == Common::end) return false;
+    return common == Common::origin ? shared.has_origin() : shared.has_direction();
   }
 
   Vec3d dir_, org_;
+  bool once_;  ///< the stream has what they share once, and also how they start:
+  bool from_zero_, leaves_none_;
 };
 
 /// Neighbours in a stream, in its order.
@@ -162,12 +168,12 @@ class RaysInOrder {
   /// The ids of the primitives that they leave, or -1.
   BOULE_INLINE const std::int32_t* sources(int ray) const {
     const PacketRef rays = packet(ray);
-    return rays.rays->source + rays.first;
+    return rays.rays->source + rays.rays->places(rays.first).start;
   }
   /// 1 for those that leave it on its inside.
   BOULE_INLINE const std::uint8_t* insides(int ray) const {
     const PacketRef rays = packet(ray);
-    return rays.rays->inside + rays.first;
+    return rays.rays->inside + rays.rays->places(rays.first).start;
   }
   /// Those named by the bits of `wanted`, in memory; valid until the next call.
   BOULE_INLINE PacketRef packet(int ray, unsigned /*wanted*/ = all_lanes) const {

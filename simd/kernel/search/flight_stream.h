@@ -180,8 +180,10 @@ class Flights {
       }
     }
     flight.choose_rows();
-    flight.source = stream_.rays().source[flight.index];
-    flight.inside = stream_.rays().inside[flight.index] != 0;
+    const RayStream& rays = stream_.rays();
+    const std::size_t start = rays.places(flight.index).start;
+    flight.source = rays.source[start];
+    flight.inside = rays.inside[start] != 0;
     flight.candidates.size = 0;
     flight.pending.clear();
     flight.next = geometry_.bvh.nodes;

@@ -19,17 +19,21 @@ struct PacketRef {
 /// Fetches the packet at `first` into the cache, unless the stream ends before it.
 BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
   if (first >= rays.size) return;
-  for (int line = 0; line * 8 < width; ++line) {
+  for (int line = 0; line * 8 < width && !rays.shared.has_origin(); ++line) {
     __builtin_prefetch(rays.org_x + first + line * 8);
     __builtin_prefetch(rays.org_y + first + line * 8);
     __builtin_prefetch(rays.org_z + first + line * 8);
   }
-  __builtin_prefetch(rays.dir_x + first);
-  __builtin_prefetch(rays.dir_y + first);
-  __builtin_prefetch(rays.dir_z + first);
-  __builtin_prefetch(rays.tmin + first);
+  if (!rays.shared.has_direction()) {
+    __builtin_prefetch(rays.dir_x + first);
+    __builtin_prefetch(rays.dir_y + first);
+    __builtin_prefetch(rays.dir_z + first);
+  }
+  if (!rays.shared.has_start()) {
+    __builtin_prefetch(rays.tmin + first);
+    __builtin_prefetch(rays.source + first);
+  }
   __builtin_prefetch(rays.tmax + first);
-  __builtin_prefetch(rays.source + first);
 }
 
 /// Copies of some rays of a stream, side by side.
@@ -38,12 +42,15 @@ class GatheredRays {
  public:
   /// Copies ray i of the stream to index k.
   BOULE_INLINE void set(std::size_t k, const RayStream& rays, std::size_t i) {
-    each_array([k, i](auto& to, auto& from) { to.values[k] = from[i]; }, rays_, rays);
+    each_array(
+        rays.places(i), [k](std::size_t at, auto& to, auto& from) { to.values[k] = from[at]; },
+        rays_, rays);
   }
   /// The first `size` of them.
   [[nodiscard]] RayStream view(std::size_t size) {
     RayStream rays{};
-    each_array([](auto& pointer, auto& array) { pointer = array.values; }, rays, rays_);
+    each_array(
+        {}, [](std::size_t, auto& to, auto& array) { to = array.values; }, rays, rays_);
     rays.size = size;
     return rays;
   }

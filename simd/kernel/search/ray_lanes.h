@@ -102,14 +102,25 @@ BOULE_INLINE void finish(ExactRays& rays) {
   rays.has_source = !all(rays.source == Bits(no_primitive));
 }
 
-/// Loads rays first .. first + W - 1; `first` is a multiple of W.
+/// The numbers of rays first .. first + W - 1; `first` is a multiple of W.
+BOULE_INLINE Vec3<Wide> load_origins(const RayStream& s, std::size_t first) {
+  const std::size_t at = s.places(first).org;
+  return {load(s.org_x + at), load(s.org_y + at), load(s.org_z + at)};
+}
+BOULE_INLINE Vec3<Real> load_directions(const RayStream& s, std::size_t first) {
+  const std::size_t at = s.places(first).dir;
+  return {load(s.dir_x + at), load(s.dir_y + at), load(s.dir_z + at)};
+}
+
+/// Loads these rays.
 BOULE_INLINE void load_exact(const RayStream& s, std::size_t first, ExactRays& r) {
-  r.org = {load(s.org_x + first), load(s.org_y + first), load(s.org_z + first)};
-  r.dir = widen(Vec3<Real>{load(s.dir_x + first), load(s.dir_y + first), load(s.dir_z + first)});
-  r.tmin = widen(load(s.tmin + first));
+  const std::size_t start = s.places(first).start;
+  r.org = load_origins(s, first);
+  r.dir = widen(load_directions(s, first));
+  r.tmin = widen(load(s.tmin + start));
   r.tmax = widen(load(s.tmax + first));
-  r.source = load_integers(s.source + first);
-  r.inside = load_set(s.inside + first);
+  r.source = load_integers(s.source + start);
+  r.inside = load_set(s.inside + start);
   finish(r);
 }
 BOULE_INLINE void load_packet(const RayStream& s, std::size_t first, RayLanes& rays) {
@@ -121,12 +132,13 @@ BOULE_INLINE void load_packet(const RayStream& s, std::size_t first, RayLanes& r
 /// Loads ray `index` into every lane.
 BOULE_INLINE void load_single(const RayStream& s, std::size_t index, RayLanes& rays) {
   ExactRays& r = rays.exact;
-  r.org = {Wide(s.org_x[index]), Wide(s.org_y[index]), Wide(s.org_z[index])};
-  r.dir = widen(Vec3<Real>{Real(s.dir_x[index]), Real(s.dir_y[index]), Real(s.dir_z[index])});
-  r.tmin = widen(Real(s.tmin[index]));
+  const RayPlaces at = s.places(index);
+  r.org = {Wide(s.org_x[at.org]), Wide(s.org_y[at.org]), Wide(s.org_z[at.org])};
+  r.dir = widen(Vec3<Real>{Real(s.dir_x[at.dir]), Real(s.dir_y[at.dir]), Real(s.dir_z[at.dir])});
+  r.tmin = widen(Real(s.tmin[at.start]));
   r.tmax = widen(Real(s.tmax[index]));
-  r.source = Bits(s.source[index]);
-  r.inside = widen(uniform(s.inside[index] != 0));
+  r.source = Bits(s.source[at.start]);
+  r.inside = widen(uniform(s.inside[at.start] != 0));
   finish(r);
   make_filter(r, rays.filter);
   rays.inside = bits(r.inside);

@@ -87,7 +87,8 @@ class RayPool {
     const Sight s = shared_.sight(packet);
     sums.belong =
         sums.belong & shared_.template belongs<Sought::any>(packet) & (s.shift <= s.shift);
-    sums.inside = sums.inside || !all_zero(packet.rays->inside + packet.first);
+    sums.inside =
+        sums.inside || !all_zero(packet.rays->inside + packet.rays->places(packet.first).start);
     sums.shift = filter_max(sums.shift, s.shift);
     const Real tmax = load(packet.rays->tmax + packet.first);
     store_rows(rays_ + 4 * i, {s.sight.x, s.sight.y, s.sight.z, tmax});
@@ -123,8 +124,7 @@ class RaysOfPool {
   /// `count` rays of the pool, at most bundle_size, from its first-th one on.
   RaysOfPool(const RayPool<common>& pool, std::size_t first, int count)
       : pool_(pool), first_(first), count_(count), packet_view_(packet_.view(width)) {
-    const std::int32_t* const sources = pool.stream().source + pool.begin();
-    const std::uint8_t* const insides = pool.stream().inside + pool.begin();
+    const RayStream& rays = pool.stream();
     const std::uint16_t* const order = pool.order() + first;
     const int padded = (count + width - 1) / width * width;
     for (int at = 0; at < padded; at += width) {
@@ -136,9 +136,10 @@ class RaysOfPool {
       store(z_ + at, c.z);
       store(tmax_ + at, c.w);
     }
-    for (int i = 0; i < padded; ++i) source_[i] = sources[order[i]];
+    const auto start = [&](int i) { return rays.places(pool.begin() + order[i]).start; };
+    for (int i = 0; i < padded; ++i) source_[i] = rays.source[start(i)];
     if (!pool.any_inside()) return;
-    for (int i = 0; i < padded; ++i) inside_[i] = insides[order[i]];
+    for (int i = 0; i < padded; ++i) inside_[i] = rays.inside[start(i)];
   }
   RaysOfPool(const RaysOfPool&) = delete;
   RaysOfPool& operator=(const RaysOfPool&) = delete;

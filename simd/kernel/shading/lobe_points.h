@@ -35,14 +35,12 @@ template <LobeKind kind>
 BOULE_INLINE void add_points(const PathRays& paths, std::size_t first, const MetSurfaces& met,
                              const Vec3<Wide>& normal, unsigned chosen, LobePoints& points) {
   const std::size_t at = points.size;
-  const RayStream& rays = paths.rays;
   store_chosen(points.normal, at, normal, chosen);
   store_chosen(points.org, at, move_off(met.arrived.point, normal, met.met.reach), chosen);
   if constexpr (kind != LobeKind::matte) {
     store_chosen(points.point, at, met.arrived.point, chosen);
     store_chosen(points.reach + at, met.met.reach, chosen);
-    store_chosen(points.dir, at, load(ColorStream{rays.dir_x, rays.dir_y, rays.dir_z}, first),
-                 chosen);
+    store_chosen(points.dir, at, load_directions(paths.rays, first), chosen);
   }
   store_chosen(points.side + at, side_of(met), chosen);
   store_chosen(points.id + at, load_integers(paths.hits.id + first), chosen);

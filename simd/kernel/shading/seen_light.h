@@ -56,11 +56,10 @@ BOULE_INLINE void see_light(const SeenLight& seen, const SeeingRays& rays) {
   const RayStream& r = rays.rays;
   const bool sees_background = seen.background.kind != SeenBackground::Kind::other;
   for (std::size_t first = 0; first < r.size; first += width) {
-    const Vec3<Wide> dir =
-        widen(Vec3<Real>{load(r.dir_x + first), load(r.dir_y + first), load(r.dir_z + first)});
+    const Vec3<Wide> dir = widen(load_directions(r, first));
     Vec3<Real> sum{0.0F, 0.0F, 0.0F};
     if (seen.light_count > 0) {
-      const Vec3<Wide> org = load(VectorStream{r.org_x, r.org_y, r.org_z}, first);
+      const Vec3<Wide> org = load_origins(r, first);
       sum = crossed_lights(seen, org, dir, load(rays.hits.t + first),
                            widen(load(rays.density + first)));
     }

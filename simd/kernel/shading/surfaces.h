@@ -103,14 +103,12 @@ struct MetSurfaces {
 
 BOULE_INLINE MetSurfaces surfaces_of_packet(const MetPrimitives& primitives, const RayStream& rays,
                                             const HitStream& hits, std::size_t first) {
-  const VectorStream orgs{rays.org_x, rays.org_y, rays.org_z};
-  const Real tmin = load(rays.tmin + first);
+  const std::size_t start = rays.places(first).start;
+  const Real tmin = load(rays.tmin + start);
   const Bits ids = load_integers(hits.id + first);
-  const Vec3<Wide> org = load(orgs, first);
-  const Vec3<Wide> dir = widen(
-      Vec3<Real>{load(rays.dir_x + first), load(rays.dir_y + first), load(rays.dir_z + first)});
+  const Vec3<Wide> org = load_origins(rays, first), dir = widen(load_directions(rays, first));
   const Arrivals arrived{org, dir, org + dir * load(hits.t + first),
-                         widen(ids == load_integers(rays.source + first)),
+                         widen(ids == load_integers(rays.source + start)),
                          widen((tmin <= Real(0.0F)) & (Real(0.0F) <= tmin))};
   return {arrived, primitives.meet(arrived, ids), primitives.is_sphere(ids)};
 }

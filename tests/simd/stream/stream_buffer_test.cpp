@@ -55,5 +55,61 @@ TEST(RayBuffer, ReturnsWhatWasSet) {
   EXPECT_EQ(buffer.view().org_z[2], ray.org.z);
 }
 
+Ray ray_with(double x, float direction, float tmin) {
+  Ray ray{{x, 2 * x, 3 * x}, {direction, 0, 1}};
+  ray.tmin = tmin;
+  ray.tmax = tmin + 1;
+  ray.source = static_cast<std::int32_t>(x);
+  ray.inside = tmin > 1;
+  return ray;
+}
+
+TEST(RayBuffer, RaysShareAnOriginAndAStart) {
+  RayBuffer buffer;
+  buffer.resize(100, CommonPart::origin);
+  buffer.share(ray_with(7, 1, 2));
+  for (std::size_t i = 0; i < 100; ++i) buffer.set(i, ray_with(3, static_cast<float>(i), 0));
+  for (std::size_t i = 0; i < 100; ++i) {
+    const Ray ray = buffer.get(i);
+    EXPECT_EQ(ray.org, (Vec3d{7, 14, 21}));
+    EXPECT_EQ(ray.dir, (Vec3f{static_cast<float>(i), 0, 1}));
+    EXPECT_EQ(ray.tmin, 2);
+    EXPECT_EQ(ray.tmax, 1);
+    EXPECT_EQ(ray.source, 7);
+    EXPECT_TRUE(ray.inside);
+  }
+  EXPECT_TRUE(buffer.view().shared.has_origin());
+  EXPECT_FALSE(buffer.view().shared.has_direction());
+}
+
+TEST(RayBuffer, RaysShareADirectionAndAStart) {
+  RayBuffer buffer;
+  buffer.resize(40, CommonPart::direction);
+  buffer.share(ray_with(7, 1, 2));
+  for (std::size_t i = 0; i < 40; ++i) buffer.set(i, ray_with(static_cast<double>(i), 9, 0));
+  const RayStream rest = part(buffer.view(), 32, 8);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Ray ray = get_ray(rest, i);
+    EXPECT_EQ(ray.org.x, static_cast<double>(32 + i));
+    EXPECT_EQ(ray.dir, (Vec3f{1, 0, 1}));
+    EXPECT_EQ(ray.tmin, 2);
+    EXPECT_EQ(ray.source, 7);
+  }
+}
+
+/// Used again for rays that share nothing, a buffer has all their numbers.
+TEST(RayBuffer, ForgetsWhatRaysShared) {
+  RayBuffer buffer;
+  buffer.resize(50, CommonPart::origin);
+  buffer.share(ray_with(7, 1, 2));
+  buffer.resize(50);
+  for (std::size_t i = 0; i < 50; ++i) buffer.set(i, ray_with(static_cast<double>(i), 1, 0));
+  EXPECT_EQ(buffer.get(49).org.x, 49);
+  EXPECT_EQ(buffer.get(1).source, 1);
+  EXPECT_EQ(buffer.get(49).tmin, 0);
+  buffer.shrink(20);
+  EXPECT_EQ(buffer.view().size, 20U);
+}
+
 }  // namespace
 }  // namespace boule::test
