@@ -7,11 +7,13 @@
 /// that tells how good it is (the benchmarks: -DBOULE_BENCH=ON).
 namespace boule::tuning {
 
-/// Structure::automatic scans up to so many spheres and builds a tree over more. Measured on random
-/// spheres that fill the view, the speed by a tree divided by that by a scan: bundles 0.95 to 1.05
-/// up to 32 spheres, 1.0 at 64, 1.1 at 96 to 128; packets and single rays 0.7 to 0.9 up to 128.
-/// Again: bench_trace --benchmark_filter='(scan|bundle|packet|single)/avx2/robust/u/(16|64|256)$'
-inline constexpr std::size_t most_scanned = 64;
+/// Structure::automatic scans up to so many spheres and builds a tree over more. Random spheres
+/// that fill the view, the speed by a tree divided by that by a scan, avx512, 32, 48 and 64
+/// spheres: primary rays 0.99, 0.95, 1.02; shadow 0.99, 0.99, 0.95; mirrored 0.84, 0.97, 1.08;
+/// diffuse 1.09, 1.18, 1.26; light 0.83, 1.07, 1.28; ambient 0.90, 0.94, 0.96; chords 0.81, 0.85,
+/// 0.87. By avx2 64 spheres have 1.03, 0.99, 1.01, 1.14, 1.12, 0.76, 0.88. Again, with another
+/// number here: bench_peers --size 512 --scenes u32,u48,u64 --isa avx512 avx2
+inline constexpr std::size_t most_scanned = 48;
 
 /// Bins that the surface area heuristic sorts centres into, along each axis. Set by trial.
 /// Again: bench_tree (areas and visits), bench_build (time).

@@ -23,6 +23,12 @@ namespace boule::BOULE_KERNEL_ISA::tuning {
 /// 0.97 (avx2) and 1.01 to 1.04 (avx512). Again: bench_intersect --benchmark_filter=sparse
 inline constexpr std::size_t nearest_chunk = 1024, any_chunk = 64;
 
+/// More spheres than this are asked by reach box, sixteen at a time, which of them short rays that
+/// look for any hit reach, and only those are tested. Ambient rays by avx512, Mray/s without and
+/// with: u4 178, 151; u10 101, 143; u16 77, 172; u32 48, 156; u64 31, 130.
+/// Again: bench_peers --size 512 --scenes u4,u10,u32 --rays ambient
+inline constexpr std::size_t most_unasked = 8;
+
 // ---- Packets: search/packet_stream.h, traverse.h, beam.h --------------------------------------
 
 /// The rays at the end of a stream go one by one where they are no more than this. Set by trial.

@@ -75,6 +75,8 @@ mutate "rays never meet the sphere that they leave inside" simd/kernel/search/sc
   's/if \(\(leaving & rays\.inside\) != 0\)/if (false)/'
 mutate "the second of two packets meets nothing" simd/kernel/search/short_search.h \
   's/const unsigned of_packet = (.*)\(lanes, p\);/const unsigned of_packet = p == 0 ? \1(lanes, p) : 0;/'
+mutate "short rays miss the last of sixteen spheres that are scanned" simd/kernel/search/traverse.h \
+  's/(<< left\) - 1 : )~0U;/\10x7fffU;/'
 mutate "two packets reach no lower than the first" simd/kernel/search/reach_box.h \
   's/low_\[axis\] = low\[axis\];//'
 mutate "rays tested one by one have no slack along their way" simd/kernel/search/root_bounds.h \

@@ -24,6 +24,13 @@ std::vector<Sphere> copies(CaseRandom& random) {
   return spheres;
 }
 
+/// The last of sixteen that are scanned is beyond the range of the filters.
+std::vector<Sphere> few_and_a_giant(CaseRandom& random) {
+  std::vector<Sphere> spheres = cube_of_spheres(random, 15, {}, 1, 0.3);
+  spheres.push_back({{0, -1e20F, 0}, 1e20F, 0});
+  return spheres;
+}
+
 PlacedGroups parts(CaseRandom& random, const std::string& name, double scale) {
   PlacedGroups scene{name, {cube_of_spheres(random, 200, {}, 1, 0.15)}, {}};
   scene.groups[0].push_back({{0, -0.5F, 0}, 0.6F, 0});  // in no leaf
@@ -37,13 +44,17 @@ PlacedGroups parts(CaseRandom& random, const std::string& name, double scale) {
 
 std::vector<PlacedGroups> scenes() {
   CaseRandom random(61);
-  return {one_group("a tree of one node", cube_of_spheres(random, 120, {}, 1, 0.2)),
-          one_group("a cloud", cube_of_spheres(random, 1500, {}, 1, 0.08)),
-          one_group("a cloud far from the origin",
-                    cube_of_spheres(random, 1500, {1e5, -1e5, 1e5}, 10, 1)),
-          one_group("copies", copies(random)),
-          parts(random, "parts", 1),
-          parts(random, "parts beyond the range of the filters", 1e22)};
+  return {
+      one_group("a tree of one node", cube_of_spheres(random, 120, {}, 1, 0.2)),
+      one_group("a cloud", cube_of_spheres(random, 1500, {}, 1, 0.08)),
+      one_group("a cloud far from the origin",
+                cube_of_spheres(random, 1500, {1e5, -1e5, 1e5}, 10, 1)),
+      one_group("copies", copies(random)),
+      parts(random, "parts", 1),
+      parts(random, "parts beyond the range of the filters", 1e22),
+      one_group("few, which are scanned", cube_of_spheres(random, 37, {}, 1, 0.25)),
+      one_group("few, far from the origin", cube_of_spheres(random, 16, {1e5, -1e5, 1e5}, 10, 3)),
+      one_group("few, one of which is everywhere", few_and_a_giant(random))};
 }
 
 const Sphere& any_of(CaseRandom& random, const std::vector<Sphere>& spheres) {

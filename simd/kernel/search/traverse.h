@@ -142,10 +142,36 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
   });
 }
 
+/// Scans the spheres of a geometry without a tree for short rays of which any hit will do: those
+/// that their reach box holds. Returns false where the rays are not short, or the spheres few.
+template <Solver solver, bool origins_exact, class Best>
+BOULE_INLINE bool scan_reached(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+  const SphereView& spheres = geometry.spheres;
+  if (geometry.bvh.size != 0 || spheres.scanned <= tuning::most_unasked) return false;
+  const ReachBox reach(rays.filter, best.limit(), geometry.bvh.extent);
+  if (!reach.is_short()) return false;
+  const ScannedSpheres<OneForAll> scanned{spheres};
+  for (std::size_t slot = 0; slot < spheres.scanned && !best.done(); slot += bvh_leaf_size) {
+    const std::size_t left = spheres.scanned - slot;
+    const unsigned there = left < bvh_leaf_size ? (1U << left) - 1 : ~0U;
+    Survivors<bvh_leaf_size> survivors;
+    for (unsigned in = reach.meet(spheres.blocks[slot / bvh_leaf_size]) & there; in != 0;
+         in &= in - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(in));
+      survivors.append(k, bits(scanned.template out<origins_exact>(rays.filter, slot + k)));
+    }
+    meet_survivors<solver>(rays, spheres, scanned, slot, survivors, best);
+  }
+  return true;
+}
+
 /// Searches all spheres: those in no leaf first, then the tree.
 template <Solver solver, class Access, bool origins_exact, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
                                         Best& best) {
+  if constexpr (!Access::one_ray && !Best::ordered) {
+    if (scan_reached<solver, origins_exact>(rays, geometry, best)) return 0;
+  }
   scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
   return traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
 }
