@@ -64,10 +64,7 @@ BenchData::BenchData(const std::string& kind, std::size_t n)
       hits(rays.size()),
       book(spheres.size(), rays.size()) {
   for (std::size_t i = 0; i < spheres.size(); ++i) book.set(i, spheres[i]);
-  const RayStream view = rays.view();
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    book.set(i, Ray{{view.org_x[i], view.org_y[i], view.org_z[i]},
-                    {view.dir_x[i], view.dir_y[i], view.dir_z[i]}});
+  for (std::size_t i = 0; i < rays.size(); ++i) book.set(i, rays.get(i));
 }
 
 BenchData& bench_data(const std::string& kind, std::size_t n) {

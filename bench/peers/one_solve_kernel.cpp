@@ -59,7 +59,7 @@ void read_solve_write(const RayStream& rays, const HitStream& hits) {
   }
 }
 
-void for_what_they_share(const RayStream& rays, const HitStream& hits) {
+void solve_by_common_part(const RayStream& rays, const HitStream& hits) {
   if (rays.shared.has_origin()) {
     read_solve_write<CommonPart::origin>(rays, hits);
   } else if (rays.shared.has_direction()) {
@@ -72,6 +72,6 @@ void for_what_they_share(const RayStream& rays, const HitStream& hits) {
 }  // namespace
 
 extern const OneSolve one_solve;
-const OneSolve one_solve = for_what_they_share;
+const OneSolve one_solve = solve_by_common_part;
 
 }  // namespace boule::bench::BOULE_KERNEL_ISA

@@ -43,7 +43,7 @@ constexpr std::uint32_t index_of(std::uint32_t child) { return child & ~leaf_bit
 struct BvhView {
   const BvhNode* nodes;
   std::size_t size;
-  float extent;  ///< the greatest absolute coordinate of any box, or of spheres that are scanned
+  float extent;  ///< the greatest absolute coordinate of any box; without nodes, of any sphere
 };
 
 }  // namespace boule

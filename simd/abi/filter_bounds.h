@@ -51,7 +51,7 @@ inline constexpr double box = 24;
 /// needed.
 inline constexpr float slab_least = 0x1p-60F;
 
-/// A box around a sphere for a beam has r (1 + beam u) and beam u times the tree's extent besides,
+/// A box around a sphere for a beam has r (1 + beam u) and beam u times BvhView::extent besides,
 /// of which rounding takes 3 u.
 inline constexpr double beam = 16;
 

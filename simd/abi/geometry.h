@@ -9,9 +9,9 @@
 namespace boule {
 
 /// Spheres in slots, in blocks of sixteen, in an order that suits the kernels. The first `scanned`
-/// slots are tested against every ray and are also there as a structure of arrays, padded to
-/// max_width. The leaves of the tree follow: leaf k is block scanned / 16 + k. No ray hits a slot
-/// that holds no sphere; such slots have a negative id.
+/// slots are scanned and are also there as a structure of arrays, padded to max_width. The leaves
+/// of the tree follow: leaf k is block scanned / 16 + k. No ray hits a slot that holds no sphere;
+/// such slots have a negative id.
 struct SphereView {
   const float* center_x;
   const float* center_y;

@@ -114,7 +114,7 @@ struct PathStep {
 
 /// Shadow rays to sampled lights, one after the other: each with the ray of the stream to which
 /// it brings light unless it is blocked, and that light. Arrays have room for what is added and
-/// max_width more; rays.size is not read.
+/// max_width more; rays.size is not read. The rays share nothing.
 struct SampledLights {
   RayStream rays;
   std::uint32_t* ray;

@@ -53,7 +53,7 @@ struct LitStream {
 
 /// Shadow rays to a light, one after the other, each with the index of its point, the unit
 /// direction to the light and n.l. Arrays have room for all points, padded; rays.size is
-/// not read.
+/// not read. The rays share nothing.
 struct ShadowRayStream {
   RayStream rays;
   VectorStream to_light;

@@ -20,10 +20,10 @@ struct RayArrays {
   Array<std::uint8_t> inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
 };
 
-/// For every number of a ray where its arrays have it: how rays share numbers.
+/// The indices at which the arrays have the numbers of one ray.
 struct RayPlaces {
   std::size_t org, dir;
-  std::size_t start;  ///< of tmin, source and inside
+  std::size_t start;  ///< for tmin, source and inside
   std::size_t tmax;
 };
 
@@ -54,26 +54,28 @@ class SharedNumbers {
   SharedNumbers() = default;
   /// With a common origin or direction rays also share tmin, source and inside.
   explicit SharedNumbers(CommonPart common)
-      : org_(common == CommonPart::origin ? once : for_each),
-        dir_(common == CommonPart::direction ? once : for_each),
-        start_(common != CommonPart::none ? once : for_each) {}
+      : org_(common == CommonPart::origin ? one_packet : every_ray),
+        dir_(common == CommonPart::direction ? one_packet : every_ray),
+        start_(common != CommonPart::none ? one_packet : every_ray) {}
 
-  [[nodiscard]] bool has_origin() const { return org_ == once; }
-  [[nodiscard]] bool has_direction() const { return dir_ == once; }
-  [[nodiscard]] bool has_start() const { return start_ == once; }  ///< tmin, source and inside
-  /// Where the numbers of ray i stand: with those of the next ones, up to its packet's last.
+  [[nodiscard]] bool has_origin() const { return org_ == one_packet; }
+  [[nodiscard]] bool has_direction() const { return dir_ == one_packet; }
+  [[nodiscard]] bool has_start() const {
+    return start_ == one_packet;
+  }  ///< tmin, source and inside
+  /// Where the numbers of ray i stand. Those of the next rays of its packet follow.
   [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const {
     return {i & org_, i & dir_, i & start_, i};
   }
   /// How long the arrays of `size` rays are.
   [[nodiscard]] RayPlaces lengths(std::size_t size) const {
-    const auto length = [size](std::size_t mask) { return mask == once ? max_width : size; };
+    const auto length = [size](std::size_t mask) { return mask == one_packet ? max_width : size; };
     return {length(org_), length(dir_), length(start_), size};
   }
 
  private:
-  static constexpr std::size_t once = max_width - 1, for_each = ~std::size_t{0};
-  std::size_t org_ = for_each, dir_ = for_each, start_ = for_each;  ///< masks of indices
+  static constexpr std::size_t one_packet = max_width - 1, every_ray = ~std::size_t{0};
+  std::size_t org_ = every_ray, dir_ = every_ray, start_ = every_ray;  ///< masks of indices
 };
 
 /// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long, or

@@ -40,12 +40,11 @@ float extent_of(const LargeArray<BvhNode>& nodes) {
   return extent;
 }
 
-/// The greatest coordinate of any box around spheres that are scanned, without its sign, or more.
-/// NaN, which nothing meets, is left out.
-float extent_of(const Bvh& bvh) {
-  if (!bvh.nodes.empty()) return extent_of(bvh.nodes);
+/// The greatest coordinate of any sphere, without its sign, rounded up. NaN, which nothing meets,
+/// is left out.
+float extent_of(const LargeArray<SphereBlock>& blocks) {
   float extent = 0;
-  for (const SphereBlock& block : bvh.blocks) {
+  for (const SphereBlock& block : blocks) {
     for (const float* row : {block.center_x, block.center_y, block.center_z}) {
       for (std::size_t k = 0; k < bvh_leaf_size; ++k) {
         const double end = std::fabs(double{row[k]}) + std::fabs(double{block.radius[k]});
@@ -89,7 +88,7 @@ Geometry::Geometry(std::size_t count, std::vector<Sphere>&& spheres,
 
 Geometry::Geometry(Bvh bvh, std::size_t spheres, const std::vector<Plane>& planes)
     : bvh_(std::move(bvh)),
-      extent_(extent_of(bvh_)),
+      extent_(bvh_.nodes.empty() ? extent_of(bvh_.blocks) : extent_of(bvh_.nodes)),
       sphere_count_(spheres),
       plane_count_(planes.size()),
       // Padding: every exact solve misses a sphere of radius NaN, and with r2p = -inf the filter

@@ -11,7 +11,8 @@
 
 namespace boule {
 
-/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it. No buffer
+/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it, and so
+/// does sharing something else. No buffer
 /// here checks indices: i < size() is a precondition. resize() throws std::bad_alloc, and the size
 /// stays what it was. A buffer that was moved away must be resized before it is used again.
 class RayBuffer {

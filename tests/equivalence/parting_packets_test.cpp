@@ -24,10 +24,10 @@ std::vector<Sphere> copies(CaseRandom& random) {
   return spheres;
 }
 
-/// The last of sixteen that are scanned is beyond the range of the filters.
-std::vector<Sphere> few_and_a_giant(CaseRandom& random) {
+/// The last ones of those that are scanned are beyond the range of the filters.
+std::vector<Sphere> few_and_giants(CaseRandom& random, const std::vector<Sphere>& giants) {
   std::vector<Sphere> spheres = cube_of_spheres(random, 15, {}, 1, 0.3);
-  spheres.push_back({{0, -1e20F, 0}, 1e20F, 0});
+  spheres.insert(spheres.end(), giants.begin(), giants.end());
   return spheres;
 }
 
@@ -54,11 +54,22 @@ std::vector<PlacedGroups> scenes() {
       parts(random, "parts beyond the range of the filters", 1e22),
       one_group("few, which are scanned", cube_of_spheres(random, 37, {}, 1, 0.25)),
       one_group("few, far from the origin", cube_of_spheres(random, 16, {1e5, -1e5, 1e5}, 10, 3)),
-      one_group("few, one of which is everywhere", few_and_a_giant(random))};
+      one_group("few, one of which is everywhere",
+                few_and_giants(random, {{{0, -1e20F, 0}, 1e20F, 0}})),
+      one_group("few, and some that are no spheres",
+                few_and_giants(random, {{{0, std::nanf(""), 0}, 1, 0},
+                                        {{1, 0, 0}, std::nanf(""), 0},
+                                        {{0, 0, HUGE_VALF}, 1, 0},
+                                        {{0, 3e38F, 0}, 2e38F, 0}}))};
 }
 
+/// Any sphere that is one.
 const Sphere& any_of(CaseRandom& random, const std::vector<Sphere>& spheres) {
-  return spheres[static_cast<std::size_t>(random.below(static_cast<int>(spheres.size())))];
+  for (;;) {
+    const Sphere& sphere =
+        spheres[static_cast<std::size_t>(random.below(static_cast<int>(spheres.size())))];
+    if (is_finite(sphere.center) && std::isfinite(sphere.radius)) return sphere;
+  }
 }
 
 /// From an eye to just within or just beside the rim of some sphere.

@@ -44,6 +44,7 @@ class SharedNumbersOf : public OnEachIsa {
     const Coherence coherence =
         common == CommonPart::origin ? Coherence::common_origin : Coherence::common_direction;
     for (const Query& query : {Query{Solver::robust, Form::automatic, coherence},
+                               Query{Solver::robust, Form::automatic, Coherence::none},
                                Query{Solver::robust, Form::packet, Coherence::none},
                                Query{Solver::robust, Form::single, Coherence::none},
                                Query{Solver::robust, Form::flight, Coherence::none},
@@ -81,13 +82,48 @@ TEST_P(SharedNumbersOf, RaysMayBeginAnywhereAndLeaveAnything) {
     for (const float tmin : {-3.0F, 0.9F, 1.02F, std::nanf("")}) {
       for (const std::int32_t source : {no_primitive, 3}) {
         std::vector<Ray> rays = rays_with(common, 300);
-        for (Ray& ray : rays) ray.tmin = tmin, ray.source = source;
+        for (Ray& ray : rays) {
+          ray.tmin = tmin;
+          ray.source = source;
+        }
         check_all_forms(geometry.view(), rays, common);
         if (HasFatalFailure()) return;
       }
     }
   }
   EXPECT_GT(hits, 1000U);
+}
+
+/// From a point of a sphere's inside they meet it again, or others that it overlaps.
+TEST_P(SharedNumbersOf, RaysLeaveASphereOnItsInside) {
+  std::vector<Sphere> spheres = cloud("outside", {0, 0, 0}, 1, 0.1, 5).spheres;
+  spheres[3] = {{0, 0, 0}, 1, 0};
+  const Geometry geometry(spheres, {});
+  CaseRandom random(92);
+  std::vector<Ray> rays(3000, Ray{{0, 0, 1}, {}});
+  for (Ray& ray : rays) {
+    ray.dir = vec_cast<float>(random.direction());
+    ray.source = 3;
+    ray.inside = true;
+  }
+  check_all_forms(geometry.view(), rays, CommonPart::origin);
+  EXPECT_GT(hits, rays.size());
+}
+
+/// Among so many leaves shadow rays of one direction are sorted.
+TEST_P(SharedNumbersOf, RaysInOneDirectionAreSorted) {
+  std::vector<Sphere> spheres;
+  CaseRandom random(93);
+  for (int i = 0; i < 6000; ++i)
+    spheres.push_back({vec_cast<float>(random.direction() * random.uniform(0, 1)), 0.005F, 0});
+  const Geometry geometry(spheres, {});
+  std::vector<Ray> rays;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = random.uniform(-1, 1);
+    rays.push_back({{x, random.uniform(-1, 1), 5}, {0.25F, 0.125F, -4}});
+  }
+  check_all_forms(geometry.view(), rays, CommonPart::direction);
+  EXPECT_GT(hits, 100U);
 }
 
 TEST_P(SharedNumbersOf, RaysMeetPartsThatWerePlaced) {
@@ -134,6 +170,11 @@ TEST_P(SharedNumbersOf, SurfacesAreTheSame) {
       expect_same(found.normal.get(i), expected.normal.get(i));
       expect_same(found.view.get(i), expected.view.get(i));
       expect_same(found.org.get(i), expected.org.get(i));
+      expect_same(found.mirrored.get(i), expected.mirrored.get(i));
+      expect_same(found.cosine[i], expected.cosine[i]);
+      expect_same(found.reach[i], expected.reach[i]);
+      EXPECT_EQ(found.inner[i], expected.inner[i]);
+      EXPECT_EQ(found.inside[i], expected.inside[i]);
     }
   }
   EXPECT_GT(hits, 20U);

@@ -13,7 +13,7 @@
 /// Camera rays, W at a time: in double, the direction rounded to float once.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Stores W rays; of what all rays share each place but once.
+/// Stores W rays. What all rays of the stream share is stored by the first ones alone.
 BOULE_INLINE void store_rays(const RayStream& rays, std::size_t first, const Vec3<Wide>& org,
                              const Vec3<Wide>& dir) {
   const bool begins = first < max_width;

@@ -19,10 +19,12 @@ struct PacketRef {
 /// Fetches the packet at `first` into the cache, unless the stream ends before it.
 BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
   if (first >= rays.size) return;
-  for (int line = 0; line * 8 < width && !rays.shared.has_origin(); ++line) {
-    __builtin_prefetch(rays.org_x + first + line * 8);
-    __builtin_prefetch(rays.org_y + first + line * 8);
-    __builtin_prefetch(rays.org_z + first + line * 8);
+  if (!rays.shared.has_origin()) {
+    for (int line = 0; line * 8 < width; ++line) {
+      __builtin_prefetch(rays.org_x + first + line * 8);
+      __builtin_prefetch(rays.org_y + first + line * 8);
+      __builtin_prefetch(rays.org_z + first + line * 8);
+    }
   }
   if (!rays.shared.has_direction()) {
     __builtin_prefetch(rays.dir_x + first);

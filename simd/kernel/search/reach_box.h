@@ -8,7 +8,8 @@
 /// The box around all that the rays of a packet can reach, from their origins to their ends. What
 /// lies outside is met by none of them. Sixteen boxes, or the boxes of sixteen spheres, are tested
 /// by six comparisons, whatever the rays' directions. Chosen for any hit where the rays are short
-/// and form no beam (ambient occlusion). docs/numerics.md derives the slack (filter::reach).
+/// (ambient occlusion): in trees where they form no beam, and in scans without a tree.
+/// docs/numerics.md derives the slack (filter::reach).
 namespace boule::BOULE_KERNEL_ISA {
 
 class ReachBox {
@@ -57,7 +58,7 @@ class ReachBox {
     }
     return in;
   }
-  /// The spheres of a leaf whose boxes may be reached, as bits.
+  /// The spheres of a leaf, or another block, whose boxes may be reached, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf) const {
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_leaf_size; at += width) {

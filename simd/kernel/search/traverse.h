@@ -143,7 +143,8 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryVi
 }
 
 /// Scans the spheres of a geometry without a tree for short rays of which any hit will do: those
-/// that their reach box holds. Returns false where the rays are not short, or the spheres few.
+/// that their reach box holds. Returns false where there is a tree, where the spheres are few, or
+/// the rays not short.
 template <Solver solver, bool origins_exact, class Best>
 BOULE_INLINE bool scan_reached(const RayLanes& rays, const GeometryView& geometry, Best& best) {
   const SphereView& spheres = geometry.spheres;

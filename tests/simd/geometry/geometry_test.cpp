@@ -104,5 +104,23 @@ TEST(Geometry, TheFilterDecidesNothingBeyondItsRange) {
   }
 }
 
+TEST(Geometry, BuildsATreeOverFortyNineSpheres) {
+  const std::vector<Sphere> spheres(49, Sphere{{1, 2, 3}, 1, 0});
+  EXPECT_EQ(Geometry({spheres.begin(), spheres.begin() + 48}, {}).view().bvh.size, 0U);
+  EXPECT_GT(Geometry(spheres, {}).view().bvh.size, 0U);
+}
+
+/// Without a tree too the extent bounds every coordinate of a sphere; NaN has none.
+TEST(Geometry, TheExtentHoldsSpheresThatAreScanned) {
+  const auto extent = [](const std::vector<Sphere>& spheres) {
+    return Geometry(spheres, {}, Structure::scan).view().bvh.extent;
+  };
+  EXPECT_EQ(extent({}), 0);
+  EXPECT_EQ(extent({{{1, -7, 2}, -3, 0}, {{nan, 50, 0}, 1, 0}, {{0, 0, 0}, nan, 0}}), 51);
+  EXPECT_EQ(extent({{{1, 0x1p-30F, 0}, 1e-9F, 0}}), std::nextafter(1.0F, 2.0F));
+  EXPECT_EQ(extent({{{0, 0, 3e38F}, 2e38F, 0}}), inf);
+  EXPECT_EQ(extent({{{0, 0, 0}, inf, 0}}), inf);
+}
+
 }  // namespace
 }  // namespace boule::test
