@@ -258,7 +258,9 @@ void Team::be_patient(double seconds) {
 Status Team::end() {
   std::unique_lock lock(mutex_);
   if (leads()) {
-    changed_.wait(lock, [this] { return missing_ == 0 || stopped_ || failure_code_ != 0; });
+    changed_.wait(lock, [this] {
+      return (missing_ == 0 && all_compared()) || stopped_ || failure_code_ != 0;
+    });
     finish_picture();
   } else {
     changed_.wait(lock, [this] { return stop_number_ >= number_ || may_leave_; });

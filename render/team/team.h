@@ -80,8 +80,9 @@ class Team {
   std::optional<std::uint32_t> next_block();
   /// Gives the part of a block that next_block() gave.
   void give(std::uint32_t block, std::string part, std::uint64_t rays, double seconds);
-  /// Waits until the leader has all blocks, or stop() was called. An error if a rank failed or
-  /// differs; on other ranks never. No function of the picture is called afterwards.
+  /// Waits until the leader has all blocks and knows of every rank whether it differs, or stop()
+  /// was called. An error if a rank failed or differs; on other ranks never. No function of the
+  /// picture is called afterwards.
   Status end();
   /// Ends the picture early, on any thread. On other ranks than the leader it tells the leader that
   /// a signal came.
@@ -113,7 +114,8 @@ class Team {
     Clock::time_point heard;
     double patience = 0;
     bool here = false, ended = false;
-    int ready = -1;  ///< the picture that it is ready for
+    bool compared = false;  ///< its facts, with the leader's
+    int ready = -1;         ///< the picture that it is ready for
     std::string facts;
     std::size_t in_hand = 0, last_portion = 0;
   };
@@ -139,6 +141,7 @@ class Team {
   void take(Rank& rank, const Given& one);
   void call_lost();
   void check_facts(Rank& rank, int number);
+  [[nodiscard]] bool all_compared() const;
   void deal();
   void deal_to(Rank& rank, int number);
   void send_results();

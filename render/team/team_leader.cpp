@@ -103,8 +103,10 @@ void Team::deal() {
   if (stage_ != Stage::renders || stopped_ || failure_code_ != 0) return;
   for (int number = 0; number < size_; ++number) {
     Rank& rank = ranks_[static_cast<std::size_t>(number)];
-    if (rank.ready == number_ && !rank.facts.empty()) check_facts(rank, number);
-    if (rank.ready == number_ && failure_code_ == 0) deal_to(rank, number);
+    if (rank.ready != number_) continue;
+    if (!rank.facts.empty()) check_facts(rank, number);
+    if (!std::exchange(rank.compared, true)) changed_.notify_all();
+    if (failure_code_ == 0) deal_to(rank, number);
   }
 }
 
@@ -176,6 +178,13 @@ void Team::fail(const std::string& why) {
 
 bool Team::all_ended() const {
   return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) { return rank.ended; });
+}
+
+/// Whether every other rank's facts were compared. One that ended before that has failed, or found
+/// no picture to begin.
+bool Team::all_compared() const {
+  return std::all_of(ranks_.begin() + 1, ranks_.end(),
+                     [](const Rank& rank) { return rank.compared || rank.ended; });
 }
 
 std::string Team::called(int number) const {
