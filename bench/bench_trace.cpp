@@ -75,8 +75,7 @@ void run_camera(benchmark::State& state, const KernelTable& kernels) {
   const CameraView camera = build_camera(scene.camera, side, side);
   SampleBuffer samples = pixel_centers(side);
   samples.resize(stream_size);
-  RayBuffer rays;
-  rays.resize(stream_size, CommonPart::origin);
+  RayBuffer rays(stream_size, CommonPart::origin);
   for (auto _ : state) {
     kernels.primary_rays(camera, samples.view(), rays.view());
     benchmark::ClobberMemory();

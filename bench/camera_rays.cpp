@@ -24,8 +24,7 @@ unsigned even_bits(unsigned long long k) {
 RayBuffer rays_of(const Camera& camera, int side) {
   SampleBuffer samples = pixel_centers(side);
   const CameraView view = build_camera(camera, side, side);
-  RayBuffer rays;
-  rays.resize(samples.size(), common_part(view.kind));
+  RayBuffer rays(samples.size(), common_part(view.kind));
   select_kernels("auto").value()->primary_rays(view, samples.view(), rays.view());
   return rays;
 }

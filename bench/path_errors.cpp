@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bench/thread_seconds.h"
+#include "core/optics/cameras.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::bench {
@@ -48,7 +49,7 @@ void PathPicture::add(int sample, Samples samples) {
   const int index = samples == Samples::random ? 0 : sample;
   places_.resize(width * height);
   numbers_.resize(width * height);
-  rays_.resize(width * height, scene_.common);
+  rays_.resize(width * height, common_part(scene_.camera_view.kind));
   ids_.clear();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

@@ -13,6 +13,7 @@
 #include "render/prepare/fold_spheres.h"
 #include "render/prepare/placed_lights.h"
 #include "render/prepare/scene_geometry.h"
+#include "simd/abi/stream.h"
 
 namespace boule {
 namespace {
@@ -75,18 +76,6 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   return emissive;
 }
 
-Coherence coherence_of(CommonPart common) {
-  switch (common) {
-    case CommonPart::origin:
-      return Coherence::common_origin;
-    case CommonPart::direction:
-      return Coherence::common_direction;
-    case CommonPart::none:
-      break;
-  }
-  return Coherence::none;
-}
-
 /// What the rays through the centre of the camera's lens have in common, or all primary rays of a
 /// camera without a lens.
 Coherence central_coherence(CameraKind kind) {
@@ -138,8 +127,7 @@ Status reframe(PreparedScene& scene, const Camera& camera, int width, int height
   scene.camera_view =
       build_camera(scene.camera, width, height,
                    scene.distortion.st.empty() ? nullptr : &scene.distortion, &scene.lens);
-  scene.common = common_part(scene.camera_view.kind);
-  scene.coherence = coherence_of(scene.common);
+  scene.coherence = coherence_of(common_part(scene.camera_view.kind));
   scene.central_coherence = central_coherence(scene.camera_view.kind);
   return std::nullopt;
 }

@@ -40,8 +40,7 @@ struct PreparedScene {
   DistortionMap distortion;        ///< owns what camera_view.distortion points to
   LensOptics lens{};               ///< owns what camera_view.lens points to
   CameraView camera_view{};        ///< the camera as the kernels read it
-  CommonPart common{};             ///< what primary rays have in common
-  Coherence coherence{};           ///< the same, as kernels are told it
+  Coherence coherence{};           ///< what primary rays have in common
   Coherence central_coherence{};   ///< what those through the centre of the lens have in common
   std::vector<std::string> notes;  ///< what was decided for the user, a sentence each
 

@@ -1,5 +1,6 @@
 #include "render/renderer/aov_worker.h"
 
+#include "core/optics/cameras.h"
 #include "render/renderer/live_rays.h"
 
 namespace boule {
@@ -14,7 +15,7 @@ AovWorker::AovWorker(const BlockSetup& setup, Solver solver)
   pixels_.reserve(stream_size);
   // Sets the samples' positions on a lens to its centre, where they stay.
   samples_.resize(stream_size, setup.scene.camera_view);
-  rays_.resize(stream_size, setup_.scene.common);
+  rays_.resize(stream_size, common_part(setup_.scene.camera_view.kind));
 }
 
 void AovWorker::render(const PixelRect& block, AovChannels& channels) {
@@ -32,8 +33,8 @@ void AovWorker::render(const PixelRect& block, AovChannels& channels) {
 void AovWorker::trace(AovChannels& channels) {
   if (pixels_.empty()) return;
   samples_.resize(pixels_.size());
-  rays_.resize(pixels_.size(), setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
+  rays_.resize(pixels_.size(), common_part(camera.kind));
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (camera.weighs) keep_live_rays(samples_, rays_);
   tracer_.trace(rays_, setup_.scene.central_coherence, aovs_.data());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/optics/cameras.h"
 #include "render/renderer/live_rays.h"
 
 namespace boule {
@@ -104,8 +105,8 @@ bool BlockWorker::trace(Target& target) {
   const std::size_t count = pixels_.size();
   if (count == 0) return true;
   position_samples();
-  rays_.resize(count, setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
+  rays_.resize(count, common_part(camera.kind));
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (!(camera.weighs ? trace_weighted(target) : trace_all(target))) return false;
   pixels_.clear();

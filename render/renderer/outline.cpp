@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/math/geometry.h"
+#include "core/optics/cameras.h"
 #include "render/renderer/live_rays.h"
 
 namespace boule {
@@ -106,8 +107,8 @@ void OutlineWorker::trace(int x0, int y0) {
     samples_.set(k, (x + 0.5) / outline_grid, (y + 0.5) / outline_grid);
   });
   samples_.resize(count);
-  rays_.resize(count, setup_.scene.common);
   const CameraView& camera = setup_.scene.camera_view;
+  rays_.resize(count, common_part(camera.kind));
   setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
   if (camera.weighs) keep_live_rays(samples_, rays_);
   primary_ += rays_.size();

@@ -46,6 +46,13 @@ BOULE_INLINE constexpr void each_array(const RayPlaces& places, const Visit& vis
 template <class T>
 using Pointer = T*;
 
+/// What to promise of rays that have this in common.
+constexpr Coherence coherence_of(CommonPart common) {
+  return common == CommonPart::origin      ? Coherence::common_origin
+         : common == CommonPart::direction ? Coherence::common_direction
+                                           : Coherence::none;
+}
+
 /// Which numbers all rays of a stream share. Those stand in their arrays once, for the widest
 /// packet, and every ray is read from there: there is no ray that could differ. Kernels then read
 /// less, and need not compare what the rays are said to have in common.
@@ -60,9 +67,8 @@ class SharedNumbers {
 
   [[nodiscard]] bool has_origin() const { return org_ == one_packet; }
   [[nodiscard]] bool has_direction() const { return dir_ == one_packet; }
-  [[nodiscard]] bool has_start() const {
-    return start_ == one_packet;
-  }  ///< tmin, source and inside
+  /// Whether they share tmin, source and inside.
+  [[nodiscard]] bool has_start() const { return start_ == one_packet; }
   /// Where the numbers of ray i stand. Those of the next rays of its packet follow.
   [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const {
     return {i & org_, i & dir_, i & start_, i};

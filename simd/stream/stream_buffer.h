@@ -18,7 +18,9 @@ namespace boule {
 class RayBuffer {
  public:
   RayBuffer() = default;
-  explicit RayBuffer(std::size_t size) { resize(size); }
+  explicit RayBuffer(std::size_t size, CommonPart common = CommonPart::none) {
+    resize(size, common);
+  }
 
   /// Of rays that have an origin or a direction in common it is kept once, and likewise tmin,
   /// source and inside: share() sets them. Kernels trace such rays faster, where the query's

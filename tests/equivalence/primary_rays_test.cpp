@@ -12,9 +12,8 @@ void expect_same(const KernelTable& kernels, const Camera& camera, int width, in
                  const DistortionMap* map = nullptr) {
   const CameraView view = build_camera(camera, width, height, map);
   SampleBuffer samples = random_samples(view, 203, width, height, 3);
-  RayBuffer wide(samples.size()), shared;
+  RayBuffer wide(samples.size()), shared(samples.size(), common_part(view.kind));
   kernels.primary_rays(view, samples.view(), wide.view());
-  shared.resize(samples.size(), common_part(view.kind));
   kernels.primary_rays(view, samples.view(), shared.view());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto [b, weight] = camera_ray(view, sample_of(samples, view, i));

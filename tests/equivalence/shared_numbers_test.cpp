@@ -41,9 +41,7 @@ class SharedNumbersOf : public OnEachIsa {
   void check_all_forms(const GeometryView& geometry, const std::vector<Ray>& rays,
                        CommonPart common) {
     RayBuffer alone = to_stream(rays), shared = to_shared_stream(rays, common);
-    const Coherence coherence =
-        common == CommonPart::origin ? Coherence::common_origin : Coherence::common_direction;
-    for (const Query& query : {Query{Solver::robust, Form::automatic, coherence},
+    for (const Query& query : {Query{Solver::robust, Form::automatic, coherence_of(common)},
                                Query{Solver::robust, Form::automatic, Coherence::none},
                                Query{Solver::robust, Form::packet, Coherence::none},
                                Query{Solver::robust, Form::single, Coherence::none},

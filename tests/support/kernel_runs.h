@@ -61,13 +61,12 @@ inline bool have_in_common(const std::vector<Ray>& rays, CommonPart common) {
     return std::tuple(std::bit_cast<std::array<std::uint64_t, 3>>(part),
                       std::bit_cast<std::uint32_t>(ray.tmin), ray.source, ray.inside);
   };
-  return common != CommonPart::none && !rays.empty() &&
+  return !rays.empty() &&
          std::ranges::all_of(rays, [&](const Ray& ray) { return bits(ray) == bits(rays[0]); });
 }
 /// The rays with what they share once.
 inline RayBuffer to_shared_stream(const std::vector<Ray>& rays, CommonPart common) {
-  RayBuffer buffer;
-  buffer.resize(rays.size(), common);
+  RayBuffer buffer(rays.size(), common);
   buffer.share(rays.at(0));
   for (std::size_t i = 0; i < rays.size(); ++i) buffer.set(i, rays[i]);
   return buffer;
@@ -77,10 +76,10 @@ inline RayBuffer to_shared_stream(const std::vector<Ray>& rays, CommonPart commo
 inline std::vector<RayBuffer> streams_of(const std::vector<Ray>& rays, Coherence coherence) {
   std::vector<RayBuffer> all;
   all.push_back(to_stream(rays));
-  const CommonPart common = coherence == Coherence::common_origin      ? CommonPart::origin
-                            : coherence == Coherence::common_direction ? CommonPart::direction
-                                                                       : CommonPart::none;
-  if (have_in_common(rays, common)) all.push_back(to_shared_stream(rays, common));
+  for (const CommonPart common : {CommonPart::origin, CommonPart::direction}) {
+    if (coherence_of(common) == coherence && have_in_common(rays, common))
+      all.push_back(to_shared_stream(rays, common));
+  }
   return all;
 }
 

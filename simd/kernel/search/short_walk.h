@@ -65,7 +65,7 @@ class ShortWalk {
     if (one_by_one_[p].is_for(lanes, in)) {
       one_by_one_[p].list_survivors(leaf, lanes, in, limit, survivors);
     } else {
-      list_among<origins_exact>(rays_[p].filter, leaf, in, lanes, survivors);
+      list_among<origins_exact>(rays_[p].filter, leaf, 0, in, lanes, survivors);
     }
   }
 

@@ -155,12 +155,9 @@ BOULE_INLINE bool scan_reached(const RayLanes& rays, const GeometryView& geometr
   for (std::size_t slot = 0; slot < spheres.scanned && !best.done(); slot += bvh_leaf_size) {
     const std::size_t left = spheres.scanned - slot;
     const unsigned there = left < bvh_leaf_size ? (1U << left) - 1 : ~0U;
+    const unsigned in = reach.meet(spheres.blocks[slot / bvh_leaf_size]) & there;
     Survivors<bvh_leaf_size> survivors;
-    for (unsigned in = reach.meet(spheres.blocks[slot / bvh_leaf_size]) & there; in != 0;
-         in &= in - 1) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(in));
-      survivors.append(k, bits(scanned.template out<origins_exact>(rays.filter, slot + k)));
-    }
+    list_among<origins_exact>(rays.filter, scanned, slot, in, all_lanes, survivors);
     meet_survivors<solver>(rays, spheres, scanned, slot, survivors, best);
   }
   return true;
