@@ -117,6 +117,7 @@ void add_all(const IsaInfo& info) {
       {"bundle", Structure::bvh, Form::automatic, Coherence::common_origin},
       {"single", Structure::bvh, Form::single, Coherence::none},
       {"flight", Structure::bvh, Form::flight, Coherence::none},
+      {"set", Structure::bvh, Form::set, Coherence::none},
       {"packet", Structure::bvh, Form::packet, Coherence::none}};
   for (const char* n : {"16", "64", "256", "1000"}) add_trace(scan, info, "u", n);
   for (const Experiment& experiment : on_tree) {

@@ -88,6 +88,7 @@ std::vector<std::unique_ptr<Contender>> BoulePeer::contenders(const Workload& wo
     add("", {Solver::robust, Form::automatic, coherence});
     add("-single", {Solver::robust, Form::single, Coherence::none});
     add("-flight", {Solver::robust, Form::flight, Coherence::none});
+    add("-set", {Solver::robust, Form::set, Coherence::none});
     add("-packet", {Solver::robust, Form::packet, Coherence::none});
     if (isa == "avx2") add("-fast", {Solver::fast, Form::packet, Coherence::none});
   }

@@ -18,8 +18,8 @@ class BoulePeer {
   BoulePeer(const BenchScene& scene, std::vector<std::string> isas);
 
   /// All contenders for a workload of this scene; they live no longer than this and share memory
-  /// for the answers. boule-ISA: Form::automatic; -single, -flight, -packet: that form; -fast: that
-  /// solver, in packets.
+  /// for the answers. boule-ISA: Form::automatic; -single, -flight, -set, -packet: that form;
+  /// -fast: that solver, in packets.
   std::vector<std::unique_ptr<Contender>> contenders(const Workload& workload);
 
  private:

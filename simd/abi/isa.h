@@ -13,10 +13,12 @@ enum class Isa { scalar, sse42, avx2, avx512, neon };
 enum class Solver { fast, robust, reference };
 
 /// What the W lanes of a kernel hold. packet: W rays against one primitive. single: one ray against
-/// W primitives, ray after ray. flight: the same with many rays at a time, step by step; it needs a
-/// tree and solver robust, else rays go as packets, and rays with tmin < 0, or that floats cannot
-/// judge, go single. The hits are the same; automatic lets the kernel choose.
-enum class Form { automatic, packet, single, flight };
+/// W primitives, ray after ray. flight: the same with many rays at a time, step by step, each on
+/// its own way. set: the same with hundreds of rays, which visit a node together. Flights and sets
+/// need a tree and solver robust, else rays go as packets; rays with tmin < 0, or that floats
+/// cannot judge, go single; and for any hit flights are sets. The hits are the same; automatic lets
+/// the kernel choose.
+enum class Form { automatic, packet, single, flight, set };
 
 /// What a stream's rays have in common: a promise by the caller, by which a kernel may trace them
 /// as bundles. A promise that is kept changes the time, never a hit; one that is broken may lose

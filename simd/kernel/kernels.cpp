@@ -33,8 +33,9 @@ bool may_bundle(const PartsGeometry& /*geometry*/, const Query& query) {
   return query.form == Form::automatic;
 }
 
-bool may_fly(const GeometryView& geometry, const Query& query) {
-  const bool asked = query.form == Form::automatic || query.form == Form::flight;
+bool may_scatter(const GeometryView& geometry, const Query& query) {
+  const bool asked =
+      query.form == Form::automatic || query.form == Form::flight || query.form == Form::set;
   return asked && query.solver == Solver::robust && geometry.bvh.size > 0;
 }
 
@@ -42,7 +43,7 @@ bool may_fly(const GeometryView& geometry, const Query& query) {
 template <class Answers>
 void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Query& query,
                const Answers& answers) {
-  if (may_fly(geometry, query)) {
+  if (may_scatter(geometry, query)) {
     trace_scattered(geometry, stream, 0, stream.rays().size, query.form, answers);
   } else if (query.solver == Solver::fast) {
     trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);

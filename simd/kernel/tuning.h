@@ -207,17 +207,27 @@ inline constexpr std::size_t most_sorted_children = 48;
 /// Again: bench_errors, and bench_peers --scenes u1000 --rays diffuse
 inline constexpr unsigned most_candidates = 8;
 
-/// So many of those solves count as one step where packets and flights are compared. Set by trial.
+/// So many of those solves count as one step where ways are compared. Set by trial.
 /// Again: as most_candidates
 inline constexpr unsigned solves_a_step = 2;
 
-// ---- The choice between packets and flights: search/scattered_stream.h ------------------------
+// ---- Sets: search/ray_sets.h --------------------------------------------------------------------
 
-/// Rays that are traced either way to see which is the better one, and rays that then go that way:
-/// at first, and at most, because their number doubles while trials agree. What earlier trials saw
-/// counts half as much as the last one, for 32 rays may mislead. Set by trial.
+/// Rays of a set, at most. Sets of 64, 256 and 512, avx512, Mray/s: short rays on u100000 13.1,
+/// 15.9, 16.4, on u1000 -, 30.4, 28.7; diffuse ones on u100000 -, 5.3, 5.7, on protein50000
+/// -, 11.4, 11.1. The lists of 512 take 1.5 MiB of a stack, those of 256 half of that. Again:
+/// bench_peers --size 512 --scenes u1000,u100000,protein50000 --rays ambient,diffuse, beside the
+/// form set
+inline constexpr std::size_t set_size = 256;
+
+// ---- The choice between sets, packets and flights: search/scattered_stream.h ------------------
+
+/// Rays that are traced each way to see which is the best one, more of them as a set, since a small
+/// set shares few visits; and rays that then go that way: at first, and at most, because their
+/// number doubles while trials agree. What earlier trials saw counts half as much as the last one,
+/// for 32 rays may mislead. Set by trial.
 /// Again: bench_peers --scenes u1000,u10000,flake4 --rays mirror,diffuse,light
-inline constexpr std::size_t rays_on_trial = 32;
+inline constexpr std::size_t rays_on_trial = 32, set_on_trial = 128;
 inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
 inline constexpr float share_of_earlier_trials = 0.5F;
 
@@ -239,10 +249,21 @@ inline constexpr float steps_a_visit = any ? (width < 16 ? 2.25F : 3.25F)
 template <bool any>
 inline constexpr float steps_a_ray = any ? 0.0F : 1.0F;
 
-/// The way that rays do not go must take so many times less before they go that way; flights come
-/// first. For any hit two ways often take about as long, and caches that hold nothing of the tree
-/// yet, which no count of visits knows of, cost packets twice as much as flights: 3,476 rays on
-/// ring1000000, avx2, 4.6 Mray/s with 1, 6.8 with 1.15; grains200000, u100000 and flake6 the same.
+/// A set's test of a ray against a node or a leaf takes as long as so many steps of rays in flight,
+/// a visit of a node or a leaf as so many more, and what else a ray costs as so many more. Fitted
+/// to u1000, u100000, protein50000, flake6 and the kinds of rays above, by avx2 and avx512. Again:
+/// as steps_a_visit, beside the form set
+template <bool any>
+inline constexpr float steps_a_set_step = any ? 0.45F : 0.57F;
+inline constexpr float steps_a_set_visit = 1.25F;
+template <bool any>
+inline constexpr float steps_a_set_ray = any ? 1.5F : 0.0F;
+
+/// A way that rays do not go must take so many times less before they go that way; sets come first.
+/// For any hit two ways often take about as long, and caches that hold nothing of the tree yet,
+/// which no count of visits knows of, cost packets twice as much as flights, which were in place of
+/// sets: 3,476 rays on ring1000000, avx2, 4.6 Mray/s with 1, 6.8 with 1.15; grains200000, u100000
+/// and flake6 the same.
 /// Again: bench_peers --isa avx2 --size 512 --scenes ring1000000,grains200000 --rays ambient
 template <bool any>
 inline constexpr float gain_to_change = any ? 1.15F : 1.0F;

@@ -67,7 +67,7 @@ TEST(AnyBits, EveryTableEqualsTheScalarPath) {
     const Geometry geometry(spheres, planes, structure);
     for (const IsaInfo& isa : list_isas()) {
       if (!isa.supported) continue;
-      for (const Form form : {Form::packet, Form::single, Form::flight}) {
+      for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
         const KernelTable& kernels = *select_kernels(isa.name).value();
         const Query query{Solver::robust, form, Coherence::none};
         const auto hits = run_closest(kernels, geometry.view(), rays, query);

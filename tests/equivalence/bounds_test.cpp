@@ -42,6 +42,7 @@ class Bounds : public OnEachIsa {
 const Query packets{Solver::robust, Form::packet, Coherence::none};
 const Query singles{Solver::robust, Form::single, Coherence::none};
 const Query flights{Solver::robust, Form::flight, Coherence::none};
+const Query sets{Solver::robust, Form::set, Coherence::none};
 
 /// squared_floor: spheres so small that the squares of their radii are a few steps of the smallest
 /// floats, met close to the rim.
@@ -59,7 +60,7 @@ TEST_P(Bounds, SpheresWhoseSquaresUnderflow) {
       rays.push_back(
           {{0, 0, 0}, vec_cast<float>(towards * std::sqrt(1 - sine * sine) + side * sine)});
     }
-    check({sphere}, rays, {packets, singles, flights});
+    check({sphere}, rays, {packets, singles, flights, sets});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 4);
@@ -91,7 +92,7 @@ TEST_P(Bounds, SidesOfBoxesFarFromTheWorldsOrigin) {
       rays.push_back(
           {random.chance(0.5) ? org : vec_cast<double>(rounded), vec_cast<float>(towards)});
     }
-    check(spheres, rays, {packets, singles, flights});
+    check(spheres, rays, {packets, singles, flights, sets});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 2);
@@ -137,7 +138,7 @@ TEST_P(Bounds, EndsOfShortRays) {
         rays.push_back(ray);
       }
     }
-    check(spheres, rays, {packets, singles, flights});
+    check(spheres, rays, {packets, singles, flights, sets});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(met, all / 2);

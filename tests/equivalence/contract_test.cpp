@@ -174,7 +174,7 @@ TEST_P(ContractOf, HoldsInAnyCompany) {
   for (const Case& c : all_cases()) {
     const Primitives p(c.primitive);
     const Geometry geometry(p.spheres, p.planes);
-    for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
       // The case in every third lane, a plain ray between.
       std::vector<Ray> rays(25, forward);
       for (std::size_t i = 0; i < rays.size(); i += 3) rays[i] = c.ray;
@@ -204,7 +204,7 @@ TEST_P(ContractOf, ATangentAtTheOriginHasNoPhantomRootBehind) {
   EXPECT_EQ(expected.id, 1);
   EXPECT_NEAR(expected.t, -5.5, 1e-6);
   const Geometry geometry(spheres, {});
-  for (const Form form : {Form::packet, Form::single, Form::flight}) {
+  for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
     const Query query{Solver::robust, form, Coherence::none};
     for (const Hit& hit :
          run_closest(*kernels, geometry.view(), std::vector<Ray>(17, ray), query)) {

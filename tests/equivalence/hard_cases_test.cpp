@@ -20,7 +20,7 @@ TEST_P(Equivalence, RobustEqualsTheScalarPathBitForBit) {
     expected.push_back(reference::closest_hit(ray, hard_case.spheres, hard_case.planes));
   for (const Structure structure : {Structure::scan, Structure::bvh}) {
     const Geometry geometry(hard_case.spheres, hard_case.planes, structure);
-    for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight, Form::set}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), hard_case.rays, query);
       const auto occluded = run_any(*kernels, geometry.view(), hard_case.rays, query);

@@ -58,7 +58,7 @@ class Kernels : public OnEachIsa {};
 
 TEST_P(Kernels, HashOfAllHits) {
   for (const Structure structure : {Structure::scan, Structure::bvh}) {
-    for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight, Form::set}) {
       BitHash hash;
       for (const HardCaseSpec& spec : hard_case_specs()) {
         const HardCase hard_case = hashed_case(spec);

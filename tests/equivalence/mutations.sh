@@ -83,4 +83,10 @@ mutate "rays tested one by one have no slack along their way" simd/kernel/search
   's/(four_spreads = )[^;]+;/\10.0F;/; s/(outward = )[^;]+;/\11.0F;/'
 mutate "spheres beyond the range of the filters are tested one by one" simd/kernel/search/ray_by_ray.h \
   's/may_ = extent < filter::limit && /may_ = extent < 3e38F \&\& /'
+mutate "of a list of a set only the first W rays enter children" simd/kernel/search/ray_sets.h \
+  's/first < count; first \+= width/first < 1; first += width/'
+mutate "lists of a set overlap" simd/kernel/search/ray_sets.h \
+  's/top \+= count;/top += count - 1;/'
+mutate "a set never makes room for candidates" simd/kernel/search/set_candidates.h \
+  's/return size_ > most;/return false;/'
 exit $((survivors != 0))

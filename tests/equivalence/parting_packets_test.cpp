@@ -133,7 +133,7 @@ TEST_P(PartingPackets, MeetWhatTheScalarPathMeets) {
     }
     EXPECT_GT(met, rays.size() / 10) << scene.name;
     EXPECT_LT(met, rays.size() * 9 / 10) << scene.name;
-    for (const Form form : {Form::packet, Form::automatic}) {
+    for (const Form form : {Form::packet, Form::flight, Form::set, Form::automatic}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), rays, query);
       const auto occluded = run_any(*kernels, geometry.view(), rays, query);

@@ -69,7 +69,7 @@ class Scale : public OnEachIsa {
   }
   /// Every t of `scene` is that of `original` times 2^t_exponent, every id the same.
   void expect_scaled(const HardCase& original, const HardCase& scene, int t_exponent) const {
-    for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
       const auto expected = hits_of(original, form), hits = hits_of(scene, form);
       std::size_t met = 0;
       for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -46,6 +46,7 @@ class SharedNumbersOf : public OnEachIsa {
                                Query{Solver::robust, Form::packet, Coherence::none},
                                Query{Solver::robust, Form::single, Coherence::none},
                                Query{Solver::robust, Form::flight, Coherence::none},
+                               Query{Solver::robust, Form::set, Coherence::none},
                                Query{Solver::fast, Form::packet, Coherence::none}}) {
       SCOPED_TRACE(testing::Message() << "form " << static_cast<int>(query.form));
       check(geometry, alone.view(), shared.view(), query);

@@ -236,7 +236,7 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
     const Geometry geometry(scene.spheres, {});
     ASSERT_GT(geometry.view().bvh.size, 0U) << "no tree";
     std::size_t met = 0;
-    for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), scene.rays, query);
       const auto occluded = run_any(*kernels, geometry.view(), scene.rays, query);
@@ -256,7 +256,7 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
 /// Rays that all hit something hit what the scalar path says.
 void expect_hits_in_all_forms(const KernelTable& kernels, const Geometry& geometry,
                               const std::vector<Ray>& rays, const std::vector<Sphere>& spheres) {
-  for (const Form form : {Form::packet, Form::single, Form::flight}) {
+  for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
     const auto hits =
         run_closest(kernels, geometry.view(), rays, {Solver::robust, form, Coherence::none});
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -327,7 +327,7 @@ TEST_P(Tree, RaysAlongAnAxisAreNoSlower) {
   for (int i = 0; i < 200'000; ++i)
     spheres.push_back({float_point(random, {0, 0, 0}, 1), 1e-3F, 0});
   const Geometry geometry(spheres, {});
-  for (const Form form : {Form::packet, Form::single, Form::flight})
+  for (const Form form : {Form::packet, Form::single, Form::flight, Form::set})
     EXPECT_LT(time_of(*kernels, geometry, form, 0), 20 * time_of(*kernels, geometry, form, 1e-3F))
         << "form " << static_cast<int>(form);
 }

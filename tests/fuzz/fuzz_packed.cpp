@@ -98,7 +98,7 @@ void trace(const Scene& scene, const Geometry& geometry, const std::vector<Ray>&
   for (const IsaInfo& isa : list_isas()) {
     if (!isa.supported) continue;
     const KernelTable& kernels = *select_kernels(isa.name).value();
-    for (const Form form : {Form::packet, Form::single, Form::flight}) {
+    for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
       const Query query{Solver::robust, form, Coherence::none};
       kernels.closest_hit(geometry.view(), buffer.view(), query, hits.view());
       kernels.any_hit(geometry.view(), buffer.view(), query, occluded.data());

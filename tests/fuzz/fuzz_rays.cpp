@@ -126,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const IsaInfo& isa : list_isas()) {
       if (!isa.supported) continue;
       const KernelTable& kernels = *select_kernels(isa.name).value();
-      for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight})
+      for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight, Form::set})
         compare(kernels, geometry.view(), {Solver::robust, form, Coherence::none}, made, rays);
       for (const Coherence hint : {Coherence::common_origin, Coherence::common_direction})
         compare(kernels, geometry.view(), {Solver::robust, Form::automatic, hint}, made, rays);

@@ -82,7 +82,7 @@ TEST_P(HardSuite, RobustIsRight) {
     const std::vector<Hit> hits = reference_hits(group);
     for (const IsaInfo& isa : list_isas()) {
       if (!isa.supported) continue;
-      for (const Form form : {Form::packet, Form::single, Form::flight}) {
+      for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
         const auto found = kernel_hits(group, isa.name, Solver::robust, form);
         for (std::size_t i = 0; i < hits.size(); ++i)
           ASSERT_TRUE(same_bits(found[i], hits[i])) << isa.name << " ray " << i;
@@ -124,7 +124,7 @@ TEST(HardSecondary, LeaveTheGroundAndEndOnItsFarSide) {
     double worst = 0;
     for (const Group& group : groups_of(spec)) {
       const std::vector<Hit> hits = reference_hits(group);
-      for (const Form form : {Form::packet, Form::single, Form::flight}) {
+      for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
         const auto found = kernel_hits(group, "auto", Solver::robust, form);
         for (std::size_t i = 0; i < hits.size(); ++i)
           ASSERT_TRUE(same_bits(found[i], hits[i])) << "ray " << i;

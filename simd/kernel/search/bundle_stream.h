@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include "simd/kernel/search/bundle_search.h"
-#include "simd/kernel/search/flight_stream.h"
 #include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/ray_sets.h"
 
 /// Streams of rays with something in common, bundle by bundle. Chosen where the caller promises a
 /// common origin, direction or end (Coherence) and asks for no other form. Rays that are no bundle
-/// after all are halved until they are, few rays go as packets, and those of sparse bundles fly.
-/// The hits do not depend on which rays make a bundle. What is particular to shadow rays is in
-/// shadow_stream.h.
+/// after all are halved until they are, few rays go as packets, and those of sparse bundles as
+/// sets. The hits do not depend on which rays make a bundle. What is particular to shadow rays is
+/// in shadow_stream.h.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Traces rays that fit into no bundle, as packets. Geometry, here and below: GeometryView, or
@@ -22,11 +22,11 @@ BOULE_INLINE void trace_rest(const Geometry& geometry, const PaddedStream& strea
   trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
 }
 
-/// Traces rays whose bundle was too sparse: in flight, or as packets where there are several parts.
+/// Traces rays whose bundle was too sparse: as sets, or as packets where there are several parts.
 template <class Answers>
 BOULE_NOINLINE void trace_sparse(const GeometryView& geometry, const PaddedStream& stream,
                                  std::size_t begin, std::size_t end, Answers answers) {
-  Flights<Answers>(geometry, stream, answers).run(begin, end);
+  RaySets<Answers>(geometry, stream, answers).run(begin, end);
 }
 template <class Answers>
 BOULE_INLINE void trace_sparse(const PartsGeometry& geometry, const PaddedStream& stream,

@@ -1,53 +1,122 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "simd/kernel/search/flight.h"
+#include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/slabs.h"
 
-/// Rays on their way into flight: what their steps need is computed for W at a time, and kept until
-/// there is room for each.
+/// Rays on their way into the tree one by one, as flights or sets: what is in no leaf they meet W
+/// at a time, and what their steps through the tree need is computed for W at a time too, and kept
+/// until it is wanted.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// W rays that are ready to start.
+/// Answers: HitStream for nearest hits, std::uint8_t* for any.
+template <class Answers>
 class Departures {
  public:
-  /// `reach`: nothing beyond this t |dir| is of interest; `extent`: BvhView::extent.
-  BOULE_INLINE void set(const RayLanes& packet, const Real& reach, float extent) {
-    const FilterRays& rays = packet.filter;
-    const auto [x, y, z] = slabs_of(packet, extent);
-    store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
-    store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
-    store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
-    store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
-    store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
-    judged_ = bits(is_judged(rays));
-    open_ = bits(Real(0.0F) <= reach);
+  static constexpr bool any_hit = !std::is_same_v<Answers, HitStream>;
+
+  Departures(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
+      : geometry_(geometry), stream_(stream), answers_(answers) {}
+
+  /// Makes the rays of the packet at `first`, a multiple of W, ready, and answers for what is in no
+  /// leaf. Returns how many of them are rays of the stream.
+  BOULE_NOINLINE std::size_t make_ready(std::size_t first) {
+    const std::size_t count = stream_.live(first);
+    RayLanes rays;
+    load_ahead(stream_, first, rays);
+    first_ = first;
+    if constexpr (any_hit) {
+      AnyHit<false> best(rays);
+      meet_scanned(rays, best);
+      store_packet(best, answers_, first, count);
+      set(rays, best.far);
+      open_ &= ~best.hit;
+    } else {
+      ClosestHit best(rays);
+      meet_scanned(rays, best);
+      store_packet(best, answers_, first, count);
+      set(rays, best.reach);
+    }
+    return count;
   }
-  /// Copies the ray of a lane.
-  BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {
+  /// Copies the ray of a lane. Returns false where it needs no tree: its answer is known, or is
+  /// found now, since float cannot judge it or it has hits behind its origin.
+  BOULE_INLINE bool depart(std::size_t lane, FlightRay& ray) {
+    if ((open_ >> lane & 1U) == 0) return false;
+    if ((judged_ >> lane & 1U) == 0) {
+      go_alone(first_ + lane);
+      return false;
+    }
     static_assert(sizeof(FlightRay) == FlightRay::rows * sizeof row_[0][0]);
     get_row<0>(lane, ray);
     get_row<1>(lane, ray);
     get_row<2>(lane, ray);
     get_row<3>(lane, ray);
     get_row<4>(lane, ray);
+    get_row<5>(lane, ray);
+    return true;
   }
-  /// Whether floats can judge the ray, and it has no hits behind its origin: only then it can fly.
-  [[nodiscard]] BOULE_INLINE bool judged(std::size_t lane) const {
-    return (judged_ >> lane & 1U) != 0;
+  /// What was visited for rays that were traced alone, since it was last asked.
+  std::size_t take_visits() {
+    const std::size_t visits = visits_;
+    visits_ = 0;
+    return visits;
   }
-  /// Whether there is anything to be found: its interval is not empty.
-  [[nodiscard]] BOULE_INLINE bool open(std::size_t lane) const { return (open_ >> lane & 1U) != 0; }
 
  private:
+  template <class Best>
+  BOULE_INLINE void meet_scanned(const RayLanes& rays, Best& best) {
+    if (rays.filter.origins_exact) {
+      scan_spheres<Solver::robust, OneForAll, true>(rays, geometry_.spheres, best);
+    } else {
+      scan_spheres<Solver::robust, OneForAll, false>(rays, geometry_.spheres, best);
+    }
+    best.settle(geometry_.spheres, rays);
+    scan_planes<Solver::robust, OneForAll>(rays, geometry_.planes, best);
+  }
+  /// `reach`: nothing beyond this t |dir| is of interest.
+  BOULE_INLINE void set(const RayLanes& packet, const Real& reach) {
+    const FilterRays& rays = packet.filter;
+    const auto [x, y, z] = slabs_of(packet, geometry_.bvh.extent);
+    store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
+    store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
+    store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
+    store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
+    store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
+    store_rows(row_[5][0], {rays.h.x, rays.h.y, rays.h.z, rays.h.z});
+    judged_ = bits(is_judged(rays));
+    open_ = bits(Real(0.0F) <= reach) | (all_lanes & ~judged_);
+  }
   template <std::size_t row>
   BOULE_INLINE void get_row(std::size_t lane, FlightRay& ray) const {
     constexpr std::size_t size = sizeof row_[row][0];
     __builtin_memcpy(reinterpret_cast<char*>(&ray) + row * size, row_[row][lane], size);
   }
+  /// Traces a ray as a single ray.
+  BOULE_NOINLINE void go_alone(std::size_t index) {
+    RayLanes ray;
+    load_single(stream_.rays(), index, ray);
+    if constexpr (any_hit) {
+      AnyHit<true> best(ray);
+      visits_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      answers_[index] = best.hit != 0 ? 1 : 0;
+    } else {
+      ClosestHit best(ray);
+      visits_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
+      store_single(best, answers_, index);
+    }
+  }
 
-  unsigned judged_ = 0, open_ = 0;
+  const GeometryView& geometry_;
+  const PaddedStream& stream_;
+  const Answers answers_;
+  std::size_t first_ = 0, visits_ = 0;
+  unsigned judged_ = 0;
+  unsigned open_ = 0;  ///< lanes for which there may be something to be found in the tree
   alignas(64) float row_[FlightRay::rows][width][4];
 };
 

@@ -11,18 +11,20 @@
 
 /// One ray on its own way through the tree, in steps: each visits a node or a leaf, W children or W
 /// spheres at a time. Between two steps its state lies in memory, so that other rays can take
-/// theirs while what the next step reads is fetched (flight_stream.h).
+/// theirs while what the next step reads is fetched (flight_stream.h). Rays of sets (ray_sets.h)
+/// take the same steps in another order.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// What the steps of one ray need, as rows of four floats, which Departures copies whole. The ray
 /// has no hits behind its origin.
 struct alignas(16) FlightRay {
-  static constexpr std::size_t rows = 5;
+  static constexpr std::size_t rows = 6;
   float inverse[3], reach;  ///< reach: nothing beyond this t |dir| is of interest
   float near[3], live_from;
   float far[3], live_to;
   float org[3], origin_error;
   float unit[3], unused;
+  float h[3], unused_too;  ///< h of FilterRays, for the reject
 
   BOULE_INLINE static Vec3<Real> all(const float* v) { return {v[0], v[1], v[2]}; }
   /// In every lane, without what only a reject needs.
@@ -37,6 +39,40 @@ struct alignas(16) FlightRay {
     return rays;
   }
 };
+
+/// Where in a node, in floats from its begin, are the planes of its boxes that a ray meets first
+/// along each axis, and the others.
+struct NodeRows {
+  std::uint16_t near_at[3], far_at[3];
+
+  /// Finds them, by the signs of `inverse`.
+  BOULE_INLINE void choose(const FlightRay& ray) {
+    choose(0, ray.inverse[0]);
+    choose(1, ray.inverse[1]);
+    choose(2, ray.inverse[2]);
+  }
+
+ private:
+  BOULE_INLINE void choose(std::uint32_t axis, float inverse) {
+    const std::uint32_t down = std::bit_cast<std::uint32_t>(inverse) >> 31;
+    near_at[axis] = static_cast<std::uint16_t>((axis + 3 * down) * bvh_width);
+    far_at[axis] = static_cast<std::uint16_t>((axis + 3 - 3 * down) * bvh_width);
+  }
+};
+
+/// Enters W children of a node, from `first` on.
+BOULE_INLINE Passage enter_children(const FlightRay& ray, const NodeRows& at, const BvhNode& node,
+                                    std::size_t first) {
+  static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
+  const auto* const rows = reinterpret_cast<const float*>(&node) + first;
+  const auto meet = [&](const std::uint16_t* row, const float* moved, int axis) {
+    return filter_fma(load(rows + row[axis]), Real(ray.inverse[axis]), Real(moved[axis]));
+  };
+  const auto near_of = [&](int axis) { return meet(at.near_at, ray.near, axis); };
+  const auto far_of = [&](int axis) { return meet(at.far_at, ray.far, axis); };
+  return pass_boxes({near_of(0), near_of(1), near_of(2)}, {far_of(0), far_of(1), far_of(2)},
+                    ray.reach);
+}
 
 /// What float knows about the hits of one ray, without hits behind its origin, with W spheres. The
 /// hit with a sphere is its first root, or its second where the origin may lie inside.
@@ -106,60 +142,32 @@ struct FlightCandidates {
   }
 };
 
-/// A ray in flight. Pending: PendingStack or PendingNearest.
-template <class Pending>
+/// A ray in flight.
 struct Flight {
   FlightRay ray;
-  std::uint32_t near_at[3];  ///< offsets, in floats, of a node's planes that the ray meets first
-  std::uint32_t far_at[3];   ///< and of the others
-  std::int32_t source;       ///< id of the primitive that it leaves, or -1
-  bool inside;               ///< it leaves `source` on its inside
-  std::uint32_t index;       ///< in the stream
-  const void* next;          ///< the node or the leaf of the next step
+  NodeRows rows;
+  std::int32_t source;  ///< id of the primitive that it leaves, or -1
+  bool inside;          ///< it leaves `source` on its inside
+  std::uint32_t index;  ///< in the stream
+  const void* next;     ///< the node or the leaf of the next step
   FlightCandidates candidates;
-  Pending pending;
-
-  /// Finds near_at and far_at, by the signs of `ray.inverse`.
-  BOULE_INLINE void choose_rows() {
-    choose_row(0);
-    choose_row(1);
-    choose_row(2);
-  }
-  BOULE_INLINE void choose_row(std::uint32_t axis) {
-    const std::uint32_t down = std::bit_cast<std::uint32_t>(ray.inverse[axis]) >> 31;
-    near_at[axis] = (axis + 3 * down) * bvh_width;
-    far_at[axis] = (axis + 3 - 3 * down) * bvh_width;
-  }
+  PendingChildren pending;
 
   /// A step: adds the children of a node that the ray enters to those pending.
   BOULE_INLINE void visit_node() {
     constexpr std::size_t parts = bvh_width / width;
     const BvhNode& node = *static_cast<const BvhNode*>(next);
     if constexpr (parts == 2) {  // both are entered before either is added: that shares their loads
-      const auto [near, in] = enter(node, 0);
-      const auto [other_near, other_in] = enter(node, width);
+      const auto [near, in] = enter_children(ray, rows, node, 0);
+      const auto [other_near, other_in] = enter_children(ray, rows, node, width);
       pending.push(near, load_integers(node.child), in);
       pending.push(other_near, load_integers(node.child + width), other_in);
     } else {
       for (std::size_t first = 0; first < bvh_width; first += width) {
-        const auto [near, in] = enter(node, first);
+        const auto [near, in] = enter_children(ray, rows, node, first);
         pending.push(near, load_integers(node.child + first), in);
       }
     }
-  }
-
- private:
-  /// Enters W children, from `first` on.
-  [[nodiscard]] BOULE_INLINE Passage enter(const BvhNode& node, std::size_t first) const {
-    static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
-    const auto* const rows = reinterpret_cast<const float*>(&node) + first;
-    const auto meet = [&](const std::uint32_t* row, const float* moved, int axis) {
-      return filter_fma(load(rows + row[axis]), Real(ray.inverse[axis]), Real(moved[axis]));
-    };
-    const auto near_of = [&](int axis) { return meet(near_at, ray.near, axis); };
-    const auto far_of = [&](int axis) { return meet(far_at, ray.far, axis); };
-    return pass_boxes({near_of(0), near_of(1), near_of(2)}, {far_of(0), far_of(1), far_of(2)},
-                      ray.reach);
   }
 };
 

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "simd/kernel/search/departures.h"
 #include "simd/kernel/search/flight.h"
@@ -12,29 +11,24 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
 
-/// Streams of rays that have little in common, many of them in flight at a time. Chosen in scenes
-/// with a tree where Form says flight, where a trial finds flights faster than packets
-/// (scattered_stream.h), and for the rays of sparse bundles (bundle_stream.h). In every round up to
-/// twelve flights take a step of the same kind and fetch the memory of their next one; a ray that
-/// is done makes room for the next of the stream. The hits are exact: floats only turn spheres away
-/// or shorten a ray, and what remains is solved in double. The order of the steps changes nothing
-/// but the time.
+/// Nearest hits of streams of rays that have nothing in common, many of them in flight at a time.
+/// Chosen in scenes with a tree where Form says flight, and where a trial finds flights faster than
+/// packets and sets (scattered_stream.h). In every round up to twelve flights take a step of the
+/// same kind and fetch the memory of their next one; a ray that is done makes room for the next of
+/// the stream. The hits are exact: floats only turn spheres away or shorten a ray, and what remains
+/// is solved in double. The order of the steps changes nothing but the time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Many rays in flight at a time. Answers: HitStream for nearest hits, std::uint8_t* for any.
-template <class Answers>
+/// Many rays in flight at a time.
 class Flights {
  public:
-  static constexpr bool any_hit = !std::is_same_v<Answers, HitStream>;
-  using Flight =
-      boule::BOULE_KERNEL_ISA::Flight<std::conditional_t<any_hit, PendingStack, PendingNearest>>;
-
-  Flights(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
+  Flights(const GeometryView& geometry, const PaddedStream& stream, const HitStream& hits)
       : geometry_(geometry),
         stream_(stream),
-        answers_(answers),
+        hits_(hits),
         blocks_(geometry),
-        pairs_(stream.rays(), geometry.spheres, answers) {}
+        pairs_(stream.rays(), geometry.spheres, hits),
+        departures_(geometry, stream, hits) {}
 
   /// Traces rays begin .. end - 1 of the stream, `begin` a multiple of W. Returns how many steps
   /// that took; what is no step counts as those that take as long.
@@ -49,7 +43,7 @@ class Flights {
     while (round()) {
     }
     pairs_.finish();
-    return steps_;
+    return steps_ + departures_.take_visits();
   }
 
  private:
@@ -127,59 +121,13 @@ class Flights {
     if (depart(flight)) waiting_[node].push(flight);
   }
 
-  /// Makes W more rays ready, which meet what is in no leaf now, all together. Returns false if
-  /// there is none.
-  BOULE_NOINLINE bool prepare() {
-    first_ += ready_;
-    departed_ = ready_ = 0;
-    if (first_ >= end_) return false;
-    ready_ = stream_.live(first_);
-    const PacketRef packet = stream_.packet(first_);
-    prefetch_packet(stream_.rays(), first_ + tuning::prefetch_distance);
-    RayLanes rays;
-    load_packet(*packet.rays, packet.first, rays);
-    if constexpr (any_hit) {
-      AnyHit<false> best(rays);
-      meet_scanned(rays, best);
-      for (std::size_t lane = 0; lane < ready_; ++lane)
-        answers_[first_ + lane] = static_cast<std::uint8_t>(best.hit >> lane & 1U);
-      departures_.set(rays, best.far, geometry_.bvh.extent);
-    } else {
-      ClosestHit best(rays);
-      meet_scanned(rays, best);
-      store_packet(best, answers_, first_, ready_);
-      departures_.set(rays, best.reach, geometry_.bvh.extent);
-    }
-    return true;
-  }
-  template <class Best>
-  BOULE_INLINE void meet_scanned(const RayLanes& rays, Best& best) {
-    if (rays.filter.origins_exact) {
-      scan_spheres<Solver::robust, OneForAll, true>(rays, geometry_.spheres, best);
-    } else {
-      scan_spheres<Solver::robust, OneForAll, false>(rays, geometry_.spheres, best);
-    }
-    best.settle(geometry_.spheres, rays);
-    scan_planes<Solver::robust, OneForAll>(rays, geometry_.planes, best);
-  }
-
   /// Starts the next ray that needs the tree. Returns false if there is none.
   BOULE_INLINE bool depart(Flight& flight) {
-    for (;;) {
-      if (departed_ == ready_ && !prepare()) return false;
-      const std::size_t lane = departed_++;
-      flight.index = static_cast<std::uint32_t>(first_ + lane);
-      if constexpr (any_hit) {
-        if (answers_[flight.index] != 0) continue;
-      }
-      if (!departures_.judged(lane)) {
-        go_alone(flight.index);
-      } else if (departures_.open(lane)) {
-        departures_.get(lane, flight.ray);
-        break;
-      }
-    }
-    flight.choose_rows();
+    do {
+      if (departed_ == ready_ && !make_more_ready()) return false;
+    } while (!departures_.depart(departed_++, flight.ray));
+    flight.index = static_cast<std::uint32_t>(first_ + departed_ - 1);
+    flight.rows.choose(flight.ray);
     const RayStream& rays = stream_.rays();
     const std::size_t start = rays.places(flight.index).start;
     flight.source = rays.source[start];
@@ -189,19 +137,13 @@ class Flights {
     flight.next = geometry_.bvh.nodes;
     return true;
   }
-  /// Traces a ray that floats cannot judge, or that has hits behind its origin, as a single ray.
-  BOULE_NOINLINE void go_alone(std::size_t index) {
-    RayLanes ray;
-    load_single(stream_.rays(), index, ray);
-    if constexpr (any_hit) {
-      AnyHit<true> best(ray);
-      steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
-      answers_[index] = best.hit != 0 ? 1 : 0;
-    } else {
-      ClosestHit best(ray);
-      steps_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
-      store_single(best, answers_, index);
-    }
+  /// Makes W more rays ready. Returns false if there is none.
+  BOULE_INLINE bool make_more_ready() {
+    first_ += ready_;
+    departed_ = ready_ = 0;
+    if (first_ >= end_) return false;
+    ready_ = departures_.make_ready(first_);
+    return true;
   }
 
   /// Parts of a leaf, of W spheres each.
@@ -251,17 +193,9 @@ class Flights {
     const RealMask own = load_integers(geometry_.spheres.id + slot) == Bits(flight.source);
     const NextRoots roots(approach, rays, Real(flight.ray.reach), own);
     flight.candidates.add(roots.low, count_from(slot), bits(roots.in));
-    if constexpr (any_hit) {
-      if (any(roots.sure & (roots.high <= rays.live_to))) {
-        answers_[flight.index] = 1;
-        flight.pending.clear();
-        flight.candidates.size = 0;
-      }
-    } else {
-      const Real none(static_cast<float>(no_hit));
-      flight.ray.reach =
-          least_lane(lesser_or(select(roots.sure, roots.high, none), Real(flight.ray.reach)));
-    }
+    const Real none(static_cast<float>(no_hit));
+    flight.ray.reach =
+        least_lane(lesser_or(select(roots.sure, roots.high, none), Real(flight.ray.reach)));
     if (flight.candidates.size > FlightCandidates::most) make_room(flight);
   }
   /// The slot of a leaf's first sphere.
@@ -309,20 +243,19 @@ class Flights {
     store(reach, ClosestHit::distance(roots.t, ray));
     for (unsigned hit = bits(roots.hit); hit != 0; hit &= hit - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(hit));
-      answer(answers_, flight.index, {t[k], id[k], slots[k]});
+      answer(hits_, flight.index, {t[k], id[k], slots[k]});
       if (reach[k] < flight.ray.reach) flight.ray.reach = reach[k];
-      if constexpr (any_hit) flight.pending.clear();
     }
   }
 
   const GeometryView& geometry_;
   const PaddedStream& stream_;
-  const Answers answers_;
+  const HitStream hits_;
   TreeBlocks blocks_;
-  PairQueue<Answers> pairs_;
+  PairQueue<HitStream> pairs_;
 
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.
-  Departures departures_;
+  Departures<HitStream> departures_;
   std::size_t first_ = 0, departed_ = 0, ready_ = 0, end_ = 0;
   std::size_t steps_ = 0;
 

@@ -38,15 +38,21 @@ class PairQueue {
       const unsigned chosen = candidates.before(reach, first);
       store_chosen(slot_ + size_, load_integers(candidates.slot + first), chosen);
       store_anywhere(ray_ + size_, Bits(ray));
-      size_ += static_cast<std::size_t>(std::popcount(chosen));
-      if (size_ >= width) {
-        solve(width);
-        size_ -= width;
-        store(slot_, load_integers(slot_ + width));
-        store(ray_, load_integers(ray_ + width));
-      }
+      added(chosen);
       first += width;
     } while (first < candidates.size);
+  }
+  /// Adds a ray with W spheres, those `chosen` of the slots from `slot` on.
+  BOULE_INLINE void add(std::uint32_t ray, std::uint32_t slot, unsigned chosen) {
+    store_chosen(slot_ + size_, count_from(slot), chosen);
+    store_anywhere(ray_ + size_, Bits(ray));
+    added(chosen);
+  }
+  /// Adds a ray with one sphere, if `really`; without a branch, which no CPU could predict.
+  BOULE_INLINE void add_if(bool really, std::uint32_t ray, std::uint32_t slot) {
+    slot_[size_] = slot;
+    ray_[size_] = ray;
+    added(really ? 1 : 0);
   }
   /// Solves what still waits.
   BOULE_INLINE void finish() {
@@ -55,6 +61,16 @@ class PairQueue {
   }
 
  private:
+  /// Counts pairs that were stored behind the others, one for each bit of `chosen`, and solves W of
+  /// them if there are so many.
+  BOULE_INLINE void added(unsigned chosen) {
+    size_ += static_cast<std::size_t>(std::popcount(chosen));
+    if (size_ < width) return;
+    solve(width);
+    size_ -= width;
+    store(slot_, load_integers(slot_ + width));
+    store(ray_, load_integers(ray_ + width));
+  }
   /// Solves the first `count` pairs, at most W.
   BOULE_NOINLINE void solve(std::size_t count) {
     for (std::size_t k = 0; k < width; ++k) {

@@ -8,40 +8,15 @@
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
-/// The nodes and leaves that a ray in flight is still to visit: one class for each question.
+/// The nodes and leaves that a ray in flight is still to visit.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// For any hit: the last child added comes first.
-class PendingStack {
- public:
-  BOULE_INLINE void clear() { size_ = 0; }
-  /// Adds the children of the lanes `chosen`.
-  BOULE_INLINE void push(const Real&, const Bits& child, RealMask chosen) {
-    const unsigned in = bits(chosen);
-    store_chosen(child_ + size_, child, in);
-    size_ += static_cast<std::size_t>(std::popcount(in));
-  }
-  /// Takes the last one. Returns false if none is left; `child` is then undefined.
-  BOULE_INLINE bool pop(float, std::uint32_t& child) {
-    const bool left = size_ != 0;
-    size_ -= static_cast<std::size_t>(left);
-    child = child_[size_];
-    return left;
-  }
-
- private:
-  /// A push writes W, however few it adds.
-  static constexpr std::size_t capacity = bvh_max_depth * (bvh_width - 1) + 1 + width;
-  std::uint32_t child_[capacity];
-  std::size_t size_ = 0;
-};
-
-/// For the nearest hit: the child that is entered first comes first. The children are not sorted;
+/// The child that is entered first comes first. The children are not sorted;
 /// pop() looks for the nearest. Of where a child is entered 16 bits are kept, rounded down: eight
 /// of exponent and eight of mantissa. Comparisons with them let a little more through.
-class PendingNearest {
+class PendingChildren {
  public:
-  PendingNearest() {
+  PendingChildren() {
     size_ = most_sorted;  // so that clear() clears all that pop() reads
     clear();
   }

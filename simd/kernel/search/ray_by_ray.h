@@ -175,14 +175,12 @@ class RayByRay {
   /// One ray against W spheres. (Its own is among them: list_candidates() knows better.)
   BOULE_INLINE unsigned meet_part(std::size_t lane, const SphereBlock& leaf, std::size_t part,
                                   const Real& limit) const {
-    FilterRays ray;
-    ray.org = get_lane(rays_->filter.org, lane);
-    ray.h = get_lane(rays_->filter.h, lane);
-    ray.origin_error = get_lane(rays_->filter.origin_error, lane);
     const std::size_t at = part * width;
     const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
                             load(leaf.center_z + at)};
-    return bits(may_meet(ray, center, load(leaf.radius + at), limit));
+    return bits(RejectSpheres(center, load(leaf.radius + at))
+                    .may_meet(get_lane(rays_->filter.org, lane), get_lane(rays_->filter.h, lane),
+                              get_lane(rays_->filter.origin_error, lane), limit));
   }
 
   const RayLanes* rays_;

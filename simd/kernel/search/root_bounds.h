@@ -64,20 +64,32 @@ BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radi
 
 /// The same with the reject in place of the discriminant: it lets a few more through, and takes
 /// three quarters of the steps. Its b is farther off than the other one's, by what docs/numerics.md
-/// says and 4 spread cover.
-BOULE_INLINE RealMask may_meet(const FilterRays& rays, const Vec3<Real>& center,
-                               const Real& signed_radius, const Real& reach) {
-  constexpr auto four_spreads = static_cast<float>(4 * filter::spread * filter::u);
-  constexpr auto outward = static_cast<float>(1 + 8 * filter::spread * filter::u);
-  const Vec3<Real> f = center - rays.org;
-  const Real b = filter_dot(f, rays.h);
-  const Real edge = grown_on_the_spot(signed_radius) + rays.origin_error;
-  const Real most =
-      filter_fma(Real(4.0F), rays.origin_error,
-                 filter_fma(abs(b), Real(four_spreads), abs(signed_radius) * Real(outward)));
-  return (Real(0.0F) <= reject_sum(f, b, edge * edge)) & (Real(0.0F) <= b + most) &
-         (b - most <= reach);
-}
+/// says and 4 spread cover. Holds what depends on the spheres alone.
+class RejectSpheres {
+ public:
+  BOULE_INLINE RejectSpheres(const Vec3<Real>& center, const Real& signed_radius)
+      : center_(center),
+        grown_(grown_on_the_spot(signed_radius)),
+        most_(abs(signed_radius) * Real(outward)) {}
+  /// Lanes that may have a root between 0 and `reach`. `h`, `origin_error`: as in FilterRays.
+  [[nodiscard]] BOULE_INLINE RealMask may_meet(const Vec3<Real>& org, const Vec3<Real>& h,
+                                               const Real& origin_error, const Real& reach) const {
+    const Vec3<Real> f = center_ - org;
+    const Real b = filter_dot(f, h);
+    const Real edge = grown_ + origin_error;
+    const Real most =
+        filter_fma(Real(4.0F), origin_error, filter_fma(abs(b), Real(four_spreads), most_));
+    return (Real(0.0F) <= reject_sum(f, b, edge * edge)) & (Real(0.0F) <= b + most) &
+           (b - most <= reach);
+  }
+
+ private:
+  static constexpr auto four_spreads = static_cast<float>(4 * filter::spread * filter::u);
+  static constexpr auto outward = static_cast<float>(1 + 8 * filter::spread * filter::u);
+
+  Vec3<Real> center_;
+  Real grown_, most_;
+};
 
 BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
   const auto& [b, discriminant, spread, doubt] = approach;

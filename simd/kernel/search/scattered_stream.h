@@ -6,79 +6,126 @@
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/flight_stream.h"
 #include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/ray_sets.h"
 #include "simd/kernel/tuning.h"
 
-/// Streams of rays of which nothing is promised: they fly, or go as packets. Now and then some rays
-/// are traced either way, and what did better traces the next ones. Which way a ray goes changes
-/// nothing but the time.
+/// Streams of rays of which nothing is promised: they go as sets, as packets, or, for nearest hits,
+/// fly. Now and then some rays are traced each way, and what did best traces the next ones. Which
+/// way a ray goes changes nothing but the time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What trials have found out: whether packets or flights take less time, and for how many rays
-/// that is believed.
+enum class Way : std::size_t { set, packet, flight };
+
+/// What trials have found out: which way takes the least time, and for how many rays that is
+/// believed.
 template <bool any>
 class Choice {
  public:
-  /// Takes a trial of packets, which visited so many nodes and leaves.
-  void add_packets(std::size_t visits) {
-    packets_ = packets_ * tuning::share_of_earlier_trials +
-               static_cast<float>(visits) * tuning::steps_a_visit<any> +
-               static_cast<float>(tuning::rays_on_trial) * tuning::steps_a_ray<any>;
+  /// For any hit flights are sets.
+  static constexpr std::size_t ways = any ? 2 : 3;
+
+  /// Takes a trial of `rays` rays that took so many steps of flights.
+  void add(Way way, std::size_t rays, float steps) {
+    float& cost = cost_[static_cast<std::size_t>(way)];
+    cost = cost * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
   }
-  /// Takes a trial of as many flights, and chooses.
-  void add_flights(std::size_t steps) {
-    flights_ = flights_ * tuning::share_of_earlier_trials + static_cast<float>(steps);
-    const bool others = is_packets_ ? flights_ * tuning::gain_to_change<any> < packets_
-                                    : packets_ * tuning::gain_to_change<any> < flights_;
-    const bool packets = is_packets_ != others, agrees = !others;
-    const auto [less, more] = packets ? Pair{packets_, flights_} : Pair{flights_, packets_};
-    std::size_t rays = agrees ? 2 * rays_that_way_ : tuning::rays_after_trial;
-    if (tuning::clearly_more * less < more) rays = tuning::most_after_trial;
-    rays_that_way_ = rays < tuning::most_after_trial ? rays : tuning::most_after_trial;
-    is_packets_ = packets;
+  /// Chooses, when every way has been tried once more.
+  void choose() {
+    std::size_t best = 0;
+    for (std::size_t way = 1; way < ways; ++way) best = cost_[way] < cost_[best] ? way : best;
+    const auto current = static_cast<std::size_t>(way_);
+    if (!(cost_[best] * tuning::gain_to_change<any> < cost_[current])) best = current;
+    bool is_clear = true;
+    for (std::size_t way = 0; way < ways; ++way)
+      is_clear = is_clear && (way == best || tuning::clearly_more * cost_[best] < cost_[way]);
+    rays_ = best == current ? 2 * rays_ : tuning::rays_after_trial;
+    if (is_clear || rays_ > tuning::most_after_trial) rays_ = tuning::most_after_trial;
+    way_ = static_cast<Way>(best);
   }
-  [[nodiscard]] bool is_packets() const { return is_packets_; }
-  /// How many rays go that way before the next trial.
-  [[nodiscard]] std::size_t rays_that_way() const { return rays_that_way_; }
+  [[nodiscard]] Way way() const { return way_; }
+  /// How many rays go that way before the next trials.
+  [[nodiscard]] std::size_t rays() const { return rays_; }
 
  private:
-  struct Pair {
-    float less, more;
-  };
-  float packets_ = 0, flights_ = 0;  ///< in steps of flights
-  // As if a trial had preferred flights for half as many rays: one that agrees doubles the number.
-  bool is_packets_ = false;
-  std::size_t rays_that_way_ = tuning::rays_after_trial / 2;
+  float cost_[ways] = {};  ///< of a ray, in steps of flights
+  Way way_ = Way::set;
+  // As if trials had preferred sets for half as many rays: those that agree double the number.
+  std::size_t rays_ = tuning::rays_after_trial / 2;
 };
 
-/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight, which
-/// has no trials.
+/// Traces rays of one stream in any of the ways.
+template <class Answers>
+class ScatteredStream {
+ public:
+  static constexpr bool any_hit = RaySets<Answers>::any_hit;
+
+  ScatteredStream(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
+      : geometry_(geometry),
+        stream_(stream),
+        answers_(answers),
+        flights_(geometry, stream, answers),
+        sets_(geometry, stream, answers) {}
+
+  /// Traces rays begin .. end - 1. Returns about how many steps of flights take as long.
+  float run(Way way, std::size_t begin, std::size_t end) {
+    const auto rays = static_cast<float>(end - begin);
+    if (way == Way::packet) {
+      const std::size_t visits =
+          trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
+      return static_cast<float>(visits) * tuning::steps_a_visit<any_hit> +
+             rays * tuning::steps_a_ray<any_hit>;
+    }
+    if constexpr (!any_hit) {
+      if (way == Way::flight) return static_cast<float>(flights_.run(begin, end));
+    }
+    const SetEffort effort = sets_.run(begin, end);
+    return static_cast<float>(effort.steps) * tuning::steps_a_set_step<any_hit> +
+           static_cast<float>(effort.visits) * tuning::steps_a_set_visit +
+           rays * tuning::steps_a_set_ray<any_hit>;
+  }
+  /// Traces rays begin .. end - 1 the way that trials among them find best.
+  void run_by_trial(std::size_t begin, std::size_t end) {
+    Choice<any_hit> choice;
+    const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
+    while (begin < end) {
+      for (std::size_t k = 0; k < Choice<any_hit>::ways && begin < end; ++k) {
+        const auto way = static_cast<Way>(k);
+        const std::size_t until =
+            next(way == Way::set ? tuning::set_on_trial : tuning::rays_on_trial);
+        choice.add(way, until - begin, run(way, begin, until));
+        begin = until;
+      }
+      if (begin == end) return;
+      choice.choose();
+      const std::size_t until = next(choice.rays());
+      run(choice.way(), begin, until);
+      begin = until;
+    }
+  }
+
+ private:
+  struct NoFlights {
+    NoFlights(const GeometryView&, const PaddedStream&, const Answers&) {}
+  };
+
+  const GeometryView& geometry_;
+  const PaddedStream& stream_;
+  const Answers answers_;
+  std::conditional_t<any_hit, NoFlights, Flights> flights_;
+  RaySets<Answers> sets_;
+};
+
+/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight or set,
+/// which have no trials.
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, Form form,
                                     const Answers& answers) {
-  Flights<Answers> flights(geometry, stream, answers);
-  if (form == Form::flight) {
-    flights.run(begin, end);
-    return;
-  }
-  Choice<Flights<Answers>::any_hit> choice;
-  const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
-  while (begin < end) {
-    const std::size_t packets_end = next(tuning::rays_on_trial);
-    choice.add_packets(trace_groups<Solver::robust>(geometry, stream, begin, packets_end,
-                                                    Form::automatic, answers));
-    begin = packets_end;
-    if (begin == end) return;
-    const std::size_t flights_end = next(tuning::rays_on_trial);
-    choice.add_flights(flights.run(begin, flights_end));
-    begin = flights_end;
-    const std::size_t chosen_end = next(choice.rays_that_way());
-    if (choice.is_packets()) {
-      trace_groups<Solver::robust>(geometry, stream, begin, chosen_end, Form::automatic, answers);
-    } else {
-      flights.run(begin, chosen_end);
-    }
-    begin = chosen_end;
+  ScatteredStream<Answers> rays(geometry, stream, answers);
+  if (form == Form::automatic) {
+    rays.run_by_trial(begin, end);
+  } else {
+    rays.run(form == Form::flight ? Way::flight : Way::set, begin, end);
   }
 }
 /// The same through parts: as packets.

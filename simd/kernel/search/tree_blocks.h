@@ -24,6 +24,11 @@ class TreeBlocks {
 
   /// Whether the tree is too large for a cache near by.
   [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
+  /// The node or the leaf that a child is.
+  BOULE_INLINE const void* at(std::uint32_t child) const {
+    const std::size_t leaf = child >> 31, index = index_of(child);
+    return first_[leaf] + (index << (9 - leaf));
+  }
   /// The node or the leaf that a child is. In a far tree, also fetches what its visit will read.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
     const std::size_t leaf = child >> 31, index = index_of(child);

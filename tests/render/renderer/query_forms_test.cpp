@@ -102,6 +102,7 @@ TEST_P(Paths, GiveTheSamePicture) {
       check(kernels_in<Form::packet>(), "packets");
       check(kernels_in<Form::single>(), "single rays");
       check(kernels_in<Form::flight>(), "rays in flight");
+      check(kernels_in<Form::set>(), "sets");
     }
   }
 }

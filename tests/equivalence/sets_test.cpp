@@ -1,0 +1,109 @@
+// Sets of rays that go down the tree together. The answers are the scalar path's, whatever the
+// length of the stream and the rays beside a ray.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/kernel_runs.h"
+#include "tests/support/placed_groups.h"
+
+namespace boule::test {
+namespace {
+
+class Sets : public OnEachIsa {
+ protected:
+  /// The first `count` rays have the hits `expected`, as sets and as what sets replace.
+  void check(const Geometry& geometry, const std::vector<Ray>& rays,
+             const std::vector<Hit>& expected, std::size_t count) const {
+    const std::vector<Ray> first(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(count));
+    for (const Form form : {Form::set, Form::flight, Form::automatic}) {
+      SCOPED_TRACE(testing::Message() << count << " rays, form " << static_cast<int>(form));
+      const Query query{Solver::robust, form, Coherence::none};
+      const auto hits = run_closest(*kernels, geometry.view(), first, query);
+      const auto occluded = run_any(*kernels, geometry.view(), first, query);
+      ASSERT_EQ(hits.size(), count);
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_TRUE(same_bits(hits[i], expected[i]))
+            << "ray " << i << ": " << hits[i].id << " " << hits[i].t << ", expected "
+            << expected[i].id << " " << expected[i].t;
+        ASSERT_EQ(occluded[i], expected[i].id != no_primitive ? 1 : 0) << "ray " << i;
+      }
+    }
+  }
+};
+
+std::vector<Hit> scalar_hits(const std::vector<Ray>& rays, const std::vector<Sphere>& spheres,
+                             const std::vector<Plane>& planes) {
+  std::vector<Hit> hits;
+  hits.reserve(rays.size());
+  for (const Ray& ray : rays) hits.push_back(reference::closest_hit(ray, spheres, planes));
+  return hits;
+}
+
+/// Rays through a cloud, among them such as go alone (with hits behind their origins, from beyond
+/// what float can judge, without a direction) and such as meet nothing.
+std::vector<Ray> mixed_rays(std::size_t count) {
+  CaseRandom random(71);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d from = random.direction() * random.uniform(0, 3);
+    const Vec3d to = random.direction() * random.uniform(0, 1);
+    Ray ray{from, vec_cast<float>(to - from)};
+    if (i % 9 == 4) ray.tmin = -2;
+    if (i % 13 == 5) ray.tmax = 0;
+    if (i % 17 == 6) ray.dir = {0, 0, 0};
+    if (i % 19 == 7) ray.dir.y = std::nanf("");
+    if (i % 23 == 8) ray.org.x = 1e20;
+    if (i % 5 == 3) ray.tmax = static_cast<float>(random.uniform(0, 1));
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+TEST_P(Sets, OfAnyLengthMeetWhatTheScalarPathMeets) {
+  CaseRandom random(72);
+  std::vector<Sphere> spheres = cube_of_spheres(random, 600, {}, 1, 0.08);
+  spheres.push_back({{0.2F, 0.1F, 0}, 0.9F, 0});  // in no leaf
+  const std::vector<Plane> planes = {{{0, -0.9F, 0}, {0.1F, 1, 0}, 0}};
+  const Geometry geometry(spheres, planes);
+  ASSERT_GT(geometry.view().bvh.size, 0U);
+  const std::vector<Ray> rays = mixed_rays(1100);
+  const std::vector<Hit> expected = scalar_hits(rays, spheres, planes);
+  std::size_t met = 0;
+  for (const Hit& hit : expected) met += hit.id != no_primitive ? 1U : 0U;
+  EXPECT_GT(met, rays.size() / 4);
+  EXPECT_LT(met, rays.size() * 9 / 10);
+  for (const std::size_t count : {1U, 5U, 16U, 31U, 255U, 256U, 257U, 511U, 513U, 1100U})
+    check(geometry, rays, expected, count);
+}
+
+/// From so far that float can tell of no speck whether a ray meets it: every ray has hundreds of
+/// candidates, more than a set has room for.
+TEST_P(Sets, SolveCandidatesForWhichThereIsNoRoom) {
+  CaseRandom random(73);
+  std::vector<Sphere> specks;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3d center{1e6 + i * 0.25, random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01)};
+    specks.push_back({vec_cast<float>(center), 1e-3F, 0});
+  }
+  const Geometry geometry(specks, {});
+  ASSERT_GT(geometry.view().bvh.size, 0U);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < 300; ++i) {
+    Vec3f to = specks[i].center;
+    if (i % 4 == 0) to.y += 0.015F;
+    rays.push_back({{0, 0, 0}, to});
+  }
+  const std::vector<Hit> expected = scalar_hits(rays, specks, {});
+  std::size_t met = 0;
+  for (const Hit& hit : expected) met += hit.id != no_primitive ? 1U : 0U;
+  EXPECT_GT(met, 200U);
+  EXPECT_LT(met, 300U);
+  check(geometry, rays, expected, rays.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, Sets, each_isa(), isa_name);
+
+}  // namespace
+}  // namespace boule::test
