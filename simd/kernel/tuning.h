@@ -152,6 +152,9 @@ inline constexpr std::size_t packets_on_trial = 8;
 inline constexpr std::size_t fewest_rays_judged =
     width < 16 ? ~std::size_t{0} : std::size_t{bundle_size};
 
+/// A visit of these packets takes as long as so many steps of a ray in flight took, for any hit.
+inline constexpr float steps_a_packet_visit = width < 16 ? 2.25F : 3.25F;
+
 /// Sorted, a ray costs at least so many steps of flights more than in any case, and so many for
 /// each of the tree's nodes, divided by the rays. Fitted to what sorted bundles of the scenes below
 /// visited. Shadow rays by avx512, 512 x 512, Mray/s always sorted and with this choice:
@@ -224,40 +227,46 @@ inline constexpr std::size_t set_size = 256;
 
 /// Rays that are traced each way to see which is the best one, more of them as a set, since a small
 /// set shares few visits; and rays that then go that way: at first, and at most, because their
-/// number doubles while trials agree. What earlier trials saw counts half as much as the last one,
+/// number grows while trials agree. What earlier trials saw counts half as much as the last one,
 /// for 32 rays may mislead. Set by trial.
 /// Again: bench_peers --scenes u1000,u10000,flake4 --rays mirror,diffuse,light
 inline constexpr std::size_t rays_on_trial = 32, set_on_trial = 128;
 inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
+inline constexpr std::size_t growth_while_agreed = 4;
 inline constexpr float share_of_earlier_trials = 0.5F;
+
+/// Where a set makes more than so many steps in a visit, flights are not tried: they gain only
+/// where rays share few visits. By avx512 they had 1.8 times the speed of sets for chords on
+/// u100000 (1.9 steps a visit), 1.08 on u1000 (18), 1.04 on u100 (95), and less than sets for
+/// mirrored and diffuse rays (3 to 183) but those mirrored on u100000 and grains200000 (1.02
+/// to 1.04). Again: bench_peers --scenes u100,u1000,u100000 --rays chord, beside the forms flight
+/// and set
+inline constexpr std::size_t steps_of_shared_visit = 24;
 
 /// Where one way took more than so many times what the other took, the next rays are as many as can
 /// be. Without it u100's mirrored rays lost 5 %.
 /// Again: bench_peers --scenes u100 --rays mirror, beside its form packet
 inline constexpr float clearly_more = 2;
 
-/// A packet's visit takes as long as so many steps of rays in flight, and what else a ray costs in
-/// a packet as so many steps more than in flight. Fitted to nine scenes (u100, u1000, u10000,
-/// u100000, flake4, flake6, protein50000, ground100000, grains200000), for mirrored and diffuse
-/// rays and chords, and for light and ambient ones: with these the choice is the faster form, or
-/// one that takes less than 3 % more, on all of them. The numbers of four lanes are those of eight.
-/// Again: bench_peers --isa avx512 avx2 --scenes (those) --rays mirror diffuse chord light ambient,
-/// beside the forms packet and flight
+/// What a ray costs, in steps of a ray in flight: in flight so much beside its steps; in a packet
+/// so much for each node and leaf that the packet visits, and so much besides; in a set so much for
+/// each node and leaf that it is tested against, for each that the set visits, and besides. Fitted
+/// to eight scenes (u100, u1000, u100000, protein50000, flake4, flake6, ground100000,
+/// grains200000), for mirrored and diffuse rays and chords, and for light and ambient ones: with
+/// these the choice takes 1.5 % more than the fastest form, on average, and 12 % at most. The
+/// numbers of four lanes are those of eight. Again: bench_peers --isa avx512 avx2 --scenes (those)
+/// --rays mirror diffuse chord light ambient, beside the forms packet, flight and set
+struct CostOfRay {
+  float flight;
+  float packet_visit, packet;
+  float set_step, set_visit, set;
+};
 template <bool any>
-inline constexpr float steps_a_visit = any ? (width < 16 ? 2.25F : 3.25F)
-                                           : (width < 16 ? 2.25F : 2.85F);
-template <bool any>
-inline constexpr float steps_a_ray = any ? 0.0F : 1.0F;
-
-/// A set's test of a ray against a node or a leaf takes as long as so many steps of rays in flight,
-/// a visit of a node or a leaf as so many more, and what else a ray costs as so many more. Fitted
-/// to u1000, u100000, protein50000, flake6 and the kinds of rays above, by avx2 and avx512. Again:
-/// as steps_a_visit, beside the form set
-template <bool any>
-inline constexpr float steps_a_set_step = any ? 0.45F : 0.57F;
-inline constexpr float steps_a_set_visit = 1.25F;
-template <bool any>
-inline constexpr float steps_a_set_ray = any ? 1.5F : 0.0F;
+inline constexpr CostOfRay cost_of_ray =
+    any ? (width < 16 ? CostOfRay{0.0F, 3.74F, 0.82F, 0.45F, 1.42F, 2.56F}
+                      : CostOfRay{0.0F, 8.7F, 0.53F, 0.45F, 8.2F, 3.74F})
+        : (width < 16 ? CostOfRay{4.1F, 2.4F, 4.05F, 0.37F, 1.56F, 4.48F}
+                      : CostOfRay{2.2F, 2.5F, 2.5F, 0.27F, 1.95F, 3.05F});
 
 /// A way that rays do not go must take so many times less before they go that way; sets come first.
 /// For any hit two ways often take about as long, and caches that hold nothing of the tree yet,

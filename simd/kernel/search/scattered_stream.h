@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "simd/abi/isa.h"
 #include "simd/kernel/search/flight_stream.h"
@@ -21,24 +22,24 @@ enum class Way : std::size_t { set, packet, flight };
 template <bool any>
 class Choice {
  public:
-  /// For any hit flights are sets.
-  static constexpr std::size_t ways = any ? 2 : 3;
+  static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit flights are sets
 
   /// Takes a trial of `rays` rays that took so many steps of flights.
   void add(Way way, std::size_t rays, float steps) {
     float& cost = cost_[static_cast<std::size_t>(way)];
     cost = cost * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
   }
-  /// Chooses, when every way has been tried once more.
-  void choose() {
+  /// Chooses among the first `tried` ways, of which each has been tried once more.
+  void choose(std::size_t tried) {
     std::size_t best = 0;
-    for (std::size_t way = 1; way < ways; ++way) best = cost_[way] < cost_[best] ? way : best;
+    for (std::size_t way = 1; way < tried; ++way) best = cost_[way] < cost_[best] ? way : best;
     const auto current = static_cast<std::size_t>(way_);
-    if (!(cost_[best] * tuning::gain_to_change<any> < cost_[current])) best = current;
+    const bool gains = cost_[best] * tuning::gain_to_change<any> < cost_[current];
+    if (current < tried && !gains) best = current;
     bool is_clear = true;
-    for (std::size_t way = 0; way < ways; ++way)
+    for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * cost_[best] < cost_[way]);
-    rays_ = best == current ? 2 * rays_ : tuning::rays_after_trial;
+    rays_ = best == current ? tuning::growth_while_agreed * rays_ : tuning::rays_after_trial;
     if (is_clear || rays_ > tuning::most_after_trial) rays_ = tuning::most_after_trial;
     way_ = static_cast<Way>(best);
   }
@@ -49,8 +50,8 @@ class Choice {
  private:
   float cost_[ways] = {};  ///< of a ray, in steps of flights
   Way way_ = Way::set;
-  // As if trials had preferred sets for half as many rays: those that agree double the number.
-  std::size_t rays_ = tuning::rays_after_trial / 2;
+  // As if trials had preferred sets before, so that those that agree make it rays_after_trial.
+  std::size_t rays_ = tuning::rays_after_trial / tuning::growth_while_agreed;
 };
 
 /// Traces rays of one stream in any of the ways.
@@ -66,44 +67,52 @@ class ScatteredStream {
         flights_(geometry, stream, answers),
         sets_(geometry, stream, answers) {}
 
-  /// Traces rays begin .. end - 1. Returns about how many steps of flights take as long.
+  /// Traces rays begin .. end - 1. Returns what they cost, in steps of rays in flight. For any hit
+  /// there is no way `flight`.
   float run(Way way, std::size_t begin, std::size_t end) {
+    if (way == Way::set) return cost_of(sets_.run(begin, end), end - begin);
     const auto rays = static_cast<float>(end - begin);
-    if (way == Way::packet) {
-      const std::size_t visits =
-          trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
-      return static_cast<float>(visits) * tuning::steps_a_visit<any_hit> +
-             rays * tuning::steps_a_ray<any_hit>;
-    }
     if constexpr (!any_hit) {
-      if (way == Way::flight) return static_cast<float>(flights_.run(begin, end));
+      if (way == Way::flight)
+        return static_cast<float>(flights_.run(begin, end)) + rays * cost.flight;
     }
-    const SetEffort effort = sets_.run(begin, end);
-    return static_cast<float>(effort.steps) * tuning::steps_a_set_step<any_hit> +
-           static_cast<float>(effort.visits) * tuning::steps_a_set_visit +
-           rays * tuning::steps_a_set_ray<any_hit>;
+    const std::size_t visits =
+        trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
+    return static_cast<float>(visits) * cost.packet_visit + rays * cost.packet;
   }
   /// Traces rays begin .. end - 1 the way that trials among them find best.
   void run_by_trial(std::size_t begin, std::size_t end) {
     Choice<any_hit> choice;
     const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
     while (begin < end) {
-      for (std::size_t k = 0; k < Choice<any_hit>::ways && begin < end; ++k) {
-        const auto way = static_cast<Way>(k);
-        const std::size_t until =
-            next(way == Way::set ? tuning::set_on_trial : tuning::rays_on_trial);
-        choice.add(way, until - begin, run(way, begin, until));
+      std::size_t until = next(tuning::set_on_trial), tried = 1;
+      const SetEffort effort = sets_.run(begin, until);
+      choice.add(Way::set, until - begin, cost_of(effort, until - begin));
+      const bool shares = tuning::steps_of_shared_visit * effort.visits < effort.steps;
+      for (const Way way : {Way::packet, Way::flight}) {
         begin = until;
+        if (begin == end) return;
+        if (way == Way::flight && (any_hit || shares)) break;
+        until = next(tuning::rays_on_trial);
+        choice.add(way, until - begin, run(way, begin, until));
+        ++tried;
       }
-      if (begin == end) return;
-      choice.choose();
-      const std::size_t until = next(choice.rays());
+      begin = until;
+      choice.choose(tried);
+      until = next(choice.rays());
       run(choice.way(), begin, until);
       begin = until;
     }
   }
 
  private:
+  static constexpr tuning::CostOfRay cost = tuning::cost_of_ray<any_hit>;
+
+  static float cost_of(const SetEffort& effort, std::size_t rays) {
+    return static_cast<float>(effort.steps) * cost.set_step +
+           static_cast<float>(effort.visits) * cost.set_visit + static_cast<float>(rays) * cost.set;
+  }
+
   struct NoFlights {
     NoFlights(const GeometryView&, const PaddedStream&, const Answers&) {}
   };
@@ -125,7 +134,8 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
   if (form == Form::automatic) {
     rays.run_by_trial(begin, end);
   } else {
-    rays.run(form == Form::flight ? Way::flight : Way::set, begin, end);
+    const bool fly = form == Form::flight && !ScatteredStream<Answers>::any_hit;
+    rays.run(fly ? Way::flight : Way::set, begin, end);
   }
 }
 /// The same through parts: as packets.

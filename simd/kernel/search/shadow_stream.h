@@ -30,7 +30,7 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
   return begin;
 }
 
-/// What a ray costs in a packet, in steps of flights (tuning::steps_a_visit), beside sorted
+/// What a ray costs in a packet, in steps of flights (tuning::steps_a_packet_visit), beside sorted
 /// bundles.
 class PacketCost {
  public:
@@ -47,7 +47,7 @@ class PacketCost {
       visits +=
           trace_groups<Solver::robust>(geometry, stream, at, at + width, Form::automatic, occluded);
     }
-    steps_ = static_cast<float>(visits) * tuning::steps_a_visit<true> / (places * width);
+    steps_ = static_cast<float>(visits) * tuning::steps_a_packet_visit / (places * width);
   }
 
   /// Whether that is less than what so many rays cost at least that are sorted and go as bundles
