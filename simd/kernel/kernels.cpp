@@ -3,8 +3,8 @@
 // way through search/ is decided here, but for the trials in scattered_stream.h and
 // shadow_stream.h:
 //   bundles    the caller promises a common origin, direction or end and leaves the form open
-//   scattered  nothing is promised, there is a tree, and the solver is robust: in flight, or as
-//              packets, whichever a trial finds faster
+//   scattered  nothing is promised, there is a tree, and the solver is robust: as sets, as
+//              packets or in flight, whichever a trial finds fastest
 //   packets    everything else: a scan, the fast solver, a form that was asked for, or several
 //   parts
 #include "simd/abi/kernel_table.h"

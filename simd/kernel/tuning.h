@@ -118,15 +118,14 @@ inline constexpr std::size_t rays_per_leaf_if_sparse = 8;
 /// Again: bench_peers --size 512 --scenes flake6,slab2000000,u1000000 --rays primary,orthographic
 inline constexpr int most_nodes_paused = 15;
 
-/// A sparse bundle is given up, and its rays fly, where a leaf is for fewer of them than this, on
-/// average. Flights divided by bundles,
-/// nearest hits, by rays of a leaf: 4 and more below 2 (ring1000000 at 512 x 512, flake6 at 128 x
-/// 128), 1.4 to 2.5 between 4 and 10 (flake6 and slab2000000 at 256 x 256), 0.4 to 0.9 between 8
-/// and 32 (flake6, slab2000000 at 512 x 512), below 0.2 from 32 on (dust: u1000000 with a tenth of
-/// its radii). Any hit: of sorted rays more are near a leaf than chance would have, and 2 was
-/// already worse than 1 on flake6 and ground100000 (0.79 and 0.94, AVX2).
-/// Again: bench_peers --size 512 --scenes ring1000000,flake6,slab2000000,ground100000 --rays
-/// primary,orthographic,shadow
+/// A sparse bundle is given up, and its rays go as sets, where a leaf is for fewer of them than
+/// this, on average. Measured when they flew. Flights divided by bundles, nearest hits, by rays of
+/// a leaf: 4 and more below 2 (ring1000000 at 512 x 512, flake6 at 128 x 128), 1.4 to 2.5 between 4
+/// and 10 (flake6 and slab2000000 at 256 x 256), 0.4 to 0.9 between 8 and 32 (flake6, slab2000000
+/// at 512 x 512), below 0.2 from 32 on (dust: u1000000 with a tenth of its radii). Any hit: of
+/// sorted rays more are near a leaf than chance would have, and 2 was already worse than 1 on
+/// flake6 and ground100000 (0.79 and 0.94, AVX2). Again: bench_peers --size 512 --scenes
+/// ring1000000,flake6,slab2000000,ground100000 --rays primary,orthographic,shadow
 template <bool any>
 inline constexpr float fewest_rays_of_a_leaf = any ? 1.0F : 8.0F;
 /// That is judged once a bundle, since it is sparse, has seen a leaf for so many of its rays. With
@@ -145,14 +144,15 @@ inline constexpr int most_unclear = 2;
 inline constexpr std::size_t rays_per_leaf_in_order = 12;
 
 /// Then so many packets show what the others would cost, if there are at least so many rays. Not
-/// with less than sixteen lanes: packets and flights would gain on slab2000000 only, and trials
-/// lost 5 to 15 % on six scenes. Again: bench_peers --size 512 --rays shadow with the scenes of the
-/// next lines
+/// with less than sixteen lanes: packets, and flights in place of sets, would have gained on
+/// slab2000000 only, and trials lost 5 to 15 % on six scenes. Again: bench_peers --size 512 --rays
+/// shadow with the scenes of the next lines
 inline constexpr std::size_t packets_on_trial = 8;
 inline constexpr std::size_t fewest_rays_judged =
     width < 16 ? ~std::size_t{0} : std::size_t{bundle_size};
 
-/// A visit of these packets takes as long as so many steps of a ray in flight took, for any hit.
+/// A visit of these packets takes so many steps of a ray in flight, which is the unit of the next
+/// numbers: for any hit nothing flies any more, but they were fitted when rays did.
 inline constexpr float steps_a_packet_visit = width < 16 ? 2.25F : 3.25F;
 
 /// Sorted, a ray costs at least so many steps of flights more than in any case, and so many for
@@ -248,12 +248,13 @@ inline constexpr std::size_t steps_of_shared_visit = 24;
 /// Again: bench_peers --scenes u100 --rays mirror, beside its form packet
 inline constexpr float clearly_more = 2;
 
-/// What a ray costs, in steps of a ray in flight: in flight so much beside its steps; in a packet
+/// What a ray costs, in steps of a ray in flight (for any hit in a unit of its own, since nothing
+/// flies): in flight so much beside its steps; in a packet
 /// so much for each node and leaf that the packet visits, and so much besides; in a set so much for
 /// each node and leaf that it is tested against, for each that the set visits, and besides. Fitted
 /// to eight scenes (u100, u1000, u100000, protein50000, flake4, flake6, ground100000,
 /// grains200000), for mirrored and diffuse rays and chords, and for light and ambient ones: with
-/// these the choice takes 1.5 % more than the fastest form, on average, and 12 % at most. The
+/// these the choice takes 0.5 to 2 % more than the fastest form, on average, and 20 % at most. The
 /// numbers of four lanes are those of eight. Again: bench_peers --isa avx512 avx2 --scenes (those)
 /// --rays mirror diffuse chord light ambient, beside the forms packet, flight and set
 struct CostOfRay {

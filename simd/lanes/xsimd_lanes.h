@@ -114,7 +114,7 @@ BOULE_INLINE void store(double* p, Wide a) {
   a.lo.store_aligned(p);
   a.hi.store_aligned(p + width / 2);
 }
-/// To any address.
+/// From any address, and to any.
 BOULE_INLINE Bits load_anywhere(const std::uint32_t* p) { return Integers::load_unaligned(p); }
 BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
 BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { a.v.store_unaligned(p); }

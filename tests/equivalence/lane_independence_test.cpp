@@ -11,7 +11,7 @@
 namespace boule::test {
 namespace {
 
-constexpr Form forms[] = {Form::automatic, Form::packet, Form::single};
+constexpr Form forms[] = {Form::automatic, Form::packet, Form::single, Form::flight, Form::set};
 
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   CaseRandom random(seed);

@@ -87,6 +87,8 @@ mutate "of a list of a set only the first W rays enter children" simd/kernel/sea
   's/first < count; first \+= width/first < 1; first += width/'
 mutate "lists of a set overlap" simd/kernel/search/ray_sets.h \
   's/top \+= count;/top += count - 1;/'
+mutate "rays of sets never meet the sphere that they leave inside" simd/kernel/search/ray_sets.h \
+  's/again = own & uniform\(ray\.inside\)/again = own \& uniform(false)/'
 mutate "a set never makes room for candidates" simd/kernel/search/set_candidates.h \
   's/return size_ > most;/return false;/'
 exit $((survivors != 0))

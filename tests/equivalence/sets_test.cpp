@@ -78,6 +78,25 @@ TEST_P(Sets, OfAnyLengthMeetWhatTheScalarPathMeets) {
     check(geometry, rays, expected, count);
 }
 
+/// So many that trials are made again and again: the first ones begin in one place, those in the
+/// middle anywhere, the last ones again in one place.
+TEST_P(Sets, ChangeTheirWayWithinAStream) {
+  CaseRandom random(74);
+  const std::vector<Sphere> spheres = cube_of_spheres(random, 900, {}, 1, 0.05);
+  const Geometry geometry(spheres, {});
+  std::vector<Ray> rays;
+  for (int i = 0; i < 24'000; ++i) {
+    const bool anywhere = i / 8000 == 1;
+    const Vec3d from = Vec3d{0, 0, 1.2} + random.direction() * (anywhere ? 3 : 0.01);
+    rays.push_back({from, vec_cast<float>(random.direction() * 0.8 - from)});
+  }
+  const auto expected =
+      run_closest(*kernels, geometry.view(), rays, {Solver::robust, Form::packet, Coherence::none});
+  for (std::size_t i = 0; i < rays.size(); i += 1000)
+    ASSERT_TRUE(same_bits(expected[i], reference::closest_hit(rays[i], spheres, {}))) << i;
+  check(geometry, rays, expected, rays.size());
+}
+
 /// From so far that float can tell of no speck whether a ray meets it: every ray has hundreds of
 /// candidates, more than a set has room for.
 TEST_P(Sets, SolveCandidatesForWhichThereIsNoRoom) {

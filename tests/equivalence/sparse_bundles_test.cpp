@@ -1,6 +1,6 @@
 // Bundles that have many leaves in sight for their rays. They look past groups of rays that are
-// done, and their rays fly where each leaf is for few of them: the hits are those of packets, and
-// those of the scalar path.
+// done, and their rays go as sets where each leaf is for few of them: the hits are those of
+// packets, and those of the scalar path.
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -73,7 +73,7 @@ BundleScene flat_disc(CaseRandom& random, int count, double radius) {
 }
 
 /// A disc seen edge-on: each of its leaves is for about a ray, and most rays miss all.
-TEST_P(SparseBundle, FliesPastADisc) {
+TEST_P(SparseBundle, GoesAsSetsPastADisc) {
   CaseRandom random(81);
   BundleScene scene = flat_disc(random, 8000, 0.01);
   const Tile tile{{0, 0, 0}, {1.05, 0, 0}, {0, 0, 0.5}, 1, 32};
@@ -82,7 +82,7 @@ TEST_P(SparseBundle, FliesPastADisc) {
   check_tile(scene, tile);
 }
 
-/// A disc of two parts, where nothing flies.
+/// A disc of two parts, where there are no sets.
 TEST_P(SparseBundle, GoesAsPacketsPastParts) {
   CaseRandom random(81);
   const BundleScene part = flat_disc(random, 4000, 0.01);
@@ -112,8 +112,8 @@ TEST_P(SparseBundle, LooksPastGroupsThatAreDone) {
 }
 
 /// Shadow rays from a disc with more leaves than rays: their sorted bundles are sparse, and those
-/// that come later fly at once.
-TEST_P(SparseBundle, FliesToALight) {
+/// that come later go as sets at once.
+TEST_P(SparseBundle, GoesAsSetsToALight) {
   for (const int count : {300, 2500}) {
     CaseRandom random(83);
     const BundleScene scene = flat_disc(random, 40 * count, count < 1000 ? 0.008 : 0.003);

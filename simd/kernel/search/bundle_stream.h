@@ -43,31 +43,25 @@ BOULE_INLINE Outcome trace_in_order(const Geometry& geometry, const PaddedStream
 }
 
 /// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they are one, or
-/// as packets where they are few or their bundle gave up. `sparse`: whether a bundle was sparse;
-/// from there on there are no bundles.
+/// as packets where they are few or their bundle gave up. Returns the first ray that has no answer
+/// yet, because it and what follows would be in a sparse bundle; else `end`.
 template <Common common, class Geometry, class Answers>
-void trace_halved(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
-                  std::size_t end, Answers answers, bool& sparse) {
+std::size_t trace_halved(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
+                         std::size_t end, Answers answers) {
   const std::size_t count = end - begin;
   if (count >= tuning::fewest_bundle_rays) {
     Effort effort;
-    const Outcome outcome =
-        sparse ? Outcome::sparse
-               : trace_in_order<common>(geometry, stream, begin, count, effort, answers);
-    if (outcome == Outcome::traced) return;
-    if (outcome == Outcome::sparse) {
-      sparse = true;
-      trace_sparse(geometry, stream, begin, end, answers);
-      return;
-    }
+    const Outcome outcome = trace_in_order<common>(geometry, stream, begin, count, effort, answers);
+    if (outcome == Outcome::traced) return end;
+    if (outcome == Outcome::sparse) return begin;
     if (outcome == Outcome::no_bundle) {
       const std::size_t middle = begin + (count / 2 + max_width - 1) / max_width * max_width;
-      trace_halved<common>(geometry, stream, begin, middle, answers, sparse);
-      trace_halved<common>(geometry, stream, middle, end, answers, sparse);
-      return;
+      const std::size_t rest = trace_halved<common>(geometry, stream, begin, middle, answers);
+      return rest < middle ? rest : trace_halved<common>(geometry, stream, middle, end, answers);
     }
   }
   trace_rest(geometry, stream, begin, end, answers);
+  return end;
 }
 
 /// Finds the nearest hits of all rays.
@@ -77,8 +71,8 @@ BOULE_INLINE void closest_hit_bundled(const Geometry& geometry, const PaddedStre
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += bundle_size) {
     const std::size_t end = size - begin < bundle_size ? size : begin + bundle_size;
-    bool sparse = false;
-    trace_halved<common>(geometry, stream, begin, end, hits, sparse);
+    const std::size_t rest = trace_halved<common>(geometry, stream, begin, end, hits);
+    if (rest < end) trace_sparse(geometry, stream, rest, end, hits);
   }
 }
 

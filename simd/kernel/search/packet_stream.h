@@ -11,7 +11,7 @@
 
 /// Streams of rays as packets of W neighbours, and single rays where those would not fill a packet.
 /// Chosen for both solvers where Form says so, where there is no tree, and where a trial finds
-/// packets faster than flights (scattered_stream.h). Neighbours should have much in common, but
+/// packets fastest (scattered_stream.h). Neighbours should have much in common, but
 /// need not: only the time depends on it.
 namespace boule::BOULE_KERNEL_ISA {
 

@@ -8,7 +8,7 @@
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/search/primitive_access.h"
 
-/// The double solves of rays in flight. A flight ends with one or two candidates; candidates of
+/// The double solves of rays in flight and of sets. A ray has one or two candidates; those of
 /// several rays together fill the lanes.
 namespace boule::BOULE_KERNEL_ISA {
 

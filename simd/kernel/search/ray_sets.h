@@ -10,6 +10,7 @@
 #include "simd/kernel/search/flight.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/pair_queue.h"
+#include "simd/kernel/search/ray_by_ray.h"
 #include "simd/kernel/search/set_candidates.h"
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
@@ -249,6 +250,7 @@ class RaySets {
   /// Solves them before the search is over. Where floats are certain of nothing, as very far from a
   /// sphere, only solved hits bring the reach of a ray closer.
   BOULE_NOINLINE void make_room() {
+    effort_.steps += candidates_.size() / tuning::solves_a_step;
     solve_candidates();
     pairs_.finish();
     for (std::size_t k = 0; k < size_; ++k) {

@@ -26,19 +26,20 @@ class Choice {
 
   /// Takes a trial of `rays` rays that took so many steps of flights.
   void add(Way way, std::size_t rays, float steps) {
-    float& cost = cost_[static_cast<std::size_t>(way)];
-    cost = cost * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
+    Cost& cost = cost_[static_cast<std::size_t>(way)];
+    cost.steps = cost.steps * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
+    cost.trials = cost.trials * tuning::share_of_earlier_trials + 1;
   }
   /// Chooses among the first `tried` ways, of which each has been tried once more.
   void choose(std::size_t tried) {
     std::size_t best = 0;
-    for (std::size_t way = 1; way < tried; ++way) best = cost_[way] < cost_[best] ? way : best;
+    for (std::size_t way = 1; way < tried; ++way) best = of(way) < of(best) ? way : best;
     const auto current = static_cast<std::size_t>(way_);
-    const bool gains = cost_[best] * tuning::gain_to_change<any> < cost_[current];
+    const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
     if (current < tried && !gains) best = current;
     bool is_clear = true;
     for (std::size_t way = 0; way < tried; ++way)
-      is_clear = is_clear && (way == best || tuning::clearly_more * cost_[best] < cost_[way]);
+      is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
     rays_ = best == current ? tuning::growth_while_agreed * rays_ : tuning::rays_after_trial;
     if (is_clear || rays_ > tuning::most_after_trial) rays_ = tuning::most_after_trial;
     way_ = static_cast<Way>(best);
@@ -48,7 +49,13 @@ class Choice {
   [[nodiscard]] std::size_t rays() const { return rays_; }
 
  private:
-  float cost_[ways] = {};  ///< of a ray, in steps of flights
+  struct Cost {
+    float steps = 0, trials = 0;
+  };
+  /// Of a ray, in steps of flights.
+  [[nodiscard]] float of(std::size_t way) const { return cost_[way].steps / cost_[way].trials; }
+
+  Cost cost_[ways];
   Way way_ = Way::set;
   // As if trials had preferred sets before, so that those that agree make it rays_after_trial.
   std::size_t rays_ = tuning::rays_after_trial / tuning::growth_while_agreed;

@@ -69,7 +69,8 @@ class PacketCost {
 };
 
 /// Traces rays first .. first + count - 1 of a pool, whose bundle had this outcome: as packets if
-/// it gave up, else as trace_halved() does. Returns whether a bundle was sparse.
+/// it gave up, else as trace_halved() does. Returns whether a bundle was sparse; they then have no
+/// answers: sets, whose lists take as much of the stack as a pool, are made when the pool is gone.
 template <Common common, class Geometry>
 BOULE_NOINLINE bool trace_gathered(const Geometry& geometry, const RayPool<common>& pool,
                                    std::size_t first, std::size_t count, Outcome outcome,
@@ -78,14 +79,15 @@ BOULE_NOINLINE bool trace_gathered(const Geometry& geometry, const RayPool<commo
   for (std::size_t k = 0; k < count; ++k) rays.set(k, pool.stream(), pool.index(first + k));
   const PaddedStream stream(rays.view(count));
   std::uint8_t met[bundle_size];
-  bool sparse = false;
+  std::size_t rest = count;
   if (outcome == Outcome::gave_up) {
     trace_rest(geometry, stream, 0, count, met);
   } else {
-    trace_halved<common>(geometry, stream, 0, count, met, sparse);
+    rest = trace_halved<common>(geometry, stream, 0, count, met);
   }
+  if (rest < count) return true;
   for (std::size_t k = 0; k < count; ++k) occluded[pool.index(first + k)] = met[k];
-  return sparse;
+  return false;
 }
 
 /// The bundles of a sorted pool, one by one: first, of four or more, four that lie far from each
@@ -180,7 +182,8 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
                                     std::size_t begin, std::size_t end, std::uint8_t* occluded) {
   const std::size_t size = end - begin;
   PacketCost packets;
-  if (size >= tuning::fewest_rays_judged && geometry.bvh.size > 0)  // without a tree nothing flies
+  if (size >= tuning::fewest_rays_judged &&
+      geometry.bvh.size > 0)  // without a tree there are no sets
     packets = PacketCost(geometry, stream, begin, end, occluded);
   Outcome outcome = Outcome::gave_up;
   if (!packets.are_less_than_sorted(geometry.bvh.size, size))

@@ -8,8 +8,8 @@
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
-/// Where the nodes and leaves of a tree are in memory, for bundles and flights, which fetch what
-/// they will visit into the cache.
+/// Where the nodes and leaves of a tree are in memory, for bundles, sets and flights, which fetch
+/// what they will visit into the cache.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Finds the node or the leaf that a child is, without a branch: no CPU could predict which of the
