@@ -249,13 +249,13 @@ inline constexpr std::size_t steps_of_shared_visit = 24;
 inline constexpr float clearly_more = 2;
 
 /// What a ray costs, in steps of a ray in flight (for any hit in a unit of its own, since nothing
-/// flies): in flight so much beside its steps; in a packet
-/// so much for each node and leaf that the packet visits, and so much besides; in a set so much for
-/// each node and leaf that it is tested against, for each that the set visits, and besides. Fitted
-/// to eight scenes (u100, u1000, u100000, protein50000, flake4, flake6, ground100000,
-/// grains200000), for mirrored and diffuse rays and chords, and for light and ambient ones: with
-/// these the choice takes 0.5 to 2 % more than the fastest form, on average, and 20 % at most. The
-/// numbers of four lanes are those of eight. Again: bench_peers --isa avx512 avx2 --scenes (those)
+/// flies): in flight so much beside its steps; in a packet so much for each node and leaf that the
+/// packet visits, and so much besides; in a set so much for each node and leaf that it is tested
+/// against, for each that the set visits, and besides. Fitted to eight scenes (u100, u1000,
+/// u100000, protein50000, flake4, flake6, ground100000, grains200000), for mirrored and diffuse
+/// rays and chords, and for light and ambient ones: with these the choice takes 0.5 to 2 % more
+/// than the fastest form, on average, and 20 % at most. The numbers of four lanes are those of
+/// eight. Again: bench_peers --isa avx512 avx2 --scenes (those)
 /// --rays mirror diffuse chord light ambient, beside the forms packet, flight and set
 struct CostOfRay {
   float flight;

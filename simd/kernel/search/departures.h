@@ -43,21 +43,27 @@ class Departures {
     }
     return count;
   }
-  /// Copies the ray of a lane. Returns false where it needs no tree: its answer is known, or is
+  /// Makes the ray of a lane. Returns false where it needs no tree: its answer is known, or is
   /// found now, since float cannot judge it or it has hits behind its origin.
-  BOULE_INLINE bool depart(std::size_t lane, FlightRay& ray) {
+  BOULE_INLINE bool depart(std::size_t lane, TreeRay& to) {
     if ((open_ >> lane & 1U) == 0) return false;
     if ((judged_ >> lane & 1U) == 0) {
       go_alone(first_ + lane);
       return false;
     }
     static_assert(sizeof(FlightRay) == FlightRay::rows * sizeof row_[0][0]);
-    get_row<0>(lane, ray);
-    get_row<1>(lane, ray);
-    get_row<2>(lane, ray);
-    get_row<3>(lane, ray);
-    get_row<4>(lane, ray);
-    get_row<5>(lane, ray);
+    get_row<0>(lane, to.ray);
+    get_row<1>(lane, to.ray);
+    get_row<2>(lane, to.ray);
+    get_row<3>(lane, to.ray);
+    get_row<4>(lane, to.ray);
+    get_row<5>(lane, to.ray);
+    to.rows.choose(to.ray);
+    to.index = static_cast<std::uint32_t>(first_ + lane);
+    const RayStream& rays = stream_.rays();
+    const std::size_t start = rays.places(to.index).start;
+    to.source = rays.source[start];
+    to.inside = rays.inside[start] != 0;
     return true;
   }
   /// What was visited for rays that were traced alone, since it was last asked.

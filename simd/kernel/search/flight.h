@@ -142,14 +142,18 @@ struct FlightCandidates {
   }
 };
 
-/// A ray in flight.
-struct Flight {
+/// A ray on its way through the tree, of a flight or a set.
+struct TreeRay {
   FlightRay ray;
   NodeRows rows;
   std::int32_t source;  ///< id of the primitive that it leaves, or -1
-  bool inside;          ///< it leaves `source` on its inside
   std::uint32_t index;  ///< in the stream
-  const void* next;     ///< the node or the leaf of the next step
+  bool inside;          ///< it leaves `source` on its inside
+};
+
+/// A ray in flight.
+struct Flight : TreeRay {
+  const void* next;  ///< the node or the leaf of the next step
   FlightCandidates candidates;
   PendingChildren pending;
 

@@ -125,13 +125,7 @@ class Flights {
   BOULE_INLINE bool depart(Flight& flight) {
     do {
       if (departed_ == ready_ && !make_more_ready()) return false;
-    } while (!departures_.depart(departed_++, flight.ray));
-    flight.index = static_cast<std::uint32_t>(first_ + departed_ - 1);
-    flight.rows.choose(flight.ray);
-    const RayStream& rays = stream_.rays();
-    const std::size_t start = rays.places(flight.index).start;
-    flight.source = rays.source[start];
-    flight.inside = rays.inside[start] != 0;
+    } while (!departures_.depart(departed_++, flight));
     flight.candidates.size = 0;
     flight.pending.clear();
     flight.next = geometry_.bvh.nodes;
@@ -169,7 +163,7 @@ class Flights {
   /// Returns the parts of its leaf in which a flight may hit something, as bits.
   BOULE_INLINE unsigned approach_leaf(Flight& flight, Approach* approaches) {
     const auto& block = *static_cast<const SphereBlock*>(flight.next);
-    const std::uint32_t slot = slot_of(block);
+    const std::uint32_t slot = slot_of(geometry_.spheres, block);
     const FilterRays rays = flight.ray.filter();
     const Real reach(flight.ray.reach);
     unsigned met = 0;
@@ -188,7 +182,8 @@ class Flights {
   /// Makes candidates of W spheres of its leaf, from `first` on.
   BOULE_INLINE void meet_leaf(Flight& flight, std::size_t first, const Approach& approach) {
     const std::uint32_t slot =
-        slot_of(*static_cast<const SphereBlock*>(flight.next)) + static_cast<std::uint32_t>(first);
+        slot_of(geometry_.spheres, *static_cast<const SphereBlock*>(flight.next)) +
+        static_cast<std::uint32_t>(first);
     const FilterRays rays = flight.ray.filter();
     const RealMask own = load_integers(geometry_.spheres.id + slot) == Bits(flight.source);
     const NextRoots roots(approach, rays, Real(flight.ray.reach), own);
@@ -197,11 +192,6 @@ class Flights {
     flight.ray.reach =
         least_lane(lesser_or(select(roots.sure, roots.high, none), Real(flight.ray.reach)));
     if (flight.candidates.size > FlightCandidates::most) make_room(flight);
-  }
-  /// The slot of a leaf's first sphere.
-  [[nodiscard]] BOULE_INLINE std::uint32_t slot_of(const SphereBlock& block) const {
-    return static_cast<std::uint32_t>(&block - geometry_.spheres.blocks) *
-           static_cast<std::uint32_t>(bvh_leaf_size);
   }
   /// The lane of the sphere that the ray leaves, if it is among W, from `slot` on. The ray meets it
   /// again only if it leaves it on its inside; it is then a candidate, because only double can tell

@@ -60,13 +60,8 @@ class RaySets {
   static constexpr std::size_t parts = bvh_width / width;
   static_assert(bvh_width == bvh_leaf_size);
 
-  struct alignas(64) SetRay {
-    FlightRay ray;  ///< `reach` is below everything once any hit is found
-    NodeRows rows;
-    std::int32_t source;  ///< id of the primitive that it leaves, or -1
-    std::uint32_t index;  ///< in the stream
-    bool inside;          ///< it leaves `source` on its inside
-  };
+  /// `ray.reach` is below everything once any hit is found.
+  struct alignas(64) SetRay : TreeRay {};
   static_assert(sizeof(SetRay) == 128);
 
   /// A node or a leaf to visit, and which rays do: `count` numbers of lists_, from `begin` on.
@@ -83,14 +78,7 @@ class RaySets {
     for (std::size_t first = begin; first < end; first += width) {
       const std::size_t count = departures_.make_ready(first);
       for (std::size_t lane = 0; lane < count; ++lane) {
-        SetRay& ray = rays_[size_];
-        if (!departures_.depart(lane, ray.ray)) continue;
-        ray.rows.choose(ray.ray);
-        ray.index = static_cast<std::uint32_t>(first + lane);
-        const RayStream& rays = stream_.rays();
-        const std::size_t start = rays.places(ray.index).start;
-        ray.source = rays.source[start];
-        ray.inside = rays.inside[start] != 0;
+        if (!departures_.depart(lane, rays_[size_])) continue;
         lists_[size_] = static_cast<std::uint32_t>(size_);
         ++size_;
       }
@@ -180,7 +168,7 @@ class RaySets {
   /// Tests the rays of a list against the spheres of a leaf: first all by the reject, since few
   /// meet any and no CPU could predict which, then those that it lets through.
   BOULE_INLINE void visit_leaf(const SphereBlock& leaf, const Waiting& now) {
-    const std::uint32_t slot = slot_of(leaf);
+    const std::uint32_t slot = slot_of(geometry_.spheres, leaf);
     const std::uint32_t* const list = lists_ + now.begin;
     std::size_t met = 0;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -232,11 +220,6 @@ class RaySets {
       candidates_.add(static_cast<std::uint32_t>(&ray - rays_), first,
                       select(again, Real(0.0F) - none, roots.low), bits(roots.in | again));
     }
-  }
-  /// The slot of a leaf's first sphere.
-  [[nodiscard]] BOULE_INLINE std::uint32_t slot_of(const SphereBlock& leaf) const {
-    return static_cast<std::uint32_t>(&leaf - geometry_.spheres.blocks) *
-           static_cast<std::uint32_t>(bvh_leaf_size);
   }
 
   /// Gives the candidates that may be nearest to the double solver.

@@ -12,6 +12,12 @@
 /// what they will visit into the cache.
 namespace boule::BOULE_KERNEL_ISA {
 
+/// The slot of a leaf's first sphere.
+BOULE_INLINE std::uint32_t slot_of(const SphereView& spheres, const SphereBlock& leaf) {
+  return static_cast<std::uint32_t>(&leaf - spheres.blocks) *
+         static_cast<std::uint32_t>(bvh_leaf_size);
+}
+
 /// Finds the node or the leaf that a child is, without a branch: no CPU could predict which of the
 /// two it is.
 class TreeBlocks {
@@ -26,14 +32,14 @@ class TreeBlocks {
   [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
   /// The node or the leaf that a child is.
   BOULE_INLINE const void* at(std::uint32_t child) const {
-    const std::size_t leaf = child >> 31, index = index_of(child);
-    return first_[leaf] + (index << (9 - leaf));
+    const std::size_t leaf = child >> 31;
+    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
+    return first_[leaf] + (std::size_t{index_of(child)} << (9 - leaf));
   }
   /// The node or the leaf that a child is. In a far tree, also fetches what its visit will read.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
     const std::size_t leaf = child >> 31, index = index_of(child);
-    static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
-    const char* const block = first_[leaf] + (index << (9 - leaf));
+    const auto* const block = static_cast<const char*>(at(child));
     if (!is_far_) return block;
     prefetch(block);
     prefetch(block + (256 - 256 * leaf));
