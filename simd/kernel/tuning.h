@@ -143,30 +143,33 @@ inline constexpr int most_unclear = 2;
 /// Again: bench_peers --scenes u10000,u100000 --rays shadow
 inline constexpr std::size_t rays_per_leaf_in_order = 12;
 
-/// Then so many packets show what the others would cost, if there are at least so many rays. Not
-/// with less than sixteen lanes: packets, and flights in place of sets, would have gained on
-/// slab2000000 only, and trials lost 5 to 15 % on six scenes. Again: bench_peers --size 512 --rays
-/// shadow with the scenes of the next lines
-inline constexpr std::size_t packets_on_trial = 8;
-inline constexpr std::size_t fewest_rays_judged =
-    width < 16 ? ~std::size_t{0} : std::size_t{bundle_size};
+/// Then some rays show what all would cost as packets and as sets, if there are at least so many
+/// rays. Packets are tried with sixteen lanes only: with eight they were at best 1.12 times as fast
+/// as what else there is (ground100000).
+/// Again: bench_peers --size 512 --rays shadow with the scenes of the next lines
+inline constexpr std::size_t fewest_rays_judged = bundle_size;
+inline constexpr std::size_t packets_on_trial = 8, sets_on_trial = 2;
 
-/// A visit of these packets takes so many steps of a ray in flight, which is the unit of the next
-/// numbers: for any hit nothing flies any more, but they were fitted when rays did.
-inline constexpr float steps_a_packet_visit = width < 16 ? 2.25F : 3.25F;
+/// What a sorted ray costs, in the unit of cost_of_ray<true>: at least so much, and so much more
+/// for each of the tree's nodes, divided by the rays, or by fewest_rays_a_node, since a bundle of
+/// few rays meets hardly more leaves than one of many; in a bundle so much for each leaf that the
+/// bundle visits, divided by its rays, and so much besides. Fitted to times and counts of shadow
+/// rays of the 13 scenes of docs/performance.md, 512 x 512, on a Zen 4. There a leaf takes a bundle
+/// 660 to 1050 cycles with avx512 and 720 to 1230 with avx2, more among few spheres; sorting takes
+/// 10 to 20 cycles a ray; and the unit is 15 to 23 cycles with avx512, 26 to 55 with avx2. Cycles a
+/// ray as packets, as a set, sorted, avx512: flake6 260, 203, 311; slab2000000 406, 249, 451;
+/// ground100000 77, 94, 104; protein500000 171, 234, 171; grains200000 499, 391, 351; u1000000
+/// 1202, 561, 633; u100000 409, 335, 191; avx2: flake6 357, 237, 375; slab2000000 533, 298, 520;
+/// u1000000 1677, 849, 726. Again: as fewest_rays_judged
+inline constexpr float sorted_ray = width < 16 ? 0.7F : 1.3F;
+inline constexpr float sorted_ray_a_node = width < 16 ? 49 : 95;
+inline constexpr std::size_t fewest_rays_a_node = 16384;
+inline constexpr float bundled_ray = width < 16 ? 0.3F : 0.6F;
+inline constexpr float bundled_leaf = width < 16 ? 24 : 48;
 
-/// Sorted, a ray costs at least so many steps of flights more than in any case, and so many for
-/// each of the tree's nodes, divided by the rays. Fitted to what sorted bundles of the scenes below
-/// visited. Shadow rays by avx512, 512 x 512, Mray/s always sorted and with this choice:
-/// ground100000 26.7, 34.0; flake6 8.2, 9.9; ring1000000 7.6, 9.6; slab2000000 5.0, 7.5;
-/// protein50000 35.5, 31.7; eight others 0.96 to 1.09 of it.
-/// Again: bench_peers --size 512 --rays shadow --scenes ground100000,flake6,ring1000000,slab2000000
-inline constexpr float steps_sorted = 0.1F, steps_sorted_a_node = 40;
-
-/// A sorted bundle takes so many steps of flights for each leaf, and what else it does for a ray
-/// takes so many fewer than in packets. Fitted to times and leaves of 3700 bundles of nine scenes
-/// (avx512): 610 cycles a leaf, within 20 % on all but ground100000, and 27 cycles a step.
-inline constexpr float steps_a_bundled_leaf = 22.5F, steps_of_no_bundle = 0.5F;
+/// Sets are tried only where a sorted ray costs at least so many times what a ray of a set costs
+/// that visits nothing: a trial takes 1 to 5 % of what sorted rays cost.
+inline constexpr float least_sorted_beside_set = 1.5F;
 
 // ---- Sorted shadow rays: search/ray_pool.h, light_grid.h --------------------------------------
 

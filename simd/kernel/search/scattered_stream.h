@@ -61,6 +61,17 @@ class Choice {
   std::size_t rays_ = tuning::rays_after_trial / tuning::growth_while_agreed;
 };
 
+/// Traces rays as packets. Returns what they cost, in steps of rays in flight.
+template <class Geometry, class Answers>
+BOULE_INLINE float trace_packets(const Geometry& geometry, const PaddedStream& stream,
+                                 std::size_t begin, std::size_t end, const Answers& answers) {
+  constexpr tuning::CostOfRay cost = tuning::cost_of_ray<RaySets<Answers>::any_hit>;
+  const std::size_t visits =
+      trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
+  return static_cast<float>(visits) * cost.packet_visit +
+         static_cast<float>(end - begin) * cost.packet;
+}
+
 /// Traces rays of one stream in any of the ways.
 template <class Answers>
 class ScatteredStream {
@@ -78,14 +89,12 @@ class ScatteredStream {
   /// there is no way `flight`.
   float run(Way way, std::size_t begin, std::size_t end) {
     if (way == Way::set) return cost_of(sets_.run(begin, end), end - begin);
-    const auto rays = static_cast<float>(end - begin);
     if constexpr (!any_hit) {
       if (way == Way::flight)
-        return static_cast<float>(flights_.run(begin, end)) + rays * cost.flight;
+        return static_cast<float>(flights_.run(begin, end)) +
+               static_cast<float>(end - begin) * cost.flight;
     }
-    const std::size_t visits =
-        trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
-    return static_cast<float>(visits) * cost.packet_visit + rays * cost.packet;
+    return trace_packets(geometry_, stream_, begin, end, answers_);
   }
   /// Traces rays begin .. end - 1 the way that trials among them find best.
   void run_by_trial(std::size_t begin, std::size_t end) {
@@ -151,6 +160,43 @@ BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStr
                                   std::size_t begin, std::size_t end, Form form,
                                   const Answers& answers) {
   trace_groups<Solver::robust>(geometry, stream, begin, end, form, answers);
+}
+
+/// Rays that show what others cost: so many at each of some places of a stream.
+struct Samples {
+  std::size_t places, rays;
+};
+
+/// Calls run(first, last + 1) for samples of rays begin .. end - 1, which returns their cost.
+/// Returns that of a ray.
+template <class Run>
+BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Samples& samples,
+                                   const Run& run) {
+  const std::size_t apart = (end - begin) / samples.places / width * width;
+  float cost = 0;
+  for (std::size_t k = 0; k < samples.places; ++k, begin += apart)
+    cost += run(begin, begin + samples.rays);
+  return cost / static_cast<float>(samples.places * samples.rays);
+}
+
+/// Traces samples of rays begin .. end - 1 one way. Returns what a ray cost.
+template <class Answers>
+BOULE_NOINLINE float trace_samples(const GeometryView& geometry, const PaddedStream& stream,
+                                   std::size_t begin, std::size_t end, Way way,
+                                   const Samples& samples, const Answers& answers) {
+  ScatteredStream<Answers> rays(geometry, stream, answers);
+  return cost_of_samples(begin, end, samples, [&](std::size_t first, std::size_t until) {
+    return rays.run(way, first, until);
+  });
+}
+/// The same through parts: as packets.
+template <class Answers>
+BOULE_NOINLINE float trace_samples(const PartsGeometry& geometry, const PaddedStream& stream,
+                                   std::size_t begin, std::size_t end, Way /*way*/,
+                                   const Samples& samples, const Answers& answers) {
+  return cost_of_samples(begin, end, samples, [&](std::size_t first, std::size_t until) {
+    return trace_packets(geometry, stream, first, until, answers);
+  });
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

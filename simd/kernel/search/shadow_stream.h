@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/ray_pool.h"
@@ -30,42 +31,53 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
   return begin;
 }
 
-/// What a ray costs in a packet, in steps of flights (tuning::steps_a_packet_visit), beside sorted
-/// bundles.
-class PacketCost {
+/// What a ray costs where rays are not sorted, as some of them show, and what it costs where they
+/// are: in the unit of tuning::cost_of_ray<true>.
+template <class Geometry>
+class UnsortedCost {
  public:
-  /// Nothing is known, and bundles seem to cost less.
-  PacketCost() = default;
-  /// As some of the rays begin .. end - 1 show, which are traced.
-  template <class Geometry>
-  BOULE_NOINLINE PacketCost(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
-                            std::size_t end, std::uint8_t* occluded) {
-    const std::size_t apart = (end - begin) / places / width * width;
-    std::size_t visits = 0;
-    for (std::size_t k = 0; k < places; ++k) {
-      const std::size_t at = begin + k * apart;
-      visits +=
-          trace_groups<Solver::robust>(geometry, stream, at, at + width, Form::automatic, occluded);
-    }
-    steps_ = static_cast<float>(visits) * tuning::steps_a_packet_visit / (places * width);
+  /// Traces some of the rays begin .. end - 1, at most a pool, the ways that may cost less than
+  /// sorted bundles.
+  UnsortedCost(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
+               std::size_t end, std::uint8_t* occluded)
+      : least_sorted_(least_of_sorted(geometry.bvh.size, end - begin)) {
+    // Few rays are not worth it; and without a tree there are no sets.
+    if (end - begin < tuning::fewest_rays_judged || geometry.bvh.size == 0) return;
+    const auto consider = [&](Way way, const Samples& samples) {
+      const float cost = trace_samples(geometry, stream, begin, end, way, samples, occluded);
+      if (cost < cost_) {
+        cost_ = cost;
+        way_ = way;
+      }
+    };
+    if constexpr (width >= 16) consider(Way::packet, {tuning::packets_on_trial, width});
+    constexpr bool has_sets = std::is_same_v<Geometry, GeometryView>;
+    if (has_sets && tuning::least_sorted_beside_set * tuning::cost_of_ray<true>.set < least_sorted_)
+      consider(Way::set, {tuning::sets_on_trial, tuning::set_on_trial});
   }
 
-  /// Whether that is less than what so many rays cost at least that are sorted and go as bundles
-  /// through a tree of so many nodes. The more nodes for a ray, the more leaves a bundle meets.
-  [[nodiscard]] bool are_less_than_sorted(std::size_t nodes, std::size_t rays) const {
-    return steps_ < tuning::steps_sorted + tuning::steps_sorted_a_node * static_cast<float>(nodes) /
-                                               static_cast<float>(rays);
-  }
+  /// Whether that is less than what sorted rays cost at least. The more nodes for a ray, the more
+  /// leaves a bundle meets.
+  [[nodiscard]] bool is_less_than_sorted() const { return cost_ < least_sorted_; }
   /// Whether that is less than what whole sorted bundles took, which visited so many leaves each.
-  [[nodiscard]] bool are_less_than_bundle(std::size_t leaves) const {
-    return bundle_size * (steps_ + tuning::steps_of_no_bundle) <
-           static_cast<float>(leaves) * tuning::steps_a_bundled_leaf;
+  [[nodiscard]] bool is_less_than_bundle(std::size_t leaves) const {
+    return cost_ < tuning::bundled_ray + tuning::bundled_leaf * static_cast<float>(leaves) /
+                                             static_cast<float>(bundle_size);
   }
+  /// The way that costs least.
+  [[nodiscard]] Way way() const { return way_; }
 
  private:
-  static constexpr std::size_t places = tuning::packets_on_trial;
+  static float least_of_sorted(std::size_t nodes, std::size_t rays) {
+    const std::size_t shared_by =
+        rays < tuning::fewest_rays_a_node ? tuning::fewest_rays_a_node : rays;
+    return tuning::sorted_ray +
+           tuning::sorted_ray_a_node * static_cast<float>(nodes) / static_cast<float>(shared_by);
+  }
 
-  float steps_ = static_cast<float>(no_hit);  ///< a ray
+  float least_sorted_;
+  float cost_ = static_cast<float>(no_hit);
+  Way way_ = Way::packet;
 };
 
 /// Traces rays first .. first + count - 1 of a pool, whose bundle had this outcome: as packets if
@@ -142,10 +154,11 @@ class LeafCounts {
 
 /// Sorts rays begin .. end - 1, at most a pool, by where they lie for their light, and finds
 /// whether they hit anything. With answers for some of them only, the outcome is `sparse`, or
-/// `gave_up` where bundles seem to cost more than `packets`.
+/// `gave_up` where bundles seem to cost more than `unsorted`.
 template <Common common, class Geometry>
 BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
-                                      std::size_t begin, std::size_t end, const PacketCost& packets,
+                                      std::size_t begin, std::size_t end,
+                                      const UnsortedCost<Geometry>& unsorted,
                                       std::uint8_t* occluded) {
   const RayPool<common> pool(stream, begin, end);
   bool sparse = false;
@@ -168,29 +181,28 @@ BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStre
   LeafCounts counts;
   const auto goes_on = [&](std::size_t judged) {
     counts.add(leaves);
-    return judged == 1 || !packets.are_less_than_bundle(counts.usual());
+    return judged == 1 || !unsorted.is_less_than_bundle(counts.usual());
   };
   if (JudgedFirst((pool.size() + bundle_size - 1) / bundle_size).each(trace, goes_on))
     return Outcome::traced;
   return sparse ? Outcome::sparse : Outcome::gave_up;
 }
 
-/// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or one by one where
-/// that seems to cost less.
+/// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays of which
+/// nothing is promised where that seems to cost less.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  const std::size_t size = end - begin;
-  PacketCost packets;
-  if (size >= tuning::fewest_rays_judged &&
-      geometry.bvh.size > 0)  // without a tree there are no sets
-    packets = PacketCost(geometry, stream, begin, end, occluded);
+  const UnsortedCost<Geometry> unsorted(geometry, stream, begin, end, occluded);
   Outcome outcome = Outcome::gave_up;
-  if (!packets.are_less_than_sorted(geometry.bvh.size, size))
-    outcome = any_hit_sorted<common>(geometry, stream, begin, end, packets, occluded);
-  if (outcome == Outcome::sparse) trace_sparse(geometry, stream, begin, end, occluded);
-  if (outcome == Outcome::gave_up)
+  if (!unsorted.is_less_than_sorted())
+    outcome = any_hit_sorted<common>(geometry, stream, begin, end, unsorted, occluded);
+  if (outcome == Outcome::traced) return;
+  if (outcome == Outcome::sparse || unsorted.way() == Way::set) {
+    trace_sparse(geometry, stream, begin, end, occluded);
+  } else {
     trace_scattered(geometry, stream, begin, end, Form::automatic, occluded);
+  }
 }
 
 /// Finds whether rays hit anything: in their order, and from where neighbours have too little in
