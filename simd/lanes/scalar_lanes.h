@@ -64,6 +64,8 @@ BOULE_INLINE WideMask load_set(const std::uint8_t* p) { return {*p != 0}; }
 BOULE_INLINE void store(double* p, Wide a) { *p = a.v; }
 BOULE_INLINE void store(float* p, Real a) { *p = a.v; }
 BOULE_INLINE Bits load_anywhere(const std::uint32_t* p) { return Bits(*p); }
+BOULE_INLINE Real load_anywhere(const float* p) { return *p; }
+BOULE_INLINE Wide load_anywhere(const double* p) { return *p; }
 BOULE_INLINE void store_anywhere(float* p, Real a) { *p = a.v; }
 BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { *p = a.v; }
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned) { *p = a.v; }

@@ -116,6 +116,10 @@ BOULE_INLINE void store(double* p, Wide a) {
 }
 /// From any address, and to any.
 BOULE_INLINE Bits load_anywhere(const std::uint32_t* p) { return Integers::load_unaligned(p); }
+BOULE_INLINE Real load_anywhere(const float* p) { return Floats::load_unaligned(p); }
+BOULE_INLINE Wide load_anywhere(const double* p) {
+  return {Doubles::load_unaligned(p), Doubles::load_unaligned(p + width / 2)};
+}
 BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
 BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { a.v.store_unaligned(p); }
 /// The lanes whose bit is set in `chosen`, one after the other, to any address. W numbers are

@@ -11,16 +11,47 @@
 /// The light of one lamp on many points, W at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
+/// The coefficients that direct light needs.
+BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const LobeMaterial* const* of_lane) {
+  CoefficientsOf<Wide> loaded{};
+  if (are_one(of_lane)) {
+    loaded.diffuse = in_all_lanes(of_lane[0]->diffuse);
+    loaded.highlight = of_lane[0]->highlight;
+    loaded.shininess = of_lane[0]->shininess;
+    return loaded;
+  }
+  const float* diffuse[width];
+  alignas(64) double numbers[2][width];
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    diffuse[lane] = of_lane[lane]->diffuse;
+    numbers[0][lane] = of_lane[lane]->highlight;
+    numbers[1][lane] = of_lane[lane]->shininess;
+  }
+  const Columns columns = load_rows(diffuse);
+  loaded.diffuse = {columns.x, columns.y, columns.z};
+  loaded.highlight = load(numbers[0]);
+  loaded.shininess = load(numbers[1]);
+  return loaded;
+}
+
 /// Of W shadow rays, what is known by the ray whose point they leave. Lanes that are not live have
-/// what a live one has.
+/// a ray that exists.
 class LitLanes {
  public:
   BOULE_INLINE LitLanes(const ShadowedPoints& shadows, std::size_t first, unsigned live)
-      : shadows_(shadows) {
-    pick_live(shadows.ray + first, live, ray_);
+      : shadows_(shadows), first_(first), live_(live) {
+    const std::uint32_t* const rays = shadows.ray + first;
+    pick_live(rays, live, ray_);
+    in_a_row_ =
+        shadows.size - first >= width && all(load_integers(rays) == count_from(shadows.ray[first]));
   }
 
   [[nodiscard]] BOULE_INLINE Vec3<Wide> pick(const VectorStream& by_ray) const {
+    if (in_a_row_) {
+      const std::size_t at = ray_in_lane_0();
+      return {load_anywhere(by_ray.x + at), load_anywhere(by_ray.y + at),
+              load_anywhere(by_ray.z + at)};
+    }
     alignas(64) double picked[3][width];
     for (std::size_t lane = 0; lane < width; ++lane) {
       picked[0][lane] = by_ray.x[ray_[lane]];
@@ -30,39 +61,23 @@ class LitLanes {
     return {load(picked[0]), load(picked[1]), load(picked[2])};
   }
 
-  /// The coefficients that direct light needs.
-  [[nodiscard]] BOULE_INLINE CoefficientsOf<Wide> materials() const {
-    const float* diffuse[width];
-    alignas(64) double numbers[2][width];
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      const LobeMaterial& material = *shadows_.material[ray_[lane]];
-      diffuse[lane] = material.diffuse;
-      numbers[0][lane] = material.highlight;
-      numbers[1][lane] = material.shininess;
+  BOULE_INLINE void pick_materials(const LobeMaterial** of_lane) const {
+    for (std::size_t lane = 0; lane < width; ++lane) of_lane[lane] = shadows_.material[ray_[lane]];
+  }
+
+  BOULE_INLINE void add(const Vec3<Real>& light, const ColorStream& radiance) const {
+    if (in_a_row_) {
+      add_in_a_row(light.x, radiance.r);
+      add_in_a_row(light.y, radiance.g);
+      add_in_a_row(light.z, radiance.b);
+      return;
     }
-    CoefficientsOf<Wide> loaded{};
-    const Columns columns = load_rows(diffuse);
-    loaded.diffuse = {columns.x, columns.y, columns.z};
-    loaded.highlight = load(numbers[0]);
-    loaded.shininess = load(numbers[1]);
-    return loaded;
-  }
-
-  /// Those whose highlight is multiplied by n.l.
-  [[nodiscard]] BOULE_INLINE WideMask cosine_highlights() const {
-    std::uint8_t set[width];
-    for (std::size_t lane = 0; lane < width; ++lane)
-      set[lane] = shadows_.material[ray_[lane]]->cosine_highlight ? 1 : 0;
-    return load_set(set);
-  }
-
-  BOULE_INLINE void add(const Vec3<Real>& light, unsigned live, const ColorStream& radiance) const {
     alignas(64) float sent[3][width];
     store(sent[0], light.x);
     store(sent[1], light.y);
     store(sent[2], light.z);
-    for (; live != 0; live &= live - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(live));
+    for (unsigned left = live_; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
       radiance.r[ray_[lane]] += sent[0][lane];
       radiance.g[ray_[lane]] += sent[1][lane];
       radiance.b[ray_[lane]] += sent[2][lane];
@@ -70,9 +85,32 @@ class LitLanes {
   }
 
  private:
+  /// Where all are in a row.
+  [[nodiscard]] BOULE_INLINE std::size_t ray_in_lane_0() const {
+    const auto live = static_cast<std::size_t>(__builtin_ctz(live_));
+    return ray_[live] - live;
+  }
+  BOULE_INLINE void add_in_a_row(const Real& light, float* radiance) const {
+    float* const sums = radiance + ray_in_lane_0();
+    const Real before = load_anywhere(sums);
+    const RealMask blocked = narrow(load_set(shadows_.blocked + first_));
+    store_anywhere(sums, select(blocked, before, before + light));
+  }
+
   const ShadowedPoints& shadows_;
+  const std::size_t first_;
+  const unsigned live_;
+  bool in_a_row_;  ///< lane k has the ray that follows lane k - 1's
   std::uint32_t ray_[width];
 };
+
+/// Those whose highlight is multiplied by n.l.
+BOULE_INLINE WideMask cosine_highlights(const LobeMaterial* const* of_lane) {
+  std::uint8_t set[width];
+  for (std::size_t lane = 0; lane < width; ++lane)
+    set[lane] = of_lane[lane]->cosine_highlight ? 1 : 0;
+  return load_set(set);
+}
 
 BOULE_INLINE Vec3<Real> intensity_at(const LightIntensity& light, const LitLanes& lanes,
                                      const VectorStream& point) {
@@ -90,18 +128,20 @@ BOULE_INLINE void add_direct_light(const LightIntensity& light, const ShadowedPo
         first_lanes(shadows.size - first) & ~bits(load_set(shadows.blocked + first));
     if (live == 0) continue;
     const LitLanes lanes(shadows, first, live);
-    const CoefficientsOf<Wide> material = lanes.materials();
+    const LobeMaterial* of_lane[width];
+    lanes.pick_materials(of_lane);
+    const CoefficientsOf<Wide> material = light_coefficients(of_lane);
     const Wide cosine = load(shadows.cosine + first);
     Wide power(0.0);
     Real share(1.0F);
     if (any(Wide(0.0) < material.highlight)) {
       power =
           highlight_power(material, lanes.pick(shadows.mirrored), load(shadows.to_light, first));
-      share = select(narrow(lanes.cosine_highlights()), narrow(cosine), share);
+      share = select(narrow(cosine_highlights(of_lane)), narrow(cosine), share);
     }
     lanes.add(
         reflected_light(material, cosine, power, share, intensity_at(light, lanes, shadows.point)),
-        live, radiance);
+        radiance);
   }
 }
 

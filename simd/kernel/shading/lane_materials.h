@@ -19,9 +19,36 @@ BOULE_INLINE void pick_live(const T* of_packet, unsigned live, T* picked) {
     picked[lane] = of_packet[(live >> lane & 1U) != 0 ? lane : any];
 }
 
+/// Whether all lanes have the same material, as neighbours mostly do.
+BOULE_INLINE bool are_one(const LobeMaterial* const* of_lane) {
+  bool one = true;
+  for (std::size_t lane = 1; lane < width; ++lane) one &= of_lane[lane] == of_lane[0];
+  return one;
+}
+
+BOULE_INLINE Vec3<Real> in_all_lanes(const float* color) { return {color[0], color[1], color[2]}; }
+
+/// One material in all lanes.
+template <LobeKind kind>
+BOULE_INLINE CoefficientsOf<Wide> load_material(const LobeMaterial& material) {
+  if constexpr (kind == LobeKind::matte) {
+    return {in_all_lanes(material.diffuse), {}, {}, {}, {}, {}, {}};
+  } else {
+    const Vec3<Real> black{0.0F, 0.0F, 0.0F};
+    return {kind == LobeKind::clear ? black : in_all_lanes(material.diffuse),
+            in_all_lanes(material.mirror),
+            in_all_lanes(material.transmission),
+            material.highlight,
+            material.shininess,
+            material.ior,
+            widen(uniform(material.fresnel))};
+  }
+}
+
 /// The materials of W points.
 template <LobeKind kind>
 BOULE_INLINE CoefficientsOf<Wide> load_materials(const LobeMaterial* const* of_lane) {
+  if (are_one(of_lane)) return load_material<kind>(*of_lane[0]);
   const float *diffuse[width], *mirror[width], *transmission[width];
   alignas(64) double numbers[3][width];
   std::uint8_t fresnel[width];

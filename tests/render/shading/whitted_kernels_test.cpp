@@ -41,10 +41,15 @@ class WhittedKernels : public OnEachIsa {
     inner.resize(count);
     inside.resize(count);
     kernels->find_surfaces(scene->geometry.view(), rays.view(), hits.view(), surfaces());
+    of_ray.assign(count, nullptr);
     lobes.assign(count, nullptr);
     for (std::size_t i = 0; i < count; ++i) {
-      if (is_hit(i)) lobes[i] = &material(i).lobes;
+      if (is_hit(i)) set_material(i, met[scene->material_ref(hits.get(i)).index()]);
     }
+  }
+  void set_material(std::size_t i, const WhittedMaterial& material) {
+    of_ray[i] = &material;
+    lobes[i] = &material.lobes;
   }
 
   SurfaceStream surfaces() {
@@ -52,8 +57,9 @@ class WhittedKernels : public OnEachIsa {
             cosines.data(), reaches.data(), inner.data(), inside.data()};
   }
   [[nodiscard]] bool is_hit(std::size_t i) const { return hits.get(i).id != no_primitive; }
-  [[nodiscard]] const WhittedMaterial& material(std::size_t i) const {
-    return met[scene->material_ref(hits.get(i)).index()];
+  [[nodiscard]] const WhittedMaterial& material(std::size_t i) const { return *of_ray[i]; }
+  [[nodiscard]] bool takes_light(std::size_t i) const {
+    return is_hit(i) && material(i).takes_light;
   }
   [[nodiscard]] Surface surface(std::size_t i) const {
     return find_surface(*scene, rays.get(i), hits.get(i));
@@ -76,6 +82,7 @@ class WhittedKernels : public OnEachIsa {
 
   void check_scattering(bool sparse);
   void check_light(const Light& light, Method method);
+  void check_added(const Light& light, std::size_t size);
 
   CaseRandom random{4};
   std::optional<PreparedScene> scene;
@@ -85,7 +92,12 @@ class WhittedKernels : public OnEachIsa {
   VectorBuffer points, normals, views, mirrored, orgs;
   AlignedArray<double> cosines, reaches;
   AlignedArray<std::uint8_t> inner, inside;
+  std::vector<const WhittedMaterial*> of_ray;
   std::vector<const LobeMaterial*> lobes;
+  // By shadow ray:
+  VectorBuffer to_light;
+  AlignedArray<double> cosine;
+  AlignedArray<std::uint32_t> ray;
 };
 
 void WhittedKernels::check_scattering(bool sparse) {
@@ -126,20 +138,25 @@ TEST_P(WhittedKernels, AlsoWhereFewDo) { check_scattering(true); }
 
 void WhittedKernels::check_light(const Light& light, Method method) {
   make_rays(method);
-  AlignedArray<std::uint8_t> lit(count), blocked(count);
+  AlignedArray<std::uint8_t> lit(count);
   std::fill_n(lit.data(), padded(count), std::uint8_t{0});
-  for (std::size_t i = 0; i < count; ++i) lit[i] = is_hit(i) && material(i).takes_light ? 1 : 0;
+  for (std::size_t i = 0; i < count; ++i) lit[i] = takes_light(i) ? 1 : 0;
   RayBuffer shadow_rays(count);
-  VectorBuffer to_light;
   to_light.resize(count);
-  AlignedArray<double> cosine(count);
-  AlignedArray<std::uint32_t> ray(count);
+  cosine.resize(count);
+  ray.resize(count);
   const std::size_t size =
       kernels->make_shadow_rays(shadow_target(light),
                                 {points.view(), normals.view(), orgs.view(), hits.view().id,
                                  inside.data(), lit.data(), count},
                                 {shadow_rays.view(), to_light.view(), cosine.data(), ray.data()});
   ASSERT_GT(size, count / 8);
+  check_added(light, size);
+}
+
+/// The light of the first `size` shadow rays, of which some are blocked.
+void WhittedKernels::check_added(const Light& light, std::size_t size) {
+  AlignedArray<std::uint8_t> blocked(count);
   ColorBuffer radiance;
   radiance.resize(count);
   std::vector<Color> expected(count);
@@ -148,7 +165,7 @@ void WhittedKernels::check_light(const Light& light, Method method) {
     radiance.set(i, expected[i]);
   }
   for (std::size_t k = 0; k < size; ++k) {
-    blocked[k] = random.chance(0.3) ? 1 : 0;
+    blocked[k] = random.chance(0.3) || !takes_light(ray[k]) ? 1 : 0;
     if (blocked[k] != 0) continue;
     const Surface at = surface(ray[k]);
     const Color intensity =
@@ -178,6 +195,28 @@ TEST_P(WhittedKernels, OfABall) {
 }
 TEST_P(WhittedKernels, AndWithHighlightsOfPaths) {
   check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::path);
+}
+
+/// As where a whole block of pixels sees the light: rays in rows, many with one material.
+TEST_P(WhittedKernels, PointsInARowGetTheirLight) {
+  make_rays(Method::whitted);
+  std::size_t one = 0;
+  while (!takes_light(one)) ++one;
+  for (std::size_t i = 64; i < 160; ++i) {
+    if (is_hit(i)) set_material(i, material(one));
+  }
+  to_light.resize(count);
+  cosine.resize(count);
+  ray.resize(count);
+  std::size_t size = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i % 41 == 0) continue;  // between two rows
+    ray[size] = i;
+    cosine[size] = random.uniform(0.1, 1);
+    to_light.set(size++, random.direction());
+  }
+  check_added(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::inverse_square}, size);
+  check_added(DirectionalLight{{1, -2, 0.5f}, {3, 2, 1}}, size);
 }
 
 TEST_P(WhittedKernels, SamplesGetTheLightOfTheirRaysInOrder) {

@@ -39,6 +39,11 @@ void probe_compressed(const test::LaneInputs& in, test::LaneOutputs& out) {
   store_chosen(out.wide_chosen + 1, x, bits(x < y));
   store_chosen_halves(out.chosen_halves + 1, abs(a), a < b);
   store_anywhere(out.anywhere + 1, i);
+  store(out.from_anywhere, load_anywhere(out.anywhere + 1));
+  store_anywhere(out.real_anywhere + 1, a);
+  store(out.real_from_anywhere, load_anywhere(out.real_anywhere + 1));
+  for (int k = 0; k < width; ++k) out.wide_anywhere[k + 1] = in.x[k];
+  store(out.wide_from_anywhere, load_anywhere(out.wide_anywhere + 1));
   out.least_of_sixteen = index_of_least(in.sixteen);
 }
 

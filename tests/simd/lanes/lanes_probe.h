@@ -45,9 +45,12 @@ struct LaneOutputs {
   std::uint8_t chosen_set[most_lanes + 1];
   alignas(64) double wide_chosen[most_lanes + 1];
   alignas(64) std::uint16_t chosen_halves[most_lanes + 1];
-  alignas(64) std::uint32_t anywhere[most_lanes + 1];  ///< i from index 1 on
-  alignas(64) float rows[4 * most_lanes];              ///< from a, b, c and a + b, lane by lane
-  alignas(64) float columns[4][most_lanes];            ///< from these rows, the last one first
+  /// From index 1 on: i, a and x; and what is loaded from there.
+  alignas(64) std::uint32_t anywhere[most_lanes + 1], from_anywhere[most_lanes];
+  alignas(64) float real_anywhere[most_lanes + 1], real_from_anywhere[most_lanes];
+  alignas(64) double wide_anywhere[most_lanes + 1], wide_from_anywhere[most_lanes];
+  alignas(64) float rows[4 * most_lanes];    ///< from a, b, c and a + b, lane by lane
+  alignas(64) float columns[4][most_lanes];  ///< from these rows, the last one first
   unsigned less, less_equal, equal, wide_less, wide_less_equal, wide_equal;
   unsigned integer_equal, integer_less_equal, set_bytes;
   unsigned mask_and, mask_or, mask_not, wide_and, wide_or, wide_not, mask_select, widened_mask,

@@ -218,6 +218,10 @@ TEST_P(Lanes, Integers) {
       ASSERT_EQ(out.reversed[k] >> digit & 1U, i >> (31 - digit) & 1U);
     ASSERT_EQ(bit(out.set_bytes, k), in.bytes[k] != 0);
     ASSERT_EQ(out.anywhere[k + 1], i);
+    ASSERT_EQ(out.from_anywhere[k], i);
+    ASSERT_TRUE(same(out.real_anywhere[k + 1], in.a[k]));
+    ASSERT_TRUE(same(out.real_from_anywhere[k], in.a[k]));
+    ASSERT_TRUE(same(out.wide_from_anywhere[k], in.x[k]));
   });
 }
 
