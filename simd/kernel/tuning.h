@@ -229,11 +229,17 @@ inline constexpr std::size_t set_size = 256;
 // ---- The choice between sets, packets and flights: search/scattered_stream.h ------------------
 
 /// Rays that are traced each way to see which is the best one, more of them as a set, since a small
-/// set shares few visits; and rays that then go that way: at first, and at most, because their
-/// number grows while trials agree. What earlier trials saw counts half as much as the last one,
-/// for 32 rays may mislead. Set by trial.
+/// set shares few visits: for nearest hits a whole one, which costs nothing where sets are best;
+/// and rays that then go that way: at first, and at most, because their number grows while trials
+/// agree. What earlier trials saw counts half as much as the last one, for 32 rays may mislead. Set
+/// by trial. Speed beside the fastest form, means of mirrored and diffuse rays on u100, u1000,
+/// flake4, protein50000, u100000, ground100000 and grains200000, Zen 4, sets of 128 and of 256 (and
+/// with avx512 the numbers of cost_of_ray before a Zen 4 was looked at, and those of today): avx512
+/// 0.91, 0.93, avx2 0.92, 0.98; for ambient ones avx2 0.97, 0.94.
 /// Again: bench_peers --scenes u1000,u10000,flake4 --rays mirror,diffuse,light
-inline constexpr std::size_t rays_on_trial = 32, set_on_trial = 128;
+inline constexpr std::size_t rays_on_trial = 32;
+template <bool any>
+inline constexpr std::size_t set_on_trial = any ? 128 : set_size;
 inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 8 * rays_after_trial;
 inline constexpr std::size_t growth_while_agreed = 4;
 inline constexpr float share_of_earlier_trials = 0.5F;
@@ -258,7 +264,9 @@ inline constexpr float clearly_more = 2;
 /// u100000, protein50000, flake4, flake6, ground100000, grains200000), for mirrored and diffuse
 /// rays and chords, and for light and ambient ones: with these the choice takes 0.5 to 2 % more
 /// than the fastest form, on average, and 20 % at most. The numbers of four lanes are those of
-/// eight. Again: bench_peers --isa avx512 avx2 --scenes (those)
+/// eight. Those of sixteen lanes for nearest hits are the geometric means of that fit, on an Intel
+/// Xeon, and one on a Zen 4 (11 scenes), where they take 1.5 % more than the fastest form, and the
+/// Xeon's own 4 %. Again: bench_peers --isa avx512 avx2 --scenes (those)
 /// --rays mirror diffuse chord light ambient, beside the forms packet, flight and set
 struct CostOfRay {
   float flight;
@@ -270,7 +278,7 @@ inline constexpr CostOfRay cost_of_ray =
     any ? (width < 16 ? CostOfRay{0.0F, 3.74F, 0.82F, 0.45F, 1.42F, 2.56F}
                       : CostOfRay{0.0F, 8.7F, 0.53F, 0.45F, 8.2F, 3.74F})
         : (width < 16 ? CostOfRay{4.1F, 2.4F, 4.05F, 0.37F, 1.56F, 4.48F}
-                      : CostOfRay{2.2F, 2.5F, 2.5F, 0.27F, 1.95F, 3.05F});
+                      : CostOfRay{1.35F, 2.35F, 1.6F, 0.32F, 1.55F, 1.75F});
 
 /// A way that rays do not go must take so many times less before they go that way; sets come first.
 /// For any hit two ways often take about as long, and caches that hold nothing of the tree yet,

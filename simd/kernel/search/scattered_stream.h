@@ -101,7 +101,7 @@ class ScatteredStream {
     Choice<any_hit> choice;
     const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
     while (begin < end) {
-      std::size_t until = next(tuning::set_on_trial), tried = 1;
+      std::size_t until = next(tuning::set_on_trial<any_hit>), tried = 1;
       const SetEffort effort = sets_.run(begin, until);
       choice.add(Way::set, until - begin, cost_of(effort, until - begin));
       const bool shares = tuning::steps_of_shared_visit * effort.visits < effort.steps;

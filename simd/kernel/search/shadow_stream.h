@@ -53,7 +53,7 @@ class UnsortedCost {
     if constexpr (width >= 16) consider(Way::packet, {tuning::packets_on_trial, width});
     constexpr bool has_sets = std::is_same_v<Geometry, GeometryView>;
     if (has_sets && tuning::least_sorted_beside_set * tuning::cost_of_ray<true>.set < least_sorted_)
-      consider(Way::set, {tuning::sets_on_trial, tuning::set_on_trial});
+      consider(Way::set, {tuning::sets_on_trial, tuning::set_on_trial<true>});
   }
 
   /// Whether that is less than what sorted rays cost at least. The more nodes for a ray, the more
