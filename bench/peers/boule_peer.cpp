@@ -35,13 +35,16 @@ class BouleContender final : public Contender {
   void trace(std::size_t first, std::size_t last) override {
     const RayStream rays = workload_.rays->view();
     const std::size_t stream_size = info().width;
+    Experience experience;
+    Query query = query_;
+    query.experience = &experience;
     for (; first < last; first += stream_size) {
       const RayStream stream = boule::part(rays, first, std::min(stream_size, last - first));
       if (asks_any(workload_.kind)) {
-        kernels_.any_hit(geometry_, stream, query_, memory_.occluded->data() + first);
+        kernels_.any_hit(geometry_, stream, query, memory_.occluded->data() + first);
       } else {
         const HitStream all = memory_.hits->view();
-        kernels_.closest_hit(geometry_, stream, query_, boule::part(all, first, stream.size));
+        kernels_.closest_hit(geometry_, stream, query, boule::part(all, first, stream.size));
       }
     }
   }

@@ -54,9 +54,11 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   illumination_.start(count);
   make_room(room);
   hits_.resize(count);
-  const bool first_hits = stream.depth == 0;
+  depth_ = stream.depth;
+  const bool first_hits = depth_ == 0;
   const Query query{settings_.solver, Form::automatic,
-                    first_hits ? camera.coherence : Coherence::none};
+                    first_hits ? camera.coherence : Coherence::none,
+                    &experience_at(depth_).nearest};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
   if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
@@ -71,6 +73,12 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   add_more_light();
   if (settings_.record != nullptr) settings_.record->finish(radiance_.get(0));
   wavefront_.add(radiance_.view());
+}
+
+StreamIntegrator::DepthExperience& StreamIntegrator::experience_at(int depth) {
+  const auto index = static_cast<std::size_t>(depth);
+  if (experience_.size() <= index) experience_.resize(index + 1);
+  return experience_[index];
 }
 
 /// The points of the stream's hits as floats have them, for shadow rays that start by an epsilon.
@@ -142,7 +150,8 @@ const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
   blocked_.resize(std::bit_ceil(shadow_rays.size));
   // By an epsilon each of them has an origin and an end of its own.
   const Query query{settings_.solver, Form::automatic,
-                    settings_.shadow_epsilon ? Coherence::none : coherence};
+                    settings_.shadow_epsilon ? Coherence::none : coherence,
+                    &experience_at(depth_).shadow};
   kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
   return blocked_.data();
 }

@@ -95,7 +95,13 @@ class StreamIntegrator : public Integrator {
     LightIntensity intensity;
   };
 
+  /// Rays of one depth have more in common with each other than with those of others.
+  struct DepthExperience {
+    Experience nearest, shadow;
+  };
+
   void trace_stream(const PathStream& stream, const CameraRays& camera);
+  [[nodiscard]] DepthExperience& experience_at(int depth);
   void find_float_points(const PathStream& stream);
   void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
@@ -106,6 +112,8 @@ class StreamIntegrator : public Integrator {
   std::vector<TargetedLight> lights_;
   SeenLight seen_{}, seen_by_camera_{};
   std::uint64_t primary_ = 0, shadow_ = 0;
+  std::vector<DepthExperience> experience_;  ///< by depth
+  int depth_ = 0;                            ///< of the stream at hand
 
   // Working memory of one stream.
   std::vector<Vec3f> float_points_;  ///< by ray, where shadow rays start by an epsilon

@@ -6,18 +6,20 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
-#include "core/surface.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/scene_memory.h"
 #include "render/prepare/scene_geometry.h"
 #include "render/renderer/preparation.h"
 #include "simd/stream/stream_buffer.h"
+#include "simd/stream/surface_buffer.h"
 
 namespace boule {
 namespace {
 
 /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
 constexpr std::size_t block_size = 1024;
+/// Rays whose surfaces are found at a time: few enough for them to stay in the nearest caches.
+constexpr std::size_t surface_block_size = 256;
 
 /// The nearest float of a finite number or infinity, which numbers that are too large become.
 float to_float(double x) {
@@ -51,7 +53,9 @@ Status wrong_room(std::size_t rays, std::size_t results) {
 struct Tracer::Worker {
   RayBuffer rays;
   HitBuffer hits;
+  SurfaceBuffer surfaces{surface_block_size};
   AlignedArray<std::uint8_t> met;
+  Experience closest, any;  ///< of all calls: they are likely to have rays of one kind
 
   void load(std::span<const Ray> block) {
     rays.resize(block.size());
@@ -67,12 +71,34 @@ Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups
                const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
-      planes_(std::move(scene.planes)),
-      geometry_(geometry_of(scene, groups, planes_, Scheduler(options.threads).parallel_for())),
+      geometry_(
+          geometry_of(scene, groups, scene.planes, Scheduler(options.threads).parallel_for())),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
 Tracer::Tracer(Tracer&& other) noexcept = default;
+
+/// Calls visit(k, hit, normal) for each ray of the worker's stream; `normal` is 0 for a miss.
+template <class Visit>
+void Tracer::find_closest(Worker& worker, const Visit& visit) {
+  const std::size_t size = worker.rays.size();
+  worker.hits.resize(size);
+  const GeometryView geometry = geometry_.view();
+  const RayStream rays = worker.rays.view();
+  const HitStream hits = worker.hits.view();
+  const Query query{.solver = options_.solver, .experience = &worker.closest};
+  kernels_->closest_hit(geometry, rays, query, hits);
+  for (std::size_t first = 0; first < size; first += surface_block_size) {
+    const std::size_t count = std::min(surface_block_size, size - first);
+    kernels_->find_surfaces(geometry, part(rays, first, count), part(hits, first, count),
+                            worker.surfaces.stream());
+    for (std::size_t k = 0; k < count; ++k) {
+      const Hit hit = worker.hits.get(first + k);
+      const bool met = hit.id != no_primitive;
+      visit(first + k, hit, met ? vec_cast<float>(worker.surfaces.normal.get(k)) : Vec3f{});
+    }
+  }
+}
 Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 Tracer::~Tracer() = default;
 
@@ -108,24 +134,10 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
   });
 }
 
-void Tracer::find_closest(Worker& worker) {
-  worker.hits.resize(worker.rays.size());
-  kernels_->closest_hit(geometry_.view(), worker.rays.view(), {options_.solver},
-                        worker.hits.view());
-}
-
 void Tracer::find_any(Worker& worker) {
   worker.met.resize(worker.rays.size());
-  kernels_->any_hit(geometry_.view(), worker.rays.view(), {options_.solver}, worker.met.data());
-}
-
-/// 0 for a miss.
-Vec3f Tracer::normal_of(const Ray& ray, const Hit& hit) const {
-  if (hit.id == no_primitive) return {};
-  const std::size_t plane = static_cast<std::uint32_t>(hit.id) - geometry_.sphere_count();
-  const Surface met = geometry_.is_plane(hit) ? find_surface(planes_[plane], ray, hit)
-                                              : find_surface(geometry_.sphere(hit.slot), ray, hit);
-  return vec_cast<float>(met.normal);
+  const Query query{.solver = options_.solver, .experience = &worker.any};
+  kernels_->any_hit(geometry_.view(), worker.rays.view(), query, worker.met.data());
 }
 
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
@@ -133,11 +145,9 @@ Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
     worker.load(rays.subspan(first, count));
   };
   const auto body = [&](Worker& worker, std::size_t first) {
-    find_closest(worker);
-    for (std::size_t k = 0; k < worker.rays.size(); ++k) {
-      const Hit hit = worker.hits.get(k);
-      hits[first + k] = {hit.t, hit.id, normal_of(rays[first + k], hit)};
-    }
+    find_closest(worker, [&](std::size_t k, const Hit& hit, const Vec3f& normal) {
+      hits[first + k] = {hit.t, hit.id, normal};
+    });
   };
   return run(rays.size(), hits.size(), std::cref(load), std::cref(body));
 }
@@ -158,17 +168,14 @@ Status Tracer::closest_of_columns(const RayColumns& rays, const HitColumns& hits
     worker.load(rays, first, count);
   };
   const auto body = [&](Worker& worker, std::size_t first) {
-    find_closest(worker);
-    for (std::size_t k = 0; k < worker.rays.size(); ++k) {
-      const Hit hit = worker.hits.get(k);
-      const Vec3f normal = normal_of(worker.rays.get(k), hit);
+    find_closest(worker, [&](std::size_t k, const Hit& hit, const Vec3f& normal) {
       hits.t[first + k] = hit.t;
       hits.id[first + k] = hit.id;
       float* const components = hits.normal + 3 * (first + k);
       components[0] = normal.x;
       components[1] = normal.y;
       components[2] = normal.z;
-    }
+    });
   };
   return run(rays.size, rays.size, std::cref(load), std::cref(body));
 }

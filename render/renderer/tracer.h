@@ -83,16 +83,15 @@ class Tracer {
          const TraceOptions& options, const KernelTable& kernels);
   /// Fills a worker's stream with `count` rays from `first` on.
   using Load = std::function<void(Worker& worker, std::size_t first, std::size_t count)>;
-  void find_closest(Worker& worker);
+  template <class Visit>
+  void find_closest(Worker& worker, const Visit& visit);
   void find_any(Worker& worker);
-  [[nodiscard]] Vec3f normal_of(const Ray& ray, const Hit& hit) const;
   Status run(std::size_t rays, std::size_t results, const Load& load, const Body& body);
   Status run_blocks(std::size_t rays, const Load& load, const Body& body);
   Worker& worker(unsigned index);
 
   TraceOptions options_;
   const KernelTable* kernels_;
-  std::vector<Plane> planes_;
   Geometry geometry_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace boule {
 
@@ -26,12 +27,28 @@ enum class Form { automatic, packet, single, flight, set };
 /// in one point, at t = 1, up to the rounding of their directions.
 enum class Coherence { none, common_origin, common_direction, common_end };
 
+/// What trials among rays of one kind have found out: which way is fastest. A caller who keeps it
+/// from stream to stream saves each the trials of its own. One for each kind of rays (say, those
+/// after the second bounce of a picture), for each kernel function, and for each thread. A new one
+/// knows nothing. It changes the time, never a hit. Its numbers are the kernels' own.
+struct Experience {
+  struct Cost {
+    float steps = 0, trials = 0;
+  };
+  Cost cost[3];            ///< of each way
+  std::uint32_t way = 0;   ///< the fastest one
+  std::uint32_t rays = 0;  ///< how many go that way after a trial
+  std::uint32_t left = 0;  ///< how many of them are still to come; 0: the next ones are a trial
+  std::uint32_t next_way = 0, tried_ways = 0;  ///< of the trial: the next one, and how many
+};
+
 /// How to trace one stream. Only reference_kernels() has solver reference; other tables take it for
 /// robust.
 struct Query {
   Solver solver = Solver::robust;
   Form form = Form::automatic;
   Coherence coherence = Coherence::none;
+  Experience* experience = nullptr;  ///< null: the stream finds out for itself
 };
 
 /// The widest packet. Every stream and every array of primitives is padded to a multiple of it.

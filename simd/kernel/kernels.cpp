@@ -44,7 +44,7 @@ template <class Answers>
 void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Query& query,
                const Answers& answers) {
   if (may_scatter(geometry, query)) {
-    trace_scattered(geometry, stream, 0, stream.rays().size, query.form, answers);
+    trace_scattered(geometry, stream, 0, stream.rays().size, query.form, query.experience, answers);
   } else if (query.solver == Solver::fast) {
     trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
   } else {

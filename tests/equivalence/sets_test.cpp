@@ -78,6 +78,16 @@ TEST_P(Sets, OfAnyLengthMeetWhatTheScalarPathMeets) {
     check(geometry, rays, expected, count);
 }
 
+/// `count` rays that begin near (0, 0, 1.2), or anywhere, and go to a ball of radius 0.8.
+std::vector<Ray> rays_from(CaseRandom& random, std::size_t count, bool anywhere) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d from = Vec3d{0, 0, 1.2} + random.direction() * (anywhere ? 3 : 0.01);
+    rays.push_back({from, vec_cast<float>(random.direction() * 0.8 - from)});
+  }
+  return rays;
+}
+
 /// So many that trials are made again and again: the first ones begin in one place, those in the
 /// middle anywhere, the last ones again in one place.
 TEST_P(Sets, ChangeTheirWayWithinAStream) {
@@ -85,16 +95,69 @@ TEST_P(Sets, ChangeTheirWayWithinAStream) {
   const std::vector<Sphere> spheres = cube_of_spheres(random, 900, {}, 1, 0.05);
   const Geometry geometry(spheres, {});
   std::vector<Ray> rays;
-  for (int i = 0; i < 24'000; ++i) {
-    const bool anywhere = i / 8000 == 1;
-    const Vec3d from = Vec3d{0, 0, 1.2} + random.direction() * (anywhere ? 3 : 0.01);
-    rays.push_back({from, vec_cast<float>(random.direction() * 0.8 - from)});
+  for (const bool anywhere : {false, true, false}) {
+    const std::vector<Ray> more = rays_from(random, 8000, anywhere);
+    rays.insert(rays.end(), more.begin(), more.end());
   }
   const auto expected =
       run_closest(*kernels, geometry.view(), rays, {Solver::robust, Form::packet, Coherence::none});
   for (std::size_t i = 0; i < rays.size(); i += 1000)
     ASSERT_TRUE(same_bits(expected[i], reference::closest_hit(rays[i], spheres, {}))) << i;
   check(geometry, rays, expected, rays.size());
+}
+
+/// Streams of all lengths, most of them too short for a whole trial, of which each knows what those
+/// before it found out.
+TEST_P(Sets, KnowWhatEarlierStreamsFoundOut) {
+  CaseRandom random(75);
+  const std::vector<Sphere> spheres = cube_of_spheres(random, 900, {}, 1, 0.05);
+  const Geometry geometry(spheres, {});
+  Experience nearest, any;
+  const std::size_t lengths[] = {1, 7, 16, 100, 255, 256, 257, 290, 333, 1000, 3000};
+  for (const bool anywhere : {false, true, false}) {
+    for (int round = 0; round < 2; ++round) {
+      for (const std::size_t length : lengths) {
+        const std::vector<Ray> rays = rays_from(random, length, anywhere);
+        const auto expected = run_closest(*kernels, geometry.view(), rays,
+                                          {Solver::robust, Form::packet, Coherence::none});
+        const auto hits = run_closest(*kernels, geometry.view(), rays,
+                                      {Solver::robust, Form::automatic, Coherence::none, &nearest});
+        const auto occluded = run_any(*kernels, geometry.view(), rays,
+                                      {Solver::robust, Form::automatic, Coherence::none, &any});
+        for (std::size_t i = 0; i < length; ++i) {
+          ASSERT_TRUE(same_bits(hits[i], expected[i])) << i << " of " << length;
+          ASSERT_EQ(occluded[i], expected[i].id != no_primitive ? 1 : 0) << i << " of " << length;
+        }
+      }
+    }
+  }
+}
+
+/// Streams of which none has room for a trial and for what follows it.
+TEST_P(Sets, MakeFewTrialsInManyShortStreams) {
+  CaseRandom random(76);
+  const Geometry geometry(cube_of_spheres(random, 900, {}, 1, 0.05), {});
+  const std::vector<Ray> rays = rays_from(random, 100, false);
+  const auto trace = [&](Experience* known, bool any) {
+    const Query query{Solver::robust, Form::automatic, Coherence::none, known};
+    if (any) {
+      run_any(*kernels, geometry.view(), rays, query);
+    } else {
+      run_closest(*kernels, geometry.view(), rays, query);
+    }
+  };
+  for (const bool any : {false, true}) {
+    Experience known;
+    trace(&known, any);
+    EXPECT_EQ(known.left, 0U);  // a trial is under way
+    EXPECT_GT(known.next_way, 0U);
+    for (int stream = 0; stream < 15; ++stream) trace(&known, any);
+    EXPECT_GE(known.rays, 1984U);
+    EXPECT_EQ(known.next_way, 0U);
+    const std::uint32_t left = known.left;
+    trace(&known, any);
+    EXPECT_EQ(known.left, left - 100) << "any " << any;
+  }
 }
 
 /// From so far that float can tell of no speck whether a ray meets it: every ray has hundreds of

@@ -3,6 +3,7 @@
 
 #include "core/math/geometry.h"
 #include "core/surface.h"
+#include "simd/stream/surface_buffer.h"
 #include "tests/support/expect_same.h"
 #include "tests/support/hard_case_runs.h"
 
@@ -10,23 +11,6 @@ namespace boule::test {
 namespace {
 
 constexpr std::size_t ray_count = 517;  // the last packet is not whole
-
-/// Memory for a SurfaceStream.
-struct SurfaceArrays {
-  VectorBuffer point, normal, view, mirrored, org;
-  AlignedArray<double> cosine{ray_count}, reach{ray_count};
-  AlignedArray<std::uint8_t> inner{ray_count, 7}, inside{ray_count, 7};
-
-  SurfaceArrays() {
-    for (VectorBuffer* vectors : {&point, &normal, &view, &mirrored, &org}) {
-      vectors->resize(ray_count);
-    }
-  }
-  SurfaceStream stream() {
-    return {point.view(),  normal.view(), view.view(),  mirrored.view(), org.view(),
-            cosine.data(), reach.data(),  inner.data(), inside.data()};
-  }
-};
 
 /// Memory for a ShadowRayStream.
 struct ShadowRayArrays {
@@ -76,7 +60,7 @@ class SurfacesOfHardCases : public OnEachHardCase {
     for (std::size_t k = 0; k < ray_count; k += 7) rays.view().source[k] = hits.get(k).id;
   }
 
-  void find(const KernelTable& table, SurfaceArrays& found) {
+  void find(const KernelTable& table, SurfaceBuffer& found) {
     table.find_surfaces(geometry->view(), rays.view(), hits.view(), found.stream());
   }
 
@@ -87,7 +71,7 @@ class SurfacesOfHardCases : public OnEachHardCase {
 };
 
 TEST_P(SurfacesOfHardCases, EqualTheScalarPath) {
-  SurfaceArrays wide;
+  SurfaceBuffer wide(ray_count);
   find(*kernels, wide);
   std::size_t met = 0;
   for (std::size_t k = 0; k < ray_count && !HasFailure(); ++k) {
@@ -111,7 +95,7 @@ TEST_P(SurfacesOfHardCases, EqualTheScalarPath) {
 }
 
 TEST_P(SurfacesOfHardCases, ShadowRaysEqualTheScalarPath) {
-  SurfaceArrays surfaces;
+  SurfaceBuffer surfaces(ray_count);
   find(reference_kernels(), surfaces);
   AlignedArray<std::uint8_t> lit(ray_count, 0);
   for (std::size_t k = 0; k < ray_count; ++k) {
@@ -165,7 +149,7 @@ TEST_P(SurfacesOfSpecks, FaceTheViewer) {
     hits.view().id[k] = 0;
     hits.view().slot[k] = 0;
   }
-  SurfaceArrays wide;
+  SurfaceBuffer wide(ray_count);
   kernels->find_surfaces(geometry.view(), rays.view(), hits.view(), wide.stream());
   for (std::size_t k = 0; k < ray_count; ++k) {
     ASSERT_EQ(wide.point.get(k), (Vec3d{1, 2, 3}));

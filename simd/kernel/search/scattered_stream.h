@@ -17,48 +17,65 @@ namespace boule::BOULE_KERNEL_ISA {
 
 enum class Way : std::size_t { set, packet, flight };
 
-/// What trials have found out: which way takes the least time, and for how many rays that is
-/// believed.
+/// Tells the rays of a stream which way to go: now and then some go each way, one after the other,
+/// and from what that took follows which way the next ones go.
 template <bool any>
 class Choice {
  public:
   static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit flights are sets
 
-  /// Takes a trial of `rays` rays that took so many steps of flights.
-  void add(Way way, std::size_t rays, float steps) {
-    Cost& cost = cost_[static_cast<std::size_t>(way)];
+  explicit Choice(Experience& known) : known_(known) {}
+
+  [[nodiscard]] bool is_trial() const { return known_.left == 0; }
+  [[nodiscard]] Way way() const {
+    return static_cast<Way>(is_trial() ? known_.next_way : known_.way);
+  }
+  /// How many rays go that way now, if there are so many: a multiple of W.
+  [[nodiscard]] std::size_t rays() const {
+    if (!is_trial()) return (known_.left + width - 1) / width * width;
+    return way() == Way::set ? tuning::set_on_trial<any> : tuning::rays_on_trial;
+  }
+
+  /// Takes note of rays that went that way, and took so many steps of flights. `shared`: of a set,
+  /// whether so many of its rays visited the same that flights cannot gain.
+  void add(std::size_t rays, float steps, bool shared) {
+    if (!is_trial()) {
+      known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
+      return;
+    }
+    Experience::Cost& cost = known_.cost[known_.next_way];
     cost.steps = cost.steps * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
     cost.trials = cost.trials * tuning::share_of_earlier_trials + 1;
+    if (way() == Way::set) known_.tried_ways = shared ? 2 : ways;
+    if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
   }
+
+ private:
   /// Chooses among the first `tried` ways, of which each has been tried once more.
   void choose(std::size_t tried) {
     std::size_t best = 0;
     for (std::size_t way = 1; way < tried; ++way) best = of(way) < of(best) ? way : best;
-    const auto current = static_cast<std::size_t>(way_);
+    const std::size_t current = known_.way;
     const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
     if (current < tried && !gains) best = current;
     bool is_clear = true;
     for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
-    rays_ = best == current ? tuning::growth_while_agreed * rays_ : tuning::rays_after_trial;
-    if (is_clear || rays_ > tuning::most_after_trial) rays_ = tuning::most_after_trial;
-    way_ = static_cast<Way>(best);
+    // At first as if trials had preferred sets before.
+    std::size_t rays = known_.rays == 0 || best != current
+                           ? tuning::rays_after_trial
+                           : tuning::growth_while_agreed * known_.rays;
+    if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
+    known_.way = static_cast<std::uint32_t>(best);
+    known_.rays = known_.left = static_cast<std::uint32_t>(rays);
+    known_.next_way = 0;
   }
-  [[nodiscard]] Way way() const { return way_; }
-  /// How many rays go that way before the next trials.
-  [[nodiscard]] std::size_t rays() const { return rays_; }
-
- private:
-  struct Cost {
-    float steps = 0, trials = 0;
-  };
   /// Of a ray, in steps of flights.
-  [[nodiscard]] float of(std::size_t way) const { return cost_[way].steps / cost_[way].trials; }
+  [[nodiscard]] float of(std::size_t way) const {
+    return known_.cost[way].steps / known_.cost[way].trials;
+  }
 
-  Cost cost_[ways];
-  Way way_ = Way::set;
-  // As if trials had preferred sets before, so that those that agree make it rays_after_trial.
-  std::size_t rays_ = tuning::rays_after_trial / tuning::growth_while_agreed;
+  Experience& known_;
 };
 
 /// Traces rays as packets. Returns what they cost, in steps of rays in flight.
@@ -96,28 +113,19 @@ class ScatteredStream {
     }
     return trace_packets(geometry_, stream_, begin, end, answers_);
   }
-  /// Traces rays begin .. end - 1 the way that trials among them find best.
-  void run_by_trial(std::size_t begin, std::size_t end) {
-    Choice<any_hit> choice;
-    const auto next = [&](std::size_t rays) { return end - begin < rays ? end : begin + rays; };
+  /// Traces rays begin .. end - 1 the way that trials among them, and before them, find best.
+  void run_by_trial(std::size_t begin, std::size_t end, Experience& known) {
+    Choice<any_hit> choice(known);
     while (begin < end) {
-      std::size_t until = next(tuning::set_on_trial<any_hit>), tried = 1;
-      const SetEffort effort = sets_.run(begin, until);
-      choice.add(Way::set, until - begin, cost_of(effort, until - begin));
-      const bool shares = tuning::steps_of_shared_visit * effort.visits < effort.steps;
-      for (const Way way : {Way::packet, Way::flight}) {
-        begin = until;
-        if (begin == end) return;
-        if (way == Way::flight && (any_hit || shares)) break;
-        until = next(tuning::rays_on_trial);
-        choice.add(way, until - begin, run(way, begin, until));
-        ++tried;
+      const std::size_t rays = end - begin < choice.rays() ? end - begin : choice.rays();
+      if (choice.way() == Way::set) {
+        const SetEffort effort = sets_.run(begin, begin + rays);
+        const bool shares = tuning::steps_of_shared_visit * effort.visits < effort.steps;
+        choice.add(rays, cost_of(effort, rays), shares);
+      } else {
+        choice.add(rays, run(choice.way(), begin, begin + rays), false);
       }
-      begin = until;
-      choice.choose(tried);
-      until = next(choice.rays());
-      run(choice.way(), begin, until);
-      begin = until;
+      begin += rays;
     }
   }
 
@@ -141,14 +149,15 @@ class ScatteredStream {
 };
 
 /// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight or set,
-/// which have no trials.
+/// which have no trials. `known`: Query::experience.
 template <class Answers>
 BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, Form form,
-                                    const Answers& answers) {
+                                    Experience* known, const Answers& answers) {
   ScatteredStream<Answers> rays(geometry, stream, answers);
   if (form == Form::automatic) {
-    rays.run_by_trial(begin, end);
+    Experience own;
+    rays.run_by_trial(begin, end, known == nullptr ? own : *known);
   } else {
     const bool fly = form == Form::flight && !ScatteredStream<Answers>::any_hit;
     rays.run(fly ? Way::flight : Way::set, begin, end);
@@ -158,7 +167,7 @@ BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedSt
 template <class Answers>
 BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStream& stream,
                                   std::size_t begin, std::size_t end, Form form,
-                                  const Answers& answers) {
+                                  Experience* /*known*/, const Answers& answers) {
   trace_groups<Solver::robust>(geometry, stream, begin, end, form, answers);
 }
 

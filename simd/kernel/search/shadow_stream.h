@@ -201,7 +201,7 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
   if (outcome == Outcome::sparse || unsorted.way() == Way::set) {
     trace_sparse(geometry, stream, begin, end, occluded);
   } else {
-    trace_scattered(geometry, stream, begin, end, Form::automatic, occluded);
+    trace_scattered(geometry, stream, begin, end, Form::automatic, nullptr, occluded);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "render/shading/lights.h"
 #include "render/shading/path_material.h"
 #include "simd/stream/path_buffers.h"
+#include "simd/stream/surface_buffer.h"
 #include "tests/render/shading/direct_light_twin.h"
 #include "tests/render/shading/kernel_rays.h"
 #include "tests/support/kernel_runs.h"
@@ -34,13 +35,8 @@ class WhittedKernels : public OnEachIsa {
     rays = to_stream(shot);
     hits.resize(count);
     kernels->closest_hit(scene->geometry.view(), rays.view(), {}, hits.view());
-    for (VectorBuffer* vectors : {&points, &normals, &views, &mirrored, &orgs})
-      vectors->resize(count);
-    cosines.resize(count);
-    reaches.resize(count);
-    inner.resize(count);
-    inside.resize(count);
-    kernels->find_surfaces(scene->geometry.view(), rays.view(), hits.view(), surfaces());
+    surfaces.resize(count);
+    kernels->find_surfaces(scene->geometry.view(), rays.view(), hits.view(), surfaces.stream());
     of_ray.assign(count, nullptr);
     lobes.assign(count, nullptr);
     for (std::size_t i = 0; i < count; ++i) {
@@ -52,10 +48,6 @@ class WhittedKernels : public OnEachIsa {
     lobes[i] = &material.lobes;
   }
 
-  SurfaceStream surfaces() {
-    return {points.view(),  normals.view(), views.view(), mirrored.view(), orgs.view(),
-            cosines.data(), reaches.data(), inner.data(), inside.data()};
-  }
   [[nodiscard]] bool is_hit(std::size_t i) const { return hits.get(i).id != no_primitive; }
   [[nodiscard]] const WhittedMaterial& material(std::size_t i) const { return *of_ray[i]; }
   [[nodiscard]] bool takes_light(std::size_t i) const {
@@ -89,9 +81,7 @@ class WhittedKernels : public OnEachIsa {
   std::vector<WhittedMaterial> met;
   RayBuffer rays;
   HitBuffer hits;
-  VectorBuffer points, normals, views, mirrored, orgs;
-  AlignedArray<double> cosines, reaches;
-  AlignedArray<std::uint8_t> inner, inside;
+  SurfaceBuffer surfaces;
   std::vector<const WhittedMaterial*> of_ray;
   std::vector<const LobeMaterial*> lobes;
   // By shadow ray:
@@ -123,7 +113,7 @@ void WhittedKernels::check_scattering(bool sparse) {
   buffer.resize(2 * count);
   GoingOn spawned = buffer.view();
   kernels->scatter_rays(
-      {scatters.data(), surfaces(), lobes.data(), hits.view().id,
+      {scatters.data(), surfaces.stream(), lobes.data(), hits.view().id,
        scene->geometry.view().planes.first_id, throughput.view(), sample.data(), count},
       spawned);
   EXPECT_GT(sending, sparse ? count / 16 : count / 4);
@@ -147,8 +137,8 @@ void WhittedKernels::check_light(const Light& light, Method method) {
   ray.resize(count);
   const std::size_t size =
       kernels->make_shadow_rays(shadow_target(light),
-                                {points.view(), normals.view(), orgs.view(), hits.view().id,
-                                 inside.data(), lit.data(), count},
+                                {surfaces.point.view(), surfaces.normal.view(), surfaces.org.view(),
+                                 hits.view().id, surfaces.inside.data(), lit.data(), count},
                                 {shadow_rays.view(), to_light.view(), cosine.data(), ray.data()});
   ASSERT_GT(size, count / 8);
   check_added(light, size);
@@ -175,7 +165,7 @@ void WhittedKernels::check_added(const Light& light, std::size_t size) {
   }
   kernels->add_direct_light(light_intensity(light),
                             {blocked.data(), to_light.view(), cosine.data(), ray.data(), size,
-                             points.view(), mirrored.view(), lobes.data()},
+                             surfaces.point.view(), surfaces.mirrored.view(), lobes.data()},
                             radiance.view());
   for (std::size_t i = 0; i < count && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
