@@ -33,7 +33,7 @@ enum class Coherence { none, common_origin, common_direction, common_end };
 /// knows nothing. It changes the time, never a hit. Its numbers are the kernels' own.
 struct Experience {
   struct Cost {
-    float steps = 0, trials = 0;
+    float ticks = 0, trials = 0;  ///< sums: what a ray took in each trial, and how many there were
   };
   Cost cost[3];            ///< of each way
   std::uint32_t way = 0;   ///< the fastest one

@@ -143,14 +143,28 @@ inline constexpr int most_unclear = 2;
 /// Again: bench_peers --scenes u10000,u100000 --rays shadow
 inline constexpr std::size_t rays_per_leaf_in_order = 12;
 
+/// What a ray costs that looks for any hit, in a unit of its own: in a packet so much for each node
+/// and leaf that the packet visits, and so much besides; in a set so much for each node and leaf
+/// that it is tested against, for each that the set visits, and besides. Fitted to light and
+/// ambient rays of eight scenes (u100, u1000, u100000, protein50000, flake4, flake6, ground100000,
+/// grains200000) on an Intel Xeon; a Zen 4 is as well served. The numbers of four lanes are those
+/// of eight. Again: bench_peers --isa avx512 avx2 --scenes (those) --rays light ambient, beside the
+/// forms packet and set
+struct CostOfRay {
+  float packet_visit, packet;
+  float set_step, set_visit, set;
+};
+inline constexpr CostOfRay cost_of_ray = width < 16 ? CostOfRay{3.74F, 0.82F, 0.45F, 1.42F, 2.56F}
+                                                    : CostOfRay{8.7F, 0.53F, 0.45F, 8.2F, 3.74F};
+
 /// Then some rays show what all would cost as packets and as sets, if there are at least so many
 /// rays. Packets are tried with sixteen lanes only: with eight they were at best 1.12 times as fast
 /// as what else there is (ground100000).
 /// Again: bench_peers --size 512 --rays shadow with the scenes of the next lines
 inline constexpr std::size_t fewest_rays_judged = bundle_size;
-inline constexpr std::size_t packets_on_trial = 8, sets_on_trial = 2;
+inline constexpr std::size_t packets_on_trial = 8, sets_on_trial = 2, set_on_trial = 128;
 
-/// What a sorted ray costs, in the unit of cost_of_ray<true>: at least so much, and so much more
+/// What a sorted ray costs, in the unit of cost_of_ray: at least so much, and so much more
 /// for each of the tree's nodes, divided by the rays, or by fewest_rays_a_node, since a bundle of
 /// few rays meets hardly more leaves than one of many; in a bundle so much for each leaf that the
 /// bundle visits, divided by its rays, and so much besides. Fitted to times and counts of shadow
@@ -213,7 +227,7 @@ inline constexpr std::size_t most_sorted_children = 48;
 /// Again: bench_errors, and bench_peers --scenes u1000 --rays diffuse
 inline constexpr unsigned most_candidates = 8;
 
-/// So many of those solves count as one step where ways are compared. Set by trial.
+/// So many of those solves count as one step where effort is counted. Set by trial.
 /// Again: as most_candidates
 inline constexpr unsigned solves_a_step = 2;
 
@@ -228,25 +242,23 @@ inline constexpr std::size_t set_size = 256;
 
 // ---- The choice between sets, packets and flights: search/scattered_stream.h ------------------
 
-/// Rays that are traced each way to see which is the best one, more of them as a set, since a small
-/// set shares few visits: for nearest hits a whole one, which costs nothing where sets are best;
-/// and rays that then go that way: at first, and at most, because their number grows while trials
-/// agree. What earlier trials saw counts half as much as the last one, for 32 rays may mislead. Set
-/// by trial. Speed beside the fastest form, means of mirrored and diffuse rays on u100, u1000,
-/// flake4, protein50000, u100000, ground100000 and grains200000, Zen 4, sets of 128 and of 256 (and
-/// with avx512 the numbers of cost_of_ray before a Zen 4 was looked at, and those of today): avx512
-/// 0.91, 0.93, avx2 0.92, 0.98; for ambient ones avx2 0.97, 0.94. A stream
-/// may know what those before it found out (Query::experience): at most 8 and 32 times as many rays
-/// then have 0.955 and 0.959 of the fastest form's speed, and 0.941 without, means of 16 cells of
-/// u1000 and flake4. Random chords by Tracer, whose streams have 1024 rays, Mray/s without and with:
-/// 20000 spheres 3.45, 3.92, 300000 spheres 2.1, 3.0.
-/// Again: bench_peers --scenes u1000,u10000,flake4 --rays mirror,diffuse,light
-inline constexpr std::size_t rays_on_trial = 32;
+/// Rays that are traced each way to see which is the fastest one: as a set, as packets, in flight.
+/// Of a set a whole one, since a small one shares few visits; in flight enough that most have
+/// others beside them. And rays that then go that way: at first, and at most, because their number
+/// grows while trials agree. Of what earlier trials saw so much still counts, and a trial counts at
+/// most so many times what those before it took, since it may be interrupted. The automatic choice
+/// beside the fastest form, means of mirrored, diffuse and ambient rays and chords on flake4, u1000
+/// and protein50000, both instruction sets, Zen 4: by counts of visits, each stream for itself
+/// 0.941, with what earlier streams know 0.960; by time, 64 rays as packets and at most 32 times as
+/// many afterwards 0.965 (ambient 0.89, the others 0.99), 128 and 8 times 0.959, 256 and 16 times
+/// 0.970 (ambient 0.98, the others 0.97). Again: bench_peers --scenes u1000,flake4,protein50000
+/// --rays mirror,diffuse,ambient,chord
 template <bool any>
-inline constexpr std::size_t set_on_trial = any ? 128 : set_size;
-inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 32 * rays_after_trial;
+inline constexpr std::size_t rays_on_trial[] = {set_size, any ? 256 : 64, 128};
+inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 16 * rays_after_trial;
 inline constexpr std::size_t growth_while_agreed = 4;
-inline constexpr float share_of_earlier_trials = 0.5F;
+inline constexpr float share_of_earlier_trials = 0.75F;
+inline constexpr float most_growth_of_cost = 4;
 
 /// Where a set makes more than so many steps in a visit, flights are not tried: they gain only
 /// where rays share few visits. By avx512 they had 1.8 times the speed of sets for chords on
@@ -261,35 +273,10 @@ inline constexpr std::size_t steps_of_shared_visit = 24;
 /// Again: bench_peers --scenes u100 --rays mirror, beside its form packet
 inline constexpr float clearly_more = 2;
 
-/// What a ray costs, in steps of a ray in flight (for any hit in a unit of its own, since nothing
-/// flies): in flight so much beside its steps; in a packet so much for each node and leaf that the
-/// packet visits, and so much besides; in a set so much for each node and leaf that it is tested
-/// against, for each that the set visits, and besides. Fitted to eight scenes (u100, u1000,
-/// u100000, protein50000, flake4, flake6, ground100000, grains200000), for mirrored and diffuse
-/// rays and chords, and for light and ambient ones: with these the choice takes 0.5 to 2 % more
-/// than the fastest form, on average, and 20 % at most. The numbers of four lanes are those of
-/// eight. Those of sixteen lanes for nearest hits are the geometric means of that fit, on an Intel
-/// Xeon, and one on a Zen 4 (11 scenes), where they take 1.5 % more than the fastest form, and the
-/// Xeon's own 4 %. Again: bench_peers --isa avx512 avx2 --scenes (those)
-/// --rays mirror diffuse chord light ambient, beside the forms packet, flight and set
-struct CostOfRay {
-  float flight;
-  float packet_visit, packet;
-  float set_step, set_visit, set;
-};
-template <bool any>
-inline constexpr CostOfRay cost_of_ray =
-    any ? (width < 16 ? CostOfRay{0.0F, 3.74F, 0.82F, 0.45F, 1.42F, 2.56F}
-                      : CostOfRay{0.0F, 8.7F, 0.53F, 0.45F, 8.2F, 3.74F})
-        : (width < 16 ? CostOfRay{4.1F, 2.4F, 4.05F, 0.37F, 1.56F, 4.48F}
-                      : CostOfRay{1.35F, 2.35F, 1.6F, 0.32F, 1.55F, 1.75F});
-
 /// A way that rays do not go must take so many times less before they go that way; sets come first.
-/// For any hit two ways often take about as long, and caches that hold nothing of the tree yet,
-/// which no count of visits knows of, cost packets twice as much as flights, which were in place of
-/// sets: 3,476 rays on ring1000000, avx2, 4.6 Mray/s with 1, 6.8 with 1.15; grains200000, u100000
-/// and flake6 the same.
-/// Again: bench_peers --isa avx2 --size 512 --scenes ring1000000,grains200000 --rays ambient
+/// For any hit two ways often take about as long, and the first trial meets caches that hold
+/// nothing of the tree yet. Again: bench_peers --isa avx2 --size 512 --scenes
+/// ring1000000,grains200000 --rays ambient
 template <bool any>
 inline constexpr float gain_to_change = any ? 1.15F : 1.0F;
 

@@ -30,10 +30,8 @@ class Flights {
         pairs_(stream.rays(), geometry.spheres, hits),
         departures_(geometry, stream, hits) {}
 
-  /// Traces rays begin .. end - 1 of the stream, `begin` a multiple of W. Returns how many steps
-  /// that took; what is no step counts as those that take as long.
-  std::size_t run(std::size_t begin, std::size_t end) {
-    steps_ = 0;
+  /// Traces rays begin .. end - 1 of the stream, `begin` a multiple of W.
+  void run(std::size_t begin, std::size_t end) {
     first_ = begin;
     departed_ = ready_ = 0;
     end_ = end;
@@ -43,7 +41,6 @@ class Flights {
     while (round()) {
     }
     pairs_.finish();
-    return steps_ + departures_.take_visits();
   }
 
  private:
@@ -97,7 +94,6 @@ class Flights {
     } else {
       visit_leaves(together, count);
     }
-    steps_ += count;
     // Only now, because go_on() loads at once what the steps have just stored in pieces, and a CPU
     // must wait for such stores.
     for (std::size_t k = 0; k < count; ++k) go_on(*together[k]);
@@ -219,7 +215,6 @@ class Flights {
       const SphereLanes spheres = gather_spheres(geometry_.spheres, load_integers(slots));
       take(flight, ray, solve_robust(ray.exact, spheres), spheres.id, slots);
     }
-    steps_ += candidates.size / tuning::solves_a_step;
     candidates.size = 0;
   }
   /// Takes solved hits of one ray: nothing beyond them is of interest any more.
@@ -247,7 +242,6 @@ class Flights {
   /// Rays first_ + departed_ .. first_ + ready_ - 1 are ready to start.
   Departures<HitStream> departures_;
   std::size_t first_ = 0, departed_ = 0, ready_ = 0, end_ = 0;
-  std::size_t steps_ = 0;
 
   Flight flights_[most_flights];
   Waiting waiting_[kinds];

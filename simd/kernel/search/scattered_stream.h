@@ -8,6 +8,7 @@
 #include "simd/kernel/search/flight_stream.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/ray_sets.h"
+#include "simd/kernel/search/ticks.h"
 #include "simd/kernel/tuning.h"
 
 /// Streams of rays of which nothing is promised: they go as sets, as packets, or, for nearest hits,
@@ -33,20 +34,24 @@ class Choice {
   /// How many rays go that way now, if there are so many: a multiple of W.
   [[nodiscard]] std::size_t rays() const {
     if (!is_trial()) return (known_.left + width - 1) / width * width;
-    return way() == Way::set ? tuning::set_on_trial<any> : tuning::rays_on_trial;
+    return tuning::rays_on_trial<any>[known_.next_way];
   }
 
-  /// Takes note of rays that went that way, and took so many steps of flights. `shared`: of a set,
-  /// whether so many of its rays visited the same that flights cannot gain.
-  void add(std::size_t rays, float steps, bool shared) {
+  /// Takes note of rays that went that way, and took so many ticks. `shared`: of a set, whether so
+  /// many of its rays visited the same that flights cannot gain.
+  void add(std::size_t rays, std::uint64_t ticks, bool shared) {
     if (!is_trial()) {
       known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
       return;
     }
     Experience::Cost& cost = known_.cost[known_.next_way];
-    cost.steps = cost.steps * tuning::share_of_earlier_trials + steps / static_cast<float>(rays);
+    float latest = static_cast<float>(ticks) / static_cast<float>(rays);
+    // The system may have given the processor to somebody else meanwhile. (At first `most` is NaN.)
+    const float most = tuning::most_growth_of_cost * cost.ticks / cost.trials;
+    if (most < latest) latest = most;
+    cost.ticks = cost.ticks * tuning::share_of_earlier_trials + latest;
     cost.trials = cost.trials * tuning::share_of_earlier_trials + 1;
-    if (way() == Way::set) known_.tried_ways = shared ? 2 : ways;
+    if (way() == Way::set) known_.tried_ways = any || shared ? 2 : ways;
     if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
   }
 
@@ -70,24 +75,13 @@ class Choice {
     known_.rays = known_.left = static_cast<std::uint32_t>(rays);
     known_.next_way = 0;
   }
-  /// Of a ray, in steps of flights.
+  /// Of a ray.
   [[nodiscard]] float of(std::size_t way) const {
-    return known_.cost[way].steps / known_.cost[way].trials;
+    return known_.cost[way].ticks / known_.cost[way].trials;
   }
 
   Experience& known_;
 };
-
-/// Traces rays as packets. Returns what they cost, in steps of rays in flight.
-template <class Geometry, class Answers>
-BOULE_INLINE float trace_packets(const Geometry& geometry, const PaddedStream& stream,
-                                 std::size_t begin, std::size_t end, const Answers& answers) {
-  constexpr tuning::CostOfRay cost = tuning::cost_of_ray<RaySets<Answers>::any_hit>;
-  const std::size_t visits =
-      trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
-  return static_cast<float>(visits) * cost.packet_visit +
-         static_cast<float>(end - begin) * cost.packet;
-}
 
 /// Traces rays of one stream in any of the ways.
 template <class Answers>
@@ -102,41 +96,35 @@ class ScatteredStream {
         flights_(geometry, stream, answers),
         sets_(geometry, stream, answers) {}
 
-  /// Traces rays begin .. end - 1. Returns what they cost, in steps of rays in flight. For any hit
-  /// there is no way `flight`.
-  float run(Way way, std::size_t begin, std::size_t end) {
-    if (way == Way::set) return cost_of(sets_.run(begin, end), end - begin);
-    if constexpr (!any_hit) {
-      if (way == Way::flight)
-        return static_cast<float>(flights_.run(begin, end)) +
-               static_cast<float>(end - begin) * cost.flight;
+  /// Traces rays begin .. end - 1. For any hit there is no way `flight`. Returns whether they share
+  /// so many visits that flights cannot gain.
+  bool run(Way way, std::size_t begin, std::size_t end) {
+    if (way == Way::set) {
+      const SetEffort effort = sets_.run(begin, end);
+      return tuning::steps_of_shared_visit * effort.visits < effort.steps;
     }
-    return trace_packets(geometry_, stream_, begin, end, answers_);
+    if constexpr (!any_hit) {
+      if (way == Way::flight) {
+        flights_.run(begin, end);
+        return false;
+      }
+    }
+    trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
+    return false;
   }
-  /// Traces rays begin .. end - 1 the way that trials among them, and before them, find best.
+  /// Traces rays begin .. end - 1 the way that trials among them, and before them, find fastest.
   void run_by_trial(std::size_t begin, std::size_t end, Experience& known) {
     Choice<any_hit> choice(known);
     while (begin < end) {
       const std::size_t rays = end - begin < choice.rays() ? end - begin : choice.rays();
-      if (choice.way() == Way::set) {
-        const SetEffort effort = sets_.run(begin, begin + rays);
-        const bool shares = tuning::steps_of_shared_visit * effort.visits < effort.steps;
-        choice.add(rays, cost_of(effort, rays), shares);
-      } else {
-        choice.add(rays, run(choice.way(), begin, begin + rays), false);
-      }
+      const std::uint64_t before = ticks();
+      const bool shared = run(choice.way(), begin, begin + rays);
+      choice.add(rays, ticks() - before, shared);
       begin += rays;
     }
   }
 
  private:
-  static constexpr tuning::CostOfRay cost = tuning::cost_of_ray<any_hit>;
-
-  static float cost_of(const SetEffort& effort, std::size_t rays) {
-    return static_cast<float>(effort.steps) * cost.set_step +
-           static_cast<float>(effort.visits) * cost.set_visit + static_cast<float>(rays) * cost.set;
-  }
-
   struct NoFlights {
     NoFlights(const GeometryView&, const PaddedStream&, const Answers&) {}
   };
@@ -169,43 +157,6 @@ BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStr
                                   std::size_t begin, std::size_t end, Form form,
                                   Experience* /*known*/, const Answers& answers) {
   trace_groups<Solver::robust>(geometry, stream, begin, end, form, answers);
-}
-
-/// Rays that show what others cost: so many at each of some places of a stream.
-struct Samples {
-  std::size_t places, rays;
-};
-
-/// Calls run(first, last + 1) for samples of rays begin .. end - 1, which returns their cost.
-/// Returns that of a ray.
-template <class Run>
-BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Samples& samples,
-                                   const Run& run) {
-  const std::size_t apart = (end - begin) / samples.places / width * width;
-  float cost = 0;
-  for (std::size_t k = 0; k < samples.places; ++k, begin += apart)
-    cost += run(begin, begin + samples.rays);
-  return cost / static_cast<float>(samples.places * samples.rays);
-}
-
-/// Traces samples of rays begin .. end - 1 one way. Returns what a ray cost.
-template <class Answers>
-BOULE_NOINLINE float trace_samples(const GeometryView& geometry, const PaddedStream& stream,
-                                   std::size_t begin, std::size_t end, Way way,
-                                   const Samples& samples, const Answers& answers) {
-  ScatteredStream<Answers> rays(geometry, stream, answers);
-  return cost_of_samples(begin, end, samples, [&](std::size_t first, std::size_t until) {
-    return rays.run(way, first, until);
-  });
-}
-/// The same through parts: as packets.
-template <class Answers>
-BOULE_NOINLINE float trace_samples(const PartsGeometry& geometry, const PaddedStream& stream,
-                                   std::size_t begin, std::size_t end, Way /*way*/,
-                                   const Samples& samples, const Answers& answers) {
-  return cost_of_samples(begin, end, samples, [&](std::size_t first, std::size_t until) {
-    return trace_packets(geometry, stream, first, until, answers);
-  });
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -31,8 +31,52 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
   return begin;
 }
 
+/// Rays that show what others cost: so many at each of some places of a stream.
+struct Samples {
+  std::size_t places, rays;
+};
+
+/// Calls run(first, last + 1) for samples of rays begin .. end - 1, which returns their cost.
+/// Returns that of a ray.
+template <class Run>
+BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Samples& samples,
+                                   const Run& run) {
+  const std::size_t apart = (end - begin) / samples.places / width * width;
+  float cost = 0;
+  for (std::size_t k = 0; k < samples.places; ++k, begin += apart)
+    cost += run(begin, begin + samples.rays);
+  return cost / static_cast<float>(samples.places * samples.rays);
+}
+
+/// What a ray costs as packets, by samples of rays begin .. end - 1, which are traced.
+template <class Geometry>
+BOULE_NOINLINE float cost_as_packets(const Geometry& geometry, const PaddedStream& stream,
+                                     std::size_t begin, std::size_t end, std::uint8_t* occluded) {
+  const auto run = [&](std::size_t first, std::size_t until) {
+    const std::size_t visits =
+        trace_groups<Solver::robust>(geometry, stream, first, until, Form::automatic, occluded);
+    return static_cast<float>(visits) * tuning::cost_of_ray.packet_visit +
+           static_cast<float>(until - first) * tuning::cost_of_ray.packet;
+  };
+  return cost_of_samples(begin, end, {tuning::packets_on_trial, width}, run);
+}
+
+/// The same as sets.
+template <class Geometry>
+BOULE_NOINLINE float cost_as_sets(const Geometry& geometry, const PaddedStream& stream,
+                                  std::size_t begin, std::size_t end, std::uint8_t* occluded) {
+  RaySets<std::uint8_t*> sets(geometry, stream, occluded);
+  const auto run = [&](std::size_t first, std::size_t until) {
+    const SetEffort effort = sets.run(first, until);
+    return static_cast<float>(effort.steps) * tuning::cost_of_ray.set_step +
+           static_cast<float>(effort.visits) * tuning::cost_of_ray.set_visit +
+           static_cast<float>(until - first) * tuning::cost_of_ray.set;
+  };
+  return cost_of_samples(begin, end, {tuning::sets_on_trial, tuning::set_on_trial}, run);
+}
+
 /// What a ray costs where rays are not sorted, as some of them show, and what it costs where they
-/// are: in the unit of tuning::cost_of_ray<true>.
+/// are: in the unit of tuning::cost_of_ray.
 template <class Geometry>
 class UnsortedCost {
  public:
@@ -43,17 +87,17 @@ class UnsortedCost {
       : least_sorted_(least_of_sorted(geometry.bvh.size, end - begin)) {
     // Few rays are not worth it; and without a tree there are no sets.
     if (end - begin < tuning::fewest_rays_judged || geometry.bvh.size == 0) return;
-    const auto consider = [&](Way way, const Samples& samples) {
-      const float cost = trace_samples(geometry, stream, begin, end, way, samples, occluded);
-      if (cost < cost_) {
-        cost_ = cost;
-        way_ = way;
-      }
+    const auto consider = [&](Way way, float cost) {
+      if (cost_ <= cost) return;
+      cost_ = cost;
+      way_ = way;
     };
-    if constexpr (width >= 16) consider(Way::packet, {tuning::packets_on_trial, width});
-    constexpr bool has_sets = std::is_same_v<Geometry, GeometryView>;
-    if (has_sets && tuning::least_sorted_beside_set * tuning::cost_of_ray<true>.set < least_sorted_)
-      consider(Way::set, {tuning::sets_on_trial, tuning::set_on_trial<true>});
+    if constexpr (width >= 16)
+      consider(Way::packet, cost_as_packets(geometry, stream, begin, end, occluded));
+    if constexpr (std::is_same_v<Geometry, GeometryView>) {
+      if (tuning::least_sorted_beside_set * tuning::cost_of_ray.set < least_sorted_)
+        consider(Way::set, cost_as_sets(geometry, stream, begin, end, occluded));
+    }
   }
 
   /// Whether that is less than what sorted rays cost at least. The more nodes for a ray, the more
