@@ -12,7 +12,7 @@
 /// the number won when it was chosen and that no figure was kept. The benchmarks are built with
 /// -DBOULE_BENCH=ON. A figure of one run means little: build twice, run both programs in turn, and
 /// compare medians. `bench_peers --json` writes its figures to a file, and `valgrind
-/// --tool=callgrind` counts instructions of bench_trace or boule, which repeat exactly.
+/// --tool=callgrind` counts instructions of bench_trace or boule, which repeat without trials.
 namespace boule::BOULE_KERNEL_ISA::tuning {
 
 // ---- Scans: search/scan.h -------------------------------------------------------------------
