@@ -57,8 +57,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   depth_ = stream.depth;
   const bool first_hits = depth_ == 0;
   const Query query{settings_.solver, Form::automatic,
-                    first_hits ? camera.coherence : Coherence::none,
-                    &experience_at(depth_).nearest};
+                    first_hits ? camera.coherence : Coherence::none, &experience().nearest};
   kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
   if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
@@ -75,10 +74,8 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   wavefront_.add(radiance_.view());
 }
 
-StreamIntegrator::DepthExperience& StreamIntegrator::experience_at(int depth) {
-  const auto index = static_cast<std::size_t>(depth);
-  if (experience_.size() <= index) experience_.resize(index + 1);
-  return experience_[index];
+StreamIntegrator::DepthExperience& StreamIntegrator::experience() {
+  return experience_[std::min(static_cast<std::size_t>(depth_), experience_.size() - 1)];
 }
 
 /// The points of the stream's hits as floats have them, for shadow rays that start by an epsilon.
@@ -150,8 +147,7 @@ const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
   blocked_.resize(std::bit_ceil(shadow_rays.size));
   // By an epsilon each of them has an origin and an end of its own.
   const Query query{settings_.solver, Form::automatic,
-                    settings_.shadow_epsilon ? Coherence::none : coherence,
-                    &experience_at(depth_).shadow};
+                    settings_.shadow_epsilon ? Coherence::none : coherence, &experience().shadow};
   kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
   return blocked_.data();
 }

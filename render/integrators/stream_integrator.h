@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -101,7 +102,8 @@ class StreamIntegrator : public Integrator {
   };
 
   void trace_stream(const PathStream& stream, const CameraRays& camera);
-  [[nodiscard]] DepthExperience& experience_at(int depth);
+  /// What is known of rays of the stream at hand.
+  [[nodiscard]] DepthExperience& experience();
   void find_float_points(const PathStream& stream);
   void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
@@ -112,8 +114,8 @@ class StreamIntegrator : public Integrator {
   std::vector<TargetedLight> lights_;
   SeenLight seen_{}, seen_by_camera_{};
   std::uint64_t primary_ = 0, shadow_ = 0;
-  std::vector<DepthExperience> experience_;  ///< by depth
-  int depth_ = 0;                            ///< of the stream at hand
+  std::array<DepthExperience, 8> experience_;  ///< by depth; the last one is of all deeper ones too
+  int depth_ = 0;                              ///< of the stream at hand
 
   // Working memory of one stream.
   std::vector<Vec3f> float_points_;  ///< by ray, where shadow rays start by an epsilon

@@ -78,27 +78,6 @@ Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups
 
 Tracer::Tracer(Tracer&& other) noexcept = default;
 
-/// Calls visit(k, hit, normal) for each ray of the worker's stream; `normal` is 0 for a miss.
-template <class Visit>
-void Tracer::find_closest(Worker& worker, const Visit& visit) {
-  const std::size_t size = worker.rays.size();
-  worker.hits.resize(size);
-  const GeometryView geometry = geometry_.view();
-  const RayStream rays = worker.rays.view();
-  const HitStream hits = worker.hits.view();
-  const Query query{.solver = options_.solver, .experience = &worker.closest};
-  kernels_->closest_hit(geometry, rays, query, hits);
-  for (std::size_t first = 0; first < size; first += surface_block_size) {
-    const std::size_t count = std::min(surface_block_size, size - first);
-    kernels_->find_surfaces(geometry, part(rays, first, count), part(hits, first, count),
-                            worker.surfaces.stream());
-    for (std::size_t k = 0; k < count; ++k) {
-      const Hit hit = worker.hits.get(first + k);
-      const bool met = hit.id != no_primitive;
-      visit(first + k, hit, met ? vec_cast<float>(worker.surfaces.normal.get(k)) : Vec3f{});
-    }
-  }
-}
 Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 Tracer::~Tracer() = default;
 
@@ -132,6 +111,28 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
     tracer.prepare_seconds_ = watch.seconds();
     return tracer;
   });
+}
+
+/// Calls visit(k, hit, normal) for each ray of the worker's stream; `normal` is 0 for a miss.
+template <class Visit>
+void Tracer::find_closest(Worker& worker, const Visit& visit) {
+  const std::size_t size = worker.rays.size();
+  worker.hits.resize(size);
+  const GeometryView geometry = geometry_.view();
+  const RayStream rays = worker.rays.view();
+  const HitStream hits = worker.hits.view();
+  const Query query{.solver = options_.solver, .experience = &worker.closest};
+  kernels_->closest_hit(geometry, rays, query, hits);
+  for (std::size_t first = 0; first < size; first += surface_block_size) {
+    const std::size_t count = std::min(surface_block_size, size - first);
+    kernels_->find_surfaces(geometry, part(rays, first, count), part(hits, first, count),
+                            worker.surfaces.stream());
+    for (std::size_t k = 0; k < count; ++k) {
+      const Hit hit = worker.hits.get(first + k);
+      const bool met = hit.id != no_primitive;
+      visit(first + k, hit, met ? vec_cast<float>(worker.surfaces.normal.get(k)) : Vec3f{});
+    }
+  }
 }
 
 void Tracer::find_any(Worker& worker) {

@@ -29,11 +29,12 @@ enum class Coherence { none, common_origin, common_direction, common_end };
 
 /// What trials among rays of one kind have found out: which way is fastest. A caller who keeps it
 /// from stream to stream saves each the trials of its own. One for each kind of rays (say, those
-/// after the second bounce of a picture), for each kernel function, and for each thread. A new one
-/// knows nothing. It changes the time, never a hit. Its numbers are the kernels' own.
+/// after the second bounce of a picture), for each geometry, table and function of kernels, and for
+/// each thread. A new one knows nothing. It changes the time, never a hit. Its numbers are the
+/// kernels' own.
 struct Experience {
   struct Cost {
-    float ticks = 0, trials = 0;  ///< sums: what a ray took in each trial, and how many there were
+    float ticks = 0, rays = 0;  ///< of all trials, the later the more
   };
   Cost cost[3];            ///< of each way
   std::uint32_t way = 0;   ///< the fastest one

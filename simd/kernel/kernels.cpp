@@ -81,11 +81,11 @@ void any_hit_in(const Geometry& geometry, const RayStream& rays, const Query& qu
   const PaddedStream stream(rays);
   const bool bundled = may_bundle(geometry, query);
   if (bundled && query.coherence == Coherence::common_origin) {
-    any_hit_bundled<Common::origin>(geometry, stream, occluded);
+    any_hit_bundled<Common::origin>(geometry, stream, query.experience, occluded);
   } else if (bundled && query.coherence == Coherence::common_direction) {
-    any_hit_bundled<Common::direction>(geometry, stream, occluded);
+    any_hit_bundled<Common::direction>(geometry, stream, query.experience, occluded);
   } else if (bundled && query.coherence == Coherence::common_end) {
-    any_hit_bundled<Common::end>(geometry, stream, occluded);
+    any_hit_bundled<Common::end>(geometry, stream, query.experience, occluded);
   } else {
     trace_any(geometry, stream, query, occluded);
   }

@@ -243,22 +243,22 @@ inline constexpr std::size_t set_size = 256;
 // ---- The choice between sets, packets and flights: search/scattered_stream.h ------------------
 
 /// Rays that are traced each way to see which is the fastest one: as a set, as packets, in flight.
-/// Of a set a whole one, since a small one shares few visits; in flight enough that most have
-/// others beside them. And rays that then go that way: at first, and at most, because their number
-/// grows while trials agree. Of what earlier trials saw so much still counts, and a trial counts at
-/// most so many times what those before it took, since it may be interrupted. The automatic choice
+/// Of a set a whole one, since a small one shares few visits. And rays that then go that way: at
+/// first, and at most, because their number grows while trials agree. Of earlier trials so much
+/// still counts. Trials may be interrupted: one counts at most so many times what those before it
+/// took, and they are forgotten where they took so many times what it took. The automatic choice
 /// beside the fastest form, means of mirrored, diffuse and ambient rays and chords on flake4, u1000
 /// and protein50000, both instruction sets, Zen 4: by counts of visits, each stream for itself
 /// 0.941, with what earlier streams know 0.960; by time, 64 rays as packets and at most 32 times as
 /// many afterwards 0.965 (ambient 0.89, the others 0.99), 128 and 8 times 0.959, 256 and 16 times
 /// 0.970 (ambient 0.98, the others 0.97). Again: bench_peers --scenes u1000,flake4,protein50000
-/// --rays mirror,diffuse,ambient,chord
+/// --rays mirror,diffuse,ambient,chord, beside the other forms; the last two numbers by trial
 template <bool any>
 inline constexpr std::size_t rays_on_trial[] = {set_size, any ? 256 : 64, 128};
 inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 16 * rays_after_trial;
 inline constexpr std::size_t growth_while_agreed = 4;
 inline constexpr float share_of_earlier_trials = 0.75F;
-inline constexpr float most_growth_of_cost = 4;
+inline constexpr float most_growth_of_cost = 16, most_fall_of_cost = 4;
 
 /// Where a set makes more than so many steps in a visit, flights are not tried: they gain only
 /// where rays share few visits. By avx512 they had 1.8 times the speed of sets for chords on

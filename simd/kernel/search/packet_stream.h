@@ -94,25 +94,23 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
   hits.slot[index] = slot[nearest];
 }
 
-/// Finds the nearest hits of rays begin .. end - 1. Returns how many nodes and leaves were visited.
+/// Finds the nearest hits of rays begin .. end - 1.
 template <Solver solver, class Geometry>
-BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream,
-                                        std::size_t begin, std::size_t end, Form form,
-                                        const HitStream& hits) {
-  std::size_t visits = 0;
+BOULE_NOINLINE void trace_groups(const Geometry& geometry, const PaddedStream& stream,
+                                 std::size_t begin, std::size_t end, Form form,
+                                 const HitStream& hits) {
   for_each_group(
       stream, begin, end, form,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
         ClosestHit best(packet);
-        visits += search<solver, OneForAll>(packet, geometry, best);
+        search<solver, OneForAll>(packet, geometry, best);
         store_packet(best, hits, first, live);
       },
       [&](const RayLanes& ray, std::size_t index) {
         ClosestHit best(ray);
-        visits += search<solver, OnePerLane>(ray, geometry, best);
+        search<solver, OnePerLane>(ray, geometry, best);
         store_single(best, hits, index);
       });
-  return visits;
 }
 
 /// Traces pairs of packets while there are any. Returns how many nodes and leaves were visited, and
@@ -137,7 +135,7 @@ std::size_t trace_pairs(const PartsGeometry&, const PaddedStream&, std::size_t&,
   return 0;
 }
 
-/// Finds whether they hit anything. Returns the same.
+/// Finds whether they hit anything. Returns how many nodes and leaves were visited.
 template <Solver solver, class Geometry>
 BOULE_NOINLINE std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream,
                                         std::size_t begin, std::size_t end, Form form,

@@ -44,18 +44,22 @@ class Choice {
       known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
       return;
     }
-    Experience::Cost& cost = known_.cost[known_.next_way];
-    float latest = static_cast<float>(ticks) / static_cast<float>(rays);
-    // The system may have given the processor to somebody else meanwhile. (At first `most` is NaN.)
-    const float most = tuning::most_growth_of_cost * cost.ticks / cost.trials;
-    if (most < latest) latest = most;
-    cost.ticks = cost.ticks * tuning::share_of_earlier_trials + latest;
-    cost.trials = cost.trials * tuning::share_of_earlier_trials + 1;
+    add_to(known_.cost[known_.next_way], static_cast<float>(rays), static_cast<float>(ticks));
     if (way() == Way::set) known_.tried_ways = any || shared ? 2 : ways;
     if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
   }
 
  private:
+  /// Adds a trial to those before. It may have been interrupted, since the system gives the
+  /// processor to others as well, or the last one was.
+  static void add_to(Experience::Cost& cost, float rays, float ticks) {
+    const float before = cost.ticks / cost.rays * rays;  // NaN at first
+    if (tuning::most_growth_of_cost * before < ticks) ticks = tuning::most_growth_of_cost * before;
+    const bool forget = tuning::most_fall_of_cost * ticks < before;
+    const float share = forget ? 0.0F : tuning::share_of_earlier_trials;
+    cost.ticks = cost.ticks * share + ticks;
+    cost.rays = cost.rays * share + rays;
+  }
   /// Chooses among the first `tried` ways, of which each has been tried once more.
   void choose(std::size_t tried) {
     std::size_t best = 0;
@@ -63,7 +67,7 @@ class Choice {
     const std::size_t current = known_.way;
     const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
     if (current < tried && !gains) best = current;
-    bool is_clear = true;
+    bool is_clear = known_.rays != 0;  // the first trial meets cold caches
     for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
     // At first as if trials had preferred sets before.
@@ -77,7 +81,7 @@ class Choice {
   }
   /// Of a ray.
   [[nodiscard]] float of(std::size_t way) const {
-    return known_.cost[way].ticks / known_.cost[way].trials;
+    return known_.cost[way].ticks / known_.cost[way].rays;
   }
 
   Experience& known_;
@@ -119,7 +123,8 @@ class ScatteredStream {
       const std::size_t rays = end - begin < choice.rays() ? end - begin : choice.rays();
       const std::uint64_t before = ticks();
       const bool shared = run(choice.way(), begin, begin + rays);
-      choice.add(rays, ticks() - before, shared);
+      const std::uint64_t after = ticks();
+      choice.add(rays, before < after ? after - before : 0, shared);
       begin += rays;
     }
   }

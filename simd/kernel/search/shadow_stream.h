@@ -233,10 +233,11 @@ BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStre
 }
 
 /// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays of which
-/// nothing is promised where that seems to cost less.
+/// nothing is promised where that seems to cost less. `known`: Query::experience.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream& stream,
-                                    std::size_t begin, std::size_t end, std::uint8_t* occluded) {
+                                    std::size_t begin, std::size_t end, Experience* known,
+                                    std::uint8_t* occluded) {
   const UnsortedCost<Geometry> unsorted(geometry, stream, begin, end, occluded);
   Outcome outcome = Outcome::gave_up;
   if (!unsorted.is_less_than_sorted())
@@ -245,7 +246,7 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
   if (outcome == Outcome::sparse || unsorted.way() == Way::set) {
     trace_sparse(geometry, stream, begin, end, occluded);
   } else {
-    trace_scattered(geometry, stream, begin, end, Form::automatic, nullptr, occluded);
+    trace_scattered(geometry, stream, begin, end, Form::automatic, known, occluded);
   }
 }
 
@@ -253,7 +254,7 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
 /// common in another way.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& stream,
-                                  std::uint8_t* occluded) {
+                                  Experience* known, std::uint8_t* occluded) {
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += tuning::pool_size) {
     const std::size_t end = size - begin < tuning::pool_size ? size : begin + tuning::pool_size;
@@ -261,7 +262,7 @@ BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& 
     if (end - rest < tuning::fewest_bundle_rays) {
       trace_rest(geometry, stream, rest, end, occluded);
     } else {
-      any_hit_unordered<common>(geometry, stream, rest, end, occluded);
+      any_hit_unordered<common>(geometry, stream, rest, end, known, occluded);
     }
   }
 }
