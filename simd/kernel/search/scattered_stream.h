@@ -67,17 +67,20 @@ class Choice {
     const std::size_t current = known_.way;
     const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
     if (current < tried && !gains) best = current;
-    bool is_clear = known_.rays != 0;  // the first trial meets cold caches
+    const bool is_first = known_.rays == 0;
+    bool is_clear = !is_first;
     for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
     // At first as if trials had preferred sets before.
-    std::size_t rays = known_.rays == 0 || best != current
-                           ? tuning::rays_after_trial
-                           : tuning::growth_while_agreed * known_.rays;
+    std::size_t rays = is_first || best != current ? tuning::rays_after_trial
+                                                   : tuning::growth_while_agreed * known_.rays;
     if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
     known_.way = static_cast<std::uint32_t>(best);
     known_.rays = known_.left = static_cast<std::uint32_t>(rays);
     known_.next_way = 0;
+    if (is_first) {  // it met caches that held nothing of the tree yet
+      for (Experience::Cost& cost : known_.cost) cost = {};
+    }
   }
   /// Of a ray.
   [[nodiscard]] float of(std::size_t way) const {
