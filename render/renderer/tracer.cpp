@@ -77,7 +77,6 @@ Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups
       workers_(scheduler_.workers()) {}
 
 Tracer::Tracer(Tracer&& other) noexcept = default;
-
 Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 Tracer::~Tracer() = default;
 
