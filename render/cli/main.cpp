@@ -22,12 +22,7 @@ struct Run {
   }
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  begin_main();
-  open_closed_streams();
-  install_interrupt_handlers();
+ExitCode run_program(int argc, char** argv) {
   try {
     if (const auto bad = take_stack()) return report(*bad, failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
@@ -36,4 +31,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return report(boule::Diagnostic::of(error.what()), failed);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  begin_main();
+  open_closed_streams();
+  install_interrupt_handlers();
+  end_program(run_program(argc, argv));
 }

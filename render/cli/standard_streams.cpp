@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 
 namespace boule::cli {
 
@@ -15,6 +17,15 @@ void open_closed_streams() {
     // serves where there is no /dev.
     if (open("/dev/null", O_RDONLY) < 0) open("/", O_RDONLY);
   }
+}
+
+void end_program(int code) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  std::exit(code);
+#else
+  std::fflush(nullptr);
+  ::_exit(code);
+#endif
 }
 
 }  // namespace boule::cli
