@@ -233,7 +233,6 @@ class RaySets {
   /// Solves them before the search is over. Where floats are certain of nothing, as very far from a
   /// sphere, only solved hits bring the reach of a ray closer.
   BOULE_NOINLINE void make_room() {
-    effort_.steps += candidates_.size() / tuning::solves_a_step;
     solve_candidates();
     pairs_.finish();
     for (std::size_t k = 0; k < size_; ++k) {
