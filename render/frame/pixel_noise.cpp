@@ -7,21 +7,37 @@
 #include "core/math/srgb.h"
 
 namespace boule {
+namespace {
+
+/// Upper bounds of the sRGB curve's slope: slope_from[k] from 2^-k on, for linear values up to 1.
+/// They are 1.055 / 2.4 * 2^(k * 1.4 / 2.4), rounded up, and the slope of the straight piece.
+constexpr std::array slope_from{0.4396, 0.6587, 0.9869, 1.479, 2.216, 3.320, 4.975, 7.453, 11.17};
+constexpr double steepest = 12.92;
+
+double most_slope_from(double value) {
+  if (!(value >= std::ldexp(1.0, 1 - static_cast<int>(slope_from.size())))) return steepest;
+  return slope_from[static_cast<std::size_t>(-std::ilogb(std::min(value, 1.0)))];
+}
+
+}  // namespace
 
 void SampleHalf::add(const Color& sample, std::uint8_t covered) {
-  if (count_ == most_batches * length_) {
+  if (batches() == most_batches) {
     for (std::size_t i = 0; i < least_batches; ++i) {
       for (std::size_t c = 0; c < 4; ++c) sums_[i][c] = sums_[2 * i][c] + sums_[2 * i + 1][c];
     }
     std::fill(sums_.begin() + least_batches, sums_.end(), std::array<float, 4>{});
-    length_ *= 2;
+    ++doublings_;
   }
-  const std::array<float, 4> numbers{sample.r, sample.g, sample.b, static_cast<float>(covered)};
-  auto& sum = sums_[static_cast<std::size_t>(count_ / length_)];
-  for (std::size_t c = 0; c < 4; ++c) {
-    sum[c] += numbers[c];
-    total_[c] += static_cast<double>(numbers[c]);
-  }
+  auto& sum = sums_[static_cast<std::size_t>(batches())];
+  const auto add_to = [&](std::size_t c, float number) {
+    sum[c] += number;
+    total_[c] += static_cast<double>(number);
+  };
+  add_to(0, sample.r);
+  add_to(1, sample.g);
+  add_to(2, sample.b);
+  add_to(3, static_cast<float>(covered));
   ++count_;
 }
 
@@ -33,18 +49,20 @@ PixelNumbers SampleHalf::mean() const {
 
 PixelNumbers SampleHalf::variance() const {
   const auto batches = static_cast<std::size_t>(this->batches());
-  PixelNumbers variance{};
-  for (std::size_t c = 0; c < 4; ++c) {
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < batches; ++i) sum += static_cast<double>(sums_[i][c]);
-    const double mean = sum / static_cast<double>(batches);
-    for (std::size_t i = 0; i < batches; ++i) {
-      const double difference = static_cast<double>(sums_[i][c]) - mean;
-      squares += difference * difference;
-    }
-    variance[c] = squares / static_cast<double>(batches - 1) / length_;
+  PixelNumbers mean{}, squares{};
+  for (std::size_t i = 0; i < batches; ++i) {
+    for (std::size_t c = 0; c < 4; ++c) mean[c] += static_cast<double>(sums_[i][c]);
   }
-  return variance;
+  for (double& number : mean) number /= static_cast<double>(batches);
+  for (std::size_t i = 0; i < batches; ++i) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double difference = static_cast<double>(sums_[i][c]) - mean[c];
+      squares[c] += difference * difference;
+    }
+  }
+  const int length = 1 << doublings_;
+  for (double& sum : squares) sum = sum / static_cast<double>(batches - 1) / length;
+  return squares;
 }
 
 double student_quantile(int degrees) {
@@ -64,9 +82,12 @@ double displayed_half_width(double value, double half_width) {
   return value >= half_width ? below : std::max(below, srgb_displayed(value + half_width) - middle);
 }
 
+double most_displayed_half_width(double value, double half_width) {
+  return half_width * most_slope_from(value - half_width);
+}
+
 int next_look(int count) {
-  const int octave = std::bit_width(static_cast<unsigned>(count)) - 1;
-  return count + (1 << (octave - 2));
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(count) + 1));
 }
 
 }  // namespace boule

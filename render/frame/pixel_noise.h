@@ -36,7 +36,7 @@ class SampleHalf {
 
   [[nodiscard]] int count() const { return count_; }
   /// The number of complete batches; from 8 samples on it is 8 to 16.
-  [[nodiscard]] int batches() const { return count_ / length_; }
+  [[nodiscard]] int batches() const { return count_ >> doublings_; }
   /// Precondition: there are samples.
   [[nodiscard]] PixelNumbers mean() const;
   /// Estimates the variance of the mean, times the number of samples. Precondition: there are two
@@ -49,7 +49,7 @@ class SampleHalf {
   std::array<std::array<float, 4>, most_batches> sums_{};
   PixelNumbers total_{};
   int count_ = 0;
-  int length_ = 1;  ///< of a batch, in samples
+  int doublings_ = 0;  ///< a batch has 2^doublings samples
 };
 
 /// The 0.975 quantile of Student's t distribution, for any degrees of freedom from 1 on.
@@ -59,8 +59,12 @@ double student_quantile(int degrees);
 /// displayed values, 0..1. Preconditions: neither is negative.
 double displayed_half_width(double value, double half_width);
 
-/// The number of samples after `count` at which a half is looked at again: four times as the number
-/// doubles. Precondition: count >= 4.
+/// An upper bound of displayed_half_width(), at most 1.5 times it where that is small beside
+/// `value`, by the slope of the curve alone: no power.
+double most_displayed_half_width(double value, double half_width);
+
+/// The number of samples after `count` at which a half is looked at again: the next power of two,
+/// since the points of a Sobol sequence are spread evenly there. Precondition: count >= 0.
 int next_look(int count);
 
 }  // namespace boule

@@ -12,9 +12,6 @@ namespace {
 /// How many samples of a pixel's own the variance around it counts for.
 constexpr double samples_around = 32;
 
-/// The steepest slope of the sRGB curve: no interval shows wider than so many times its width.
-constexpr double steepest = 12.92;
-
 float as_float(double number) {
   constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   return static_cast<float>(std::min(number, largest));
@@ -107,8 +104,11 @@ PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) 
 /// The greatest half-width of the channels as they are displayed.
 double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_width) const {
   double greatest = target_.alpha ? half_width[3] : 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    greatest = std::max(greatest, displayed_half_width(mean[c] * scale_, half_width[c] * scale_));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double value = mean[c] * scale_, width = half_width[c] * scale_;
+    if (most_displayed_half_width(value, width) > greatest)
+      greatest = std::max(greatest, displayed_half_width(value, width));
+  }
   return greatest;
 }
 
@@ -123,8 +123,8 @@ bool NoiseBlock::is_enough(const State& state, std::size_t half) const {
   };
   if (target_.alpha && half_width(3) > most) return false;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double width = half_width(c) * scale_;
-    if (steepest * width > most && displayed_half_width(mean[c] * scale_, width) > most)
+    const double value = mean[c] * scale_, width = half_width(c) * scale_;
+    if (most_displayed_half_width(value, width) > most && displayed_half_width(value, width) > most)
       return false;
   }
   return true;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/math/random.h"
@@ -83,13 +85,28 @@ TEST(PixelNoise, TheInverseOfTheCurveIsItsInverse) {
   }
 }
 
-TEST(PixelNoise, LooksComeFourTimesAsTheNumberDoubles) {
+TEST(PixelNoise, TheBoundOfADisplayedHalfWidthHolds) {
+  for (int step = -4000; step <= 100; ++step) {
+    const double value = std::exp2(step / 200.0);
+    for (const double share : {0.0, 1e-9, 1e-4, 0.01, 0.3, 0.9, 1.0, 1.5, 100.0}) {
+      const double half_width = share * value, shown = displayed_half_width(value, half_width),
+                   bound = most_displayed_half_width(value, half_width);
+      EXPECT_GE(bound, shown * (1 - 1e-6)) << value << ' ' << share;  // the differences' rounding
+      if (share <= 0.01 && value <= 1) {
+        EXPECT_LE(bound, std::max(1.53 * shown, 1e-12)) << value << ' ' << share;
+      }
+    }
+  }
+}
+
+TEST(PixelNoise, LooksComeAtPowersOfTwo) {
   int count = 16;
-  for (const int next : {20, 24, 28, 32, 40, 48, 56, 64, 80}) {
+  for (const int next : {32, 64, 128, 256}) {
     count = next_look(count);
     EXPECT_EQ(count, next);
   }
-  EXPECT_EQ(next_look(12), 14);
+  EXPECT_EQ(next_look(12), 16);
+  EXPECT_EQ(next_look(33), 64);
 }
 
 }  // namespace
