@@ -84,12 +84,10 @@ bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) 
   noise.begin(part, setup_.frame);
   pixels_.clear();
   for (bool more = true; more;) {
-    for (const NoiseBlock::Pixel& pixel : noise.wanted()) {
-      for (const int x : {int{pixel.x}, pixel.x + NoiseBlock::half_distance}) {
-        for (int sample = noise.first(); sample < noise.end(); ++sample) {
-          pixels_.push_back({x, pixel.y, sample});
-          if (pixels_.size() == setup_.stream_size && !trace(noise)) return false;
-        }
+    for (const NoiseBlock::Half& half : noise.wanted()) {
+      for (int sample = noise.first(); sample < noise.end(); ++sample) {
+        pixels_.push_back({half.x, half.y, sample});
+        if (pixels_.size() == setup_.stream_size && !trace(noise)) return false;
       }
     }
     if (!trace(noise)) return false;

@@ -35,12 +35,12 @@ class NoiseBlock {
 
   /// Begins a block of the frame. Precondition: its sides are at most `largest`.
   void begin(const PixelRect& block, const PixelRect& frame);
-  /// The samples that are wanted next: those of the pixels at `wanted()`, of both halves, from
-  /// first() up to end().
-  struct Pixel {
-    std::uint16_t x, y;  ///< of the frame
+  /// The samples that are wanted next: those of the halves of pixels in `wanted()`, from first() up
+  /// to end().
+  struct Half {
+    std::int32_t x, y;  ///< the pixel; x has half_distance added for the second half
   };
-  [[nodiscard]] const std::vector<Pixel>& wanted() const { return wanted_; }
+  [[nodiscard]] const std::vector<Half>& wanted() const { return wanted_; }
   [[nodiscard]] int first() const { return first_; }
   [[nodiscard]] int end() const { return end_; }
   void add(const SampleId& id, const Color& sample, std::uint8_t covered) {
@@ -48,12 +48,15 @@ class NoiseBlock {
     state.halves[id.x < half_distance ? 0 : 1].add(sample, covered);
   }
   /// To be called when all wanted samples were added. Sets the pixels that have enough of them, and
-  /// wants more of the others. False if there are none: the block is done.
+  /// wants more for the others. False if there are none: the block is done.
   bool look(MeasuredPicture& picture);
   /// The pixels that the last look() set.
   [[nodiscard]] const NoiseSoFar& settled() const { return settled_; }
 
  private:
+  struct Pixel {
+    std::uint16_t x, y;  ///< of the frame
+  };
   /// A half that has all its samples.
   struct Settled {
     PixelNumbers mean{};
@@ -61,6 +64,7 @@ class NoiseBlock {
   };
   struct State {
     std::array<SampleHalf, 2> halves;
+    std::array<int, 2> goals{};  ///< the halves' numbers of samples; 0: not decided yet
     std::array<Settled, 2> settled;
     std::array<PixelNumbers, 2> variances;  ///< of the halves, at the last look
     PixelNumbers around{};  ///< mean variance of the first samples of the pixels around
@@ -71,8 +75,11 @@ class NoiseBlock {
   [[nodiscard]] PixelNumbers variance_around(int x, int y);
   [[nodiscard]] PixelNumbers careful_variance(const State& state, std::size_t half) const;
   [[nodiscard]] double displayed(const PixelNumbers& mean, const PixelNumbers& error) const;
-  [[nodiscard]] bool is_enough(const State& state, std::size_t half) const;
+  [[nodiscard]] bool is_enough(const State& state, std::size_t half, int count) const;
+  [[nodiscard]] int decide(const State& state, std::size_t half) const;
+  void find_variances();
   bool settle(State& state) const;
+  void want_more(const Pixel& pixel);
   [[nodiscard]] MeasuredPixel measured(const State& state) const;
 
   const NoiseTarget target_;
@@ -80,7 +87,8 @@ class NoiseBlock {
   const std::vector<PixelOffset> order_;
   PixelRect block_, area_;  ///< area: the block with its rim
   std::vector<State> states_;
-  std::vector<Pixel> wanted_;
+  std::vector<Pixel> unsettled_;
+  std::vector<Half> wanted_;
   int first_ = 0, end_ = 0;
   NoiseSoFar settled_;
 };

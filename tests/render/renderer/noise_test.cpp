@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "core/math/random.h"
@@ -105,6 +106,18 @@ TEST(Noise, SamplesStayWithinTheirBoundsAndNoisyPixelsGetMore) {
   options.noise = 1;
   const MeasuredPicture coarse = measured(scene, options);
   for (const MeasuredPixel& pixel : coarse.pixels()) EXPECT_EQ(pixel.samples, 16U);
+}
+
+TEST(Noise, HalvesHaveAPowerOfTwoOfSamplesOrTheMost) {
+  const Scene scene = path_scene(width, height);
+  const MeasuredPicture picture = measured(scene, noisy_options(scene));  // 16 to 200 samples
+  std::set<std::uint32_t> possible, found;
+  for (const std::uint32_t a : {8U, 16U, 32U, 64U, 100U}) {
+    for (const std::uint32_t b : {8U, 16U, 32U, 64U, 100U}) possible.insert(a + b);
+  }
+  for (const MeasuredPixel& pixel : picture.pixels()) found.insert(pixel.samples);
+  EXPECT_TRUE(std::includes(possible.begin(), possible.end(), found.begin(), found.end()));
+  EXPECT_GE(found.size(), 6U);  // halves of one pixel differ as well
 }
 
 TEST(Noise, ABrighterExposureNeedsMoreSamplesOfWhatIsDark) {
