@@ -161,15 +161,13 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
     MeasuredPicture picture(frame);
     noise.begin(frame, frame);
     do {
-      for (const NoiseBlock::Pixel& pixel : noise.wanted()) {
-        for (const int x : {int{pixel.x}, pixel.x + NoiseBlock::half_distance}) {
-          for (int sample = noise.first(); sample < noise.end(); ++sample) {
-            const auto bits = philox(
-                {static_cast<std::uint32_t>(x), pixel.y, static_cast<std::uint32_t>(sample), 0},
-                {static_cast<std::uint32_t>(block), 5});
-            const bool is_bright = unit_interval(bits[0]) < probability;
-            noise.add({x, pixel.y, sample}, gray(is_bright ? 1.0F : 0.0F), 1);
-          }
+      for (const auto& [x, y] : noise.wanted()) {
+        for (int sample = noise.first(); sample < noise.end(); ++sample) {
+          const auto bits = philox({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                    static_cast<std::uint32_t>(sample), 0},
+                                   {static_cast<std::uint32_t>(block), 5});
+          const bool is_bright = unit_interval(bits[0]) < probability;
+          noise.add({x, y, sample}, gray(is_bright ? 1.0F : 0.0F), 1);
         }
       }
     } while (noise.look(picture));
