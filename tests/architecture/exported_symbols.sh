@@ -3,7 +3,7 @@
 # public header declares, with all that it includes, and nothing else. Clang lists the declarations, with
 # their symbols. Exit code 77: there is no clang.
 set -euo pipefail
-export LC_ALL=C
+export LC_ALL=C CCACHE_DISABLE=1  # a compiler cache answers for headers as they were
 library=$1 header=$2 compile=()
 shift 2
 while [[ "$1" != -- ]]; do compile+=("$1"); shift; done
