@@ -152,7 +152,8 @@ std::string grid(const Scale& x, const Scale& y) {
   std::string svg;
   for (const auto& [at, label] : x.ticks()) {
     svg += grid_line(fmt::format("M{:.1f} {}V{}", at, top, height - bottom));
-    const bool is_last = at > width - right - 1;  // on a phone its right half would be cut
+    const double end = width - right;
+    const bool is_last = std::abs(at - end) < 1;  // on a phone half of it would be cut
     svg += text(is_last ? width - 4 : at, height - bottom + 28, is_last ? "end" : "middle", label);
   }
   for (const auto& [at, label] : y.ticks()) {

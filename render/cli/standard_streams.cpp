@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+/// Every sanitizer brings it.
+extern "C" [[gnu::weak]] void __sanitizer_set_death_callback(void (*callback)());  // NOLINT
+
 namespace boule::cli {
 
 void open_closed_streams() {
@@ -20,12 +23,9 @@ void open_closed_streams() {
 }
 
 void end_program(int code) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  std::exit(code);
-#else
+  if (__sanitizer_set_death_callback != nullptr) std::exit(code);
   std::fflush(nullptr);
   ::_exit(code);
-#endif
 }
 
 }  // namespace boule::cli

@@ -9,7 +9,7 @@ void open_closed_streams();
 
 /// Ends the program with an exit code, after writing what the C streams still hold. Static objects
 /// are not destroyed: those of OpenImageIO crash where a thread of theirs could not be started.
-/// (Sanitizers look for leaks and races as the last of them, so in their builds all are.)
+/// With a sanitizer they are, because it looks for leaks and races after that.
 [[noreturn]] void end_program(int code);
 
 }  // namespace boule::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/math/srgb.h"
 
@@ -61,7 +62,10 @@ PixelNumbers SampleHalf::variance() const {
     }
   }
   const int length = 1 << doublings_;
-  for (double& sum : squares) sum = sum / static_cast<double>(batches - 1) / length;
+  for (double& sum : squares) {
+    sum = sum / static_cast<double>(batches - 1) / length;
+    if (!(sum >= 0)) sum = std::numeric_limits<double>::infinity();
+  }
   return squares;
 }
 

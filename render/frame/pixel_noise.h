@@ -9,9 +9,9 @@
 namespace boule {
 
 /// The noise that a picture may have. Each pixel gets samples until the half-width of its 95 %
-/// confidence interval is at most `half_width` in each channel as it is displayed: multiplied by
-/// 2^exposure_stops, clamped to 0..1 and with the sRGB curve; alpha, which has no curve, counts
-/// where pictures have it.
+/// confidence interval is expected to be at most `half_width` in each channel as it is displayed:
+/// multiplied by 2^exposure_stops, clamped to 0..1 and with the sRGB curve; alpha, which has no
+/// curve, counts where pictures have it.
 struct NoiseTarget {
   float half_width = 0;  ///< 0..1; 0: none is asked for, all pixels get the same samples
   int min_spp = 32;      ///< the fewest samples of a pixel, >= 16
@@ -39,8 +39,8 @@ class SampleHalf {
   [[nodiscard]] int batches() const { return count_ >> doublings_; }
   /// Precondition: there are samples.
   [[nodiscard]] PixelNumbers mean() const;
-  /// Estimates the variance of the mean, times the number of samples. Precondition: there are two
-  /// batches.
+  /// Estimates the variance of the mean, times the number of samples; infinity where a batch's sum
+  /// is beyond floats. Precondition: there are two batches.
   [[nodiscard]] PixelNumbers variance() const;
 
  private:
@@ -59,12 +59,12 @@ double student_quantile(int degrees);
 /// displayed values, 0..1. Preconditions: neither is negative.
 double displayed_half_width(double value, double half_width);
 
-/// An upper bound of displayed_half_width(), at most 1.5 times it where that is small beside
-/// `value`, by the slope of the curve alone: no power.
+/// An upper bound of displayed_half_width(), by the slope of the curve alone: no power. It is at
+/// most 1.53 times it where `value` is at most 1 and the half-width at most a hundredth of it.
 double most_displayed_half_width(double value, double half_width);
 
 /// The number of samples after `count` at which a half is looked at again: the next power of two,
-/// since the points of a Sobol sequence are spread evenly there. Precondition: count >= 0.
+/// since the points of a Sobol sequence are spread evenly there. Precondition: 0 <= count < 2^30.
 int next_look(int count);
 
 }  // namespace boule

@@ -159,8 +159,10 @@ bool NoiseBlock::settle(State& state) const {
   for (std::size_t half = 0; half < 2; ++half) {
     if (state.goals[half] == 0) state.goals[half] = decide(state, 1 - half);
     const SampleHalf& samples = state.halves[half];
-    if (samples.count() == state.goals[half])
-      state.settled[half] = {samples.mean(), samples.count()};
+    if (samples.count() == state.goals[half]) {
+      state.settled[half] = {samples.mean(), careful_variance(state, half), samples.count(),
+                             samples.batches()};
+    }
   }
   return state.settled[0].count > 0 && state.settled[1].count > 0;
 }
@@ -177,13 +179,11 @@ void NoiseBlock::want_more(const Pixel& pixel) {
 
 MeasuredPixel NoiseBlock::measured(const State& state) const {
   const auto& [a, b] = state.settled;
-  const PixelNumbers variance_a = careful_variance(state, 0),
-                     variance_b = careful_variance(state, 1);
-  const double factor = student_quantile(state.halves[0].batches() + state.halves[1].batches() - 2);
+  const double factor = student_quantile(a.batches + b.batches - 2);
   PixelNumbers mean{}, half_width{};
   for (std::size_t c = 0; c < mean.size(); ++c) {
     mean[c] = (a.mean[c] + b.mean[c]) / 2;
-    const double variance = (variance_a[c] + variance_b[c]) / 2;
+    const double variance = (a.variance[c] + b.variance[c]) / 2;
     half_width[c] = factor * std::sqrt(variance * (1.0 / a.count + 1.0 / b.count)) / 2;
   }
   return {{as_float(mean[0]), as_float(mean[1]), as_float(mean[2])},

@@ -57,10 +57,11 @@ class NoiseBlock {
   struct Pixel {
     std::uint16_t x, y;  ///< of the frame
   };
-  /// A half that has all its samples.
+  /// What is known of a half that has all its samples. It may get more, to decide for the other.
   struct Settled {
-    PixelNumbers mean{};
+    PixelNumbers mean{}, variance{};
     int count = 0;  ///< 0: it has not
+    int batches = 0;
   };
   struct State {
     std::array<SampleHalf, 2> halves;

@@ -158,10 +158,10 @@ inline constexpr CostOfRay cost_of_ray = width < 16 ? CostOfRay{3.74F, 0.82F, 0.
                                                     : CostOfRay{8.7F, 0.53F, 0.45F, 8.2F, 3.74F};
 
 /// Then some rays show what all would cost as packets and as sets, if there are at least so many
-/// rays: those at so many places as packets, one at each, those at others as sets of so many rays,
-/// since a set of fewer shares few visits. Packets are tried with sixteen lanes only: with eight
-/// they were at best 1.12 times as fast as what else there is (ground100000).
-/// Again: bench_peers --size 512 --rays shadow with the scenes of the next lines
+/// rays: so many packets, far from each other, and so many sets of set_on_trial rays, since a set
+/// of fewer shares few visits. Packets are tried with sixteen lanes only: with eight they were at
+/// best 1.12 times as fast as what else there is (ground100000). Again: bench_peers --size 512
+/// --rays shadow with the scenes of the next lines
 inline constexpr std::size_t fewest_rays_judged = bundle_size;
 inline constexpr std::size_t packets_on_trial = 8, sets_on_trial = 2, set_on_trial = 128;
 

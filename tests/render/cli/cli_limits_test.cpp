@@ -68,8 +68,8 @@ TEST_F(Limits, OnAddresses) {
   }
 }
 
-/// OpenImageIO's pool crashes as it is destroyed if a thread of it could not be started: here that
-/// is so in one run out of ten.
+/// OpenImageIO's pool crashes as it is destroyed if a thread of it could not be started. With these
+/// limits that came about in one run out of ten, where two threads run at a time.
 TEST_F(Limits, OnTheAddressesOfThreads) {
   picture_ = "picture.exr";
   const std::string whole = whole_picture();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/math/random.h"
@@ -57,6 +58,13 @@ TEST(PixelNoise, TheVarianceIsThatOfTheMeansOfBatches) {
   EXPECT_NEAR(half.variance()[1], 4 * variance, 4e-12 * variance);
   EXPECT_EQ(half.variance()[2], 0);
   EXPECT_NEAR(half.mean()[0], mean, 1e-13 * mean);
+}
+
+TEST(PixelNoise, TheVarianceIsInfiniteWhereFloatsEnd) {
+  SampleHalf half;
+  for (int i = 0; i < 32; ++i) half.add(gray(std::numeric_limits<float>::max()), 1);
+  EXPECT_EQ(half.variance()[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(half.variance()[3], 0);
 }
 
 TEST(PixelNoise, StudentsQuantilesFallToTheNormalOne) {

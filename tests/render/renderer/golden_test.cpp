@@ -35,6 +35,9 @@ std::vector<Golden> goldens() {
   path.lights.push_back(SphereLight{{-1, 4, 3}, 0.5f, {5, 5, 4}});
   Scene path_cloud = glass_cloud(16, 16);
   path_cloud.render.method = Method::path;
+  Scene noisy = path;
+  noisy.render.noise = 0.1F;
+  noisy.render.min_spp = 16;
   return {
       {"every feature, wider than high", mixed_scene(48, 27), 1, 0x4460bf5ca1b22b97},
       {"every feature, higher than wide", mixed_scene(19, 37), 4, 0xf98ce3cc6a82f0d4},
@@ -42,6 +45,7 @@ std::vector<Golden> goldens() {
       {"a crowd of glass and mirrors", glass_cloud(32, 32), 1, 0xd31a1f403a3353e8},
       {"every feature, by path tracing", path, 4, 0xaa71cd7685fe7507},
       {"a crowd of glass and mirrors, by path tracing", path_cloud, 4, 0xcfe712ed30fb59f3},
+      {"every feature, with noise to order", noisy, 128, 0x6f667d440d4f4ce2},
   };
 }
 

@@ -179,6 +179,30 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
   return sum;
 }
 
+/// The first half has noise in its first 8 samples, and none later; the second one none at all, and
+/// so decides at once that 8 samples are enough for the first, which goes on to decide for it.
+TEST(Noise, IsThatOfTheSamplesThatCount) {
+  NoiseBlock noise({.half_width = 0.1F, .min_spp = 16, .max_spp = 512});
+  const PixelRect frame{0, 0, 1, 1};
+  MeasuredPicture picture(frame);
+  noise.begin(frame, frame);
+  do {
+    for (const auto& [x, y] : noise.wanted()) {
+      for (int sample = noise.first(); sample < noise.end(); ++sample) {
+        const bool is_noisy = x == 0 && sample < 8;
+        noise.add({x, y, sample}, gray(!is_noisy ? 0.5F : sample % 2 == 0 ? 0.0F : 1.0F), 1);
+      }
+    }
+  } while (noise.look(picture));
+  const MeasuredPixel& pixel = picture.at(0, 0);
+  EXPECT_GT(pixel.samples, 16U);
+  EXPECT_EQ(pixel.color, gray(0.5F));
+  // Both halves: the mean of 8 / 7 / 4 and 0 divided by either number, and by four.
+  const double variance = 1.0 / 7 * (1.0 / 8 + 1.0 / (pixel.samples - 8)) / 4;
+  // The curve's slope is 0.66 at 0.5, and greater below; Student's factor is above the normal one.
+  EXPECT_GT(pixel.noise, 0.66 * std::sqrt(variance));
+}
+
 TEST(Noise, TheMeanOfRareBrightSamplesIsUnbiased) {
   constexpr int blocks = 16;
   for (const double probability : {0.02, 0.3}) {
