@@ -264,7 +264,7 @@ Chart noise_chart(const SceneNoiseErrors& scene) {
   constexpr Look to_order{8, 0}, uniform{0, 2}, random{1, 1};
   return {"Error of pictures over time, " + scene.scene,
           {"seconds, one thread", true},
-          {"99 % of the pixels are within, displayed values", true},
+          {"error of 99 % of the pixels, displayed", true},
           {noise_series("noise to order", to_order, scene.errors.to_order),
            noise_series("as many samples everywhere", uniform, scene.errors.uniform),
            noise_series("the same, plain random numbers", random, scene.errors.random)},

@@ -22,7 +22,8 @@ for (const chart of document.querySelectorAll('figure > svg.chart')) {
   const texts = shown.map(t => [t, t.getBoundingClientRect()]);
   const page = chart.getBoundingClientRect();
   texts.forEach(([a, p], i) => {
-    if (p.left < page.left - 1 || p.right > page.right + 1 || p.bottom > page.bottom + 1)
+    if (p.left < page.left - 1 || p.right > page.right + 1 ||
+        p.top < page.top - 1 || p.bottom > page.bottom + 1)
       found.push('cut: ' + a.textContent);
     texts.slice(i + 1).forEach(([b, q]) => {
       if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1)
