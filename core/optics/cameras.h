@@ -3,6 +3,7 @@
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
 #include "core/math/number.h"
+#include "core/math/ray.h"
 #include "core/optics/camera_view.h"
 #include "core/optics/film_point.h"
 #include "core/optics/lens_disc.h"
