@@ -120,9 +120,9 @@ void BlockWorker::position_samples() {
   if (!sampler.single()) find_numbers(RandomSet::film);
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const SampleId& id = pixels_[k];
-    const RasterPoint point = sampler.single()
-                                  ? sampler.position(id)
-                                  : sampler.position(NoiseBlock::column(id), id.y, numbers_.get(k));
+    const RasterPoint point =
+        sampler.single() ? sampler.position(id)
+                         : sampler.position(NoiseBlock::column(id.x), id.y, numbers_.get(k));
     samples_.set(k, point.x, point.y);
   }
   if (!has_lens(camera.kind)) return;

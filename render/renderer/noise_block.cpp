@@ -67,8 +67,8 @@ bool NoiseBlock::look(MeasuredPicture& picture) {
 /// Of the halves that got samples.
 void NoiseBlock::find_variances() {
   for (const Half& one : wanted_) {
-    State& state = at(one.x & (half_distance - 1), one.y);
-    const std::size_t half = one.x < half_distance ? 0 : 1;
+    State& state = at(column(one.x), one.y);
+    const std::size_t half = half_of(one.x);
     state.variances[half] = state.halves[half].variance();
   }
 }
@@ -114,9 +114,10 @@ PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) 
   return variance;
 }
 
-/// The greatest half-width of the channels as they are displayed.
-double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_width) const {
-  double greatest = target_.alpha ? half_width[3] : 0;
+/// The greatest half-width of the channels as they are displayed, or `least` if that is more.
+double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_width,
+                             double least) const {
+  double greatest = target_.alpha ? std::max(least, half_width[3]) : least;
   for (std::size_t c = 0; c < 3; ++c) {
     const double value = mean[c] * scale_, width = half_width[c] * scale_;
     if (most_displayed_half_width(value, width) > greatest)
@@ -130,17 +131,9 @@ bool NoiseBlock::is_enough(const State& state, std::size_t half, int count) cons
   const SampleHalf& samples = state.halves[half];
   const double factor = student_quantile(2 * (samples.batches() - 1));  // of two such halves
   const auto most = static_cast<double>(target_.half_width);
-  const PixelNumbers mean = samples.mean(), variance = careful_variance(state, half);
-  const auto half_width = [&](std::size_t c) {
-    return factor * std::sqrt(variance[c] / (2 * count));
-  };
-  if (target_.alpha && half_width(3) > most) return false;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double value = mean[c] * scale_, width = half_width(c) * scale_;
-    if (most_displayed_half_width(value, width) > most && displayed_half_width(value, width) > most)
-      return false;
-  }
-  return true;
+  PixelNumbers half_width = careful_variance(state, half);
+  for (double& number : half_width) number = factor * std::sqrt(number / (2 * count));
+  return displayed(samples.mean(), half_width, most) <= most;
 }
 
 /// How many samples the other half is to have, as a half says: as many as it has itself, or the
@@ -188,7 +181,7 @@ MeasuredPixel NoiseBlock::measured(const State& state) const {
   }
   return {{as_float(mean[0]), as_float(mean[1]), as_float(mean[2])},
           as_float(mean[3]),
-          static_cast<float>(displayed(mean, half_width) / interval_in_errors),
+          static_cast<float>(displayed(mean, half_width, 0) / interval_in_errors),
           static_cast<std::uint32_t>(a.count + b.count)};
 }
 

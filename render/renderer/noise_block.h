@@ -28,8 +28,9 @@ class NoiseBlock {
 
   /// The second half has the random numbers of pixels that far to the right, beyond any frame.
   static constexpr int half_distance = 65536;
-  /// The column of the sample's pixel.
-  static int column(const SampleId& id) { return id.x & (half_distance - 1); }
+  /// Of a sample's x: the column of its pixel, and which half it belongs to.
+  static int column(int x) { return x & (half_distance - 1); }
+  static std::size_t half_of(int x) { return x < half_distance ? 0 : 1; }
 
   explicit NoiseBlock(const NoiseTarget& target);
 
@@ -44,8 +45,7 @@ class NoiseBlock {
   [[nodiscard]] int first() const { return first_; }
   [[nodiscard]] int end() const { return end_; }
   void add(const SampleId& id, const Color& sample, std::uint8_t covered) {
-    State& state = at(column(id), id.y);
-    state.halves[id.x < half_distance ? 0 : 1].add(sample, covered);
+    at(column(id.x), id.y).halves[half_of(id.x)].add(sample, covered);
   }
   /// To be called when all wanted samples were added. Sets the pixels that have enough of them, and
   /// wants more for the others. False if there are none: the block is done.
@@ -75,7 +75,8 @@ class NoiseBlock {
   void look_around();
   [[nodiscard]] PixelNumbers variance_around(int x, int y);
   [[nodiscard]] PixelNumbers careful_variance(const State& state, std::size_t half) const;
-  [[nodiscard]] double displayed(const PixelNumbers& mean, const PixelNumbers& error) const;
+  [[nodiscard]] double displayed(const PixelNumbers& mean, const PixelNumbers& half_width,
+                                 double least) const;
   [[nodiscard]] bool is_enough(const State& state, std::size_t half, int count) const;
   [[nodiscard]] int decide(const State& state, std::size_t half) const;
   void find_variances();

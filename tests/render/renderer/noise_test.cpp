@@ -151,6 +151,22 @@ TEST(Noise, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(key_of(without_noise), "aov");
 }
 
+/// Renders a frame of one block whose samples are gray(value(id)).
+MeasuredPicture measured(NoiseBlock& noise, const PixelRect& frame,
+                         const std::function<float(const SampleId&)>& value) {
+  MeasuredPicture picture(frame);
+  noise.begin(frame, frame);
+  do {
+    for (const auto& [x, y] : noise.wanted()) {
+      for (int sample = noise.first(); sample < noise.end(); ++sample) {
+        const SampleId id{x, y, sample};
+        noise.add(id, gray(value(id)), 1);
+      }
+    }
+  } while (noise.look(picture));
+  return picture;
+}
+
 /// Renders blocks whose samples are 1 with a probability, else 0: the mean of all pixels.
 double mean_of_rare_samples(double probability, int blocks, double* samples) {
   NoiseBlock noise({.half_width = 0.1F, .min_spp = 16, .max_spp = 512});
@@ -158,19 +174,12 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
   *samples = 0;
   for (int block = 0; block < blocks; ++block) {
     const PixelRect frame{0, 0, 32, 32};
-    MeasuredPicture picture(frame);
-    noise.begin(frame, frame);
-    do {
-      for (const auto& [x, y] : noise.wanted()) {
-        for (int sample = noise.first(); sample < noise.end(); ++sample) {
-          const auto bits = philox({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                    static_cast<std::uint32_t>(sample), 0},
-                                   {static_cast<std::uint32_t>(block), 5});
-          const bool is_bright = unit_interval(bits[0]) < probability;
-          noise.add({x, y, sample}, gray(is_bright ? 1.0F : 0.0F), 1);
-        }
-      }
-    } while (noise.look(picture));
+    const MeasuredPicture picture = measured(noise, frame, [&](const SampleId& id) {
+      const auto bits = philox({static_cast<std::uint32_t>(id.x), static_cast<std::uint32_t>(id.y),
+                                static_cast<std::uint32_t>(id.sample), 0},
+                               {static_cast<std::uint32_t>(block), 5});
+      return unit_interval(bits[0]) < probability ? 1.0F : 0.0F;
+    });
     for (const MeasuredPixel& pixel : picture.pixels()) {
       sum += static_cast<double>(pixel.color.g) / frame.area() / blocks;
       *samples += pixel.samples / static_cast<double>(frame.area()) / blocks;
@@ -183,17 +192,10 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
 /// so decides at once that 8 samples are enough for the first, which goes on to decide for it.
 TEST(Noise, IsThatOfTheSamplesThatCount) {
   NoiseBlock noise({.half_width = 0.1F, .min_spp = 16, .max_spp = 512});
-  const PixelRect frame{0, 0, 1, 1};
-  MeasuredPicture picture(frame);
-  noise.begin(frame, frame);
-  do {
-    for (const auto& [x, y] : noise.wanted()) {
-      for (int sample = noise.first(); sample < noise.end(); ++sample) {
-        const bool is_noisy = x == 0 && sample < 8;
-        noise.add({x, y, sample}, gray(!is_noisy ? 0.5F : sample % 2 == 0 ? 0.0F : 1.0F), 1);
-      }
-    }
-  } while (noise.look(picture));
+  const MeasuredPicture picture = measured(noise, {0, 0, 1, 1}, [](const SampleId& id) {
+    const bool is_noisy = id.x == 0 && id.sample < 8;
+    return !is_noisy ? 0.5F : id.sample % 2 == 0 ? 0.0F : 1.0F;
+  });
   const MeasuredPixel& pixel = picture.at(0, 0);
   EXPECT_GT(pixel.samples, 16U);
   EXPECT_EQ(pixel.color, gray(0.5F));
