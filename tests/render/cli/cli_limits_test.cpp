@@ -26,6 +26,12 @@ class Limits : public ProgramTest {
     return {"render", "scene.toml", "-o", output, "-t", threads};
   }
 
+  /// Renders over the old picture within a limit of the shell's `ulimit`: "-v 1000".
+  ProgramRun render_within(const std::string& limit, const std::string& threads = "3") const {
+    write(picture_, old);
+    return shell("ulimit " + limit + "; exec \"$@\"", render(picture_, threads));
+  }
+
   /// The picture is whole, or the old one is there and an error says why; nothing else is there.
   void expect_all_or_nothing(const ProgramRun& run, const std::string& whole) const {
     // 3: there is no memory for the scene.
@@ -54,10 +60,9 @@ TEST_F(Limits, OnAddresses) {
     const std::string whole = whole_picture();
     int done = 0, refused = 0;
     for (int kibibytes = 12000; kibibytes < 1600000; kibibytes += kibibytes / 4) {
-      write(picture_, old);
-      const std::string limit = "ulimit -v " + std::to_string(kibibytes) + "; ";
-      const ProgramRun run = shell(limit + "exec \"$@\"", render(picture_, "8"));
-      SCOPED_TRACE(limit + run.err);
+      const std::string limit = "-v " + std::to_string(kibibytes);
+      const ProgramRun run = render_within(limit, "8");
+      SCOPED_TRACE(limit + ": " + run.err);
       if (run.exit_code == 127) continue;  // the system could not start it
       expect_all_or_nothing(run, whole);
       ++(run.exit_code == 0 ? done : refused);
@@ -74,10 +79,9 @@ TEST_F(Limits, OnTheAddressesOfThreads) {
   picture_ = "picture.exr";
   const std::string whole = whole_picture();
   for (int kibibytes = 740000; kibibytes < 840000; kibibytes += 6000) {
-    write(picture_, old);
-    const std::string limit = "ulimit -v " + std::to_string(kibibytes) + "; ";
-    const ProgramRun run = shell(limit + "exec \"$@\"", render(picture_, "8"));
-    SCOPED_TRACE(limit + run.err);
+    const std::string limit = "-v " + std::to_string(kibibytes);
+    const ProgramRun run = render_within(limit, "8");
+    SCOPED_TRACE(limit + ": " + run.err);
     if (run.exit_code != 127) expect_all_or_nothing(run, whole);
   }
 }
@@ -90,10 +94,9 @@ TEST_F(Limits, OnData) {
     int done = 0, refused = 0;
     for (const int kibibytes : {4000, 10000, 20000, 40000, 80000, 88000, 92000, 96000, 100000,
                                 110000, 130000, 150000, 400000}) {
-      write(picture_, old);
-      const std::string limit = "ulimit -d " + std::to_string(kibibytes) + "; ";
-      const ProgramRun run = shell(limit + "exec \"$@\"", render(picture_, "2"));
-      SCOPED_TRACE(limit + run.err);
+      const std::string limit = "-d " + std::to_string(kibibytes);
+      const ProgramRun run = render_within(limit, "2");
+      SCOPED_TRACE(limit + ": " + run.err);
       expect_all_or_nothing(run, whole);
       if (run.exit_code != 0) {
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
@@ -109,9 +112,7 @@ TEST_F(Limits, OnData) {
 TEST_F(Limits, OnTheStack) {
   const std::string whole = whole_picture();
   for (const int kibibytes : {160, 1000, 4000, 4096, 8192}) {
-    write("picture.png", old);
-    const ProgramRun run =
-        shell("ulimit -s " + std::to_string(kibibytes) + "; exec \"$@\"", render("picture.png"));
+    const ProgramRun run = render_within("-s " + std::to_string(kibibytes));
     EXPECT_EQ(run.exit_code, kibibytes < 4096 ? 1 : 0) << kibibytes << run.err;
     expect_all_or_nothing(run, whole);
   }
@@ -121,9 +122,7 @@ TEST_F(Limits, OnTheStack) {
 TEST_F(Limits, OnOpenFiles) {
   const std::string whole = whole_picture();
   for (int files = 4; files < 12; ++files) {
-    write("picture.png", old);
-    const ProgramRun run =
-        shell("ulimit -n " + std::to_string(files) + "; exec \"$@\"", render("picture.png"));
+    const ProgramRun run = render_within("-n " + std::to_string(files));
     if (run.exit_code == 127) continue;  // no library of its own was found
     expect_all_or_nothing(run, whole);
     if (run.exit_code != 0) {
