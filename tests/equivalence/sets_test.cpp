@@ -161,6 +161,31 @@ TEST_P(Sets, MakeFewTrialsInManyShortStreams) {
   }
 }
 
+/// What was found out belongs to one table and one function of it. Where a caller mixes them, in
+/// the midst of trials too, hits are the same.
+TEST(SetsOfAllTables, FindTheSameByWhatOthersFoundOut) {
+  CaseRandom random(77);
+  const Geometry geometry(cube_of_spheres(random, 900, {}, 1, 0.05), {});
+  ASSERT_GT(geometry.view().bvh.size, 0U);
+  Experience known;
+  const Query query{Solver::robust, Form::automatic, Coherence::none, &known};
+  for (std::size_t round = 0; round < 40; ++round) {
+    const std::vector<Ray> rays = rays_from(random, 1 + round * 67 % 400, round % 3 == 1);
+    const auto expected = run_closest(reference_kernels(), geometry.view(), rays, {});
+    for (const std::string& name : all_isa_names()) {
+      const KernelTable* kernels = kernels_or_null(name);
+      if (kernels == nullptr) continue;
+      const auto hits = run_closest(*kernels, geometry.view(), rays, query);
+      const auto occluded = run_any(*kernels, geometry.view(), rays, query);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same_bits(hits[i], expected[i])) << name << ", ray " << i;
+        ASSERT_EQ(occluded[i], expected[i].id != no_primitive ? 1 : 0) << name << ", ray " << i;
+      }
+    }
+  }
+  EXPECT_GT(known.rays, 0U);
+}
+
 /// From so far that float can tell of no speck whether a ray meets it: every ray has hundreds of
 /// candidates, more than a set has room for.
 TEST_P(Sets, SolveCandidatesForWhichThereIsNoRoom) {
