@@ -32,19 +32,19 @@ void add_elements(Json& json, const std::vector<LensSurface>& surfaces) {
 }
 
 template <class Kind>
-Json describe(const Kind& camera) {
-  return kind_info(camera);
+Json describe(const Kind& camera, const Vec3d& origin) {
+  return kind_info(camera, origin);
 }
 
-Json describe(const ThinLensCamera& camera) {
-  Json json = kind_info(camera);
+Json describe(const ThinLensCamera& camera, const Vec3d& origin) {
+  Json json = kind_info(camera, origin);
   json["focus"] = shown_focus(camera);
   return json;
 }
 
-Json describe(const LensCamera& camera) {
+Json describe(const LensCamera& camera, const Vec3d& origin) {
   Json json = {{"type", fields<LensCamera>.type}};
-  FieldInfo(json).add(camera.pose);
+  FieldInfo(json, nullptr, origin).add(camera.pose);
   add_elements(json, camera.surfaces);
   FieldInfo(json).add(camera);
   json["focus"] = shown_focus(camera);
@@ -53,8 +53,8 @@ Json describe(const LensCamera& camera) {
 
 }  // namespace
 
-Json camera_info(const Camera& camera) {
-  return std::visit([](const auto& any) { return describe(any); }, camera);
+Json camera_info(const Camera& camera, const Vec3d& origin) {
+  return std::visit([&](const auto& any) { return describe(any, origin); }, camera);
 }
 
 }  // namespace boule::cli

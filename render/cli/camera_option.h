@@ -1,13 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "core/base/error.h"
-#include "render/cli/options.h"
 #include "render/scene_file/scene_file.h"
 
 namespace boule::cli {
 
-/// Gives the scene the camera of --camera, if there is one. Names of files in it are relative to
-/// the working directory.
-Status use_camera(const RenderCommand& command, LoadedScene& loaded);
+/// Gives the scene the camera of --camera, whose keys are `keys`; empty: it keeps its own. One that
+/// is to be fitted is left out, and `fit` says how. Names of files in it are relative to the
+/// working directory.
+Status use_camera(const std::string& keys, LoadedScene& loaded);
 
 }  // namespace boule::cli

@@ -15,8 +15,9 @@ namespace boule::cli {
 class FieldInfo {
  public:
   /// `json` must outlive it, and so must `scene`, which holds the materials and groups that are
-  /// referred to.
-  FieldInfo(Json& json, const Scene* scene = nullptr) : json_(json), scene_(scene) {}
+  /// referred to. Points are counted from `origin`, and told as the scene file counts them.
+  FieldInfo(Json& json, const Scene* scene = nullptr, const Vec3d& origin = {})
+      : json_(json), scene_(scene), origin_(origin) {}
 
   /// Leaves out what stands in other files, but for the size of pictures, and optional fields
   /// without a value.
@@ -40,6 +41,9 @@ class FieldInfo {
   void add(const std::string&, const TypeRule&, const T& part) {
     add(part);
   }
+  void add(const std::string& key, const PointRule&, const Vec3f& point) {
+    json_[key] = shown(point, origin_);
+  }
   void add(const std::string& key, const MaterialRule&, std::uint32_t index) {
     json_[key] = scene_->materials[index].name;
   }
@@ -55,27 +59,28 @@ class FieldInfo {
 
   Json& json_;
   const Scene* scene_;
+  Vec3d origin_;
 };
 
 /// The fields of one struct.
 template <HasFields T>
-Json fields_info(const T& value, const Scene* scene = nullptr) {
+Json fields_info(const T& value, const Scene* scene = nullptr, const Vec3d& origin = {}) {
   Json json = Json::object();
-  FieldInfo(json, scene).add(value);
+  FieldInfo(json, scene, origin).add(value);
   return json;
 }
 
 /// The `type` of one kind and its fields.
 template <HasFields Kind>
-Json kind_info(const Kind& kind) {
+Json kind_info(const Kind& kind, const Vec3d& origin = {}) {
   Json json = {{"type", fields<Kind>.type}};
-  FieldInfo(json).add(kind);
+  FieldInfo(json, nullptr, origin).add(kind);
   return json;
 }
 
 template <class... Kinds>
-Json kind_info(const std::variant<Kinds...>& one_of) {
-  return std::visit([](const auto& kind) { return kind_info(kind); }, one_of);
+Json kind_info(const std::variant<Kinds...>& one_of, const Vec3d& origin = {}) {
+  return std::visit([&](const auto& kind) { return kind_info(kind, origin); }, one_of);
 }
 
 }  // namespace boule::cli

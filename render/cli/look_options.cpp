@@ -8,10 +8,12 @@
 #include "render/cli/option_kinds.h"
 #include "render/file/nearest_name.h"
 #include "render/particle_file/particle_file.h"
+#include "render/particles/particle_style.h"
 
 namespace boule::cli {
 namespace {
 
+/// Which particles are spheres, and how large.
 void add_spheres(CLI::App& app, LookOptions& look) {
   add_parsed(app, "--radius", look.radius, parse_radius,
              "a number above 0, vdw, covalent or a column", "R",
@@ -20,6 +22,9 @@ void add_spheres(CLI::App& app, LookOptions& look) {
              "Times all radii (1)");
   add_parsed(app, "--select", look.select, parse_words, "such as \"type == 1 && x > 0\"", "EXPR",
              "Which particles are shown, such as \"type == 1 && x > 0\" (all)");
+}
+
+void add_colors(CLI::App& app, LookOptions& look) {
   add_parsed(app, "--color", look.color, parse_particle_color, "element, #rrggbb or a column", "C",
              "Colours: element, #rrggbb, a column or |v| of vx vy vz (the file's, else element)");
   add_parsed(app, "--map", look.map, parse_map,
@@ -63,6 +68,13 @@ void add_look_options(CLI::App& app, LookOptions& look) {
   add_file_options(app, look);
   add_picture(app, look);
   add_spheres(app, look);
+  add_colors(app, look);
+}
+
+void add_shape_options(CLI::App& app, LookOptions& look) {
+  start_group(app, look_heading);
+  add_file_options(app, look);
+  add_spheres(app, look);
 }
 
 std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& look) {
@@ -72,7 +84,8 @@ std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& l
     break;
   }
   const std::string help = "boule " + app.get_name() + " --help";
-  const bool has_map = has_color_map(look.color);
+  // Three words may be the name of one column too: that shows when the file is read.
+  const bool has_map = has_color_map(look.color) || !three_names(look.color).empty();
   if (!look.map.empty() && !has_map) return UsageError{"--map needs --color COLUMN", help};
   if (look.range && !has_map) return UsageError{"--range needs --color COLUMN", help};
   return std::nullopt;

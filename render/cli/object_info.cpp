@@ -11,19 +11,19 @@ namespace {
 
 /// The first few things of a list.
 template <class Thing>
-Json first_info(const Scene& scene, const std::vector<Thing>& things) {
+Json first_info(const Scene& scene, const std::vector<Thing>& things, const Vec3d& origin) {
   Json list = Json::array();
   for (std::size_t i = 0; i < std::min(things.size(), most_told); ++i) {
-    list.push_back(fields_info(things[i], &scene));
+    list.push_back(fields_info(things[i], &scene, origin));
   }
   return list;
 }
 
 }  // namespace
 
-Json spheres_info(const Scene& scene) {
-  if (scene.packed) return first_info(scene, scene.packed->first);
-  if (scene.spheres.size() >= most_told) return first_info(scene, scene.spheres);
+Json spheres_info(const Scene& scene, const Vec3d& origin) {
+  if (scene.packed) return first_info(scene, scene.packed->first, origin);
+  if (scene.spheres.size() >= most_told) return first_info(scene, scene.spheres, origin);
   std::vector<Sphere> first = scene.spheres;
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
     for (const Sphere& one : scene.groups[shown.group].spheres) {
@@ -31,10 +31,14 @@ Json spheres_info(const Scene& scene) {
       first.push_back(transformed(one, shown.transform, shown.material));
     }
   });
-  return first_info(scene, first);
+  return first_info(scene, first, origin);
 }
-Json planes_info(const Scene& scene) { return first_info(scene, scene.planes); }
-Json instances_info(const Scene& scene) { return first_info(scene, scene.instances); }
+Json planes_info(const Scene& scene, const Vec3d& origin) {
+  return first_info(scene, scene.planes, origin);
+}
+Json instances_info(const Scene& scene, const Vec3d& origin) {
+  return first_info(scene, scene.instances, origin);
+}
 
 Json groups_info(const Scene& scene) {
   Json list = Json::array();
@@ -43,17 +47,18 @@ Json groups_info(const Scene& scene) {
                     {"spheres", group.spheres.size()},
                     {"planes", group.planes.size()},
                     {"instances", group.instances.size()},
-                    {"first_spheres", first_info(scene, group.spheres)},
-                    {"first_planes", first_info(scene, group.planes)},
-                    {"first_instances", first_info(scene, group.instances)}});
+                    {"first_spheres", first_info(scene, group.spheres, {})},
+                    {"first_planes", first_info(scene, group.planes, {})},
+                    {"first_instances", first_info(scene, group.instances, {})}});
   }
   return list;
 }
 
-Json bounds_info(const Scene& scene) {
+Json bounds_info(const Scene& scene, const Vec3d& origin) {
   if (count_primitives(scene).spheres == 0) return nullptr;
   const auto [low, high] = bounds_of(scene);
-  return {{"min", shown(vec_cast<float>(low))}, {"max", shown(vec_cast<float>(high))}};
+  return {{"min", shown(vec_cast<float>(low), origin)},
+          {"max", shown(vec_cast<float>(high), origin)}};
 }
 
 }  // namespace boule::cli

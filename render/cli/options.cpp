@@ -245,6 +245,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
                "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
   add_load_limit(app, command.load_limit);
   add_trust(app, command.trust);
+  add_shape_options(app, command.look);
   start_group(app, "Output");
   add_output(
       app, command.output, "HITS.npy",
@@ -356,7 +357,7 @@ Command chosen_command(const CLI::App& app, Commands& commands) {
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
   if (is_chosen("pack")) return checked("pack", commands.pack, commands.pack.look);
   if (is_chosen("merge")) return commands.merge;
-  if (is_chosen("trace")) return commands.trace;
+  if (is_chosen("trace")) return checked("trace", commands.trace, commands.trace.look);
   if (is_chosen("info")) return checked("info", commands.info, commands.info.look);
   return commands.isa;
 }

@@ -155,6 +155,7 @@ struct ViewCommand {
 /// `boule trace`.
 struct TraceCommand : RunOptions {
   std::string rays;
+  LookOptions look;  ///< of a particle file: which spheres it stands for
   bool any_hit = false;
 };
 

@@ -85,7 +85,8 @@ Json picture_info(const LoadedScene& loaded) {
                {"radius", facts.radius_source},
                {"color", colors_info(facts.colors)},
                {"origin", vector_info(loaded.origin)}};
-  json["camera"] = camera_info(default_camera(scene, scene.image.width, scene.image.height));
+  const Camera camera = default_camera(scene, scene.image.width, scene.image.height);
+  json["camera"] = camera_info(camera, loaded.origin);
   json["hash"] = fmt::format("{:016x}", scene_hash(scene, Scheduler(0).parallel_for()));
   return json;
 }

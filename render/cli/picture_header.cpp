@@ -15,7 +15,7 @@ double PartialSamples::percent() const {
   return std::floor(static_cast<double>(done) / static_cast<double>(all) * 1000) / 10;
 }
 
-Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
+Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, const Vec3d& origin,
                         const std::optional<PartialSamples>& partial) {
   const RenderOptions& options = renderer.options();
   const CameraMatrices matrices =
@@ -31,6 +31,8 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash,
   const bool distorted = renderer.scene().camera_view.distortion.st != nullptr;
   if (matrices.world_to_screen && !distorted)
     header.emplace_back("worldtoscreen", *matrices.world_to_screen);
+  if (!(origin == Vec3d{}))
+    header.emplace_back("boule:origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
   if (options.noise > 0) {
     header.emplace_back("boule:noise", fmt::format("{}", options.noise));
     header.emplace_back("boule:min_spp", options.min_spp);

@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "render/cli/camera_option.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/legend.h"
 #include "render/cli/messages.h"
@@ -210,11 +209,11 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   if (auto bad = check_data_files(command_, "picture", loaded.value().data_files))
     return refuse(*bad, command_, wrong_usage);
   Scene& scene = loaded.value().scene;
+  origin_ = loaded.value().origin;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));
   choose_background(command_.background, scene);
-  if (auto bad = use_camera(command_, loaded.value())) return refuse(*bad, command_, wrong_usage);
   scene_hash_ = scene_hash(scene, Scheduler(command_.threads).parallel_for());
 
   RenderOptions options = combine(scene, command_);
@@ -285,7 +284,7 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.exposure_stops = command_.exposure_stops;
   file.crop = crop_window(options);
   file.date_time = date_;
-  file.metadata = picture_header(renderer, scene_hash_, partial_);
+  file.metadata = picture_header(renderer, scene_hash_, origin_, partial_);
   if (noise_) {
     for (auto& entry : noise_header(*noise_)) file.metadata.push_back(std::move(entry));
   }

@@ -88,6 +88,7 @@ class Rendering {
   Stats stats_;
   std::string date_;  ///< the file's time stamp
   std::uint64_t scene_hash_ = 0;
+  Vec3d origin_;                           ///< that the scene's points are counted from
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
   std::optional<NoiseReached> noise_;      ///< none: it was not measured
   std::optional<Checkpoint> checkpoint_;

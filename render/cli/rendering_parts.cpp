@@ -59,7 +59,7 @@ FilmHead Rendering::film_head(const Renderer& renderer) const {
   head.facts = facts_of(options, scene_hash_, BOULE_VERSION);
   const Shard shard = command_.shard.value_or(Shard{});
   head.share = {{"shard", fmt::format("{}/{}", shard.index, shard.count)}};
-  head.metadata = picture_header(renderer, scene_hash_);
+  head.metadata = picture_header(renderer, scene_hash_, origin_);
   head.frame_width = options.width;
   head.frame_height = options.height;
   head.rect = renderer.rect();

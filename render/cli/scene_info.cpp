@@ -92,8 +92,14 @@ void append_text(std::string& text, const std::string& indent, const std::string
   }
 }
 
+/// A light by the camera's axes has no points that are counted from the origin.
+Json light_info(const Light& light, const Vec3d& origin) {
+  const auto frame = std::visit([](const auto& any) { return any.relative_to; }, light);
+  return kind_info(light, frame == LightFrame::camera ? Vec3d{} : origin);
+}
+
 /// Camera, background and lights as they will be rendered, with a note on what the scene lacks.
-void add_surroundings(Json& json, const Scene& scene) {
+void add_surroundings(Json& json, const Scene& scene, const Vec3d& origin) {
   Json notes = Json::array(), lights = Json::array();
   const Camera camera =
       scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
@@ -102,12 +108,12 @@ void add_surroundings(Json& json, const Scene& scene) {
   } else if (!scene.camera) {
     notes.push_back(camera_note);
   }
-  for (const Light& light : scene.lights) lights.push_back(kind_info(light));
+  for (const Light& light : scene.lights) lights.push_back(light_info(light, origin));
   if (lacks_light(scene, scene.render.method)) {
-    for (const Light& light : default_lights(camera)) lights.push_back(kind_info(light));
+    for (const Light& light : default_lights(camera)) lights.push_back(light_info(light, origin));
     notes.push_back(light_note(scene, scene.render.method));
   }
-  json["camera"] = camera_info(camera);
+  json["camera"] = camera_info(camera, origin);
   if (scene.distortion) json["camera"]["distortion"] = fields_info(*scene.distortion);
   json["background"] = kind_info(scene.background);
   json["ambient"] = shown(scene.ambient);
@@ -120,7 +126,8 @@ void add_surroundings(Json& json, const Scene& scene) {
 
 Json scene_info(LoadedScene loaded, const std::string& path) {
   Scene& scene = loaded.scene;
-  Json groups = groups_info(scene), instances = instances_info(scene);
+  const Vec3d& origin = loaded.origin;
+  Json groups = groups_info(scene), instances = instances_info(scene, origin);
   const std::size_t group_count = scene.groups.size(), instance_count = scene.instances.size();
   const std::uint64_t hash = scene_hash(scene, Scheduler(0).parallel_for());
   share_or_expand(scene);
@@ -134,11 +141,12 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
                {"planes", scene.planes.size()},
                {"groups", group_count},
                {"instances", instance_count},
-               {"bounds", bounds_info(scene)}});
-  add_surroundings(json, scene);
+               {"bounds", bounds_info(scene, origin)},
+               {"origin", {origin.x, origin.y, origin.z}}});
+  add_surroundings(json, scene, origin);
   json["materials"] = materials_info(scene);
-  json["first_spheres"] = spheres_info(scene);
-  json["first_planes"] = planes_info(scene);
+  json["first_spheres"] = spheres_info(scene, origin);
+  json["first_planes"] = planes_info(scene, origin);
   json["group_list"] = std::move(groups);
   json["first_instances"] = std::move(instances);
   for (const std::string& note : loaded.notes) json["notes"].push_back(note);

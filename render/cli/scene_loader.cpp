@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "render/cli/camera_option.h"
 #include "render/cli/particle_scene.h"
 #include "render/cli/run_report.h"
 #include "render/particle_file/particle_file.h"
@@ -34,11 +35,52 @@ std::vector<int> fitted_frames(const FrameRange& range, std::uint64_t spheres) {
   return frames;
 }
 
+/// False if there are particles, and all of them stay away.
+bool shows_particles(const LoadedScene& loaded) {
+  return loaded.particles.empty() ||
+         std::any_of(loaded.particles.begin(), loaded.particles.end(),
+                     [](const ParticleFacts& one) { return one.spheres > 0; });
+}
+
+/// Fits one camera, and one floor, to several scenes. The first one that has spheres says from
+/// where they are seen.
+class SeriesFitter {
+ public:
+  /// `size`: of the pictures, if the scenes do not say it.
+  explicit SeriesFitter(const std::optional<Size>& size) : size_(size) {}
+
+  void add(const LoadedScene& loaded, const std::optional<LookFloor>& floor) {
+    const Scene& scene = loaded.scene;
+    if (count_primitives(scene).spheres == 0) return;
+    if (!fitter_) {
+      fitter_.emplace(scene.fit, view_of(scene), size_ ? size_->width : scene.image.width,
+                      size_ ? size_->height : scene.image.height);
+    }
+    add_spheres(scene, *fitter_);
+    if (floor) lowest_ = std::min(lowest_, *lowest_along(floor->up, loaded));
+  }
+
+  /// None if there are no spheres, or if it would be wrong: the frames by themselves tell why.
+  [[nodiscard]] std::optional<Camera> camera() const {
+    if (!fitter_) return std::nullopt;
+    Camera camera = fitter_->camera();
+    return find_problem(camera) ? std::nullopt : std::optional(std::move(camera));
+  }
+  /// Of all spheres, along the floor's `up`.
+  [[nodiscard]] double lowest() const { return lowest_; }
+
+ private:
+  std::optional<Size> size_;
+  std::optional<CameraFitter> fitter_;
+  double lowest_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 SceneLoader::SceneLoader(const RenderCommand& command)
     : path_(command.scene),
       look_(command.look),
+      camera_keys_(command.camera),
       frames_(command.frames && command.frames->count() > 1 ? command.frames : std::nullopt),
       size_(command.size),
       scheduler_(command.threads) {
@@ -56,15 +98,27 @@ Result<LoadedScene> SceneLoader::load(std::optional<int> frame) {
   auto loaded = read(frame);
   if (!loaded) return loaded;
   if (std::exchange(is_first_, false)) {
+    if (frames_ && !shows_particles(loaded.value())) {
+      loaded = with_origin_of_others(std::move(loaded).value());
+      if (!loaded) return loaded;
+    }
     keep_choices(loaded.value());
-    if (frames_) fit_series(loaded.value());
+    if (frames_) look_at_others(loaded.value());
   }
   use_choices(loaded.value());
   return loaded;
 }
 
-/// A scene as it is by itself, but for the choices that are made already.
+/// A scene as it is by itself, but for the command line's camera, and the choices that are made
+/// already.
 Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
+  auto loaded = read_file(frame);
+  if (!loaded) return loaded;
+  if (auto bad = use_camera(camera_keys_, loaded.value())) return *bad;
+  return loaded;
+}
+
+Result<LoadedScene> SceneLoader::read_file(std::optional<int> frame) {
   options_.frame = frame;
   const std::string path = frame ? frame_name(path_, *frame) : path_;
   if (!is_particle_input(path, look_)) {
@@ -78,50 +132,80 @@ Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
   return std::move(made).value().loaded;
 }
 
-void SceneLoader::keep_choices(const LoadedScene& first) {
-  for (const ParticleFacts& facts : first.particles) colors_.push_back(facts.colors);
-  if (!frames_) return;
-  options_.color_ranges = color_ranges_of(first.particles);
-  options_.kind_colors = kind_colors_of(first.particles);
-  options_.origin = first.origin;
+/// The first frame of a series, which shows no particles, counted from the origin that the first
+/// one to show some has.
+Result<LoadedScene> SceneLoader::with_origin_of_others(LoadedScene first) {
+  for (int number = frames_->first + frames_->step; number <= frames_->last;
+       number += frames_->step) {
+    const auto other = read(number);
+    if (!other) break;  // the error is told when its picture is made
+    if (!shows_particles(other.value())) continue;
+    options_.origin = other.value().origin;
+    return read(frames_->first);
+  }
+  return first;
 }
 
-/// Fits the camera, and the height of the floor, to the series. A frame that cannot be read ends
-/// the fitting: its error is told when its picture is made.
-void SceneLoader::fit_series(LoadedScene& first) {
-  if (first.scene.camera && !floor_) return;
-  const Scene& scene = first.scene;
-  const std::uint64_t count_first = count_primitives(scene).spheres;
-  if (count_first == 0) return;
-  CameraFitter fitter(scene.fit, view_of(scene), size_ ? size_->width : scene.image.width,
-                      size_ ? size_->height : scene.image.height);
-  add_spheres(scene, fitter);
-  const Vec3d up = floor_ ? floor_->up : Vec3d{};
-  double lowest = floor_ ? *lowest_along(up, first) : 0;
-  const std::vector<int> frames = fitted_frames(*frames_, count_first);
-  std::size_t fitted = 1;
+/// Keeps what a frame has chosen and those before it have not.
+void SceneLoader::keep_choices(const LoadedScene& loaded) {
+  colors_.resize(std::max(colors_.size(), loaded.particles.size()));
+  for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
+    const ParticleColors& colors = loaded.particles[i].colors;
+    if (!colors_[i].scale) colors_[i].scale = colors.scale;
+    for (const auto& one : colors.species) {
+      auto& known = colors_[i].species;
+      const bool is_known = std::any_of(known.begin(), known.end(),
+                                        [&](const auto& kind) { return kind.name == one.name; });
+      if (!is_known) known.push_back(one);
+    }
+  }
+  if (!frames_) return;
+  for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
+    const std::string& table = loaded.particles[i].table;
+    if (colors_[i].scale) options_.color_ranges.emplace(table, colors_[i].scale->range);
+    options_.kind_colors[table] = colors_[i].species;
+  }
+  options_.origin = loaded.origin;
+}
+
+/// Whether other frames may bring what is to be chosen once for all of them.
+bool SceneLoader::needs_others(const LoadedScene& first) const {
+  if (!first.scene.camera || look_.floor) return true;
+  return std::any_of(first.particles.begin(), first.particles.end(), [](const ParticleFacts& one) {
+    return one.spheres == 0 || !one.colors.species.empty();
+  });
+}
+
+/// Reads the other frames of the series: fits the camera, and the height of the floor, to all of
+/// them, and gives colours to what is not in the first. A frame that cannot be read ends that: its
+/// error is told when its picture is made.
+void SceneLoader::look_at_others(LoadedScene& first) {
+  if (first.scene.packed || !needs_others(first)) return;
+  SeriesFitter fitter(size_);
+  fitter.add(first, floor_);
+  const std::vector<int> frames = fitted_frames(*frames_, count_primitives(first.scene).spheres);
+  std::size_t read_frames = 1;
   for (const int number : frames) {
     if (number == frames_->first) continue;
-    auto other = read(number);
+    const auto other = read(number);
     if (!other) break;
-    ++fitted;
-    if (count_primitives(other.value().scene).spheres == 0) continue;
-    add_spheres(other.value().scene, fitter);
-    if (floor_) lowest = std::min(lowest, *lowest_along(up, other.value()));
+    ++read_frames;
+    keep_choices(other.value());
+    fitter.add(other.value(), floor_);
   }
   if (floor_) {
-    floor_ = floor_at(lowest, up, first.origin);
+    floor_ = floor_at(fitter.lowest(), floor_->up, first.origin);
     first.scene.planes.clear();
     add_floor(*floor_, first);
   }
-  if (scene.camera) return;
+  if (first.scene.camera) return;
   camera_ = fitter.camera();
-  if (find_problem(*camera_)) camera_.reset();  // the frames by themselves tell what is wrong
-  if (fitted < frames.size()) return;
+  if (!camera_ || read_frames < frames.size()) return;
   const auto count = static_cast<std::size_t>(frames_->count());
   first.notes.push_back(
-      fitted == count ? fmt::format("the camera is fitted to all {} frames", count)
-                      : fmt::format("the camera is fitted to {} of the {} frames", fitted, count));
+      read_frames == count
+          ? fmt::format("the camera is fitted to all {} frames", count)
+          : fmt::format("the camera is fitted to {} of the {} frames", read_frames, count));
 }
 
 void SceneLoader::use_choices(LoadedScene& loaded) const {

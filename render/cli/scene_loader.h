@@ -17,7 +17,7 @@ namespace boule::cli {
 
 /// Reads the scene that a command names, or makes that of a particle file; in a series anew for
 /// each frame. What the scene leaves to be chosen is chosen once for a series, so that nothing
-/// jumps from frame to frame: the camera, which is fitted to all frames, what colour maps show, the
+/// jumps from frame to frame: the camera, which is fitted to all frames, what colours mean, the
 /// origin of coordinates, the floor.
 class SceneLoader {
  public:
@@ -31,17 +31,22 @@ class SceneLoader {
 
   /// Whether a scene was made for a particle file.
   [[nodiscard]] bool is_made() const { return is_made_; }
-  /// What the colours of the first scene mean that was read, one for each table of particles.
+  /// What colours mean, one for each table of particles: those of a series include what is only in
+  /// its other frames.
   [[nodiscard]] const std::vector<ParticleColors>& colors() const { return colors_; }
 
  private:
   Result<LoadedScene> read(std::optional<int> frame);
-  void keep_choices(const LoadedScene& first);
-  void fit_series(LoadedScene& first);
+  Result<LoadedScene> read_file(std::optional<int> frame);
+  Result<LoadedScene> with_origin_of_others(LoadedScene first);
+  void keep_choices(const LoadedScene& loaded);
+  [[nodiscard]] bool needs_others(const LoadedScene& first) const;
+  void look_at_others(LoadedScene& first);
   void use_choices(LoadedScene& loaded) const;
 
   const std::string path_;  ///< with a slot for the frame's number
   const LookOptions look_;
+  const std::string camera_keys_;
   const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
   const std::optional<Size> size_;
   Scheduler scheduler_;

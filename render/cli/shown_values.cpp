@@ -15,6 +15,9 @@ double shown(float x) {
 }
 
 Json shown(const Vec3f& v) { return {shown(v.x), shown(v.y), shown(v.z)}; }
+Json shown(const Vec3f& point, const Vec3d& origin) {
+  return {shown(point.x) + origin.x, shown(point.y) + origin.y, shown(point.z) + origin.z};
+}
 Json shown(const Color& c) { return {shown(c.r), shown(c.g), shown(c.b)}; }
 
 }  // namespace boule::cli

@@ -18,6 +18,8 @@ using Json = nlohmann::ordered_json;
 /// The double that is printed as short as the float: 0.1, not 0.10000000149011612.
 double shown(float x);
 Json shown(const Vec3f& v);
+/// A point that is counted from `origin`, as it is counted from 0.
+Json shown(const Vec3f& point, const Vec3d& origin);
 Json shown(const Color& c);
 inline Json shown(SrgbColor color) { return hex_text(color); }
 inline Json shown(int number) { return number; }

@@ -9,8 +9,11 @@
 #include "render/cli/live_report.h"
 #include "render/cli/messages.h"
 #include "render/cli/output_check.h"
+#include "render/cli/particle_scene.h"
 #include "render/cli/reading_limit.h"
 #include "render/cli/run_report.h"
+#include "render/cli/scene_loader.h"
+#include "render/frame/scheduler.h"
 #include "render/frame/stopwatch.h"
 #include "render/renderer/tracer.h"
 #include "render/scene_file/scene_file.h"
@@ -43,7 +46,11 @@ struct Failure {
 class Tracing {
  public:
   explicit Tracing(const TraceCommand& command)
-      : command_(command), live_(command), report_(command, live_), limit_(command.load_limit) {}
+      : command_(command),
+        live_(command),
+        report_(command, live_),
+        limit_(command.load_limit),
+        scheduler_(command.threads) {}
 
   ExitCode run();
 
@@ -64,6 +71,7 @@ class Tracing {
   LiveReport live_;
   RunReport report_;
   ReadingLimit limit_;
+  Scheduler scheduler_;
   Stopwatch watch_;
   Stats stats_;
   std::vector<Ray> rays_;        ///< of the chunk
@@ -77,7 +85,18 @@ class Tracing {
 Result<LoadedScene> Tracing::load() {
   live_.start_stage("reading " + printable(command_.scene));
   const ReadingLimit::Reading reading(limit_, command_.scene);
-  return load_scene(command_.scene);
+  const std::string& path = command_.scene;
+  const LookOptions& look = command_.look;
+  SceneFileOptions options;
+  options.trust = command_.trust;
+  options.parallel_for = scheduler_.parallel_for();
+  if (!is_particle_input(path, look)) {
+    if (!look.first.empty()) return not_particles(path, look.first);
+    return load_known(path, options);
+  }
+  auto made = load_particle_scene(path, look, options);
+  if (!made) return made.error();
+  return std::move(made).value().loaded;
 }
 
 Result<RayFile> Tracing::open_rays() {
@@ -95,7 +114,7 @@ ExitCode Tracing::run() {
   if (auto bad = check_stats_target(command_.stats)) return report(*bad, failed);
   if (auto bad = check_output(command_.output)) return report(*bad, failed);
   auto loaded = load();
-  if (!loaded) return report(loaded.error(), invalid_input);
+  if (!loaded) return report(loaded.error(), code_of_loading(loaded.error()));
   if (auto bad = check_data_files(command_, "hits", loaded.value().data_files))
     return report(*bad, wrong_usage);
   auto rays = open_rays();

@@ -114,7 +114,7 @@ Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) 
   if (options_.color_ranges.empty())
     options_.color_ranges = color_ranges_of(loaded.value().particles);
   last_look_ = look;
-  if (auto bad = use_camera(command_, loaded.value())) return *bad;
+  if (auto bad = use_camera(command_.camera, loaded.value())) return *bad;
   return loaded;
 }
 

@@ -23,6 +23,7 @@ struct PictureParts {
   std::vector<std::string> notes;
   int spp = 1;
   std::uint64_t scene_hash = 0;
+  Vec3d origin{};                              ///< from which the scene counts its points
   std::optional<NoiseReached> noise;           ///< none: it was not measured
   std::optional<cli::PartialSamples> partial;  ///< none: it is finished
 };

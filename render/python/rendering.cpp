@@ -196,6 +196,7 @@ Status Run::work(Call& call) {
   options.live = &live_;
   auto parts = std::make_shared<PictureParts>();
   parts->notes = std::move(loaded.value().notes);
+  parts->origin = loaded.value().origin;
   if (auto bad = validate(scene)) return bad;
   parts->scene_hash = scene_hash(scene, Scheduler(options.threads).parallel_for());
   auto renderer = Renderer::create(std::move(scene), options);
@@ -254,7 +255,7 @@ Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outli
 
 void Run::describe(const Renderer& renderer, PictureParts& parts) const {
   const RenderOptions& options = renderer.options();
-  parts.header = cli::picture_header(renderer, parts.scene_hash, parts.partial);
+  parts.header = cli::picture_header(renderer, parts.scene_hash, parts.origin, parts.partial);
   if (parts.noise) {
     for (auto& entry : cli::noise_header(*parts.noise)) parts.header.push_back(std::move(entry));
   }

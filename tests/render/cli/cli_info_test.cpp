@@ -39,6 +39,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("groups"), 0);
   EXPECT_EQ(found.at("instances"), 0);
   EXPECT_EQ(found.at("bounds"), json::parse(R"({"min": [-1, 0, -1], "max": [1, 2, 1]})"));
+  EXPECT_EQ(found.at("origin"), json({0, 0, 0}));
   EXPECT_EQ(found.at("camera"), json::parse(R"({"type": "pinhole", "eye": [0, 1, 5],
       "look_at": [0, 0.8, 0], "up": [0, 1, 0], "fov": 45, "fov_axis": "x"})"));
   EXPECT_EQ(found.at("background"),
@@ -63,7 +64,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 29u);
+  EXPECT_EQ(found.size(), 30u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
@@ -212,6 +213,45 @@ TEST_F(Info, TextSaysTheSame) {
     EXPECT_THAT(run.out, HasSubstr(line));
   }
   EXPECT_THAT(run.out, Not(HasSubstr("warnings")));
+}
+
+/// Points are told as the file counts them, so that a camera of another origin can be typed again.
+TEST_F(Info, PointsAreThoseOfTheFile) {
+  const std::string far = write("far.toml", R"(
+schema = 1
+origin = [1000000.0, -2.0, 0.0]
+[camera]
+eye = [1000000.25, 0.0, 4.0]
+look_at = [1000000.1, 0.0, 0.0]
+[[sphere]]
+center = [1000000.25, 0.0, 0.0]
+radius = 0.5
+[[plane]]
+point = [1000001.0, 0.0, 0.0]
+[[light]]
+position = [1000000.0, 3.0, 0.0]
+[[light]]
+relative_to = "camera"
+position = [1.0, 2.0, 3.0]
+[[group.pair.sphere]]
+center = [0.5, 0.0, 0.0]
+[[instance]]
+group = "pair"
+translate = [1000004.0, 0.0, 0.0]
+)");
+  const json found = info(far);
+  const auto numbers = [](const char* text) { return json::parse(text); };
+  EXPECT_EQ(found.at("origin"), numbers("[1000000.0, -2.0, 0.0]"));
+  EXPECT_EQ(found.at("camera").at("eye"), numbers("[1000000.25, 0.0, 4.0]"));
+  EXPECT_EQ(found.at("camera").at("look_at"), numbers("[1000000.1, 0.0, 0.0]"));
+  EXPECT_EQ(found.at("bounds").at("min"), numbers("[999999.75, -1.0, -1.0]"));
+  EXPECT_EQ(found.at("first_spheres").at(0).at("center"), numbers("[1000000.25, 0.0, 0.0]"));
+  EXPECT_EQ(found.at("first_planes").at(0).at("point"), numbers("[1000001.0, 0.0, 0.0]"));
+  EXPECT_EQ(found.at("lights").at(0).at("position"), numbers("[1000000.0, 3.0, 0.0]"));
+  EXPECT_EQ(found.at("lights").at(1).at("position"), numbers("[1.0, 2.0, 3.0]"));
+  EXPECT_EQ(found.at("first_instances").at(0).at("translate"), numbers("[1000004.0, 0.0, 0.0]"));
+  const json& in_group = found.at("group_list").at(0).at("first_spheres").at(0);
+  EXPECT_EQ(in_group.at("center"), numbers("[0.5, 0.0, 0.0]"));
 }
 
 TEST_F(Info, ABadSceneIsInvalidInput) {

@@ -255,6 +255,52 @@ TEST_F(Particles, OfASeriesKeepTheirColors) {
   EXPECT_TRUE(read("g0.ppm") == read("g2.ppm"));
 }
 
+/// Frames that show nothing choose nothing: a series has the pictures that it has without them.
+TEST_F(Particles, OfASeriesThatBeginsWithNoneChooseAllTheSame) {
+  const std::string empty = "0\n\n";
+  for (const std::string away : {"", "100000"}) {  // far from 0 they need an origin
+    const std::string shown =
+        "1\n\nC 0" + away + ".5 0 5\n3\n\nC 0 0 0\nC " + away + "2.25 0 0\nO " + away + "4 0 5\n";
+    const std::string all = write("all.xyz", empty + empty + shown);
+    const std::string rest = write("rest.xyz", shown);
+    for (const std::vector<std::string>& look :
+         {std::vector<std::string>{"--radius", "0.5"}, {"--floor"}, {"--color", "x"}}) {
+      const auto series = [&](const std::string& frames) {
+        std::vector<std::string> options = look;
+        options.insert(options.end(), {"--frames", frames});
+        return options;
+      };
+      const ProgramRun run = render(all, "f#.ppm", series("0-3"));
+      EXPECT_THAT(run.err, HasSubstr("the camera is fitted to all 4 frames"));
+      render(rest, "g#.ppm", series("0-1"));
+      EXPECT_TRUE(read("f2.ppm") == read("g0.ppm")) << look.front() << away;
+      EXPECT_TRUE(read("f3.ppm") == read("g1.ppm")) << look.front() << away;
+    }
+  }
+  render(path("all.xyz"), "f#.ppm", {"--frames", "0-3", "--legend", path("l.svg")});
+  EXPECT_THAT(read("l.svg"), AllOf(HasSubstr(">C</text>"), HasSubstr(">O</text>")));
+}
+
+/// A kind that the first frame has not has one colour in all others, whatever else comes there.
+TEST_F(Particles, OfASeriesThatComeLaterHaveOneColor) {
+  const std::string file = write("kinds.xyz",
+                                 "1\n\nwall 0 0 0\n2\n\nwall 0 0 0\nbead 2 0 0\n"
+                                 "3\n\nwall 0 0 0\nfoam 4 0 0\nbead 2 0 0\n");
+  const std::string scene =
+      write("kinds.toml",
+            "schema = 1\n[[particles]]\nfile = \"kinds.xyz\"\nradius = 1.0\n"
+            "select = \"species != 'foam'\"\n[camera]\neye = [1.0, 0.0, 9.0]\n"
+            "look_at = [1.0, 0.0, 0.0]\n");
+  for (const std::string& shown : {file, scene}) {
+    std::vector<std::string> options = {"--frames", "0-2", "--legend", path("l.svg")};
+    if (shown == file) options.insert(options.end(), {"--select", "species != 'foam'"});
+    render(shown, "f#.ppm", options);
+    EXPECT_TRUE(read("f1.ppm") == read("f2.ppm")) << shown;
+    EXPECT_FALSE(read("f0.ppm") == read("f1.ppm")) << shown;
+    EXPECT_THAT(read("l.svg"), AllOf(HasSubstr(">wall</text>"), HasSubstr(">bead</text>")));
+  }
+}
+
 TEST_F(Particles, OfASceneAreASeriesToo) {
   growing(2);
   const std::string scene = write("s.toml",

@@ -182,6 +182,18 @@ TEST_F(Picture, WhereStraightLinesAreCurvesThereIsNoScreenMatrix) {
                           "[camera.distortion]\nfile = \"" BOULE_SCENES "/barrel.exr\"\n"));
 }
 
+TEST_F(Picture, TheHeaderTellsTheOriginThatPositionsAreCountedFrom) {
+  const std::string scene = write("origin.toml",
+                                  "schema = 1\norigin = [1e6, 0.125, -2]\n[camera]\n"
+                                  "eye = [1e6, 0, 5]\nlook_at = [1e6, 0, 0]\n"
+                                  "[[sphere]]\ncenter = [1e6, 0, 0]\n");
+  const PictureFile file(render(scene, {"--size", "1x1", "--aov", "position"}));
+  EXPECT_EQ(file.spec.get_string_attribute("boule:origin"), "1000000 0.125 -2");
+  EXPECT_EQ(file.at("P.X", 0, 0), 0);
+  EXPECT_EQ(file.at("P.Y", 0, 0), -0.125F);
+  EXPECT_EQ(file.at("P.Z", 0, 0), 3);
+}
+
 TEST_F(Picture, TheHeaderSaysHowItWasMade) {
   const std::string scene = small_scene();
   const PictureFile file(render(scene, {"--spp", "3", "--seed", "18446744073709551615"}));
@@ -191,6 +203,7 @@ TEST_F(Picture, TheHeaderSaysHowItWasMade) {
   EXPECT_EQ(file.spec.get_string_attribute("boule:solver"), "robust");
   EXPECT_EQ(file.spec.get_string_attribute("boule:seed"), "18446744073709551615");
   EXPECT_EQ(file.spec.get_string_attribute("oiio:ColorSpace"), "Linear");
+  EXPECT_EQ(file.spec.find_attribute("boule:origin"), nullptr);  // it is 0
   const std::string hash = file.spec.get_string_attribute("boule:scene_hash");
   EXPECT_EQ(hash.size(), 16u);
   EXPECT_THAT(boule_run({"info", scene}).out, HasSubstr("hash: " + hash + "\n"));

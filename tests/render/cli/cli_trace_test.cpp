@@ -155,6 +155,21 @@ TEST_F(Trace, ASceneNeedsNeitherCameraNorLightAndIsNotToldSo) {
   EXPECT_EQ(trace(write("empty.toml", "schema = 1\n"), {}).exit_code, 0);
 }
 
+TEST_F(Trace, ParticlesAreTheSpheresThatRenderShows) {
+  write("r.npy", ray_file({{{0, 0, 9}, {0, 0, -1}}, {{3, 0, 9}, {0, 0, -1}}}));
+  const std::string file = write("p.xyz", "1\n\nC 0 0 0\n2\n\nC 3 0 0\nO 0 0 1\n");
+  // The last frame, and the first; carbon has a van der Waals radius of 1.77.
+  EXPECT_TRUE(hits(file, {"--radius", "0.5"}) ==
+              hit_file({{7.5, 1, {0, 0, 1}}, {8.5, 0, {0, 0, 1}}}));
+  EXPECT_TRUE(hits(file, {"--frame", "0", "--radius", "1", "--scale", "0.5"}) ==
+              hit_file({{8.5, 0, {0, 0, 1}}, {inf, -1, {}}}));
+  EXPECT_TRUE(hits(file, {"--radius", "0.5", "--select", "species == \"C\""}) ==
+              hit_file({{inf, -1, {}}, {8.5, 0, {0, 0, 1}}}));
+  const std::vector<std::string> base = {"trace", small_scene(), "--rays",   path("r.npy"),
+                                         "-o",    path("h.npy"), "--radius", "1"};
+  EXPECT_THAT(refused_run(base, 2).err, HasSubstr("is of particle files"));
+}
+
 TEST_F(Trace, NffScenesAndTheirWarnings) {
   write("r.npy", ray_file({{{0, 0, 9}, {0, 0, -1}}, {{5, 0, 9}, {0, 0, -1}}}));
   const std::string scene = write("s.nff",

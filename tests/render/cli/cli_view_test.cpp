@@ -69,6 +69,19 @@ TEST_F(RenderedCamera, IsTheOneOfTheCommandLine) {
   EXPECT_EQ(read("moved.ppm"), other);
 }
 
+TEST_F(RenderedCamera, MayBeFitted) {
+  const std::string fitted =
+      picture("fitted.ppm", {"--camera", "fit = true, direction = [0, 0, -1]"});
+  EXPECT_NE(fitted, picture("own.ppm", {}));
+  std::string text = read("scene.toml");
+  const std::string before = "eye = [0.0, 1.0, 5.0]\nlook_at = [0.0, 0.8, 0.0]\n";
+  text.replace(text.find(before), before.size(), "fit = true\ndirection = [0, 0, -1]\n");
+  const ProgramRun run =
+      boule_run({"render", write("moved.toml", text), "-o", path("moved.ppm"), "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("moved.ppm"), fitted);
+}
+
 TEST_F(RenderedCamera, IsRefusedIfItIsNone) {
   for (const char* keys : {"eye = [0, 1, 5]", "fov = 3", "eye = 5, look_at = [0, 0, 0]", "}{",
                            "eye = [0, 1, 5], look_at = [0, 1, 5]", "roll = 1"}) {
@@ -76,6 +89,9 @@ TEST_F(RenderedCamera, IsRefusedIfItIsNone) {
         refused_run({"render", small_scene(), "-o", path("x.ppm"), "--camera", keys}, 2);
     EXPECT_THAT(run.err, HasSubstr("--camera")) << keys;
   }
+  const ProgramRun run =
+      refused_run({"render", small_scene(), "-o", path("x.ppm"), "--camera", "eye = [0, 1, 5]"}, 2);
+  EXPECT_THAT(run.err, HasSubstr("error: missing key 'look_at' (key '--camera')"));
 }
 
 TEST_F(RenderedCamera, ShadowsStartByAnEpsilonIfAsked) {
