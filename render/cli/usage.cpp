@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -101,6 +102,16 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
   return short_name(option) + (type.empty() ? "" : " " + type) + " is missing";
 }
 
+/// "--size is given 2 times": of options that are to be given once; empty if there is none.
+std::string repeated(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const auto most = static_cast<std::size_t>(option->get_items_expected_max());
+    if (option->count() > most)
+      return option->get_name() + " is given " + std::to_string(option->count()) + " times";
+  }
+  return {};
+}
+
 }  // namespace
 
 UsageError unknown_command(const CLI::App& app, const std::string& name) {
@@ -122,6 +133,9 @@ UsageError explain_usage(const CLI::App& app, const CLI::ParseError& error) {
   const std::string help =
       chosen.empty() ? "boule --help" : "boule " + command.get_name() + " --help";
   const Names words = command.remaining();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    if (std::string text = repeated(command); !text.empty()) return {std::move(text), help};
+  }
   if (words.empty() || (!is_missing && !is_extra)) {
     // CLI11's message repeats what was typed, so it is made printable.
     return {is_missing ? missing(app, command) : printable(error.what(), 400), help};

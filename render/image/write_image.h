@@ -73,9 +73,9 @@ struct ImageFileOptions {
 /// - an exception of options.stop or options.temporary.
 ///
 /// The first picture that is written, unless it is PNG or PPM, or read loads OpenImageIO, which
-/// takes half a GiB of addresses, and starts its threads; ImageStart does so earlier. If
-/// allocations fail meanwhile, or if a thread cannot be started that could be a moment before,
-/// libraries below OpenImageIO end the process by std::terminate().
+/// takes half a GiB of addresses, and starts its threads. If allocations fail meanwhile, or if a
+/// thread cannot be started that could be a moment before, libraries below OpenImageIO end the
+/// process by std::terminate().
 ///
 /// The threads do not exist in a child that is forked afterwards. Such a child writes with one
 /// thread. It refuses .tif files, and .exr files if more than one thread had been asked for: only

@@ -3,6 +3,7 @@
 /// All of Boule that a program needs: scenes from files or from memory, pictures, rays and their
 /// hits. Each header can be included by itself as well, by the path below.
 
+#include "core/base/float_environment.h"  // FloatEnvironment: what kernels compute in
 #include "core/reference.h"        // closest_hit(): the hits that all others are held against
 #include "core/scene/instances.h"  // expand_instances(): a scene without groups
 #include "core/scene/scene.h"      // Scene: what there is to see
