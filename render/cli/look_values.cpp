@@ -9,6 +9,7 @@
 #include "core/math/srgb.h"
 #include "render/cli/option_values.h"
 #include "render/particles/color_map.h"
+#include "render/particles/particle_style.h"
 
 namespace boule::cli {
 namespace {
@@ -58,7 +59,7 @@ std::optional<std::string> parse_particle_color(const std::string& text) {
 }
 
 bool has_color_map(const std::string& color) {
-  const bool is_columns = color.find(' ') != std::string::npos;
+  const bool is_columns = !three_names(color).empty();
   const bool is_kind = color == "element" || color == "species";
   return !color.empty() && !is_kind && !color.starts_with('#') && !is_columns;
 }

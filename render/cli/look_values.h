@@ -26,7 +26,8 @@ std::optional<std::string> parse_radius(const std::string& text);
 /// Colours of particles: any text but an empty one and "#..." that is no colour.
 std::optional<std::string> parse_particle_color(const std::string& text);
 
-/// True if these colours of particles are a column, whose numbers a map turns into colours.
+/// True if these colours of particles are a column, whose numbers a map turns into colours. Three
+/// words are the names of three columns, unless the file has one of that name.
 bool has_color_map(const std::string& color);
 
 /// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.

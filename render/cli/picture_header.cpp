@@ -31,7 +31,7 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, cons
   const bool distorted = renderer.scene().camera_view.distortion.st != nullptr;
   if (matrices.world_to_screen && !distorted)
     header.emplace_back("worldtoscreen", *matrices.world_to_screen);
-  if (!(origin == Vec3d{}))
+  if (options.aovs.position && !(origin == Vec3d{}))
     header.emplace_back("boule:origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
   if (options.noise > 0) {
     header.emplace_back("boule:noise", fmt::format("{}", options.noise));

@@ -20,8 +20,8 @@ struct PartialSamples {
 /// A picture file's metadata: worldtocamera, worldtoscreen (CameraMatrices),
 /// samplesPerPixel, boule:solver, boule:method, boule:filter, boule:max_depth, boule:seed, and
 /// boule:scene_hash in 16 hexadecimal digits; boule:noise and boule:min_spp where noise was asked
-/// for, and then samplesPerPixel is the most samples; boule:origin, "X Y Z", where points, those of
-/// the AOV `position` too, are counted from another `origin` than 0.
+/// for, and then samplesPerPixel is the most samples; boule:origin, "X Y Z", where there is
+/// the AOV `position`, and it is counted from another origin than 0.
 /// None of it depends on ISA, threads or time: equal pictures are equal files.
 /// A partial picture has an ImageDescription as well, "partial: 1234 of 5678 samples", which PNG,
 /// JPEG and TIFF files can hold too.

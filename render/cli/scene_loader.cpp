@@ -148,24 +148,15 @@ Result<LoadedScene> SceneLoader::with_origin_of_others(LoadedScene first) {
 
 /// Keeps what a frame has chosen and those before it have not.
 void SceneLoader::keep_choices(const LoadedScene& loaded) {
+  add_color_ranges(loaded.particles, options_.color_ranges);
+  add_kind_colors(loaded.particles, options_.kind_colors);
+  options_.origin = loaded.origin;
   colors_.resize(std::max(colors_.size(), loaded.particles.size()));
   for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
-    const ParticleColors& colors = loaded.particles[i].colors;
-    if (!colors_[i].scale) colors_[i].scale = colors.scale;
-    for (const auto& one : colors.species) {
-      auto& known = colors_[i].species;
-      const bool is_known = std::any_of(known.begin(), known.end(),
-                                        [&](const auto& kind) { return kind.name == one.name; });
-      if (!is_known) known.push_back(one);
-    }
+    const ParticleFacts& facts = loaded.particles[i];
+    if (!colors_[i].scale) colors_[i].scale = facts.colors.scale;
+    colors_[i].species = options_.kind_colors[facts.table];
   }
-  if (!frames_) return;
-  for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
-    const std::string& table = loaded.particles[i].table;
-    if (colors_[i].scale) options_.color_ranges.emplace(table, colors_[i].scale->range);
-    options_.kind_colors[table] = colors_[i].species;
-  }
-  options_.origin = loaded.origin;
 }
 
 /// Whether other frames may bring what is to be chosen once for all of them.

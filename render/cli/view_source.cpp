@@ -111,8 +111,7 @@ Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) 
     return loaded;
   }
   if (!options_.origin) options_.origin = loaded.value().origin;
-  if (options_.color_ranges.empty())
-    options_.color_ranges = color_ranges_of(loaded.value().particles);
+  add_color_ranges(loaded.value().particles, options_.color_ranges);
   last_look_ = look;
   if (auto bad = use_camera(command_.camera, loaded.value())) return *bad;
   return loaded;

@@ -88,6 +88,7 @@ Result<zip_uint64_t> find_array(zip_t* archive, const NpzName& name) {
 }  // namespace
 
 Result<std::string> read_npz_array(const NpzName& name) {
+  const std::string shown = name.array.empty() ? "its array" : "the array " + quote(name.array);
   const auto archive = open_archive(name.file);
   if (!archive) return archive.error();
   const auto index = find_array(archive.value().get(), name);
@@ -99,7 +100,7 @@ Result<std::string> read_npz_array(const NpzName& name) {
         name.file, std::string("cannot be read: ") + zip_strerror(archive.value().get()));
   };
   if (zip_stat_index(archive.value().get(), index.value(), 0, &stat) != 0) return unreadable();
-  if (auto bad = check_memory(stat.size, "the array " + quote(name.array) + " needs")) {
+  if (auto bad = check_memory(stat.size, shown + " needs")) {
     bad->file = name.file;
     return *bad;
   }
@@ -111,8 +112,8 @@ Result<std::string> read_npz_array(const NpzName& name) {
   char beyond = 0;
   const bool ends_well = zip_fread(member.get(), &beyond, 1) == 0;
   if (!ends_well || got < 0 || static_cast<zip_uint64_t>(got) != stat.size) {
-    return Diagnostic::in_file(name.file, "is damaged: " + quote(name.array) + " ends early or " +
-                                              "does not match its checksum");
+    return Diagnostic::in_file(
+        name.file, "is damaged: " + shown + " ends early or does not match its checksum");
   }
   return bytes;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string_view>
@@ -51,6 +52,30 @@ void convert(const Run& run, double divisor) {
   }
 }
 
+/// A float of 16 bits (IEEE 754 binary16): 1 of sign, 5 of power, 10 of fraction. Every one of them
+/// is a double.
+double half_number(std::uint16_t bits) {
+  const int power = bits >> 10 & 0x1F;
+  const double fraction = bits & 0x3FF;
+  double size = std::ldexp(fraction, -24);  // below the least normal one
+  if (power == 0x1F) {
+    size = fraction == 0 ? std::numeric_limits<double>::infinity()
+                         : std::numeric_limits<double>::quiet_NaN();
+  } else if (power > 0) {
+    size = std::ldexp(fraction + 0x400, power - 25);
+  }
+  return (bits & 0x8000) != 0 ? -size : size;
+}
+
+template <bool is_big_endian>
+void convert_halves(const Run& run, double divisor) {
+  const char* from = run.from;
+  double* to = run.to;
+  for (std::size_t i = 0; i < run.count; ++i, from += run.from_stride, to += run.to_stride) {
+    *to = half_number(load<std::uint16_t, is_big_endian>(from)) / divisor;
+  }
+}
+
 using Convert = void (*)(const Run&, double);
 
 /// Index: the logarithm of the width. Booleans are one byte.
@@ -58,7 +83,7 @@ template <bool is_big_endian>
 Convert convert_of(const BinaryColumn& column) {
   constexpr bool big = is_big_endian;
   const auto size = static_cast<std::size_t>(std::bit_width(column.width) - 1);
-  constexpr std::array<Convert, 4> reals{nullptr, nullptr, convert<float, big>,
+  constexpr std::array<Convert, 4> reals{nullptr, convert_halves<big>, convert<float, big>,
                                          convert<double, big>};
   constexpr std::array<Convert, 4> integers{convert<std::int8_t, big>, convert<std::int16_t, big>,
                                             convert<std::int32_t, big>, convert<std::int64_t, big>};

@@ -19,7 +19,7 @@ enum class BinaryKind { real, integer, unsigned_integer, boolean, bytes, charact
 struct BinaryColumn {
   std::string name;
   BinaryKind kind = BinaryKind::real;
-  std::size_t width = 0;   ///< bytes of a value; 4 or 8 of floats, 1, 2, 4 or 8 of integers
+  std::size_t width = 0;   ///< bytes of a value; 2, 4 or 8 of floats, 1, 2, 4 or 8 of integers
   std::size_t offset = 0;  ///< bytes from the start of the row
   bool is_big_endian = false;
   double divisor = 1;  ///< numbers are divided by it

@@ -62,7 +62,17 @@ class BoxReader {
       if (!row) return row.error();
       rows[i] = std::move(row).value();
     }
-    ParticleCell cell = general ? general_cell(rows) : upright_cell(rows, tilted);
+    ParticleCell cell;
+    if (general) {
+      cell = general_cell(rows);
+    } else {
+      const LammpsBox box = box_of(rows, tilted);
+      if (const auto axis = negative_axis(box)) {
+        return error_at_line(first_line_ + static_cast<std::uint64_t>(axis->front() - 'x'),
+                             "the box has a negative length along " + *axis, "BOX BOUNDS");
+      }
+      cell = cell_of(box);
+    }
     if (!is_finite(cell)) {
       return error_at_line(first_line_, "the box is larger than the largest number", "BOX BOUNDS");
     }
@@ -90,12 +100,12 @@ class BoxReader {
     return cell;
   }
 
-  static ParticleCell upright_cell(const std::array<std::vector<double>, 3>& rows, bool tilted) {
+  static LammpsBox box_of(const std::array<std::vector<double>, 3>& rows, bool tilted) {
     LammpsBox box{.lo = {rows[0][0], rows[1][0], rows[2][0]},
                   .hi = {rows[0][1], rows[1][1], rows[2][1]}};
-    if (!tilted) return cell_of(box);
+    if (!tilted) return box;
     box.xy = rows[0][2], box.xz = rows[1][2], box.yz = rows[2][2];
-    return cell_of(box_in_bounds(box));
+    return box_in_bounds(box);
   }
 
   std::vector<std::string_view> words_;
@@ -218,7 +228,8 @@ class DumpReader : public ParticleReader {
       if (axis != positions.names.end()) {
         columns.add_position(names[i], static_cast<std::size_t>(axis - positions.names.begin()));
       } else {
-        columns.add(names[i], i < examples.size() ? examples[i] : std::string_view("0"));
+        const bool is_number = names[i] == "id" || i >= examples.size();
+        columns.add(names[i], is_number ? std::string_view("0") : examples[i]);
       }
     }
   }

@@ -28,7 +28,10 @@ Diagnostic id_twice(double id, std::size_t first, std::size_t second, std::uint6
       "the id " + text + " is that of line " + std::to_string(first_line + earlier) + " too", "id");
 }
 
-/// The rows in the order of their ids: by a table of all ids, if they lie as close as usual.
+bool is_whole(double id) { return std::trunc(id) == id; }
+
+/// The rows in the order of their ids, which are whole: by a table of all ids, if they lie as close
+/// as usual.
 Result<std::vector<std::size_t>> order_of_close(const std::vector<double>& ids, double least,
                                                 std::size_t range, std::uint64_t first_line) {
   std::vector<std::size_t> rows(range, none);
@@ -44,9 +47,7 @@ Result<std::vector<std::size_t>> order_of_close(const std::vector<double>& ids, 
 Result<std::vector<std::size_t>> order_of(const std::vector<double>& ids,
                                           std::uint64_t first_line) {
   const auto [least, most] = std::minmax_element(ids.begin(), ids.end());
-  const bool whole =
-      std::all_of(ids.begin(), ids.end(), [](double id) { return std::trunc(id) == id; });
-  if (whole && *most - *least < 4 * static_cast<double>(ids.size())) {
+  if (*most - *least < 4 * static_cast<double>(ids.size())) {
     return order_of_close(ids, *least, static_cast<std::size_t>(*most - *least) + 1, first_line);
   }
   std::vector<std::size_t> rows(ids.size());
@@ -75,6 +76,11 @@ Status sort_by_id(ParticleFrame& frame, std::uint64_t first_line, const Parallel
   const NumberColumn* const column = find_number_column(frame, "id");
   if (column == nullptr || column->values.empty()) return std::nullopt;
   const std::vector<double>& ids = column->values;
+  const auto broken = std::find_if(ids.begin(), ids.end(), [](double id) { return !is_whole(id); });
+  if (broken != ids.end()) {
+    return error_at_line(first_line + static_cast<std::uint64_t>(broken - ids.begin()),
+                         "the id " + number_text(*broken) + " is no whole number", "id");
+  }
   // The last comparison is false for equal ids.
   if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) {
     return std::nullopt;

@@ -13,6 +13,13 @@ LammpsBox box_in_bounds(LammpsBox bounds) {
   return bounds;
 }
 
+std::optional<std::string> negative_axis(const LammpsBox& box) {
+  if (box.hi.x < box.lo.x) return "x";
+  if (box.hi.y < box.lo.y) return "y";
+  if (box.hi.z < box.lo.z) return "z";
+  return std::nullopt;
+}
+
 ParticleCell cell_of(const LammpsBox& box) {
   ParticleCell cell;
   cell.origin = box.lo;

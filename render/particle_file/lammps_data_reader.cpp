@@ -33,6 +33,7 @@ class LammpsDataReader : public ParticleReader {
     ParticleFrame read;
     read.cell = sections_.cell;
     read.length_in_angstrom = sections_.length_in_angstrom;
+    read.notes = sections_.notes;
     if (sections_.atoms == 0) return read;
     NamedColumns columns(options_.wanted, read);
     if (auto wrong = read_atoms(columns, read, parallel_for)) return *wrong;
@@ -54,7 +55,8 @@ class LammpsDataReader : public ParticleReader {
     if (!named.note.empty()) read.notes.push_back(named.note);
     const auto examples = words_of(first_row);
     for (std::size_t i = 0; i < named.names.size(); ++i) {
-      columns.add(named.names[i], i < examples.size() ? examples[i] : std::string_view("0"));
+      const bool is_number = named.names[i] == "id" || i >= examples.size();
+      columns.add(named.names[i], is_number ? std::string_view("0") : examples[i]);
     }
     if (auto wrong = columns.check_positions()) {
       return error_at_line(atoms.line, wrong->message, wrong->key);

@@ -50,10 +50,7 @@ class SectionFinder {
     while (!lines_.at_end() && !at_section()) {
       if (auto wrong = header_line()) return *wrong;
     }
-    if (has_box_) found_.cell = cell_of(box_);
-    if (has_box_ && !is_finite(*found_.cell)) {
-      return error_at_line(lines_.line(), "the box is larger than the largest number", "xlo");
-    }
+    if (auto wrong = keep_box()) return *wrong;
     while (!lines_.at_end()) {
       if (auto wrong = section()) return *wrong;
     }
@@ -122,11 +119,28 @@ class SectionFinder {
     if (is_tilt) {
       for (std::size_t i = 0; i < 3; ++i) box_.*tilts[i] = numbers[i];
     } else {
-      has_box_ = true;
+      if (numbers[1] < numbers[0]) {
+        return error_at_line(number, "the box has a negative length along " + name.substr(0, 1),
+                             name);
+      }
+      has_bounds_[static_cast<std::size_t>(axis)] = true;
       box_.lo.*axes[axis] = numbers[0];
       box_.hi.*axes[axis] = numbers[1];
     }
     return std::nullopt;
+  }
+
+  /// Makes the cell of the box. What the header leaves out is as LAMMPS takes it.
+  Status keep_box() {
+    if (std::count(has_bounds_.begin(), has_bounds_.end(), true) == 0) return std::nullopt;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (has_bounds_[axis]) continue;
+      const std::string name(1, static_cast<char>('x' + axis));
+      found_.notes.push_back("it has no line " + name + "lo " + name + "hi, taken as -0.5 0.5");
+    }
+    found_.cell = cell_of(box_);
+    if (is_finite(*found_.cell)) return std::nullopt;
+    return error_at_line(lines_.line(), "the box is larger than the largest number", "xlo");
   }
 
   Status section() {
@@ -190,7 +204,7 @@ class SectionFinder {
   DataSections found_;
   std::vector<std::string> elements_;
   LammpsBox box_;
-  bool has_box_ = false;
+  std::array<bool, 3> has_bounds_{};
   bool has_count_ = false;  ///< of atoms
 };
 

@@ -29,7 +29,8 @@ struct DataSections {
   /// Empty unless all types have one.
   std::vector<std::string> elements;
   DataSection atom_rows, velocity_rows;
-  double length_in_angstrom = 1;  ///< by "units = real" of the first line
+  double length_in_angstrom = 1;   ///< by "units = real" of the first line
+  std::vector<std::string> notes;  ///< sentences: what is taken for lines that are not there
 };
 
 /// Finds the sections of a LAMMPS data file (docs.lammps.org/read_data.html) and reads its header.

@@ -29,7 +29,7 @@ struct ValueType {
 bool is_width_of(BinaryKind kind, std::uint64_t width) {
   switch (kind) {
     case BinaryKind::real:
-      return width == 4 || width == 8;
+      return width == 2 || width == 4 || width == 8;
     case BinaryKind::integer:
     case BinaryKind::unsigned_integer:
       return width == 1 || width == 2 || width == 4 || width == 8;
@@ -92,7 +92,8 @@ std::string value_name(const NpyField& field, std::uint64_t i) {
 Diagnostic unknown_type(const NpyField& field) {
   return Diagnostic::about(field.name,
                            "holds " + quote(field.descr) +
-                               ", expected numbers (f, i, u, b) or texts (S, U) of a fixed width");
+                               ", expected numbers (f2, f4, f8, i, u, b) or texts (S, U) of a "
+                               "fixed width");
 }
 
 /// Adds the columns of one field, and its bytes to the row.

@@ -95,12 +95,21 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
                                  known_particle_endings());
 }
 
-/// An error about names for columns, if the format leaves nothing to be named.
+/// An error about names for columns, if the format leaves nothing to be named, or if one of them
+/// occurs twice.
 Status check_columns(const std::vector<std::string>& columns, std::string_view format) {
   constexpr std::array fixed{"ply", "gro", "pdb", "mmcif"};
-  if (columns.empty() || std::count(fixed.begin(), fixed.end(), format) == 0) return std::nullopt;
-  return Diagnostic::about("columns",
-                           "a file of the format " + quote(format) + " names its columns itself");
+  if (!columns.empty() && std::count(fixed.begin(), fixed.end(), format) > 0) {
+    return Diagnostic::about("columns",
+                             "a file of the format " + quote(format) + " names its columns itself");
+  }
+  std::vector<std::string> sorted = columns;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(),
+                         [](const auto& a, const auto& b) { return a == b && a != "-"; });
+  if (twice == sorted.end()) return std::nullopt;
+  return Diagnostic::about("columns", "two columns have the name " + quote(*twice));
 }
 
 Result<MappedText> open_bytes(const std::string& path) {

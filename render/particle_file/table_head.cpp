@@ -52,26 +52,78 @@ std::string_view without_comment_mark(std::string_view line) {
   return without_blanks(line);
 }
 
-/// True if all lines have the same number of columns between these, three at least. Tabs also
-/// align columns: then there are empty ones.
+/// What divides a table's lines into columns.
+struct Separation {
+  char separator = 0;       ///< as TableHead has it
+  std::size_t columns = 0;  ///< between tabs: how many there are; else 0
+};
+
+/// True if all lines have the same number of columns between these, three at least.
 bool separates(char separator, const std::vector<PlacedLine>& lines) {
   const std::size_t count = split_table_line(lines.front().text, separator).size();
-  if (count < 3) return false;
-  return std::all_of(lines.begin(), lines.end(), [&](const PlacedLine& line) {
-    const auto columns = split_table_line(line.text, separator);
-    const bool aligned = separator == '\t' && std::count(columns.begin(), columns.end(), "") > 0;
-    return columns.size() == count && !aligned;
-  });
+  return count >= 3 && std::all_of(lines.begin(), lines.end(), [&](const PlacedLine& line) {
+           return split_table_line(line.text, separator).size() == count;
+         });
 }
 
-char separator_of(const std::vector<PlacedLine>& lines) {
-  for (const char separator : {'\t', ';', ','}) {
-    if (separates(separator, lines)) return separator;
+/// How many columns lines have between tabs; 0 if they have different numbers of them. Tabs at the
+/// end of a line, behind the last column that any line has, make no columns.
+std::size_t count_tab_columns(const std::vector<std::vector<std::string_view>>& lines) {
+  std::size_t columns = 0;
+  for (const auto& line : lines) {
+    const auto last = std::find_if(line.rbegin(), line.rend(), [](auto t) { return !t.empty(); });
+    columns = std::max(columns, static_cast<std::size_t>(line.rend() - last));
   }
+  const bool all_have_them = std::all_of(lines.begin(), lines.end(),
+                                         [&](const auto& line) { return line.size() >= columns; });
+  return all_have_them ? columns : 0;
+}
+
+/// True if tabs align the columns: where a line has no text, none of them has any. A blank in a
+/// text tells that tabs separate.
+bool are_aligned(const std::vector<std::vector<std::string_view>>& lines, std::size_t columns) {
+  bool any_empty = false;
+  for (std::size_t i = 0; i < columns; ++i) {
+    for (const auto& line : lines) {
+      if (line[i].find(' ') != std::string_view::npos) return false;
+      if (line[i].empty() != lines.front()[i].empty()) return false;
+    }
+    any_empty = any_empty || lines.front()[i].empty();
+  }
+  return any_empty;
+}
+
+/// The columns between tabs; 0 if tabs are no separator.
+std::size_t find_tab_columns(const std::vector<PlacedLine>& lines) {
+  std::vector<std::vector<std::string_view>> texts;
+  texts.reserve(lines.size());
+  for (const PlacedLine& line : lines) texts.push_back(split_table_line(line.text, '\t'));
+  const std::size_t columns = count_tab_columns(texts);
+  return columns >= 3 && !are_aligned(texts, columns) ? columns : 0;
+}
+
+Separation separation_of(const std::vector<PlacedLine>& lines) {
+  if (const std::size_t columns = find_tab_columns(lines)) return {'\t', columns};
+  for (const char separator : {';', ','}) {
+    if (separates(separator, lines)) return {separator};
+  }
+  const auto count = [&](char separator) {
+    return split_table_line(lines.front().text, separator).size();
+  };
   for (const char separator : {';', ','}) {  // a row may be too short or too long
-    if (split_table_line(lines.front().text, separator).size() >= 3) return separator;
+    if (count(separator) >= 3) return {separator};
   }
-  return 0;
+  for (const char separator : {';', ','}) {  // a column may be missing
+    if (count(separator) == 2 && count(0) < 3) return {separator};
+  }
+  return {};
+}
+
+/// The columns of one of the first lines.
+std::vector<std::string_view> columns_of(const PlacedLine& line, const Separation& separation) {
+  auto columns = split_table_line(line.text, separation.separator);
+  if (separation.columns != 0) columns.resize(separation.columns);
+  return columns;
 }
 
 std::size_t count_numbers(const std::vector<std::string_view>& columns) {
@@ -132,9 +184,10 @@ Result<TableHead> parse_table_head(std::string_view text) {
   const FirstLines first = first_lines(text);
   if (first.lines.empty()) return Diagnostic::of("it holds no rows");
   TableHead head;
-  head.separator = separator_of(first.lines);
+  const Separation separation = separation_of(first.lines);
+  head.separator = separation.separator;
   std::size_t row = 0;
-  head.first_row = split_table_line(first.lines[0].text, head.separator);
+  head.first_row = columns_of(first.lines[0], separation);
   if (head.first_row.size() > most_text_columns) {
     return error_at_line(first.lines[0].line, too_many_columns().message);
   }
@@ -145,7 +198,7 @@ Result<TableHead> parse_table_head(std::string_view text) {
       return error_at_line(first.lines[0].line, "no rows follow the line that names the columns");
     }
     row = 1;
-    head.first_row = split_table_line(first.lines[1].text, head.separator);
+    head.first_row = columns_of(first.lines[1], separation);
   } else {
     head.names = names_in_comment(first.comment, head.separator, head.first_row.size());
   }

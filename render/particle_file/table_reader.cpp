@@ -86,9 +86,11 @@ Status check_names(const std::vector<std::string>& names) {
   return Diagnostic::about(*found, "two columns have the name " + quote(*found));
 }
 
-/// An error about names is one about the header line.
-Status at_header(Status error, const TableHead& head) {
-  if (error) error->line = place_number(head.names_line);
+/// An error about names is one about the header line, else about the names that were given.
+Status at_names(Status error, const TableHead& head) {
+  if (!error) return error;
+  error->line = place_number(head.names_line);
+  if (head.names_line == 0) error->key = "columns";
   return error;
 }
 
@@ -112,7 +114,7 @@ class TableReader : public ParticleReader {
         columns.add(head_.names[i], exists ? head_.first_row[i] : std::string_view("0"));
       }
     }
-    return at_header(columns.check_positions(), head_);
+    return at_names(columns.check_positions(), head_);
   }
 
   Result<ParticleFrame> read(std::size_t, const ParallelFor& parallel_for) override {
@@ -153,7 +155,7 @@ Status choose_names(const std::vector<std::string>& given, TableHead& head) {
   } else {
     head.names = usual_names(head.names);
   }
-  return at_header(check_names(head.names), head);
+  return at_names(check_names(head.names), head);
 }
 
 Result<std::unique_ptr<ParticleReader>> open_table(MappedText bytes,

@@ -160,7 +160,8 @@ class PieceReader {
     }
     if (separator() == 0 || i == 0) return true;
     if (*at_ != separator()) {
-      return fail(i, "expected " + quote({&separator_, 1}) + ", found " + quote(token().text));
+      const std::string expected = separator() == '\t' ? "a tab" : quote({&separator_, 1});
+      return fail(i, "expected " + expected + ", found " + quote(token().text));
     }
     ++at_;
     skip_blanks();
@@ -172,13 +173,28 @@ class PieceReader {
       if (!go_to_column(i) || !read_column(i)) return false;
     }
     skip_blanks();
-    if (!at_row_end()) {
-      return fail(planned_.size(), "the row goes on with " + quote(token().text) + ", expected " +
-                                       std::to_string(planned_.size()) + " columns");
-    }
+    if (separator() == '\t') skip_tabs();
+    if (!at_row_end()) return fail_beyond_columns();
     while (at_ < end_ && *at_ != '\n') ++at_;  // a comment
     if (at_ < end_) ++at_;
     return true;
+  }
+
+  /// Tabs behind the last column make no columns.
+  void skip_tabs() {
+    const char* at = at_;
+    while (at < end_ && is_blank(*at)) ++at;
+    if (at == end_ || *at == '\n') at_ = at;
+  }
+
+  /// Names the first column that a row has too many.
+  bool fail_beyond_columns() {
+    if (separator() != 0 && *at_ == separator()) ++at_;
+    skip_blanks();
+    const std::string_view text = token().text;
+    return fail(planned_.size(), "the row goes on with " +
+                                     (text.empty() ? "an empty column" : quote(text)) +
+                                     ", expected " + std::to_string(planned_.size()) + " columns");
   }
 
   bool read_column(std::size_t i) {

@@ -62,8 +62,13 @@ class Coloring {
     }
     const std::string& name = columns.names.front();
     const TextColumn* const texts = find_particle_texts(frame_, name);
-    if (texts == nullptr || find_number_column(frame_, name) != nullptr) {
-      return map_numbers(colored_, {.by = name}, "color");
+    const bool has_numbers = find_number_column(frame_, name) != nullptr;
+    if (const auto names = three_names(name); !names.empty() && !texts && !has_numbers) {
+      return take_components(colored_, names);
+    }
+    if (texts == nullptr || has_numbers) {
+      auto made = map_numbers(colored_, {.by = name}, "color");
+      return made || name.find(' ') == std::string::npos ? made : with_three_columns(made.error());
     }
     if (has_hex_colors(*texts)) return of_hex_texts(*texts);
     if (frame_.species && texts == &*frame_.species) return (*this)(SpeciesColors{});
@@ -75,6 +80,12 @@ class Coloring {
   }
 
  private:
+  /// Words may have been meant as the names of columns, unless the error tells what was meant.
+  static Diagnostic with_three_columns(Diagnostic error) {
+    if (!error.message.ends_with('?')) error.message += ", or three columns: 'red green blue'";
+    return error;
+  }
+
   /// A colour for each text.
   [[nodiscard]] ParticleValues<MaterialRef> by_text(const TextColumn& texts,
                                                     const std::vector<SrgbColor>& colors) const {

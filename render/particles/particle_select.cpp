@@ -94,14 +94,22 @@ class Finder {
     const auto* const column = std::get_if<ColumnName>(&other);
     if (column == nullptr) return error_at(step.place, "a text can only be compared with a column");
     const TextColumn* const texts = find_particle_texts(frame_, column->name);
+    const auto number = number_in(text);
     if (texts == nullptr) {
-      const auto numbers = find_particle_numbers(frame_, column->name, "select");
-      return error_at(column->place, numbers ? "the column " + quote(column->name) +
-                                                   " is of numbers, compare it with one"
-                                             : numbers.error().message);
+      auto numbers = find_particle_numbers(frame_, column->name, "select");
+      if (!numbers) return error_at(column->place, numbers.error().message);
+      if (!number) {
+        return error_at(column->place, "the column " + quote(column->name) +
+                                           " is of numbers, compare it with one");
+      }
+      found.left = std::move(numbers).value();
     }
     if (step.comparison != Comparison::equal && step.comparison != Comparison::not_equal) {
       return error_at(step.place, "texts are only compared by == and !=");
+    }
+    if (texts == nullptr) {
+      found.right = ParticleNumbers(*number);
+      return found;
     }
     found.texts = texts->indices.data();
     for (const std::string& one : texts->texts) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/particle_file/text_lines.h"
 #include "render/particles/particle_columns.h"
 #include "render/particles/select_expression.h"
 
@@ -20,7 +21,10 @@ void add_color_columns(const ColorRule& rule, std::vector<std::string>& names) {
   if (std::holds_alternative<std::monostate>(rule)) {
     names.insert(names.end(), {"color", "red", "green", "blue"});
   } else if (const auto* const columns = std::get_if<ColorColumns>(&rule)) {
-    for (const std::string& name : columns->names) add_column_names(name, names);
+    for (const std::string& name : columns->names) {
+      add_column_names(name, names);
+      for (const std::string& one : three_names(name)) add_column_names(one, names);
+    }
   } else if (const auto* const mapped = std::get_if<MappedColors>(&rule)) {
     add_column_names(mapped->by, names);
   }
@@ -40,6 +44,12 @@ void add_select_columns(const std::string& select, std::vector<std::string>& nam
 }
 
 }  // namespace
+
+std::vector<std::string> three_names(const std::string& text) {
+  const auto words = words_of(text);
+  if (words.size() != 3) return {};
+  return {words.begin(), words.end()};
+}
 
 std::vector<std::string> columns_of(const ParticleStyle& style) {
   std::vector<std::string> names;

@@ -39,8 +39,12 @@ struct SpeciesColors {};
 /// then it is MappedColors by it. If it is the species', they are SpeciesColors; other texts, such
 /// as names of residues, have a colour of the palette each.
 struct ColorColumns {
-  std::vector<std::string> names;  ///< one or three
+  /// One or three. One name of three words, where no column has it, is the names of three columns.
+  std::vector<std::string> names;
 };
+
+/// The three names that a text is, "red green blue"; none if it has fewer words or more.
+std::vector<std::string> three_names(const std::string& text);
 
 /// The colour map's colour of a number of each particle.
 struct MappedColors {

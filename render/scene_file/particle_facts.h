@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -35,18 +36,21 @@ using ColorRanges = std::map<std::string, std::array<double, 2>>;
 using KindColors = std::map<std::string, std::vector<ParticleColors::Species>>;
 
 /// The colours that were chosen: with them as SceneFileOptions::color_ranges and kind_colors, the
-/// other frames of a series have the colours of this one.
-inline ColorRanges color_ranges_of(const std::vector<ParticleFacts>& all) {
-  ColorRanges ranges;
+/// other frames of a series have the colours of this one. What is known already stays.
+inline void add_color_ranges(const std::vector<ParticleFacts>& all, ColorRanges& ranges) {
   for (const ParticleFacts& facts : all) {
     if (facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
   }
-  return ranges;
 }
-inline KindColors kind_colors_of(const std::vector<ParticleFacts>& all) {
-  KindColors kinds;
-  for (const ParticleFacts& facts : all) kinds.emplace(facts.table, facts.colors.species);
-  return kinds;
+inline void add_kind_colors(const std::vector<ParticleFacts>& all, KindColors& kinds) {
+  for (const ParticleFacts& facts : all) {
+    auto& known = kinds[facts.table];
+    for (const ParticleColors::Species& one : facts.colors.species) {
+      const bool is_known = std::any_of(known.begin(), known.end(),
+                                        [&](const auto& kind) { return kind.name == one.name; });
+      if (!is_known) known.push_back(one);
+    }
+  }
 }
 
 }  // namespace boule

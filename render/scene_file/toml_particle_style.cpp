@@ -51,14 +51,15 @@ ColorRule read_color_text(TomlTable& table) {
   table.read("color", text);
   if (text.starts_with('#')) return read_color_codes(table, "color");
   if (text == "element" || text == "species") return SpeciesColors{};
-  std::vector<std::string> columns = words_of(text);
-  if (columns.size() != 1 && columns.size() != 3) {
+  std::vector<std::string> words = words_of(text);
+  if (words.empty()) {
     table.report("color", quote(text) +
-                              " is no colour, expected \"#rrggbb\", \"element\", a column of such "
-                              "texts or three columns: \"red green blue\"");
+                              " is no colour, expected \"#rrggbb\", \"element\", a column or three "
+                              "columns: \"red green blue\"");
     return {};
   }
-  return ColorColumns{std::move(columns)};
+  // The name of a column may have blanks.
+  return ColorColumns{{words.size() == 1 ? std::move(words.front()) : std::move(text)}};
 }
 
 MappedColors read_mapped_colors(TomlTable table) {

@@ -60,6 +60,12 @@ TEST(LookOptions, AreKept) {
   EXPECT_THAT(look.first, StartsWith("--"));
 }
 
+TEST(LookOptions, AMapMayBeOfAColumnWhoseNameHasBlanks) {
+  for (const char* color : {"Velocity Magnitude", "Mean Flow Speed"}) {
+    EXPECT_EQ(look_of({"--color", color, "--map", "turbo", "--range", "0,1"}).map, "turbo");
+  }
+}
+
 TEST(LookOptions, NoneIsGivenByDefault) {
   EXPECT_EQ(look_of({}).first, "");
   EXPECT_EQ(look_of({"--spp", "4"}).first, "");

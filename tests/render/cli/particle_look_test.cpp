@@ -60,6 +60,9 @@ TEST(ParticleLook, ColorsOfOneKindStandByThemselves) {
   EXPECT_THAT(scene_of(look), HasSubstr("\ncolor = \"energy\"\n"));
   look.map = "magma";
   EXPECT_THAT(scene_of(look), HasSubstr("\n[particles.color]\nby = \"energy\"\nmap = \"magma\"\n"));
+  look.color = "Velocity Magnitude";
+  EXPECT_TRUE(has_color_map(look.color));
+  EXPECT_THAT(scene_of(look), HasSubstr("\nby = \"Velocity Magnitude\"\nmap = \"magma\"\n"));
 }
 
 TEST(ParticleLook, NamesOfFilesMayHaveAnyCharacters) {

@@ -106,8 +106,21 @@ def test_npy(folder, table):
         compare(f"npy {order}", read(path, "npy"), {name: table[name] for name in table.dtype.names})
 
 
+def test_halves(folder):
+    """Every finite float of 16 bits."""
+    halves = np.arange(1 << 16, dtype="u2").view("f2")
+    halves = halves[np.isfinite(halves)]
+    for order in "<>":
+        table = np.zeros(len(halves), dtype=[("x", order + "f2"), ("y", "f4"), ("z", "f8")])
+        table["x"] = halves
+        path = folder / "halves.npy"
+        np.save(path, table)
+        compare(f"halves {order}", read(path, "npy"), {name: table[name] for name in table.dtype.names})
+
+
 with tempfile.TemporaryDirectory() as name:
     random = random_table(np.random.default_rng(11))
     test_ply(Path(name), random)
     test_npy(Path(name), random)
+    test_halves(Path(name))
     test_tables(Path(name))

@@ -149,6 +149,26 @@ TEST(LammpsData, ReadsMassesVelocitiesAndTheCell) {
   EXPECT_EQ(frame.cell->origin.z, -1);
 }
 
+// As read_data takes it (docs.lammps.org/read_data.html).
+TEST(LammpsData, ALineOfTheBoxMayBeMissing) {
+  std::string text = data_head + "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0 0\n";
+  text.erase(text.find("0 10 xlo xhi\n"), 13);
+  const auto read = read_particles("a.data", text);
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_EQ(read.value().cell->a, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(read.value().cell->origin, (Vec3d{-0.5, 0, -1}));
+  EXPECT_THAT(read.value().notes, ElementsAre("it has no line xlo xhi, taken as -0.5 0.5"));
+}
+
+TEST(LammpsData, ABoxMayBeFlat) {
+  std::string text = data_head + "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0 0\n";
+  text.replace(text.find("-1 1 zlo"), 4, "2 2");
+  const auto read = read_particles("a.data", text);
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_EQ(read.value().cell->c.z, 0);
+  EXPECT_EQ(read.value().cell->origin.z, 2);
+}
+
 TEST(LammpsData, RefusesUnknownStylesUnlessColumnsAreNamed) {
   const std::string text = data_head + "Atoms # peri\n\n1 1 5 5 1 2 3\n2 1 5 5 4 5 6\n";
   EXPECT_THAT(particle_error("a.lmp", text), HasSubstr("'peri', is unknown; name the columns"));

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -68,6 +70,34 @@ TEST(NpyParticles, AStructuredArrayHasColumnsOfEveryKind) {
   EXPECT_THAT(frame.texts[0].texts, ElementsAre("\xce\xb1"));
 }
 
+TEST(NpyParticles, FloatsOf16BitsAreExact) {
+  struct Half {
+    std::uint16_t bits;
+    double number;
+  };
+  const Half halves[] = {
+      {0x0000, 0},          {0x8000, -0.0},    {0x3c00, 1},        {0xc000, -2},
+      {0x3555, 0x1.554p-2}, {0x7bff, 65504},   {0xfbff, -65504},   {0x0400, 0x1p-14},
+      {0x03ff, 0x3ffp-24},  {0x0001, 0x1p-24}, {0x8001, -0x1p-24}, {0x3c01, 1 + 0x1p-10},
+  };
+  for (const char* order : {"<", ">"}) {
+    std::string data;
+    for (const Half& half : halves) {
+      data += std::string(24, '\0');  // the position
+      const char low = static_cast<char>(half.bits & 255), high = static_cast<char>(half.bits >> 8);
+      data += *order == '<' ? std::string{low, high} : std::string{high, low};
+    }
+    const std::string fields = std::string("[('pos', '<f8', (3,)), ('v', '") + order + "f2')]";
+    const auto read = read_particles("a.npy", npy_file(npy_dict(fields, "(12,)"), data));
+    ASSERT_TRUE(read) << read.error().message;
+    for (std::size_t i = 0; i < std::size(halves); ++i) {
+      const double number_read = number(read.value(), "v", i);
+      EXPECT_EQ(number_read, halves[i].number) << order << i;
+      EXPECT_EQ(std::signbit(number_read), std::signbit(halves[i].number)) << order << i;
+    }
+  }
+}
+
 TEST(NpyParticles, OnlyWantedColumnsAreKept) {
   const ParticleFileOptions options{.wanted = std::vector<std::string>{"pi"}};
   const auto read = read_particles("a.npy", every_kind(), options);
@@ -123,7 +153,12 @@ TEST(NpyParticles, WrongFilesAreRefusedWithTheirColumn) {
   const Case cases[] = {
       {"[" + position + ", ('v', '<f4')]", nan, "row 0: must be finite (v)"},
       {"[" + position + ", ('v', '<c8')]", xyz + xyz, "holds '<c8', expected numbers"},
-      {"[" + position + ", ('v', '<f2')]", xyz + "ab", "holds '<f2'"},
+      {"[" + position + ", ('v', '<f16')]", xyz + xyz,
+       "holds '<f16', expected numbers (f2, f4, f8, i, u, b) or texts (S, U) of a fixed width"},
+      {"[" + position + ", ('v', '<f2')]", xyz + std::string("\x00\x7c", 2),
+       "row 0: must be finite (v)"},
+      {"[" + position + ", ('v', '>f2')]", xyz + std::string("\xfe\x00", 2),
+       "row 0: must be finite (v)"},
       {"[" + position + ", ('v', '|O')]", xyz + xyz, "holds '|O'"},
       {"[" + position + ", ('v', '<M8[s]')]", xyz + xyz, "holds '<M8[s]'"},
       {"[" + position + ", ('v', 'f4')]", xyz + xyz, "holds 'f4'"},
@@ -168,6 +203,25 @@ TEST(NpzName, IsAFileAndAnArray) {
 
 #ifdef BOULE_HAS_LIBZIP
 
+/// A number of an archive: `size` bytes, the lowest first.
+std::string zip_number(std::size_t value, std::size_t size) {
+  std::string bytes;
+  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
+  return bytes;
+}
+
+/// An archive of the array "a", as it is, with a checksum of 0 (APPNOTE.TXT of PKWARE).
+std::string archive_without_checksum(const std::string& array) {
+  const std::string name = "a.npy";
+  const std::string about = zip_number(20, 2) + std::string(12, '\0') +
+                            zip_number(array.size(), 4) + zip_number(array.size(), 4) +
+                            zip_number(name.size(), 2);
+  const std::string local = "PK\3\4" + about + std::string(2, '\0') + name + array;
+  const std::string entry = "PK\1\2" + zip_number(20, 2) + about + std::string(16, '\0') + name;
+  return local + entry + "PK\5\6" + std::string(4, '\0') + zip_number(1, 2) + zip_number(1, 2) +
+         zip_number(entry.size(), 4) + zip_number(local.size(), 4) + std::string(2, '\0');
+}
+
 const std::string archive = BOULE_TEST_DATA "/arrays.npz";
 
 Result<ParticleFrame> read_array(const std::string& path) {
@@ -203,6 +257,9 @@ TEST(NpzParticles, WhatIsWrongIsTold) {
   bytes[200] = static_cast<char>(bytes[200] ^ 1);  // in the first array
   test::write_bytes(path, bytes);
   EXPECT_THAT(message(path + ":atoms"), testing::Ne("no error"));
+  EXPECT_THAT(message(path + ":atoms"), HasSubstr("is damaged: the array 'atoms' ends early or"));
+  test::write_bytes(path, archive_without_checksum(rows_of_five()));
+  EXPECT_EQ(message(path), "is damaged: its array ends early or does not match its checksum");
   test::write_bytes(path, "PK");
   EXPECT_THAT(message(path + ":atoms"), HasSubstr("not a readable .npz file"));
 }

@@ -41,6 +41,62 @@ TEST(Table, SeparatorsAreFoundInTheFirstLines) {
   }
 }
 
+std::vector<std::string> texts(const ParticleFrame& frame, const std::string& name) {
+  const TextColumn* const column = find_text_column(frame, name);
+  std::vector<std::string> values;
+  if (column == nullptr) return values;
+  for (const std::uint32_t index : column->indices) values.push_back(column->texts[index]);
+  return values;
+}
+
+TEST(Table, EachTabEndsAColumn) {
+  // As pandas writes it: the numbers of the rows have no name.
+  const auto unnamed = read_particles("a.tsv", "\tx\ty\tz\tv mag\n0\t4\t2\t1\t5\n1\t3\t2\t1\t6\n");
+  ASSERT_TRUE(unnamed.ok()) << format_diagnostic(unnamed.error());
+  EXPECT_THAT(unnamed.value().positions, ElementsAre(Vec3d{4, 2, 1}, Vec3d{3, 2, 1}));
+  EXPECT_THAT(numbers(unnamed.value(), "v mag"), ElementsAre(5, 6));
+  const auto empty = read_particles(
+      "a.tsv", "x\ty\tz\tname\tq\n0\t1\t2\tbig one\t5\n1\t1\t1\t\t6\n2\t1\t1\tc\t7\n");
+  ASSERT_TRUE(empty.ok()) << format_diagnostic(empty.error());
+  EXPECT_THAT(texts(empty.value(), "name"), ElementsAre("big one", "", "c"));
+  EXPECT_THAT(numbers(empty.value(), "q"), ElementsAre(5, 6, 7));
+  // A column without any text, as pandas writes one of missing numbers.
+  const auto missing = read_particles("a.tsv", "\tx\ty\tz\tq\n0\t4\t2\t1\t\n1\t3\t2\t1\t\n");
+  ASSERT_TRUE(missing.ok()) << format_diagnostic(missing.error());
+  EXPECT_THAT(missing.value().positions, ElementsAre(Vec3d{4, 2, 1}, Vec3d{3, 2, 1}));
+  EXPECT_THAT(texts(missing.value(), "q"), ElementsAre("", ""));
+}
+
+TEST(Table, TabsBehindTheLastColumnMakeNone) {
+  for (const std::string text : {"x\ty\tz\tname\n0\t1\t2\tbig one\t\n1\t1\t1\tb\n",
+                                 "x\ty\tz\tname\t\n0\t1\t2\tbig one\t\n1\t1\t1\tb\t\t \r\n"}) {
+    const auto read = read_particles("a.tsv", text);
+    ASSERT_TRUE(read.ok()) << text << format_diagnostic(read.error());
+    EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{0, 1, 2}, Vec3d{1, 1, 1})) << text;
+    EXPECT_THAT(texts(read.value(), "name"), ElementsAre("big one", "b")) << text;
+  }
+}
+
+TEST(Table, TabsMayAlignColumns) {
+  for (const std::string text :
+       {"x\t\ty\tz\t\tq\n4\t\t2\t1\t\t5\n3\t\t2\t1\t\t6\n",    // the same tabs in each line
+        "x\t\ty\tz\tq\n4.000000000\t2\t1\t5\n3\t\t2\t1\t6\n",  // fewer behind a long text
+        "\tx\ty\tz\tq\n\t4\t2\t1\t5\n\t3\t2\t1\t6\n", "x\ty\tz\tq\t\n4\t2\t1\t5\t\n3\t2\t1\t6\t\n",
+        "# x y z q\n4\t2\t1\t5\n3\t2\t1\t6\n", "#\tx\ty\tz\tq\n\t4\t2\t1\t5\n\t3\t2\t1\t6\n"}) {
+    const auto read = read_particles("a.tsv", text);
+    ASSERT_TRUE(read.ok()) << text << format_diagnostic(read.error());
+    EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{4, 2, 1}, Vec3d{3, 2, 1})) << text;
+    EXPECT_THAT(numbers(read.value(), "q"), ElementsAre(5, 6)) << text;
+  }
+}
+
+TEST(Table, IdsMayBeTextsAndOccurTwice) {
+  const auto read = read_particles("a.csv", "id,x,y,z\nA7,1,2,3\nA7,4,5,6\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_THAT(texts(read.value(), "id"), ElementsAre("A7", "A7"));
+  EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{1, 2, 3}, Vec3d{4, 5, 6}));
+}
+
 TEST(Table, WithoutNamesThereAreTheUsualOnes) {
   const auto read = read_particles("a.csv", "1,2,3,4,5\n6,7,8,9,10\n");
   ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
@@ -120,7 +176,7 @@ TEST(Table, LongTablesAreReadInPieces) {
               HasSubstr("150302:5: expected a number, found 'three' (z)"));
 }
 
-std::vector<BrokenFile> broken_files() {
+std::vector<BrokenFile> broken_values() {
   return {
       {"Empty", "", "it holds no rows"},
       {"OnlyComments", "# x y z\n\n", "it holds no rows"},
@@ -135,20 +191,6 @@ std::vector<BrokenFile> broken_files() {
       {"Nan", "x,y,z\n1,2,3\n1,nan,3\n", "3:3: expected a finite number, found 'nan' (y)"},
       {"Infinite", "x y z\n1 2 -inf\n", "2:5: expected a finite number, found '-inf' (z)"},
       {"BeyondDouble", "x y z\n1 2 1e999\n", "expected a finite number, found '1e999' (z)"},
-      {"ShortRow", "1 2 3\n4 5\n", "2:4: the row ends before this column, expected 3 columns (z)"},
-      {"LongRow", "1 2 3\n4 5 6 7\n", "2:7: the row goes on with '7', expected 3 columns ()"},
-      {"LongRowOfCommas",
-       "1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n"
-       "4,5,6,7\n",
-       "11:6: the row goes on with '', expected 3 columns"},
-      {"OtherSeparator",
-       "x,y,z\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n"
-       "1;2;3\n",
-       "11:1: expected a number, found '1;2;3' (x)"},
-      {"BlankInNumber", "x,y,z\n1 2,3,4\n", "2:3: expected ',', found '2' (y)"},
-      {"QuoteWithoutEnd", "x,y,z,n\n1,2,3,a\n1,2,3,b\n1,\"2,3,4\n",
-       "4:3: expected a number, found '2,3,4' (y)"},
-      {"AfterQuote", "x,y,z,n\n1,2,3,\"a\" b\n", "2:11: the row goes on with 'b'"},
       {"NulByte", std::string("x,y,z\n1,2,\0\n", 12), "2:5: expected a number, found '\\x00' (z)"},
       {"Hexadecimal", "x y z\n0x1p3 2 3\n", "2:1: expected a number, found '0x1p3' (x)"},
       {"TypesMixed", "x,y,z,q\n1,2,3,4\n1,2,3,four\n", "3:7: expected a number, found 'four' (q)"},
@@ -161,13 +203,41 @@ std::vector<BrokenFile> broken_files() {
        {.columns = {"x", "y"}}},
       {"GivenTwice",
        "1 2 3 4\n",
-       "two columns have the name 'x' (x)",
+       "0:0: two columns have the name 'x' (columns)",
        {.columns = {"x", "y", "z", "x"}}},
       {"GivenWithoutY",
        "1 2 3\n",
-       "0:0: there is no column of positions for y; 'columns' can name it (y)",
+       "0:0: there is no column of positions for y; 'columns' can name it (columns)",
        {.columns = {"x", "-", "z"}}},
       {"OneNumber", "1\n", "1:1: no rows follow"},
+  };
+}
+
+std::vector<BrokenFile> broken_rows() {
+  return {
+      {"ShortRow", "1 2 3\n4 5\n", "2:4: the row ends before this column, expected 3 columns (z)"},
+      {"LongRow", "1 2 3\n4 5 6 7\n", "2:7: the row goes on with '7', expected 3 columns ()"},
+      {"LongRowOfCommas",
+       "1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n4,5,6\n7,8,9\n1,2,3\n"
+       "4,5,6,7\n",
+       "11:7: the row goes on with '7', expected 3 columns"},
+      {"CommaBehindTheRow", "x,y,z\n1,2,3\n1,2,3,\n",
+       "3:7: the row goes on with an empty column, expected 3 columns"},
+      {"LongRowOfTabs", "x\ty\tz\n1\t2\t3\n1\t2\t3\t \t4\n1\t2\t3\n1\t2\t3\n1\t2\t3\n",
+       "3:9: the row goes on with '4', expected 3 columns"},
+      {"EmptyNumberBetweenTabs", "x\ty\tz\tn\n1\t2\t3\ta\n1\t\t3\tb\n",
+       "3:3: expected a number, found '' (y)"},
+      {"BlankBetweenTabs", "x\ty\tz\n1\t2\t3\n1 2\t3\t4\n", "3:3: expected a tab, found '2' (y)"},
+      {"NamesOfTwo", "x,y\n1,2\n",
+       "1:0: there is no column of positions for z; 'columns' can name it (z)"},
+      {"OtherSeparator",
+       "x,y,z\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n"
+       "1;2;3\n",
+       "11:1: expected a number, found '1;2;3' (x)"},
+      {"BlankInNumber", "x,y,z\n1 2,3,4\n", "2:3: expected ',', found '2' (y)"},
+      {"QuoteWithoutEnd", "x,y,z,n\n1,2,3,a\n1,2,3,b\n1,\"2,3,4\n",
+       "4:3: expected a number, found '2,3,4' (y)"},
+      {"AfterQuote", "x,y,z,n\n1,2,3,\"a\" b\n", "2:11: the row goes on with 'b'"},
   };
 }
 
@@ -175,7 +245,9 @@ class BrokenTable : public testing::TestWithParam<BrokenFile> {};
 
 TEST_P(BrokenTable, IsRefusedWithItsPlace) { test::expect_refused(GetParam(), "csv"); }
 
-INSTANTIATE_TEST_SUITE_P(Files, BrokenTable, testing::ValuesIn(broken_files()), test::broken_name);
+INSTANTIATE_TEST_SUITE_P(Values, BrokenTable, testing::ValuesIn(broken_values()),
+                         test::broken_name);
+INSTANTIATE_TEST_SUITE_P(Rows, BrokenTable, testing::ValuesIn(broken_rows()), test::broken_name);
 
 }  // namespace
 }  // namespace boule

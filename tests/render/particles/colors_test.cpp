@@ -134,6 +134,27 @@ TEST(Colors, AreThoseOfComponents) {
   EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 1 of 2 is -0.001, 0.5, 1"));
 }
 
+TEST(Colors, ThreeWordsAreOneColumnWhereTheFileHasIt) {
+  ParticleFrame frame = row_of_particles(2);
+  frame.numbers = {{"red", {0, 1}}, {"green", {0.5, 0.25}}, {"blue", {1, 0}}};
+  const ParticleStyle style{.color = ColorColumns{{"red green blue"}}};
+  EXPECT_THAT(colors_of(frame, style), ElementsAre("#0080ff", "#ff4000"));
+  frame.numbers.push_back({"red green blue", {2, 4}});
+  ASSERT_TRUE(meaning_of(frame, style).scale.has_value());
+  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(2, 4));
+  frame.numbers.pop_back();
+  frame.texts = {text_column("red green blue", {"#102030", "#ffffff"})};
+  EXPECT_THAT(colors_of(frame, style), ElementsAre("#102030", "#ffffff"));
+}
+
+TEST(Colors, ANameMayHaveBlanks) {
+  const ParticleFrame frame = row_with("Velocity Magnitude", {1, 3});
+  const ParticleStyle style{.color = ColorColumns{{"Velocity Magnitude"}}};
+  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(1, 3));
+  EXPECT_EQ(error_of(frame, {.color = ColorColumns{{"Velocity Magnitud"}}}),
+            "color: there is no column 'Velocity Magnitud'; did you mean 'Velocity Magnitude'?");
+}
+
 TEST(Colors, NameTheParticleWhoseComponentsAreNeitherPartsNorCodes) {
   ParticleFrame frame = row_of_particles(3);
   frame.numbers = {{"red", {255, 1, 0}}, {"green", {0, 0, 0}}, {"blue", {0, 0, 300}}};

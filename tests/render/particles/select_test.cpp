@@ -76,6 +76,13 @@ TEST(Select, TakesTextsThatAreNumbersAsBoth) {
   EXPECT_EQ(spheres_of(frame, {.select = "type == '1'"}).size(), 2U);
 }
 
+TEST(Select, TakesNumbersInQuotesToo) {
+  EXPECT_EQ(shown("type == \"1\""), "04");
+  EXPECT_EQ(shown("'2' != type"), "024");
+  EXPECT_EQ(shown("c_1[2] == '1e-3'"), "2");
+  EXPECT_EQ(shown("|v| == '5'"), "0");
+}
+
 TEST(Select, JoinsAndNegates) {
   EXPECT_EQ(shown("x > 0 && x < 3"), "12");
   EXPECT_EQ(shown("x < 1 || x > 3"), "04");
@@ -128,6 +135,7 @@ TEST(Select, RefusesWhatIsWrongWithItsPlace) {
       {"chain < 'A'", "texts are only compared by == and != (character 7)"},
       {"chain == 1", "the column 'chain' is of texts, compare it with one in quotes (character 1)"},
       {"vx == 'A'", "the column 'vx' is of numbers, compare it with one (character 1)"},
+      {"vx < '1'", "texts are only compared by == and != (character 4)"},
       {"'A' == 'A'", "a text can only be compared with a column (character 5)"},
       {"1 == 'A'", "a text can only be compared with a column (character 3)"},
       {"species == Fe", "there is no column 'Fe'; species stand in quotes (character 12)"},
@@ -188,6 +196,8 @@ TEST(Select, ColumnsOfAStyle) {
               ElementsAre("chain", "r", "type", "v_x", "v_y", "v_z", "vx", "vy", "vz"));
   EXPECT_THAT(columns_of({.radius = RadiusTable::vdw, .color = ColorColumns{{"a", "b", "c"}}}),
               ElementsAre("a", "b", "c"));
+  EXPECT_THAT(columns_of({.radius = 1.0, .color = ColorColumns{{"a b c"}}}),
+              ElementsAre("a", "a b c", "b", "c"));
   EXPECT_THAT(columns_of({.radius = 1.0, .color = SrgbColor{}, .select = "a b"}), ElementsAre());
 }
 

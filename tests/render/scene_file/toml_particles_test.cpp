@@ -129,6 +129,13 @@ TEST_F(TomlParticlesTest, HaveColorsFromTheKey) {
   }
 }
 
+TEST_F(TomlParticlesTest, HaveColorsFromAColumnWhoseNameHasBlanks) {
+  write("a.csv", "x,y,z,r,Two words,Three words here\n0,0,0,1,#102030,#405060\n");
+  EXPECT_THAT(colors(with("color = \"Two words\"\n", "a.csv")), ElementsAre("#102030"));
+  EXPECT_THAT(colors(with("color = \"Three words here\"\n", "a.csv")), ElementsAre("#405060"));
+  expect_refused("color = \" \"\n", "color", "' ' is no colour");
+}
+
 TEST_F(TomlParticlesTest, HaveColorsFromAMap) {
   const ColorMap viridis, grey(NamedColorMap::grey);
   const auto codes = [](const ColorMap& map, std::array<double, 3> at) {
@@ -150,7 +157,8 @@ TEST_F(TomlParticlesTest, ShareTheRangeOfAnotherFrame) {
   options.color_ranges["particles[0]"] = {0, 40};
   const LoadedScene scene = with(keys, "run.xyz", options);
   EXPECT_THAT(colors(scene), ElementsAre(hex_text(ColorMap().color(0.25))));
-  const auto ranges = color_ranges_of(scene.particles);
+  ColorRanges ranges;
+  add_color_ranges(scene.particles, ranges);
   EXPECT_THAT(ranges, ElementsAre(testing::Pair("particles[0]", std::array<double, 2>{0, 40})));
   // What the file says comes first.
   EXPECT_THAT(colors(with(keys + "range = [10, 20]\n", "run.xyz", options)),
