@@ -4,6 +4,7 @@
 
 #include "core/scene/number_text.h"
 #include "render/python/errors.h"
+#include "simd/dispatch/dispatch.h"
 
 namespace py = pybind11;
 
@@ -12,6 +13,13 @@ namespace {
 
 std::string type_name(const py::object& object) {
   return py::str(py::type::of(object).attr("__name__"));
+}
+
+/// Which numbers may come, with the end that describe() leaves out: a number of Python may be
+/// beyond.
+std::string describe_all(const WholeRule& rule) {
+  constexpr int most = std::numeric_limits<int>::max();
+  return describe(rule) + (rule.high == most ? " and at most " + std::to_string(most) : "");
 }
 
 }  // namespace
@@ -31,8 +39,8 @@ int Arguments::whole_of(const py::object& object, const char* name, const WholeR
   const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
   const bool fits = overflow == 0 && number >= rule.low && number <= rule.high;
   if (!fits)
-    throw_error(name,
-                "must be " + describe(rule) + ", is " + std::string(py::str(index)).substr(0, 40));
+    throw_error(name, "must be " + describe_all(rule) + ", is " +
+                          std::string(py::str(index)).substr(0, 40));
   return static_cast<int>(number);
 }
 
@@ -86,6 +94,14 @@ bool Arguments::flag(const char* name) const {
   if (!object) return false;
   if (!py::isinstance<py::bool_>(*object)) throw_error(name, "expected True or False");
   return py::cast<bool>(*object);
+}
+
+std::optional<std::string> isa_of(const Arguments& given) {
+  const auto name = given.text("isa");
+  if (!name || *name == "auto") return name;
+  const auto kernels = select_kernels(*name);
+  if (!kernels) throw_error("isa", kernels.error().message);
+  return name;
 }
 
 }  // namespace boule::python

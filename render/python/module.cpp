@@ -9,6 +9,7 @@
 #include "render/python/call.h"
 #include "render/python/data.h"
 #include "render/python/errors.h"
+#include "render/python/particle_arrays.h"
 #include "render/python/picture.h"
 #include "render/python/rendering.h"
 #include "render/python/scenes.h"
@@ -36,6 +37,7 @@ PYBIND11_MODULE(_core, module) {
   bind_tables(module);
   bind_scenes(module);
   bind_data(module);
+  bind_particle_arrays(module);
   bind_sphere_arrays(module);
   bind_tracing(module);
   bind_picture(module);

@@ -14,6 +14,7 @@
 #include "render/python/call.h"
 #include "render/python/choices.h"
 #include "render/python/errors.h"
+#include "render/python/made_by_calls.h"
 #include "render/renderer/aov_channels.h"
 
 namespace py = pybind11;
@@ -73,8 +74,13 @@ py::dict channels_of(const py::object& picture) {
   return channels;
 }
 
+void check_exposure(float exposure) {
+  if (!(exposure >= -100 && exposure <= 100)) throw_error("exposure", "must be from -100 to 100");
+}
+
 /// 8 bits a component: H x W x 3, or x 4 with alpha.
 py::array srgb_of(const Picture& picture, float exposure) {
+  check_exposure(exposure);
   const auto parts = picture.parts;
   const auto bytes =
       interruptible([parts, exposure](Call&) { return tone_map(parts->image, exposure); });
@@ -85,7 +91,7 @@ py::array srgb_of(const Picture& picture, float exposure) {
 }
 
 ImageFileOptions file_options(const PictureParts& parts, float exposure) {
-  if (!(exposure >= -100 && exposure <= 100)) throw_error("exposure", "must be from -100 to 100");
+  check_exposure(exposure);
   ImageFileOptions options;
   options.exposure_stops = exposure;
   options.crop = parts.crop;
@@ -102,9 +108,11 @@ void save(const Picture& picture, const py::object& name, float exposure,
   options.compression = choose<Compression>(compression, "compression", compression_names);
   options.date_time = take(cli::source_date());
   const ImageFormat* const format = find_image_format(path);
-  if (format != nullptr && format->channels) options.channels = picture.parts->channels;
-  check(interruptible([parts = picture.parts, path, options](Call& call) {
+  const bool has_channels = format != nullptr && format->channels;
+  check(interruptible([parts = picture.parts, path, options, has_channels](Call& call) {
     ImageFileOptions mine = options;
+    // Here, not before: the thread that waits for signals copies nothing large.
+    if (has_channels) mine.channels = parts->channels;
     mine.stop = [&call] { return call.cancel.load(); };
     return write_image(parts->image, path, mine);
   }));
@@ -187,7 +195,8 @@ constexpr const char* description =
 }  // namespace
 
 void bind_picture(py::module_& module) {
-  py::class_<Picture> picture(module, "Picture", py::buffer_protocol(), description);
+  py::class_<Picture> picture(module, "Picture", py::buffer_protocol(), made_by_calls(),
+                              description);
   picture.attr("__module__") = "boule";
   picture.def_buffer(&buffer_of)
       .def_property_readonly(
@@ -213,13 +222,15 @@ void bind_picture(py::module_& module) {
           "What was decided for the user, a sentence each.")
       .def("to_srgb", &srgb_of, py::kw_only(), py::arg("exposure") = 0.0F,
            "H x W x 3 of uint8 (x 4, straight, with alpha): codes of the sRGB curve. Colours are "
-           "multiplied by 2^exposure and clamped before.")
+           "multiplied by 2^exposure, of -100 to 100, and clamped before. Raises Error.")
       .def(
           "save", &save, py::arg("path"), py::kw_only(), py::arg("exposure") = 0.0F,
           py::arg("compression") = "zip",
           "Write a file in the format of its extension, as `boule render` does: .exr (linear, with "
-          "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure). It "
-          "appears under its name when it is complete. compression, of .exr: none, rle or zip. "
+          "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure, of "
+          "-100 "
+          "to 100). It appears under its name when it is complete. compression, of .exr: none, rle "
+          "or zip. "
           "Raises Error.")
       .def("__array__", &array_of, py::arg("dtype") = py::none())
       .def(

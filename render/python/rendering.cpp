@@ -114,9 +114,9 @@ Wishes wishes_of(const py::dict& dictionary) {
     wishes.order = choose<PixelOrder>(*order, "order", order_names);
   }
   wishes.tile = given.whole("tile", {.low = 1, .high = max_tile});
-  wishes.isa = given.text("isa");
+  wishes.isa = isa_of(given);
   wishes.solver = given.choice<Solver>("solver");
-  wishes.threads = given.whole("threads", {.low = 0, .high = 1024});
+  wishes.threads = given.whole("threads", thread_counts);
   return wishes;
 }
 

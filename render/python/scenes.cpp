@@ -13,6 +13,7 @@
 #include "render/python/arguments.h"
 #include "render/python/choices.h"
 #include "render/python/errors.h"
+#include "render/python/made_by_calls.h"
 #include "render/python/scene_values.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_tree.h"
@@ -141,7 +142,7 @@ Result<LoadedScene> SceneRequest::load(Call& call) const {
 }
 
 void bind_scenes(py::module_& module) {
-  const py::class_<Data> data(module, "Data",
+  const py::class_<Data> data(module, "Data", made_by_calls(),
                               "Something large that a scene holds: spheres, a picture, ...");
   py::class_<Series, std::shared_ptr<Series>>(module, "Series")
       .def(py::init(&open_series), py::arg("path"), py::arg("first"), py::arg("last"),

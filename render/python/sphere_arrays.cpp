@@ -90,6 +90,7 @@ Diagnostic explain(const SphereInput& input, std::size_t row, const Vec3d& origi
   }
   if (!std::isfinite(radius)) return about("radii", "must be finite, is " + number_text(radius));
   if (!to_float32(radius)) return about("radii", "is too large for a 32-bit float");
+  if (radius > 0) return about("radii", "is too small for a 32-bit float: " + number_text(radius));
   return about("radii", "must be above 0, is " + number_text(radius));
 }
 

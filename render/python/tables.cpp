@@ -11,6 +11,7 @@
 #include "render/python/errors.h"
 #include "render/python/field_values.h"
 #include "render/scene_file/toml_camera.h"
+#include "render/scene_file/toml_camera_keys.h"
 #include "render/scene_file/toml_color_map.h"
 #include "render/scene_file/toml_entities.h"
 #include "render/scene_file/toml_fields.h"
@@ -52,9 +53,36 @@ void read_object(TomlTable& table) {
   table.check(find_problem(value));
 }
 
-void read_camera_table(TomlTable& table) {
+/// The table of a kind, and what it may name besides files.
+struct Tree {
+  TomlMembers members;
+  SceneData data;
+};
+
+/// The root of a scene file that has nothing but one table.
+TomlMembers root_of(const std::string& kind, const TomlMembers& members) {
+  return {{kind, {}, {{}, members}}};
+}
+
+/// A camera as it begins and, if it moves, as it is in the frame of each key.
+void read_camera_table(const TomlMembers& members, FirstError& error) {
+  TomlMembers root = root_of("camera", members);
+  TomlTable given(members, {}, "camera", error);
+  bool is_fitted = false;
+  given.read("fit", is_fitted);
+  std::optional<CameraMotion> motion;
+  if (!is_fitted) motion = apply_camera_keys(root, std::nullopt, error);
+  if (error.status()) return;
+  TomlTable table(std::get<TomlMembers>(root.front().value.data), {}, "camera", error);
   if (read_camera_fit(table)) return;
-  read_camera(table);
+  const Camera camera = read_camera(table);
+  if (motion && table.ok()) check_camera_keys(*motion, camera, table);
+}
+
+void read_distortion_table(const TomlMembers& members, FirstError& error) {
+  const TomlMembers camera = root_of("distortion", members);
+  TomlTable table(camera, {}, "", error);
+  read_distortion(table);
 }
 
 void read_particle_table(TomlTable& table) {
@@ -71,15 +99,16 @@ void read_particle_table(TomlTable& table) {
 }
 
 /// How the table of a kind is read.
-void read_table(const std::string& kind, TomlTable& table) {
+void read_table(const std::string& kind, const TomlMembers& members, FirstError& error) {
+  if (kind == "camera") return read_camera_table(members, error);
+  if (kind == "distortion") return read_distortion_table(members, error);
+  TomlTable table(members, {}, "", error);
   Scene scene;
   if (kind == "image") return table.check(find_problem(read_image_settings(table)));
   if (kind == "render") return table.check(find_problem(read_render(table)));
   if (kind == "background") return static_cast<void>(read_background(table, scene));
   if (kind == "material") return static_cast<void>(read_material(table));
   if (kind == "light") return static_cast<void>(read_light(table));
-  if (kind == "camera") return read_camera_table(table);
-  if (kind == "distortion") return;  // with its camera
   if (kind == "sphere") return read_object<Sphere>(table);
   if (kind == "plane") return read_object<Plane>(table);
   if (kind == "instance") return read_object<Instance>(table);
@@ -137,6 +166,31 @@ py::dict kinds() {
   return list_kinds(static_cast<const T*>(nullptr));
 }
 
+/// The name under which a table's key "file" has an array; none if it has the name of a file.
+std::optional<std::string> name_of_array(const Tree& tree) {
+  for (const TomlMember& member : tree.members) {
+    const auto* name = std::get_if<std::string>(&member.value.data);
+    if (member.key != "file" || name == nullptr) continue;
+    if (tree.data.pictures.contains(*name) || tree.data.lenses.contains(*name)) return *name;
+  }
+  return std::nullopt;
+}
+
+/// An error of the reader of scene files as one about an argument: without the path of the table,
+/// and about the array, if one stands in place of the file.
+Diagnostic as_argument(Diagnostic error, const std::string& kind, const std::string& array,
+                       const Tree& tree) {
+  if (error.key.starts_with(kind + ".")) error.key.erase(0, kind.size() + 1);
+  if (error.key != "file" || array.empty()) return error;
+  if (error.message == "missing key 'file'") error.message += ", or " + quote(array);
+  const auto name = name_of_array(tree);
+  if (!name) return error;
+  error.key = array;
+  const std::string prefix = quote(*name) + ": ";
+  if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
+  return error;
+}
+
 }  // namespace
 
 py::dict list_fields() {
@@ -160,20 +214,17 @@ py::dict list_fields() {
   return all;
 }
 
-py::dict check_table(const std::string& kind, const py::dict& dictionary) {
-  struct Tree {
-    TomlMembers members;
-    SceneData data;
-  };
+py::dict check_table(const std::string& kind, const py::dict& dictionary,
+                     const std::string& array) {
   TreeBuilder builder;
   const auto tree = std::make_shared<Tree>();
   tree->members = builder.members(dictionary, "");
   tree->data = builder.data();
-  const auto read = [tree, kind](Call&) {
+  const auto read = [tree, kind, array](Call&) -> Status {
     FirstError error("", std::nullopt, &tree->data);
-    TomlTable table(tree->members, {}, "", error);
-    read_table(kind, table);
-    return error.status();
+    read_table(kind, tree->members, error);
+    if (!error.status()) return std::nullopt;
+    return as_argument(*error.status(), kind, array, *tree);
   };
   // A picture or a lens in a file may take its time.
   const bool reads_file = kind != "particles" && dictionary.contains("file") &&
@@ -185,7 +236,7 @@ py::dict check_table(const std::string& kind, const py::dict& dictionary) {
 
 void bind_tables(py::module_& module) {
   module.def("fields", &list_fields, "The keys of each kind and type of table, with defaults.");
-  module.def("check", &check_table, py::arg("kind"), py::arg("table"),
+  module.def("check", &check_table, py::arg("kind"), py::arg("table"), py::arg("array"),
              "Raise Error if a table is wrong; return its values as plain ones.");
 }
 

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -10,10 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/number_text.h"
 #include "render/memory/available_memory.h"
+#include "render/python/arguments.h"
 #include "render/python/arrays.h"
 #include "render/python/call.h"
-#include "render/python/choices.h"
 #include "render/python/errors.h"
 #include "render/python/scenes.h"
 #include "render/python/sphere_arrays.h"
@@ -144,20 +146,29 @@ py::array any(const TracerHandle& tracer, const py::object& org, const py::objec
   return met;
 }
 
-TraceOptions options_of(const std::string& solver, unsigned threads, const std::string& isa) {
+TraceOptions options_of(const py::dict& given) {
+  const Arguments arguments(given);
   TraceOptions options;
-  options.solver = choose<Solver>(solver, "solver");
-  options.threads = threads;
-  options.isa = isa;
+  options.solver = arguments.choice<Solver>("solver").value_or(options.solver);
+  options.threads = static_cast<unsigned>(arguments.whole("threads", thread_counts).value_or(0));
+  options.isa = isa_of(arguments).value_or("auto");
   return options;
 }
 
+/// The point that is subtracted; none for "auto".
+std::optional<Vec3d> origin_of(const py::object& given) {
+  if (given.is_none()) return std::nullopt;
+  const Numbers point(given, "origin", {.rows = 3});
+  const Vec3d origin{point.at(0), point.at(1), point.at(2)};
+  for (const double x : {origin.x, origin.y, origin.z}) {
+    if (!std::isfinite(x)) throw_error("origin", "must be finite, is " + number_text(x));
+  }
+  return origin;
+}
+
 TracerHandle of_spheres(const py::object& centers, const py::object& radii,
-                        const std::optional<std::array<double, 3>>& origin,
-                        const TraceOptions& options) {
+                        const std::optional<Vec3d>& zero, const TraceOptions& options) {
   const SphereInput input(centers, radii);
-  std::optional<Vec3d> zero;
-  if (origin) zero = Vec3d{(*origin)[0], (*origin)[1], (*origin)[2]};
   return take(interruptible([=](Call& call) -> Result<TracerHandle> {
     auto placed = place_spheres(input, zero, call.parallel_for());
     if (!placed) return placed.error();
@@ -182,11 +193,11 @@ TracerHandle of_scene(const py::object& source, const TraceOptions& options) {
 }
 
 /// A Tracer of spheres in arrays; or, without radii, of a scene.
-TracerHandle make(const py::object& source, const py::object& radii,
-                  const std::optional<std::array<double, 3>>& origin, const std::string& solver,
-                  unsigned threads, const std::string& isa) {
-  const TraceOptions options = options_of(solver, threads, isa);
-  return radii.is_none() ? of_scene(source, options) : of_spheres(source, radii, origin, options);
+TracerHandle make(const py::object& source, const py::object& radii, const py::object& origin,
+                  const py::dict& given) {
+  const TraceOptions options = options_of(given);
+  const std::optional<Vec3d> zero = origin_of(origin);
+  return radii.is_none() ? of_scene(source, options) : of_spheres(source, radii, zero, options);
 }
 
 py::dict statistics(const TracerHandle& tracer) {
@@ -211,7 +222,7 @@ py::dict statistics(const TracerHandle& tracer) {
 void bind_tracing(py::module_& module) {
   py::class_<SharedTracer, TracerHandle>(module, "Tracer")
       .def(py::init(&make), py::arg("source"), py::arg("radii"), py::arg("origin"),
-           py::arg("solver"), py::arg("threads"), py::arg("isa"))
+           py::arg("options"))
       .def("closest", &closest, py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
       .def("any", &any, py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
       .def("stats", &statistics);

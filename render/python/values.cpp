@@ -56,13 +56,13 @@ TomlMembers TreeBuilder::members(const py::dict& table, const std::string& path)
   TomlMembers members;
   for (const auto& [key, object] : table) {
     if (object.is_none()) continue;
-    if (!py::isinstance<py::str>(key))
-      throw_error(path, "keys must be text, got " + type_name(key));
-    std::string name = to_text(key, path);
-    if (name.empty()) {
+    if (key.is_none() && py::isinstance<py::list>(object)) {
       add_in_order(object, path, members);
       continue;
     }
+    if (!py::isinstance<py::str>(key))
+      throw_error(path, "keys must be text, got " + type_name(key));
+    std::string name = to_text(key, path);
     const TextPlace place = next_place();
     TomlValue one = value(object, inner_path(path, name));
     members.push_back({std::move(name), place, std::move(one)});

@@ -23,7 +23,7 @@ struct Data {
 
 /// Makes a TOML tree of dictionaries, lists and numbers of Python, so that the reader of scene
 /// files reads them: names, defaults, rules and errors are the same. What is None is left out. Data
-/// get names and are collected. Under the key "" stands a list of pairs (key, table): tables of
+/// get names and are collected. Under the key None stands a list of pairs (key, table): tables of
 /// several keys in one order, as ids count them.
 class TreeBuilder {
  public:

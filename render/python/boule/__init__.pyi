@@ -103,8 +103,8 @@ class Phong:
     ) -> None: ...
 
 class Pinhole:
-    eye: _Vector
-    look_at: _Vector
+    eye: _Vector | None
+    look_at: _Vector | None
     up: _Vector
     fov: float
     fov_axis: _FovAxis
@@ -113,8 +113,8 @@ class Pinhole:
     def __init__(
         self,
         *,
-        eye: _Vector = ...,
-        look_at: _Vector = ...,
+        eye: _Vector | None = ...,
+        look_at: _Vector | None = ...,
         up: _Vector = ...,
         fov: float = ...,
         fov_axis: _FovAxis = ...,
@@ -123,8 +123,8 @@ class Pinhole:
     ) -> None: ...
 
 class Orthographic:
-    eye: _Vector
-    look_at: _Vector
+    eye: _Vector | None
+    look_at: _Vector | None
     up: _Vector
     height: float
     distortion: Distortion | None
@@ -132,8 +132,8 @@ class Orthographic:
     def __init__(
         self,
         *,
-        eye: _Vector = ...,
-        look_at: _Vector = ...,
+        eye: _Vector | None = ...,
+        look_at: _Vector | None = ...,
         up: _Vector = ...,
         height: float = ...,
         distortion: Distortion | None = ...,
@@ -141,8 +141,8 @@ class Orthographic:
     ) -> None: ...
 
 class Fisheye:
-    eye: _Vector
-    look_at: _Vector
+    eye: _Vector | None
+    look_at: _Vector | None
     up: _Vector
     fov: float
     fov_axis: _FovAxis
@@ -151,8 +151,8 @@ class Fisheye:
     def __init__(
         self,
         *,
-        eye: _Vector = ...,
-        look_at: _Vector = ...,
+        eye: _Vector | None = ...,
+        look_at: _Vector | None = ...,
         up: _Vector = ...,
         fov: float = ...,
         fov_axis: _FovAxis = ...,
@@ -161,12 +161,12 @@ class Fisheye:
     ) -> None: ...
 
 class ThinLens:
-    eye: _Vector
-    look_at: _Vector
+    eye: _Vector | None
+    look_at: _Vector | None
     up: _Vector
     fov: float
     fov_axis: _FovAxis
-    aperture: float
+    aperture: float | None
     focus: float | _Vector | None
     f_number: float | None
     focal_length: float | None
@@ -175,12 +175,12 @@ class ThinLens:
     def __init__(
         self,
         *,
-        eye: _Vector = ...,
-        look_at: _Vector = ...,
+        eye: _Vector | None = ...,
+        look_at: _Vector | None = ...,
         up: _Vector = ...,
         fov: float = ...,
         fov_axis: _FovAxis = ...,
-        aperture: float = ...,
+        aperture: float | None = ...,
         focus: float | _Vector | None = ...,
         f_number: float | None = ...,
         focal_length: float | None = ...,
@@ -189,8 +189,8 @@ class ThinLens:
     ) -> None: ...
 
 class Lens:
-    eye: _Vector
-    look_at: _Vector
+    eye: _Vector | None
+    look_at: _Vector | None
     up: _Vector
     file: _Path | None
     film_width: float
@@ -199,11 +199,12 @@ class Lens:
     f_number: float | None
     distortion: Distortion | None
     key: Sequence[_Key] | None
+    surfaces: NDArray[Any] | None
     def __init__(
         self,
         *,
-        eye: _Vector = ...,
-        look_at: _Vector = ...,
+        eye: _Vector | None = ...,
+        look_at: _Vector | None = ...,
         up: _Vector = ...,
         file: _Path | None = ...,
         film_width: float = ...,
@@ -237,6 +238,7 @@ class Fit:
 
 class Distortion:
     file: _Path | None
+    st: NDArray[Any] | None
     def __init__(
         self,
         *,
@@ -267,6 +269,7 @@ class GradientBackground:
 class EnvironmentBackground:
     file: _Path | None
     rotation: float
+    pixels: NDArray[Any] | None
     def __init__(
         self,
         *,
@@ -428,7 +431,6 @@ _Light = Union[PointLight, DirectionalLight, SphereLight]
 _Map = Union[str, Sequence[str]]
 
 class Spheres:
-    range: list[float] | None
     color: _Color | None
     material: _Material | str | None
     def __init__(
@@ -451,6 +453,8 @@ class Spheres:
     def radii(self) -> NDArray[np.float32]: ...
     @property
     def colors(self) -> NDArray[np.uint8] | None: ...
+    @property
+    def range(self) -> list[float] | None: ...
 
 class _Objects:
     spheres: list[Sphere | Spheres | Particles]
@@ -646,8 +650,8 @@ def frames(
 def from_particles(
     positions: ArrayLike,
     *,
-    species: Sequence[str] | Sequence[int] | NDArray[Any] | None = ...,
-    columns: Mapping[str, Sequence[float] | Sequence[str] | NDArray[Any]] | None = ...,
+    species: Sequence[str] | Sequence[bytes] | Sequence[float] | NDArray[Any] | None = ...,
+    columns: Mapping[str, Sequence[float] | Sequence[str] | Sequence[bytes] | NDArray[Any]] | None = ...,
     cell: ArrayLike | None = ...,
     periodic: Sequence[bool] = ...,
     angstrom: float = ...,

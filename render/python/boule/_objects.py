@@ -31,11 +31,28 @@ _MORE = {
         "wrap", "replicate", "material",
     ),
 }  # fmt: skip
-# Arrays that take the place of a file, and what makes data of them.
+# Arrays that take the place of a file: how many numbers each element has, and what makes data of
+# them.
 _ARRAYS = {
-    "pixels": lambda value: _core.picture(value, "pixels", 3),
-    "st": lambda value: _core.picture(value, "st", 2),
-    "surfaces": _core.lens,
+    "pixels": (3, lambda value: _core.picture(value, "pixels", 3)),
+    "st": (2, lambda value: _core.picture(value, "st", 2)),
+    "surfaces": (4, _core.lens),
+}
+# Keys without which there is no such object, and what is said of them.
+_REQUIRED = {
+    "pinhole": (("eye", "look_at"), "eye and look_at, each here or in key"),
+    "orthographic": (("eye", "look_at"), "eye and look_at, each here or in key"),
+    "fisheye": (("eye", "look_at"), "eye and look_at, each here or in key"),
+    "thin_lens": (
+        ("eye", "look_at", "aperture"),
+        "eye, look_at and aperture, each here or in key; or f_number with focal_length in place "
+        "of aperture",
+    ),
+    "lens": (("eye", "look_at"), "eye and look_at, each here or in key; file or surfaces"),
+    "environment": ((), "file or pixels"),
+    "distortion": ((), "file or st"),
+    "instance": (("group",), "group"),
+    "particles": (("file",), "file"),
 }
 
 
@@ -62,6 +79,7 @@ class Table:
 
     _kind = ""
     _type = ""
+    _array = ""  # the key that has an array in place of 'file', if any
     _defaults: dict = {}
 
     def __init__(self, **keys):
@@ -71,15 +89,16 @@ class Table:
     def _checked(cls, keys):
         """The keys with plain values, if the reader of scene files takes them."""
         keys = {name: value for name, value in keys.items() if value is not None}
-        for name in [name for name in keys if name in _ARRAYS and name in cls._defaults]:
+        array = cls._array
+        if array in keys:
             if "file" in keys:
-                raise error(name, "cannot stand beside 'file'")
-            keys["file"] = _ARRAYS[name](keys.pop(name))
-        if cls._kind == "distortion":
-            if set(keys) != {"file"}:
-                raise error("file", "missing key 'file', or 'st'")
-            return keys
-        plain = _core.check(cls._kind, _at_rest(cls._table_of(keys, _short_name)))
+                raise error(array, "cannot stand beside 'file'")
+            if not isinstance(keys[array], _core.Data):
+                keys[array] = _ARRAYS[array][1](keys[array])
+        moves = keys.get("key", ())
+        if not isinstance(moves, (list, tuple)) or not all(isinstance(one, dict) for one in moves):
+            raise error("key", "expected a list of dictionaries, each with 'frame'")
+        plain = _core.check(cls._kind, cls._table_of(keys, _short_name), array)
         return {name: _kept(name, value, plain) for name, value in keys.items()}
 
     @classmethod
@@ -88,10 +107,10 @@ class Table:
         table = {} if cls._type == "" else {"type": cls._type}
         for name, value in keys.items():
             if isinstance(value, Table) and name == "distortion":
-                value = dict(value._keys)
+                value = value._table(names)
             elif name in ("material", "group") and not isinstance(value, str):
                 value = names(name, value)
-            table[name] = value
+            table["file" if name == cls._array else name] = value
         return table
 
     def _table(self, names):
@@ -119,25 +138,12 @@ class Table:
         return f"{type(self).__name__}({keys})"
 
 
-def _at_rest(table):
-    """A camera's table as its keys begin; those are checked frame by frame with the scene."""
-    moves = table.pop("key", None)
-    if moves is None:
-        return table
-    if not isinstance(moves, (list, tuple)) or not all(isinstance(one, dict) for one in moves):
-        raise error("key", "expected a list of dictionaries, each with 'frame'")
-    for one in reversed(moves):
-        table.update({name: value for name, value in one.items() if name != "frame"})
-    return table
-
-
 def _short_name(kind, value):
     """A name for what is checked without its scene."""
     if isinstance(value, Table) and value._kind == "material":
         return "a material"
-    name = getattr(value, "name", None)
-    if kind == "group" and isinstance(name, str):
-        return name
+    if kind == "group" and hasattr(value, "name"):
+        return value.name or "a group"
     raise error(kind, f"expected a name or a {kind}, got {type(value).__name__}")
 
 
@@ -147,14 +153,25 @@ def _kept(name, value, plain):
     return value if is_object else plain.get(name, value)
 
 
-def _property(name, default):
+def _property(name, default, is_required):
     def get(self):
         return self._keys.get(name, default)
 
     def set(self, value):
         self.__setattr__(name, value)
 
-    return property(get, set, doc=f"default: {default!r}")
+    return property(get, set, doc="required" if is_required else f"default: {default!r}")
+
+
+def _array_property(name):
+    def get(self):
+        data = self._keys.get(name)
+        return None if data is None else _core.array_of(data, _ARRAYS[name][0])
+
+    def set(self, value):
+        self.__setattr__(name, value)
+
+    return property(get, set, doc="float32, a read-only view; None where file is given")
 
 
 def _defaults_of(kind, type_name):
@@ -165,19 +182,24 @@ def _defaults_of(kind, type_name):
         defaults[name] = default
     for name in _MORE.get(type_name, ()):
         defaults.setdefault(name, None)
+    for name in _REQUIRED.get(type_name, ((),))[0]:
+        defaults[name] = None
     return defaults
 
 
 def _fill(cls, kind, type_name, type_key):
     """Gives a class its keys."""
     defaults = _defaults_of(kind, type_name)
+    required, told = _REQUIRED.get(type_name, ((), ""))
     cls._kind = "camera" if kind == "fit" else kind
     cls._type = type_name if type_key else ""
     cls._defaults = defaults
     for name, default in defaults.items():
         if name in _ARRAYS:
-            continue
-        setattr(cls, name, _property(name, default))
+            cls._array = name
+            setattr(cls, name, _array_property(name))
+        else:
+            setattr(cls, name, _property(name, default, name in required))
     parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)] + [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default)
         for name, default in defaults.items()
@@ -188,8 +210,11 @@ def _fill(cls, kind, type_name, type_key):
 
     __init__.__signature__ = inspect.Signature(parameters)
     cls.__init__ = __init__
-    shown = ", ".join(f"{name}={default!r}" for name, default in defaults.items())
-    cls.__doc__ = f"{inspect.cleandoc(cls.__doc__ or '')}\n\nKeys and their defaults: {shown}"
+    shown = ", ".join(f"{n}={default!r}" for n, default in defaults.items() if n not in required)
+    needed = f"\n\nRequired: {told}." if told else ""
+    cls.__doc__ = (
+        f"{inspect.cleandoc(cls.__doc__ or '')}{needed}\n\nKeys and their defaults: {shown}"
+    )
     cls.__module__ = "boule"
     return cls
 
@@ -230,7 +255,7 @@ class Phong(Table):
 
 @_of("camera", "pinhole")
 class Pinhole(Table):
-    """All rays from the eye. eye and look_at are required; fov in degrees, above 0, below 180."""
+    """All rays from the eye; fov in degrees, above 0, below 180."""
 
 
 @_of("camera", "orthographic")

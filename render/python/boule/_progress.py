@@ -53,17 +53,32 @@ def _open_bar():
     return _Tqdm(tqdm)
 
 
+class _Tick:
+    """Passes on the share that is done; None, while the scene is prepared, is 0. All of it is told
+    once, by finish()."""
+
+    def __init__(self, show):
+        self._show = show
+
+    def __call__(self, share):
+        if share is None or share < 1:
+            self._show(0.0 if share is None else share)
+
+    def finish(self):
+        self._show(1.0)
+
+
 @contextlib.contextmanager
 def reporter(progress):
-    """What is called with the share that is done (None while the scene is prepared); or None."""
+    """A _Tick for what progress asks for, or None."""
     if progress is None or progress is False:
         yield None
     elif callable(progress):
-        yield lambda share: progress(0.0 if share is None else share)
+        yield _Tick(progress)
     elif progress is True:
         bar = _open_bar()
         try:
-            yield lambda share: bar.show(0.0 if share is None else share)
+            yield _Tick(bar.show)
         finally:
             bar.close()
     else:

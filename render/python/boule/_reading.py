@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from . import _objects as objects
+from ._core import Data
 from ._scene import Group, Spheres
 
 _CLASSES = {
@@ -20,6 +21,8 @@ def _object(kind, values):
 
 def _made(cls, keys):
     """An object of keys that were read, and so are right."""
+    if isinstance(keys.get("file"), Data):
+        keys = {cls._array if name == "file" else name: value for name, value in keys.items()}
     made = cls.__new__(cls)
     made.__setstate__(keys)
     return made

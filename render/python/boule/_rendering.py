@@ -46,7 +46,7 @@ def render(
     order: "rows", "tiles", "progressive" (with partial) or "frameless"; never shows in a finished
         picture. tile: its side in pixels. solver, threads, isa: as for Tracer.
     progress: True shows a bar (tqdm's if it is installed); or a function, called with the share
-        that is done, 0 to 1.
+        that is done, 0 to 1; 1 comes once, at the end of a render that was not stopped.
 
     Raises Interrupted, a KeyboardInterrupt, after Ctrl-C; its picture is what there is.
     """
@@ -67,6 +67,8 @@ def render(
     }  # fmt: skip
     with reporter(progress) as tick:
         picture, stopped = _core.render(source, keys, options, tick)
+        if tick is not None and stopped is None and picture.finished:
+            tick.finish()
     if stopped is None or (partial and picture is not None and _is_stop(stopped)):
         return picture
     if isinstance(stopped, KeyboardInterrupt):

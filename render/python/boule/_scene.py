@@ -30,6 +30,9 @@ class Spheres:
         says what its ends stand for (the 1st to the 99th percentile).
     color: one colour for all, "#rrggbb" or three linear numbers from 0 to 1.
     material: a material, or the name of one in Scene.materials.
+
+    Of these, color and material can be set afterwards. All are checked when they are set, but for
+    the name of a material, which is looked up when the scene is rendered.
     """
 
     def __init__(
@@ -38,11 +41,9 @@ class Spheres:
     ):  # fmt: skip
         if color is not None and not (colors is None and scalar is None):
             raise error("color", "cannot stand beside 'colors' or 'scalar'")
-        Sphere(color=color)  # checks it
-        self._data, chosen = _core.spheres(
+        self._data, self._range = _core.spheres(
             centers, radii, colors, color_space, scalar, map, range
         )
-        self.range = chosen
         self.color = color
         self.material = material
 
@@ -51,7 +52,8 @@ class Spheres:
         """Those of a scene that was read."""
         self = cls.__new__(cls)
         self._data = data
-        self.range = self.color = self.material = None
+        self._range = None
+        self.color = self.material = None
         return self
 
     def __len__(self):
@@ -74,6 +76,31 @@ class Spheres:
     def colors(self):
         """The colours that they have of their own: N x 3 of uint8, or None."""
         return _core.sphere_colors(self._data)
+
+    @property
+    def range(self):
+        """What the ends of map stand for, [low, high], given or chosen; None without scalar."""
+        return None if self._range is None else list(self._range)
+
+    @property
+    def color(self):
+        """One colour for all, or None."""
+        return self._color
+
+    @color.setter
+    def color(self, value):
+        Sphere(color=value)  # checks it
+        self._color = value
+
+    @property
+    def material(self):
+        """A material, or the name of one in Scene.materials; None: the default of a scene."""
+        return self._material
+
+    @material.setter
+    def material(self, value):
+        Sphere(material=value)  # checks it
+        self._material = value
 
     def __repr__(self):
         return f"<boule.Spheres, {len(self)} of them>"
@@ -122,23 +149,43 @@ class _Objects:
 
     def _object_tables(self, names):
         """The lists of objects as scene files have them."""
-        tables = {}
         kinds = {Sphere: "sphere", Spheres: "spheres", Particles: "particles"}
         order = []
-        for place, one in enumerate(self.spheres):
-            kind = kinds.get(type(one))
+        for place, one in enumerate(_listed(self.spheres, "spheres")):
+            kind = next((name for cls, name in kinds.items() if isinstance(one, cls)), None)
             if kind is None:
                 raise error(f"spheres[{place}]", f"expected spheres, got {type(one).__name__}")
             order.append((kind, one._table(names)))
-        tables[""] = order
+        tables = {None: order}  # in one order, as ids count them: see TreeBuilder
         for key, kind in (("plane", Plane), ("instance", Instance)):
             tables[key] = [_table(one, kind, f"{key}[{i}]", names)
-                           for i, one in enumerate(getattr(self, key + "s"))]  # fmt: skip
+                           for i, one in enumerate(_listed(getattr(self, key + "s"), key + "s"))]  # fmt: skip
         return tables
 
 
+def _listed(values, key):
+    """A list of a scene or a group, which anyone may have set to something else, as a new one."""
+    try:
+        return list(values)
+    except TypeError:
+        raise error(key, f"expected a list, got {type(values).__name__}") from None
+
+
+def _named(values, key):
+    """A dictionary of a scene by name, as a new one."""
+    try:
+        known = dict(values)
+    except (TypeError, ValueError):
+        raise error(key, f"expected a dictionary, got {type(values).__name__}") from None
+    for name in known:
+        if not isinstance(name, str):
+            raise error(key, f"names must be text, got {type(name).__name__}")
+    return known
+
+
 class Group(_Objects):
-    """Objects with coordinates of their own, which instances show."""
+    """Objects with coordinates of their own, which instances show. name is that which it gets in
+    what is rendered where it does not stand in Scene.groups; it may be empty."""
 
     def __init__(self, name=""):
         self.name = name
@@ -168,8 +215,8 @@ class _Names:
     in Scene.materials or Scene.groups are added to what is rendered, not to the scene."""
 
     def __init__(self, scene):
-        self.materials = dict(scene.materials)
-        self.groups = dict(scene.groups)
+        self.materials = _named(scene.materials, "materials")
+        self.groups = _named(scene.groups, "groups")
 
     def __call__(self, kind, value):
         known = self.materials if kind == "material" else self.groups
@@ -185,7 +232,11 @@ class _Names:
         )
         if not is_right:
             raise error(kind, f"expected a {kind} or its name, got {type(value).__name__}")
-        name = value.name if kind == "group" else type(value).__name__.lower()
+        name = type(value).__name__.lower()
+        if kind == "group" and value.name not in ("", None):
+            name = value.name
+        if not isinstance(name, str):
+            raise error(kind, f"the name of a group must be text, is {type(name).__name__}")
         number = 1
         free = name
         while free in known:
@@ -209,6 +260,8 @@ class Scene(_Objects):
     planes, instances: lists of Plane and Instance. groups: a dictionary of Group by name.
     origin: a point that is subtracted from all points before they are rounded, or "auto".
     notes, warnings: what was told when the scene was read. legend: what its colours mean, as SVG.
+
+    What these attributes hold is checked when the scene is rendered or traced.
     """
 
     def __init__(
@@ -222,12 +275,12 @@ class Scene(_Objects):
         self.background = ConstantBackground() if background is None else background
         self.ambient = ambient
         self.backdrop = backdrop
-        self.materials = dict(materials or {})
-        self.lights = list(lights or [])
-        self.spheres = list(spheres or [])
-        self.planes = list(planes or [])
-        self.groups = dict(groups or {})
-        self.instances = list(instances or [])
+        self.materials = {} if materials is None else _named(materials, "materials")
+        self.lights = [] if lights is None else _listed(lights, "lights")
+        self.spheres = [] if spheres is None else _listed(spheres, "spheres")
+        self.planes = [] if planes is None else _listed(planes, "planes")
+        self.groups = {} if groups is None else _named(groups, "groups")
+        self.instances = [] if instances is None else _listed(instances, "instances")
         self.origin = origin
         self.notes = []
         self.warnings = []
@@ -259,7 +312,8 @@ class Scene(_Objects):
         background["backdrop"] = self.backdrop
         tree["background"] = background
         tree["light"] = [
-            _kind_table(light, "light", f"light[{i}]") for i, light in enumerate(self.lights)
+            _kind_table(light, "light", f"light[{i}]")
+            for i, light in enumerate(_listed(self.lights, "lights"))
         ]
         objects = self._object_tables(names)
         groups = {}
@@ -289,4 +343,4 @@ class Scene(_Objects):
 
 def _in_order(tables):
     """Objects with their places: see _core.read."""
-    return {"": tables[""], **{key: rows for key, rows in tables.items() if key and rows}}
+    return {None: tables[None], **{key: rows for key, rows in tables.items() if key and rows}}

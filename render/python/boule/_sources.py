@@ -74,7 +74,8 @@ def frames(source, frames=None, *, polygons="plane", **look):
     frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
 
     What is left to be chosen is chosen once for all of them, as `boule render --frames` does it: the
-    camera is fitted to all frames, colour maps have the range of the first.
+    camera is fitted to all frames, colour maps have the range of the first. A file that has one frame
+    and no #### in its name shows it under every number, as there.
     """
     path = path_of(source)
     keys = {**look_keys(**look), "polygons": polygons}
@@ -107,9 +108,14 @@ def from_particles(
 ):
     """The scene that shows particles, as `boule render` shows a file of them.
 
-    positions: N x 3. species: N symbols or atomic numbers. columns: a dictionary of N numbers or
-    texts by name, which color, radius and select may name. cell: 3 x 3, its edges; periodic: along
-    which of them. angstrom: how many one unit of length has (10 for nm). look: as for load().
+    positions: N x 3, finite. species: N symbols, as text or bytes, or atomic numbers, whole from 0
+        (ASE's X, no element) to 118; other texts name what is no element.
+    columns: a dictionary of N numbers or texts by name, which color, radius and select may name.
+    cell: 3 x 3, its edges; periodic: along which of them.
+    angstrom: how many one unit of length has (10 for nm), finite and above 0.
+    look: as for load().
+
+    Raises boule.Error with the argument as its key: "species" for what is neither.
     """
     data = particles(
         positions, species=species, columns=columns, cell=cell, periodic=periodic,

@@ -33,7 +33,7 @@ class Tracer:
     Tracer(centers, radii): N x 3 and N (or one number), float32 or float64, read where they are and
         rounded once; origin ("auto" or a point) is subtracted before, and from rays too.
     Tracer(scene): a Scene or the name of a scene file.
-    solver: "robust", "fast" or "reference". threads: 0 is all. isa: see `boule isa`.
+    solver: "robust", "fast" or "reference". threads: 0 to 1024, 0 is all. isa: see `boule isa`.
 
     The arrays may be changed or dropped afterwards. Any threads may call a Tracer; one call at a
     time works, the others wait.
@@ -55,7 +55,8 @@ class Tracer:
             if origin != "auto":
                 raise error("origin", f'expected "auto" or a point, got {origin!r}')
             origin = None
-        self._tracer = _core.Tracer(source, radii, origin, solver, threads, isa)
+        options = {"solver": solver, "threads": threads, "isa": isa}
+        self._tracer = _core.Tracer(source, radii, origin, options)
 
     def closest(self, org, dir, tmin=0.0, tmax=float("inf")):
         """The nearest hits with tmin < t <= tmax, of equally near ones that with the lowest id.

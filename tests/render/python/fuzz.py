@@ -125,7 +125,7 @@ class Caller:
             return
         made = cls(**self.keys(list(cls._defaults) + ["x"]))
         setattr(made, self.random.choice([*cls._defaults, "y"]), self.value())
-        repr(made)
+        repr(made), [getattr(made, key) for key in cls._defaults]
 
     def make_spheres(self):
         count = self.one_of(0, 1, 20)
@@ -143,11 +143,8 @@ class Caller:
         names = ["image", "render", "camera", "background", "ambient", "backdrop", "origin", "lights",
                  "spheres", "planes", "materials", "groups", "instances"]  # fmt: skip
         name = self.random.choice(names)
-        try:
-            setattr(scene, name, self.one_of(self.value(), [self.value()], {"a": self.value()}))
-            boule.render(scene, size=(4, 3))
-        except (KeyError, ValueError):
-            pass  # of Python itself, where a list or dictionary of the scene's is none any more
+        setattr(scene, name, self.one_of(self.value(), [self.value()], {"a": self.value()}))
+        boule.render(scene, size=(4, 3))
 
     def render(self):
         names = ["size", "spp", "filter", "background", "outline", "seed", "crop", "aov", "method",
@@ -174,15 +171,19 @@ class Caller:
             lambda: boule.EnvironmentBackground(pixels=self.array(4, 8, 3)),
             lambda: boule.Distortion(st=self.array(4, 8, 2)),
             lambda: boule.Lens(eye=(0, 0, 1), look_at=(0, 0, 0), surfaces=self.array(4, 4)),
-        )
-        made()
+        )()
+        name = made._array
+        setattr(made, name, self.array(*getattr(made, name).shape))
 
     def make_particles(self):
         count = self.one_of(0, 1, 30)
         scene = boule.from_particles(
             self.array(count, 3),
-            species=self.one_of(None, ["C"] * count, self.array(count)),
-            columns=self.one_of({}, {"q": self.array(count)}, {"t": ["a"] * count}, self.value()),
+            species=self.one_of(None, ["C"] * count, self.array(count), [self.value()] * count,
+                                [b"C", "O", 6] * (count // 3)),
+            columns=self.one_of({}, {"q": self.array(count)}, {"t": ["a"] * count},
+                                {"t": ["a", self.value()] * (count // 2)}, self.value()),
+            angstrom=self.one_of(1, 10, 1e-40, self.value()),
             cell=self.one_of(None, self.array(3, 3)), periodic=self.one_of((), [True] * 3),
             **self.keys(["look", "color", "radius", "scale", "select", "view", "map", "range"], 2),
         )  # fmt: skip

@@ -164,6 +164,29 @@ def test_progress_counts_and_may_stop(ball, endless, capsys):
         boule.render(ball, progress="yes")
 
 
+@pytest.mark.parametrize("size", [(8, 8), (160, 120)])
+@pytest.mark.parametrize("noise", [0, 0.1])
+def test_progress_ends_with_1(ball, size, noise):
+    shares = []
+    picture = boule.render(ball, size=size, spp=32, noise=noise, progress=shares.append)
+    assert picture.finished and shares[-1] == 1 and shares.count(1) == 1
+    assert shares == sorted(shares)
+
+
+def test_progress_of_what_was_stopped_is_below_1(endless):
+    shares = []
+    boule.render(endless, progress=shares.append, time_limit=0.3, partial=True)
+    assert all(share < 1 for share in shares)
+
+
+def test_the_own_bar_is_full_at_the_end(monkeypatch, ball, capsys):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    boule.render(ball, progress=True)
+    assert capsys.readouterr().err.endswith("] 100 %\n")
+
+
 def test_the_own_bar(monkeypatch, endless, capsys):
     import sys
 
@@ -219,7 +242,10 @@ def test_a_forked_process_renders_too(ball):
         ({"size": (0, 4)}, "size", "must be 1 to 65535, is 0"),
         ({"size": 4}, "size", "expected 2 whole numbers"),
         ({"spp": 1.5}, "spp", "expected a whole number, got float"),
-        ({"spp": 10**30}, "spp", "must be 1 or above"),
+        ({"spp": 10**30}, "spp", "must be 1 or above and at most 2147483647, is 1000000"),
+        ({"max_depth": 2**31}, "max_depth", "at most 2147483647, is 2147483648"),
+        ({"min_spp": 2**31}, "min_spp", "at most 2147483647, is 2147483648"),
+        ({"frame": 2**40}, "frame", "at most 2147483647, is 1099511627776"),
         ({"seed": -1}, "seed", "must be from 0"),
         ({"filter": "tint"}, "filter", "did you mean 'tent'?"),
         ({"background": "red"}, "background", "expected a colour"),
@@ -229,7 +255,7 @@ def test_a_forked_process_renders_too(ball):
         ({"method": "magic"}, "method", "expected 'whitted' or 'path'"),
         ({"time_limit": 0}, "time_limit", "must be above 0"),
         ({"order": "up"}, "order", "unknown name"),
-        ({"isa": "mmx"}, None, "mmx"),
+        ({"isa": "mmx"}, "isa", "mmx"),
         ({"threads": 2000}, "threads", "is 2000"),
         ({"partial": 1}, "partial", "expected True or False"),
         ({"look": "paper"}, "look", "is of files"),
@@ -243,9 +269,28 @@ def test_errors_name_the_argument(ball, options, key, words):
         assert caught.value.key == key
 
 
+@pytest.mark.parametrize("exposure", [np.nan, np.inf, 101, -101, 1e9])
+def test_exposures_are_those_of_files(ball, exposure, tmp_path):
+    picture = boule.render(ball, size=(8, 6))
+    for call in (picture.to_srgb, lambda exposure: picture.save(tmp_path / "a.png", exposure=exposure)):
+        with pytest.raises(boule.Error, match="must be from -100 to 100") as caught:
+            call(exposure=exposure)
+        assert caught.value.key == "exposure"
+    assert not np.array_equal(picture.to_srgb(exposure=1), picture.to_srgb())
+
+
 def test_memory_errors_are_memory_errors(ball):
     with pytest.raises(MemoryError, match="65535 x 65535"):
         boule.render(ball, size=(65535, 65535))
+
+
+def test_saving_channels_leaves_the_calling_thread_free(ball, tmp_path):
+    """It looks for Ctrl-C meanwhile. Where it copied them, it had a sixth of the work or more."""
+    picture = boule.render(ball, size=(1000, 800), aov="depth,normal,position,id,albedo")
+    mine, all_threads = time.thread_time(), time.process_time()
+    picture.save(tmp_path / "a.exr")
+    mine, all_threads = time.thread_time() - mine, time.process_time() - all_threads
+    assert mine < all_threads / 10
 
 
 def test_a_picture_that_cannot_be_written(ball, tmp_path):

@@ -71,6 +71,71 @@ def test_particles_in_memory_are_those_of_the_file(water):
         assert np.array_equal(pixels(made), told)
 
 
+CARBON = boule.from_particles(np.zeros((1, 3)), species=["C"])
+
+
+@pytest.mark.parametrize(
+    "species",
+    [
+        np.full(3, 6), np.full(3, 6.0), np.full(3, 6, np.float32), np.full(3, 6, np.uint8),
+        np.array([b"C"] * 3), [b"C"] * 3, np.array(["C"] * 3, object), [6, "C", np.int64(6)],
+        [6.0, np.float32(6), np.str_("C")], [np.array(6)] * 3,
+    ],
+)  # fmt: skip
+def test_species_are_symbols_or_atomic_numbers(species):
+    positions = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0.0]])
+    made = boule.from_particles(positions, species=species)
+    assert (made.spheres[0].radii == CARBON.spheres[0].radii[0]).all()
+    assert "C</text>" in made.legend or ">C<" in made.legend
+
+
+def test_every_element_has_a_symbol():
+    made = boule.from_particles(np.arange(357).reshape(119, 3), species=range(119))
+    for symbol in ("X", "H", "Og", "Mt", "Ds", "Ts"):
+        assert f">{symbol}<" in made.legend
+    assert ">118<" not in made.legend and ">0<" not in made.legend
+
+
+@pytest.mark.parametrize(
+    "bad", [6.5, -1, 119, 10**30, np.nan, np.inf, None, True, np.True_, b"\xff", object(), [6]],
+)  # fmt: skip
+def test_what_is_no_species_is_refused(bad):
+    with pytest.raises(boule.Error) as caught:
+        boule.from_particles(np.zeros((2, 3)), species=["C", bad])
+    assert caught.value.key == "species"
+    is_text = isinstance(bad, bytes)
+    told = "UTF-8" if is_text else "row 1: expected a symbol or an atomic number from 0 to 118, got "
+    assert told in str(caught.value)
+
+
+def test_columns_of_texts_may_be_bytes_and_numbers_those_of_numpy():
+    points = np.arange(6).reshape(2, 3)
+    text = boule.from_particles(points, columns={"t": [b"in", b"out"]}, color="t")
+    assert ">in<" in text.legend and ">out<" in text.legend
+    flags = boule.from_particles(points, columns={"t": np.array([True, False])}, color="t")
+    assert ">True<" in flags.legend
+    for numbers in ([np.int64(1), np.int64(2)], [np.float32(1), 2]):
+        made = boule.from_particles(points, columns={"q": numbers}, color="q", range=(1, 2))
+        assert np.array_equal(made.spheres[0].colors, boule.from_particles(
+            points, columns={"q": [1, 2]}, color="q", range=(1, 2)).spheres[0].colors)  # fmt: skip
+    with pytest.raises(boule.Error, match="row 1: expected a text, got NoneType") as caught:
+        boule.from_particles(points, columns={"t": ["a", None]})
+    assert caught.value.key == "t"
+
+
+@pytest.mark.parametrize("angstrom", [np.nan, np.inf, 0, -1, "nm"])
+@pytest.mark.parametrize("species", [None, ["C"]])
+def test_a_unit_of_length_is_above_0(angstrom, species):
+    with pytest.raises(boule.Error) as caught:
+        boule.from_particles(np.zeros((1, 3)), species=species, angstrom=angstrom)
+    assert caught.value.key == "angstrom"
+
+
+def test_a_unit_of_length_scales_radii():
+    nm = boule.from_particles(np.zeros((1, 3)), species=["C"], angstrom=10)
+    assert nm.spheres[0].radii[0] == np.float32(CARBON.spheres[0].radii[0] / np.float32(10))
+
+
 def test_atoms_of_ase_are_those_of_the_file(tmp_path):
     io = pytest.importorskip("ase.io")
     build = pytest.importorskip("ase.build")
@@ -110,6 +175,18 @@ def test_frames_of_a_trajectory(movie, tmp_path):
     last = boule.load(movie)
     assert np.array_equal(pixels(boule.load(movie, frame=2)), pixels(last))
     assert not np.array_equal(pixels(boule.load(movie, frame=0)), pixels(last))
+
+
+def test_a_file_of_one_frame_shows_it_under_every_number(water, tmp_path):
+    scenes = list(boule.frames(water, range(3, 5)))
+    assert len(scenes) == 2
+    assert np.array_equal(pixels(scenes[0]), pixels(scenes[1]))
+    subprocess.run([program(), "render", water, "-o", tmp_path / "f.#.exr", "--frames", "3-4",
+                    "--size", "48x36", "--spp", "2", "-q"], check=True)  # fmt: skip
+    boule.render(scenes[1], **SIZE).save(tmp_path / "one.exr")
+    assert (tmp_path / "one.exr").read_bytes() == (tmp_path / "f.4.exr").read_bytes()
+    with pytest.raises(boule.Error, match="has no frame 3"):
+        boule.load(water, frame=3)
 
 
 def test_frames_of_numbered_files(tmp_path):

@@ -199,6 +199,18 @@ def test_nothing_to_trace():
         (lambda t: boule.Tracer([[0, 0, np.nan]], 1), "centers", "row 0: must be finite, is nan"),
         (lambda t: boule.Tracer([[0, 0, 1e300]], 1, origin=(0, 0, 0)), "centers", "too large"),
         (lambda t: boule.Tracer(np.zeros((2, 3)), 1, solver="exact"), "solver", "unknown name"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, solver=3), "solver", "expected text"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, isa="x"), "isa", "expected one of auto"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, isa=3), "isa", "expected text"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, threads=-1), "threads", "0 to 1024, is -1"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, threads=1025), "threads", "0 to 1024"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, threads=1.5), "threads",
+         "expected a whole number, got float"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, origin=(0, 0, np.nan)), "origin",
+         "must be finite, is nan"),
+        (lambda t: boule.Tracer(np.zeros((2, 3)), 1, origin=(0, 0)), "origin",
+         "expected float32 or float64 of shape (3,), got int64 of shape (2,)"),
+        (lambda t: boule.Tracer(boule.Scene(), origin=3), "origin", "(3,)"),
     ],
 )  # fmt: skip
 def test_errors_say_what_was_expected(call, key, words):
@@ -207,6 +219,16 @@ def test_errors_say_what_was_expected(call, key, words):
     assert words in str(caught.value)
     assert caught.value.key == key
     assert isinstance(caught.value, ValueError)
+
+
+def test_options_of_a_tracer_change_no_hit():
+    centers, radii = cloud()
+    org, dir = rays()
+    expected = boule.Tracer(centers, radii).closest(org, dir)
+    for options in ({"threads": 1}, {"isa": "scalar"}, {"solver": "reference"},
+                    {"origin": np.zeros(3)}, {"origin": "auto"}):  # fmt: skip
+        hits = boule.Tracer(centers, radii, **options).closest(org, dir)
+        assert all((a == b).all() for a, b in zip(hits, expected)), options
 
 
 def test_threads_may_share_a_tracer():
