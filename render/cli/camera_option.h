@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/base/error.h"
@@ -7,9 +8,9 @@
 
 namespace boule::cli {
 
-/// Gives the scene the camera of --camera, whose keys are `keys`; empty: it keeps its own. One that
-/// is to be fitted is left out, and `fit` says how. Names of files in it are relative to the
-/// working directory.
-Status use_camera(const std::string& keys, LoadedScene& loaded);
+/// Gives the scene the camera of --camera, whose keys are `keys`, in this frame of a series; empty:
+/// it keeps its own. One that is to be fitted is left out, and `fit` says how. Names of files in it
+/// are relative to the working directory.
+Status use_camera(const std::string& keys, std::optional<int> frame, LoadedScene& loaded);
 
 }  // namespace boule::cli

@@ -84,8 +84,7 @@ std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& l
     break;
   }
   const std::string help = "boule " + app.get_name() + " --help";
-  // Three words may be the name of one column too: that shows when the file is read.
-  const bool has_map = has_color_map(look.color) || !three_names(look.color).empty();
+  const bool has_map = may_have_color_map(look.color);
   if (!look.map.empty() && !has_map) return UsageError{"--map needs --color COLUMN", help};
   if (look.range && !has_map) return UsageError{"--range needs --color COLUMN", help};
   return std::nullopt;

@@ -64,6 +64,10 @@ bool has_color_map(const std::string& color) {
   return !color.empty() && !is_kind && !color.starts_with('#') && !is_columns;
 }
 
+bool may_have_color_map(const std::string& color) {
+  return has_color_map(color) || !three_names(color).empty();
+}
+
 std::optional<std::string> parse_map(const std::string& text) {
   const auto& known = names<NamedColorMap>;
   const bool is_name = std::find(known.begin(), known.end(), text) != known.end();

@@ -30,6 +30,9 @@ std::optional<std::string> parse_particle_color(const std::string& text);
 /// words are the names of three columns, unless the file has one of that name.
 bool has_color_map(const std::string& color);
 
+/// True if they may be such a column, as three words may: it shows when the file is read.
+bool may_have_color_map(const std::string& color);
+
 /// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.
 std::optional<std::string> parse_map(const std::string& text);
 std::string list_color_maps();

@@ -58,7 +58,7 @@ class SeriesTotals {
   Stats work_;
 };
 
-/// Writes the legend, if one is asked for, of the first scene that was read.
+/// Writes the legend, if one is asked for.
 ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
   if (command.legend.empty()) return done;
   Status status;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -98,15 +99,37 @@ Result<LoadedScene> SceneLoader::load(std::optional<int> frame) {
   auto loaded = read(frame);
   if (!loaded) return loaded;
   if (std::exchange(is_first_, false)) {
-    if (frames_ && !shows_particles(loaded.value())) {
-      loaded = with_origin_of_others(std::move(loaded).value());
+    if (frames_) {
+      loaded = choose_for_series(std::move(loaded).value());
       if (!loaded) return loaded;
+    } else {
+      keep_choices(loaded.value());
     }
-    keep_choices(loaded.value());
-    if (frames_) look_at_others(loaded.value());
   }
   use_choices(loaded.value());
   return loaded;
+}
+
+/// Makes the choices of a series, and returns its first frame as it is with them. If that shows no
+/// particles, the first one that does says where points are counted from.
+Result<LoadedScene> SceneLoader::choose_for_series(LoadedScene first) {
+  std::uint64_t spheres = count_primitives(first.scene).spheres;
+  if (!shows_particles(first)) {
+    for (const int number : fitted_frames(*frames_, spheres)) {
+      const auto other = read(number);
+      if (!other) break;  // the error is told when its picture is made
+      if (!shows_particles(other.value())) continue;
+      options_.origin = other.value().origin;
+      spheres = std::max(spheres, count_primitives(other.value().scene).spheres);
+      auto again = read(frames_->first);
+      if (!again) return again;
+      first = std::move(again).value();
+      break;
+    }
+  }
+  keep_choices(first);
+  if (needs_others(first)) look_at_others(first, fitted_frames(*frames_, spheres));
+  return first;
 }
 
 /// A scene as it is by itself, but for the command line's camera, and the choices that are made
@@ -114,7 +137,7 @@ Result<LoadedScene> SceneLoader::load(std::optional<int> frame) {
 Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
   auto loaded = read_file(frame);
   if (!loaded) return loaded;
-  if (auto bad = use_camera(camera_keys_, loaded.value())) return *bad;
+  if (auto bad = use_camera(camera_keys_, frame, loaded.value())) return *bad;
   return loaded;
 }
 
@@ -132,49 +155,37 @@ Result<LoadedScene> SceneLoader::read_file(std::optional<int> frame) {
   return std::move(made).value().loaded;
 }
 
-/// The first frame of a series, which shows no particles, counted from the origin that the first
-/// one to show some has.
-Result<LoadedScene> SceneLoader::with_origin_of_others(LoadedScene first) {
-  for (int number = frames_->first + frames_->step; number <= frames_->last;
-       number += frames_->step) {
-    const auto other = read(number);
-    if (!other) break;  // the error is told when its picture is made
-    if (!shows_particles(other.value())) continue;
-    options_.origin = other.value().origin;
-    return read(frames_->first);
-  }
-  return first;
-}
-
 /// Keeps what a frame has chosen and those before it have not.
 void SceneLoader::keep_choices(const LoadedScene& loaded) {
-  add_color_ranges(loaded.particles, options_.color_ranges);
-  add_kind_colors(loaded.particles, options_.kind_colors);
-  options_.origin = loaded.origin;
+  if (!options_.origin) options_.origin = loaded.origin;
+  KindColors& kinds = options_.kind_colors;
   colors_.resize(std::max(colors_.size(), loaded.particles.size()));
   for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
     const ParticleFacts& facts = loaded.particles[i];
-    if (!colors_[i].scale) colors_[i].scale = facts.colors.scale;
-    colors_[i].species = options_.kind_colors[facts.table];
+    if (!kinds.contains(facts.table)) colors_[i] = facts.colors;
+  }
+  keep_colors(loaded.particles, options_.color_ranges, kinds);
+  for (std::size_t i = 0; i < loaded.particles.size(); ++i) {
+    const auto known = kinds.find(loaded.particles[i].table);
+    if (known != kinds.end()) colors_[i].species = known->second;
   }
 }
 
 /// Whether other frames may bring what is to be chosen once for all of them.
 bool SceneLoader::needs_others(const LoadedScene& first) const {
+  if (first.scene.packed) return false;
   if (!first.scene.camera || look_.floor) return true;
   return std::any_of(first.particles.begin(), first.particles.end(), [](const ParticleFacts& one) {
     return one.spheres == 0 || !one.colors.species.empty();
   });
 }
 
-/// Reads the other frames of the series: fits the camera, and the height of the floor, to all of
-/// them, and gives colours to what is not in the first. A frame that cannot be read ends that: its
-/// error is told when its picture is made.
-void SceneLoader::look_at_others(LoadedScene& first) {
-  if (first.scene.packed || !needs_others(first)) return;
+/// Reads other frames of the series: fits the camera, and the height of the floor, to them, and
+/// gives colours to what is not in the first. A frame that cannot be read ends that: its error is
+/// told when its picture is made.
+void SceneLoader::look_at_others(LoadedScene& first, const std::vector<int>& frames) {
   SeriesFitter fitter(size_);
   fitter.add(first, floor_);
-  const std::vector<int> frames = fitted_frames(*frames_, count_primitives(first.scene).spheres);
   std::size_t read_frames = 1;
   for (const int number : frames) {
     if (number == frames_->first) continue;
@@ -184,7 +195,7 @@ void SceneLoader::look_at_others(LoadedScene& first) {
     keep_choices(other.value());
     fitter.add(other.value(), floor_);
   }
-  if (floor_) {
+  if (floor_ && std::isfinite(fitter.lowest())) {
     floor_ = floor_at(fitter.lowest(), floor_->up, first.origin);
     first.scene.planes.clear();
     add_floor(*floor_, first);

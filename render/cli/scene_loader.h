@@ -38,10 +38,10 @@ class SceneLoader {
  private:
   Result<LoadedScene> read(std::optional<int> frame);
   Result<LoadedScene> read_file(std::optional<int> frame);
-  Result<LoadedScene> with_origin_of_others(LoadedScene first);
+  Result<LoadedScene> choose_for_series(LoadedScene first);
   void keep_choices(const LoadedScene& loaded);
   [[nodiscard]] bool needs_others(const LoadedScene& first) const;
-  void look_at_others(LoadedScene& first);
+  void look_at_others(LoadedScene& first, const std::vector<int>& frames);
   void use_choices(LoadedScene& loaded) const;
 
   const std::string path_;  ///< with a slot for the frame's number

@@ -105,8 +105,8 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
 /// "--size is given 2 times": of options that are to be given once; empty if there is none.
 std::string repeated(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
-    const auto most = static_cast<std::size_t>(option->get_items_expected_max());
-    if (option->count() > most)
+    const bool is_flag = option->get_items_expected_max() == 0;  // may be repeated
+    if (!is_flag && option->count() > static_cast<std::size_t>(option->get_items_expected_max()))
       return option->get_name() + " is given " + std::to_string(option->count()) + " times";
   }
   return {};

@@ -111,9 +111,12 @@ Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) 
     return loaded;
   }
   if (!options_.origin) options_.origin = loaded.value().origin;
-  add_color_ranges(loaded.value().particles, options_.color_ranges);
+  if (options_.color_ranges.empty()) {
+    KindColors ignored;  // a command for one frame could not tell them
+    keep_colors(loaded.value().particles, options_.color_ranges, ignored);
+  }
   last_look_ = look;
-  if (auto bad = use_camera(command_.camera, loaded.value())) return *bad;
+  if (auto bad = use_camera(command_.camera, options_.frame, loaded.value())) return *bad;
   return loaded;
 }
 

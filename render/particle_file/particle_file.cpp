@@ -107,7 +107,7 @@ Status check_columns(const std::vector<std::string>& columns, std::string_view f
   std::sort(sorted.begin(), sorted.end());
   const auto twice =
       std::adjacent_find(sorted.begin(), sorted.end(),
-                         [](const auto& a, const auto& b) { return a == b && a != "-"; });
+                         [](const auto& a, const auto& b) { return a == b && a != "-" && !a.empty(); });
   if (twice == sorted.end()) return std::nullopt;
   return Diagnostic::about("columns", "two columns have the name " + quote(*twice));
 }

@@ -89,9 +89,9 @@ cli::LookOptions look_of(const py::dict& keys) {
   const char* const directions = "x, -x, y, -y, z, -z or three numbers";
   all.read("view", look.view, parse_direction, directions);
   all.read("up", look.up, parse_direction, directions);
-  if (!look.map.empty() && !has_color_map(look.color))
+  if (!look.map.empty() && !may_have_color_map(look.color))
     throw_error("map", "needs 'color' to be a column");
-  if (look.range && !has_color_map(look.color))
+  if (look.range && !may_have_color_map(look.color))
     throw_error("range", "needs 'color' to be a column");
   return look;
 }

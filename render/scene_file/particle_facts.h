@@ -35,20 +35,20 @@ using ColorRanges = std::map<std::string, std::array<double, 2>>;
 /// The colours of species and other texts, by ParticleFacts::table.
 using KindColors = std::map<std::string, std::vector<ParticleColors::Species>>;
 
-/// The colours that were chosen: with them as SceneFileOptions::color_ranges and kind_colors, the
-/// other frames of a series have the colours of this one. What is known already stays.
-inline void add_color_ranges(const std::vector<ParticleFacts>& all, ColorRanges& ranges) {
+/// Keeps the colours that were chosen: with them as SceneFileOptions::color_ranges and kind_colors,
+/// the other frames of a series have the colours of this one. What is known already stays, and so
+/// does how a table is coloured that was shown; one that shows nothing chooses nothing.
+inline void keep_colors(const std::vector<ParticleFacts>& all, ColorRanges& ranges,
+                        KindColors& kinds) {
   for (const ParticleFacts& facts : all) {
-    if (facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
-  }
-}
-inline void add_kind_colors(const std::vector<ParticleFacts>& all, KindColors& kinds) {
-  for (const ParticleFacts& facts : all) {
-    auto& known = kinds[facts.table];
+    if (facts.spheres == 0) continue;
+    const auto [known, is_new] = kinds.try_emplace(facts.table);
+    if (is_new && facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
+    auto& species = known->second;
     for (const ParticleColors::Species& one : facts.colors.species) {
-      const bool is_known = std::any_of(known.begin(), known.end(),
+      const bool is_known = std::any_of(species.begin(), species.end(),
                                         [&](const auto& kind) { return kind.name == one.name; });
-      if (!is_known) known.push_back(one);
+      if (!is_known) species.push_back(one);
     }
   }
 }

@@ -653,7 +653,7 @@ def from_particles(
     species: Sequence[str] | Sequence[bytes] | Sequence[float] | NDArray[Any] | None = ...,
     columns: Mapping[str, Sequence[float] | Sequence[str] | Sequence[bytes] | NDArray[Any]] | None = ...,
     cell: ArrayLike | None = ...,
-    periodic: Sequence[bool] = ...,
+    periodic: bool | Sequence[bool] = ...,
     angstrom: float = ...,
     look: _Look | None = ...,
     quick: bool = ...,

@@ -79,7 +79,7 @@ class Table:
 
     _kind = ""
     _type = ""
-    _array = ""  # the key that has an array in place of 'file', if any
+    _array = None  # the key that has an array in place of 'file', if any
     _defaults: dict = {}
 
     def __init__(self, **keys):

@@ -97,9 +97,20 @@ def particles(positions, *, species=None, columns=None, cell=None, periodic=(), 
     """Particles in memory, as a file of particles would hold them."""
     if columns is not None and not isinstance(columns, dict):
         raise error("columns", f"expected a dictionary, got {type(columns).__name__}")
-    return _core.particles(
-        positions, species, columns or {}, cell, [bool(one) for one in periodic], angstrom
-    )
+    return _core.particles(positions, species, columns or {}, cell, _along(periodic), angstrom)
+
+
+def _along(periodic):
+    """For each edge of a cell whether it is periodic."""
+    if type(periodic).__name__ in ("bool", "bool_"):  # of Python, or of numpy 2 or 1
+        return [bool(periodic)] * 3
+    try:
+        along = [bool(one) for one in periodic]
+    except (TypeError, ValueError):
+        raise error("periodic", f"expected three bools, got {type(periodic).__name__}") from None
+    if len(along) not in (0, 3):
+        raise error("periodic", f"expected three bools, got {len(along)}")
+    return along
 
 
 @with_look(*_OF_MEMORY)
@@ -111,7 +122,7 @@ def from_particles(
     positions: N x 3, finite. species: N symbols, as text or bytes, or atomic numbers, whole from 0
         (ASE's X, no element) to 118; other texts name what is no element.
     columns: a dictionary of N numbers or texts by name, which color, radius and select may name.
-    cell: 3 x 3, its edges; periodic: along which of them.
+    cell: 3 x 3, its edges; periodic: along which of them, three bools, or one for all.
     angstrom: how many one unit of length has (10 for nm), finite and above 0.
     look: as for load().
 

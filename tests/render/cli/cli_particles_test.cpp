@@ -258,9 +258,9 @@ TEST_F(Particles, OfASeriesKeepTheirColors) {
 /// Frames that show nothing choose nothing: a series has the pictures that it has without them.
 TEST_F(Particles, OfASeriesThatBeginsWithNoneChooseAllTheSame) {
   const std::string empty = "0\n\n";
-  for (const std::string away : {"", "100000"}) {  // far from 0 they need an origin
-    const std::string shown =
-        "1\n\nC 0" + away + ".5 0 5\n3\n\nC 0 0 0\nC " + away + "2.25 0 0\nO " + away + "4 0 5\n";
+  for (const std::string away : {"1", "100001"}) {  // so far from 0 they need an origin
+    const std::string shown = "2\n\nC " + away + "0.5 0 5\nC " + away + "1 0 0\n3\n\nC " + away +
+                              "0 0 0\nC " + away + "2.25 0 0\nO " + away + "3 0 5\n";
     const std::string all = write("all.xyz", empty + empty + shown);
     const std::string rest = write("rest.xyz", shown);
     for (const std::vector<std::string>& look :
@@ -299,6 +299,15 @@ TEST_F(Particles, OfASeriesThatComeLaterHaveOneColor) {
     EXPECT_FALSE(read("f0.ppm") == read("f1.ppm")) << shown;
     EXPECT_THAT(read("l.svg"), AllOf(HasSubstr(">wall</text>"), HasSubstr(">bead</text>")));
   }
+}
+
+/// A column may be of texts in some frames and of numbers in others.
+TEST_F(Particles, OfASeriesHaveColorsAsTheirOwnFrameHasThem) {
+  const std::string texts = "2\nProperties=species:S:1:pos:R:3:label:S:1\nC 0 0 0 a\nC 2 0 0 b\n";
+  const std::string numbers = "2\nProperties=species:S:1:pos:R:3:label:I:1\nC 0 0 0 1\nC 2 0 0 2\n";
+  const std::string file = write("labels.xyz", texts + numbers + texts);
+  render(file, "f#.ppm", {"--frames", "0-2", "--color", "label"});
+  EXPECT_TRUE(read("f0.ppm") == read("f2.ppm"));
 }
 
 TEST_F(Particles, OfASceneAreASeriesToo) {

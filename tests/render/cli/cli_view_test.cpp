@@ -82,6 +82,20 @@ TEST_F(RenderedCamera, MayBeFitted) {
   EXPECT_EQ(read("moved.ppm"), fitted);
 }
 
+TEST_F(RenderedCamera, MayBeDistortedAndMove) {
+  const std::string still = "eye = [0, 1, 5], look_at = [0, 0.8, 0]";
+  const std::string own = picture("own.ppm", {"--camera", still});
+  EXPECT_NE(picture("barrel.ppm", {"--camera", still + ", distortion = {file = \"" BOULE_SCENES
+                                                       "/barrel.exr\"}"}),
+            own);
+  picture("moved.#.ppm", {"--frames", "1-2", "--camera",
+                          "look_at = [0, 0.8, 0], key = [{frame = 1, eye = [0, 1, 5]}, "
+                          "{frame = 3, eye = [0, 1, 9]}]"});
+  EXPECT_EQ(read("moved.1.ppm"), own);
+  EXPECT_EQ(read("moved.2.ppm"),
+            picture("far.ppm", {"--camera", "eye = [0, 1, 7], look_at = [0, 0.8, 0]"}));
+}
+
 TEST_F(RenderedCamera, IsRefusedIfItIsNone) {
   for (const char* keys : {"eye = [0, 1, 5]", "fov = 3", "eye = 5, look_at = [0, 0, 0]", "}{",
                            "eye = [0, 1, 5], look_at = [0, 1, 5]", "roll = 1"}) {

@@ -95,7 +95,7 @@ const Slip slips[] = {
      of_render},
     {"render a.toml -o b.png -x", "unknown option '-x'", of_render},
     {"render a.toml -o b.png --spp 1 --spp 4", "--spp is given 2 times", of_render},
-    {"render a.toml -o b.png -o c.png -o d.png", "--output is given 3 times", of_render},
+    {"render a.toml --quick -o b.png -o c.png -o d.png", "--output is given 3 times", of_render},
     {"render a.toml -o b.png --nonsense", "unknown option '--nonsense'", of_render},
     {"render a.toml -o b.png --spp=x",
      "--spp: 'x' is not understood, expected a whole number from 1 to 2147483647", of_render},

@@ -7,6 +7,7 @@ import pytest
 from conftest import program
 
 import boule
+from boule import _sources
 
 WATER = "O 0.0 0.0 0.119 -0.8\nH 0.0 0.763 -0.477 0.4\nH 0.0 -0.763 -0.477 0.4\n"
 COMMENT = 'Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:charge:R:1\n'
@@ -129,6 +130,25 @@ def test_a_unit_of_length_is_above_0(angstrom, species):
     with pytest.raises(boule.Error) as caught:
         boule.from_particles(np.zeros((1, 3)), species=species, angstrom=angstrom)
     assert caught.value.key == "angstrom"
+
+
+@pytest.mark.parametrize(
+    ("periodic", "along"),
+    [
+        (True, [True] * 3), (np.True_, [True] * 3), (False, [False] * 3), ((), []),
+        (np.array([True, False, True]), [True, False, True]), ([0, 1, 0], [False, True, False]),
+    ],
+)  # fmt: skip
+def test_edges_of_a_cell_are_periodic_or_not(periodic, along):
+    assert _sources._along(periodic) == along
+    boule.from_particles(np.zeros((1, 3)), cell=np.eye(3), periodic=periodic)
+
+
+@pytest.mark.parametrize("periodic", [(True,), [True] * 4, 5, None, "xyz1"])
+def test_what_does_not_tell_which_edges_are_periodic(periodic):
+    with pytest.raises(boule.Error) as caught:
+        boule.from_particles(np.zeros((1, 3)), cell=np.eye(3), periodic=periodic)
+    assert caught.value.key == "periodic"
 
 
 def test_a_unit_of_length_scales_radii():

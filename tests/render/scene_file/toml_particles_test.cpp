@@ -158,7 +158,8 @@ TEST_F(TomlParticlesTest, ShareTheRangeOfAnotherFrame) {
   const LoadedScene scene = with(keys, "run.xyz", options);
   EXPECT_THAT(colors(scene), ElementsAre(hex_text(ColorMap().color(0.25))));
   ColorRanges ranges;
-  add_color_ranges(scene.particles, ranges);
+  KindColors kinds;
+  keep_colors(scene.particles, ranges, kinds);
   EXPECT_THAT(ranges, ElementsAre(testing::Pair("particles[0]", std::array<double, 2>{0, 40})));
   // What the file says comes first.
   EXPECT_THAT(colors(with(keys + "range = [10, 20]\n", "run.xyz", options)),

@@ -109,7 +109,7 @@ TEST_F(SphereColorsTest, HaveTheRangeOfMostNumbers) {
               testing::ElementsAre(testing::HasSubstr("many_v.npy go from 2 to 198")));
   // Another frame has the same range.
   SceneFileOptions options;
-  add_color_ranges(facts, options.color_ranges);
+  keep_colors(facts, options.color_ranges, options.kind_colors);
   write("v.npy", npy_of<float>("'<f4'", "(2,)", {100, 1000}));
   const auto next = load("scalar = \"v.npy\"\n", "two.npy", options);
   ASSERT_TRUE(next.ok());
