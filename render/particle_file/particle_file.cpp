@@ -105,9 +105,9 @@ Status check_columns(const std::vector<std::string>& columns, std::string_view f
   }
   std::vector<std::string> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  const auto twice =
-      std::adjacent_find(sorted.begin(), sorted.end(),
-                         [](const auto& a, const auto& b) { return a == b && a != "-" && !a.empty(); });
+  const auto twice = std::adjacent_find(
+      sorted.begin(), sorted.end(),
+      [](const auto& a, const auto& b) { return a == b && a != "-" && !a.empty(); });
   if (twice == sorted.end()) return std::nullopt;
   return Diagnostic::about("columns", "two columns have the name " + quote(*twice));
 }

@@ -98,7 +98,7 @@ class Table:
         moves = keys.get("key", ())
         if not isinstance(moves, (list, tuple)) or not all(isinstance(one, dict) for one in moves):
             raise error("key", "expected a list of dictionaries, each with 'frame'")
-        plain = _core.check(cls._kind, cls._table_of(keys, _short_name), array)
+        plain = _core.check(cls._kind, cls._table_of(keys, _short_name), array or "")
         return {name: _kept(name, value, plain) for name, value in keys.items()}
 
     @classmethod

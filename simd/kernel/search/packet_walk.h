@@ -49,7 +49,7 @@ class PacketWalk {
       : rays_(rays.filter),
         box_rays_(rays, extent),
         beam_(box_rays_, rays.filter, extent),
-        one_by_one_(rays) {}
+        one_by_one_(rays, extent) {}
 
   /// Adds the children of a node that some ray of `lanes` enters before its limit. `farthest`: the
   /// greatest of the limits.

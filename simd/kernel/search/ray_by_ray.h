@@ -13,8 +13,8 @@
 /// The rays of a packet one by one, each against W boxes or W spheres at a time. Chosen where few
 /// rays of a packet are left: that takes fewer steps than box after box and sphere after sphere.
 /// Every comparison with NaN turns away, as in flights (flight.h). Therefore only rays that float
-/// can judge, without hits behind their origins, are tested here. Spheres of a leaf are within the
-/// range of the filters (in_filter_range()): no number overflows.
+/// can judge, without hits behind their origins, and only trees within the range of the filters are
+/// tested here.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The number in one lane.
@@ -58,10 +58,11 @@ class RayByRay {
   };
 
   RayByRay() = default;
-  BOULE_INLINE explicit RayByRay(const RayLanes& rays) : rays_(&rays) {
+  /// `extent`: BvhView::extent.
+  BOULE_INLINE RayByRay(const RayLanes& rays, float extent) : rays_(&rays) {
     const Real zero(0.0F);
     const Vec3<Real>& unit = rays.filter.unit;
-    may_ = all(is_judged(rays.filter));
+    may_ = extent < filter::limit && all(is_judged(rays.filter));
     down_[0] = bits(unit.x < zero);
     down_[1] = bits(unit.y < zero);
     down_[2] = bits(unit.z < zero);

@@ -24,7 +24,7 @@ class ShortWalk {
   /// fewer, are visited without a test of their boxes by the rays. `extent`: BvhView::extent.
   BOULE_INLINE ShortWalk(const RayLanes* rays, const ReachBox& reach, int untested, float extent)
       : rays_(rays), reach_(reach), untested_(untested), extent_(extent) {
-    for (int p = 0; p < packets; ++p) one_by_one_[p] = RayByRay(rays[p]);
+    for (int p = 0; p < packets; ++p) one_by_one_[p] = RayByRay(rays[p], extent);
   }
   /// Those of the rays that are of packet p, as bits of its lanes.
   BOULE_INLINE static unsigned of_packet(unsigned lanes, int p) {
