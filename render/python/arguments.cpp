@@ -97,7 +97,7 @@ bool Arguments::flag(const char* name) const {
 }
 
 std::optional<std::string> isa_of(const Arguments& given) {
-  const auto name = given.text("isa");
+  auto name = given.text("isa");
   if (!name || *name == "auto") return name;
   const auto kernels = select_kernels(*name);
   if (!kernels) throw_error("isa", kernels.error().message);
