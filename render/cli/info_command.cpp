@@ -35,7 +35,7 @@ Result<Json> info_of(const InfoCommand& command, const std::string& scene,
   if (is_packed_name(scene)) return packed_info(command, scene, options);
   if (command.verify)
     return Diagnostic::about("--verify", "is of packed scenes, and " + quote(scene) + " is none");
-  auto loaded = load_known(scene, options);
+  auto loaded = load_known(scene, command.look, options);
   if (!loaded) return loaded.error();
   return scene_info(std::move(loaded).value(), scene);
 }

@@ -8,7 +8,6 @@
 #include "render/cli/option_kinds.h"
 #include "render/file/nearest_name.h"
 #include "render/particle_file/particle_file.h"
-#include "render/particles/particle_style.h"
 
 namespace boule::cli {
 namespace {

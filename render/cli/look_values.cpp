@@ -58,14 +58,13 @@ std::optional<std::string> parse_particle_color(const std::string& text) {
   return text.empty() || is_broken ? std::nullopt : std::optional(text);
 }
 
-bool has_color_map(const std::string& color) {
-  const bool is_columns = !three_names(color).empty();
+bool may_have_color_map(const std::string& color) {
   const bool is_kind = color == "element" || color == "species";
-  return !color.empty() && !is_kind && !color.starts_with('#') && !is_columns;
+  return !color.empty() && !is_kind && !color.starts_with('#');
 }
 
-bool may_have_color_map(const std::string& color) {
-  return has_color_map(color) || !three_names(color).empty();
+bool has_color_map(const std::string& color) {
+  return may_have_color_map(color) && three_names(color).empty();
 }
 
 std::optional<std::string> parse_map(const std::string& text) {

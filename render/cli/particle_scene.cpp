@@ -79,7 +79,14 @@ bool is_scene_name(const std::string& path) {
 
 }  // namespace
 
-Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& options) {
+Diagnostic not_particles(const std::string& path, const std::string& option) {
+  return Diagnostic::about(
+      option, "is of particle files, and " + quote(path) + " is none by its name or content");
+}
+
+Result<LoadedScene> load_known(const std::string& path, const LookOptions& look,
+                               const SceneFileOptions& options) {
+  if (!look.first.empty()) return not_particles(path, look.first);
   if (is_scene_name(path)) return load_scene(path, options);
   if (has_ending(path, ".film")) {
     return Diagnostic::in_file(

@@ -18,9 +18,13 @@ bool is_particle_input(const std::string& path, const LookOptions& look);
 /// How the file is read, with all its columns.
 ParticleFileOptions file_options_of(const LookOptions& look);
 
-/// The scene of a file that is none of particles. The error for a name that is neither a scene's
-/// nor that of particles tells the endings of both.
-Result<LoadedScene> load_known(const std::string& path, const SceneFileOptions& options);
+/// An error about an input that is no particle file, although `option` needs one.
+Diagnostic not_particles(const std::string& path, const std::string& option);
+
+/// The scene of a file that is none of particles; not_particles() if an option of these was given.
+/// The error for a name that is neither a scene's nor that of particles tells the endings of both.
+Result<LoadedScene> load_known(const std::string& path, const LookOptions& look,
+                               const SceneFileOptions& options);
 
 /// The scene of a particle file.
 struct ParticleScene {

@@ -144,10 +144,7 @@ Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
 Result<LoadedScene> SceneLoader::read_file(std::optional<int> frame) {
   options_.frame = frame;
   const std::string path = frame ? frame_name(path_, *frame) : path_;
-  if (!is_particle_input(path, look_)) {
-    if (!look_.first.empty()) return not_particles(path, look_.first);
-    return load_known(path, options_);
-  }
+  if (!is_particle_input(path, look_)) return load_known(path, look_, options_);
   is_made_ = true;
   auto made = load_particle_scene(path_, look_, options_, floor_);
   if (!made) return made.error();
@@ -212,11 +209,6 @@ void SceneLoader::look_at_others(LoadedScene& first, const std::vector<int>& fra
 
 void SceneLoader::use_choices(LoadedScene& loaded) const {
   if (camera_ && !loaded.scene.camera) loaded.scene.camera = camera_;
-}
-
-Diagnostic not_particles(const std::string& path, const std::string& option) {
-  return Diagnostic::about(
-      option, "is of particle files, and " + quote(path) + " is none by its name or content");
 }
 
 ExitCode code_of_loading(const Diagnostic& error) {

@@ -59,9 +59,6 @@ class SceneLoader {
   bool is_made_ = false;
 };
 
-/// An error about an input that is no particle file, although `option` needs one.
-Diagnostic not_particles(const std::string& path, const std::string& option);
-
 /// The exit status for an error of load(): options have keys that begin with "--".
 ExitCode code_of_loading(const Diagnostic& error);
 

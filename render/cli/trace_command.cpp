@@ -90,10 +90,7 @@ Result<LoadedScene> Tracing::load() {
   SceneFileOptions options;
   options.trust = command_.trust;
   options.parallel_for = scheduler_.parallel_for();
-  if (!is_particle_input(path, look)) {
-    if (!look.first.empty()) return not_particles(path, look.first);
-    return load_known(path, options);
-  }
+  if (!is_particle_input(path, look)) return load_known(path, look, options);
   auto made = load_particle_scene(path, look, options);
   if (!made) return made.error();
   return std::move(made).value().loaded;

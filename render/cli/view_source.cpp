@@ -8,7 +8,6 @@
 #include "render/cli/camera_option.h"
 #include "render/cli/look_values.h"
 #include "render/cli/particle_scene.h"
-#include "render/cli/scene_loader.h"
 #include "render/packed/packed_file.h"
 #include "render/particle_file/particle_file.h"
 #include "render/scene_file/frame_name.h"

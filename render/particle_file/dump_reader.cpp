@@ -228,8 +228,7 @@ class DumpReader : public ParticleReader {
       if (axis != positions.names.end()) {
         columns.add_position(names[i], static_cast<std::size_t>(axis - positions.names.begin()));
       } else {
-        const bool is_number = names[i] == "id" || i >= examples.size();
-        columns.add(names[i], is_number ? std::string_view("0") : examples[i]);
+        columns.add(names[i], examples, i);
       }
     }
   }

@@ -55,8 +55,7 @@ class LammpsDataReader : public ParticleReader {
     if (!named.note.empty()) read.notes.push_back(named.note);
     const auto examples = words_of(first_row);
     for (std::size_t i = 0; i < named.names.size(); ++i) {
-      const bool is_number = named.names[i] == "id" || i >= examples.size();
-      columns.add(named.names[i], is_number ? std::string_view("0") : examples[i]);
+      columns.add(named.names[i], examples, i);
     }
     if (auto wrong = columns.check_positions()) {
       return error_at_line(atoms.line, wrong->message, wrong->key);

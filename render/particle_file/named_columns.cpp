@@ -100,6 +100,14 @@ void NamedColumns::finish() {
   std::erase_if(frame_.numbers, is_unwanted);
 }
 
+std::optional<std::string> find_repeated(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto found = std::adjacent_find(
+      names.begin(), names.end(),
+      [](const auto& a, const auto& b) { return a == b && !a.empty() && a != "-"; });
+  return found == names.end() ? std::nullopt : std::optional(*found);
+}
+
 void take_types_as_species(ParticleFrame& frame, bool keep) {
   if (frame.species) return;
   const auto is_type = [](const auto& column) { return column.name == "type"; };

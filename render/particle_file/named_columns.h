@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,11 @@ class NamedColumns {
   /// Adds a column. What `example`, its text in the first row, is decides whether it is of numbers;
   /// what nobody wants is skipped, but for "id" and "type".
   void add(const std::string& name, std::string_view example);
+  /// The same for the i-th column of a format whose ids are numbers, by the words of the first row.
+  void add(const std::string& name, std::span<const std::string_view> words, std::size_t i) {
+    const bool is_number = name == "id" || i >= words.size();
+    add(name, is_number ? std::string_view("0") : words[i]);
+  }
   void add_position(const std::string& name, std::size_t axis);
   void add_species(const std::string& name);
   void add_kept(const std::string& name, ColumnUse use);  ///< number, logical or text
@@ -45,6 +51,9 @@ class NamedColumns {
   ParticleFrame& frame_;
   std::vector<TextRowColumn> columns_;
 };
+
+/// A name that stands twice among names of columns, if one does; "" and "-" may.
+std::optional<std::string> find_repeated(std::vector<std::string> names);
 
 /// Makes the column "type" the species where there is none: numbers become texts. With `keep`, the
 /// column stays as it is too. To be called when the columns are read.

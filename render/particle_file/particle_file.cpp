@@ -7,6 +7,7 @@
 #include "core/base/float_environment.h"
 #include "render/file/mapped_text.h"
 #include "render/file/npz_member.h"
+#include "render/particle_file/named_columns.h"
 #include "render/particle_file/particle_format.h"
 
 namespace boule {
@@ -103,13 +104,9 @@ Status check_columns(const std::vector<std::string>& columns, std::string_view f
     return Diagnostic::about("columns",
                              "a file of the format " + quote(format) + " names its columns itself");
   }
-  std::vector<std::string> sorted = columns;
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(
-      sorted.begin(), sorted.end(),
-      [](const auto& a, const auto& b) { return a == b && a != "-" && !a.empty(); });
-  if (twice == sorted.end()) return std::nullopt;
-  return Diagnostic::about("columns", "two columns have the name " + quote(*twice));
+  const auto repeated = find_repeated(columns);
+  if (!repeated) return std::nullopt;
+  return Diagnostic::about("columns", "two columns have the name " + quote(*repeated));
 }
 
 Result<MappedText> open_bytes(const std::string& path) {

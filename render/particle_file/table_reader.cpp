@@ -76,14 +76,9 @@ std::vector<std::string> default_names(const std::vector<std::string_view>& firs
 
 /// Each name once.
 Status check_names(const std::vector<std::string>& names) {
-  std::vector<std::string> sorted = names;
-  std::sort(sorted.begin(), sorted.end());
-  const auto is_twice = [](const std::string& a, const std::string& b) {
-    return a == b && !a.empty() && a != "-";
-  };
-  const auto found = std::adjacent_find(sorted.begin(), sorted.end(), is_twice);
-  if (found == sorted.end()) return std::nullopt;
-  return Diagnostic::about(*found, "two columns have the name " + quote(*found));
+  const auto repeated = find_repeated(names);
+  if (!repeated) return std::nullopt;
+  return Diagnostic::about(*repeated, "two columns have the name " + quote(*repeated));
 }
 
 /// An error about names is one about the header line, else about the names that were given.

@@ -11,10 +11,6 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-std::string type_name(const py::object& object) {
-  return py::str(py::type::of(object).attr("__name__"));
-}
-
 /// Which numbers may come, with the end that describe() leaves out: a number of Python may be
 /// beyond.
 std::string describe_all(const WholeRule& rule) {

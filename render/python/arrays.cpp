@@ -63,7 +63,7 @@ std::string describe(const py::array& array) {
 Numbers::Numbers(const py::object& argument, const std::string& name, const Shape& shape) {
   if (py::isinstance<py::str>(argument) || py::isinstance<py::bytes>(argument) ||
       py::isinstance<py::dict>(argument) || argument.is_none()) {
-    refuse(name, shape, py::str(py::type::of(argument).attr("__name__")));
+    refuse(name, shape, type_name(argument));
   }
   const py::array given = to_array(argument, name);
   point_to(given, name, shape);  // first: what is too large is not converted

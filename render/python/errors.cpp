@@ -77,4 +77,8 @@ void throw_error(const std::string& key, const std::string& message) {
   throw_error(Diagnostic::about(key, message));
 }
 
+std::string type_name(const py::handle& object) {
+  return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
 }  // namespace boule::python

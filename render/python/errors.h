@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
 #include <utility>
 
 #include "core/base/error.h"
@@ -18,6 +19,9 @@ void bind_errors(pybind11::module_& module);
 
 /// Throws an Error about an argument: "KEY: MESSAGE".
 [[noreturn]] void throw_error(const std::string& key, const std::string& message);
+
+/// The name of an object's type, for what came in place of what was expected.
+std::string type_name(const pybind11::handle& object);
 
 /// The value, or the exception of its Diagnostic.
 template <class T>

@@ -73,7 +73,7 @@ bool is_number(const py::object& value) {
 /// What came in place of what was expected: a number, or the type of something else.
 std::string came(const py::object& value) {
   if (is_number(value)) return std::string(py::str(value)).substr(0, 40);
-  return py::str(py::type::of(value).attr("__name__"));
+  return type_name(value);
 }
 
 /// A number or a text of numpy as Python has it; all others as they are.

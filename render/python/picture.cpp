@@ -228,10 +228,8 @@ void bind_picture(py::module_& module) {
           py::arg("compression") = "zip",
           "Write a file in the format of its extension, as `boule render` does: .exr (linear, with "
           "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure, of "
-          "-100 "
-          "to 100). It appears under its name when it is complete. compression, of .exr: none, rle "
-          "or zip. "
-          "Raises Error.")
+          "-100 to 100). It appears under its name when it is complete. compression, of .exr: "
+          "none, rle or zip. Raises Error.")
       .def("__array__", &array_of, py::arg("dtype") = py::none())
       .def(
           "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, "For notebooks.")

@@ -14,10 +14,6 @@ namespace {
 constexpr int deepest = 32;
 constexpr py::ssize_t longest = 1'000'000;  // of a list in a table
 
-std::string type_name(const py::handle& object) {
-  return py::str(py::type::handle_of(object).attr("__name__"));
-}
-
 std::string inner_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
