@@ -88,7 +88,7 @@ std::vector<Contender> make_contenders(Arena& arena) {
     for (const auto& [name, query] : ours) {
       all.push_back({isa,
                      name,
-                     [=, &arena] { run_kernel(arena, *kernels, query, arena.hits); },
+                     [kernels, query = query, &arena] { run_kernel(arena, *kernels, query, arena.hits); },
                      [&arena](std::size_t i) { return arena.hits.get(i).t; },
                      {}});
     }

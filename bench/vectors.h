@@ -50,8 +50,9 @@ V all(float x) {
 typedef float Floats __attribute__((vector_size(vector_size)));
 typedef double Doubles __attribute__((vector_size(vector_size)));
 typedef float HalfFloats __attribute__((vector_size(vector_size / 2)));
-typedef std::int32_t FloatMask __attribute__((vector_size(vector_size)));
-typedef std::int64_t DoubleMask __attribute__((vector_size(vector_size)));
+// Compilers differ in the integers of a mask.
+using FloatMask = decltype(Floats{} < Floats{});
+using DoubleMask = decltype(Doubles{} < Doubles{});
 template <class V>
 inline constexpr int lanes_of = vector_size / static_cast<int>(sizeof(V{}[0]));
 
