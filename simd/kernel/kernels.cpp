@@ -1,7 +1,7 @@
-// The kernels of one instruction set and the table that exports them. This file is compiled once
-// per instruction set (simd/isa.cmake), each time into a namespace of its own. Which rays go which
-// way through search/ is decided here, but for the trials in scattered_stream.h and
-// shadow_stream.h:
+// The kernels of one instruction set and the table that exports them. This file, and those beside
+// it, one for each way through search/, are compiled once per instruction set (simd/isa.cmake),
+// each time into a namespace of its own. Which rays go which way is decided here, but for the
+// trials in scattered.cpp and shadow_stream.h:
 //   bundles    the caller promises a common origin, direction or end and leaves the form open
 //   scattered  nothing is promised, there is a tree, and the solver is robust: as sets, as
 //              packets or in flight, whichever a trial finds fastest
@@ -9,10 +9,10 @@
 //   parts
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/camera/primary_rays.h"
-#include "simd/kernel/search/bundle_stream.h"
+#include "simd/kernel/search/bundled.h"
 #include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/scattered_stream.h"
-#include "simd/kernel/search/shadow_stream.h"
 #include "simd/kernel/shading/direct_light.h"
 #include "simd/kernel/shading/lobe_points.h"
 #include "simd/kernel/shading/path_step.h"
@@ -45,33 +45,25 @@ void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Q
                const Answers& answers) {
   if (may_scatter(geometry, query)) {
     trace_scattered(geometry, stream, 0, stream.rays().size, query.form, query.experience, answers);
-  } else if (query.solver == Solver::fast) {
-    trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
   } else {
-    trace_groups<Solver::robust>(geometry, stream, 0, stream.rays().size, query.form, answers);
+    trace_groups(geometry, stream, 0, stream.rays().size, query.solver, query.form, answers);
   }
 }
 template <class Answers>
 void trace_any(const PartsGeometry& geometry, const PaddedStream& stream, const Query& query,
                const Answers& answers) {
-  if (query.solver == Solver::fast) {
-    trace_groups<Solver::fast>(geometry, stream, 0, stream.rays().size, query.form, answers);
-  } else {
-    trace_groups<Solver::robust>(geometry, stream, 0, stream.rays().size, query.form, answers);
-  }
+  trace_groups(geometry, stream, 0, stream.rays().size, query.solver, query.form, answers);
 }
 
 template <class Geometry>
 void closest_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
                     const HitStream& hits) {
   const PaddedStream stream(rays);
-  const bool bundled = may_bundle(geometry, query);
-  if (bundled && query.coherence == Coherence::common_origin) {
-    closest_hit_bundled<Common::origin>(geometry, stream, hits);
-  } else if (bundled && query.coherence == Coherence::common_direction) {
-    closest_hit_bundled<Common::direction>(geometry, stream, hits);
-  } else {
+  if (query.coherence == Coherence::none || query.coherence == Coherence::common_end ||
+      !may_bundle(geometry, query)) {
     trace_any(geometry, stream, query, hits);
+  } else {
+    closest_hit_bundled(geometry, stream, query.coherence, hits);
   }
 }
 
@@ -79,15 +71,10 @@ template <class Geometry>
 void any_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
                 std::uint8_t* occluded) {
   const PaddedStream stream(rays);
-  const bool bundled = may_bundle(geometry, query);
-  if (bundled && query.coherence == Coherence::common_origin) {
-    any_hit_bundled<Common::origin>(geometry, stream, query.experience, occluded);
-  } else if (bundled && query.coherence == Coherence::common_direction) {
-    any_hit_bundled<Common::direction>(geometry, stream, query.experience, occluded);
-  } else if (bundled && query.coherence == Coherence::common_end) {
-    any_hit_bundled<Common::end>(geometry, stream, query.experience, occluded);
-  } else {
+  if (query.coherence == Coherence::none || !may_bundle(geometry, query)) {
     trace_any(geometry, stream, query, occluded);
+  } else {
+    any_hit_bundled(geometry, stream, query.coherence, query.experience, occluded);
   }
 }
 

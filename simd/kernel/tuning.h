@@ -29,7 +29,7 @@ inline constexpr std::size_t nearest_chunk = 1024, any_chunk = 64;
 /// Again: bench_peers --size 512 --scenes u4,u10,u32 --rays ambient
 inline constexpr std::size_t most_unasked = 8;
 
-// ---- Packets: search/packet_stream.h, traverse.h, beam.h --------------------------------------
+// ---- Packets: packets.cpp, search/traverse.h, beam.h --------------------------------------
 
 /// The rays at the end of a stream go one by one where they are no more than this. Set by trial.
 /// Again: bench_peers --scenes u1000 --rays mirror, whose streams end anywhere
@@ -237,7 +237,7 @@ inline constexpr unsigned most_candidates = 8;
 /// form set
 inline constexpr std::size_t set_size = 256;
 
-// ---- The choice between sets, packets and flights: search/scattered_stream.h ------------------
+// ---- The choice between sets, packets and flights: scattered.cpp -----------------------------
 
 /// Rays that are traced each way to see which is the fastest one: as a set, as packets, in flight.
 /// Of a set a whole one, since a small one shares few visits. And rays that then go that way: at

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# hardening.sh PROGRAM MODULE... -- NAME=OBJECT...: the program and its modules are position
+# hardening.sh PROGRAM MODULE... -- NAME=OBJECT[,OBJECT]...: the program and its modules are position
 # independent, their relocated data is read-only before they run, calls and stacks are checked
 # (_FORTIFY_SOURCE, -fstack-protector-strong). The kernels' objects have none of these checks.
 set -euo pipefail
@@ -34,7 +34,8 @@ done
 ((binaries > 0)) || { echo "nothing to look at"; exit 1; }
 shift || true
 for kernel in "$@"; do
-  if readelf -sW "${kernel#*=}" | grep -qE '__stack_chk_fail|__[a-z]+_chk'; then
+  IFS=, read -ra objects <<<"${kernel#*=}"
+  if readelf -sW "${objects[@]}" | grep -qE '__stack_chk_fail|__[a-z]+_chk'; then
     lacks "${kernel%%=*}" "its loops pay for checks"
   fi
 done

@@ -23,8 +23,13 @@ int (*const kernel_table)(int) = answer;
 }"
 }
 
+# The wide one has a second object, of which the first asks a template.
+compile helper 'namespace boule::wide {
+template <class T> T half(T x) { return x / 2; }
+template int half<int>(int);
+}'
 check() {
-  "$here/kernel_symbols.sh" "wide=$work/wide.o" "narrow=$work/narrow.o" -- "$work/rest.o" \
+  "$here/kernel_symbols.sh" "wide=$work/wide.o,$work/helper.o" "narrow=$work/narrow.o" -- "$work/rest.o" \
     >"$work/out" 2>&1
 }
 
@@ -48,10 +53,13 @@ namespace boule::wide {'
 compile rest 'template <class T> [[gnu::noinline]] T other(T x) { return x - 1; }
 template int other<int>(int);'
 kernel narrow ''
-kernel wide 'namespace { const int table[] = {1, 2}; }'
+kernel wide 'template <class T> T half(T x);
+namespace { const int table[] = {1, 2}; [[gnu::used]] int quarter(int x) { return half(half(x)); } }'
 check || { echo "the faultless kernels are refused:"; cat "$work/out"; failures=1; }
 
 refused 'int extra(int x) { return x; }' 'exports: boule::wide::'
+refused 'template <class T> T third(T x); namespace { [[gnu::used]] int f(int x) { return third(x); } }' \
+  'wide calls out'
 refused 'int user(int x); namespace { struct S { int a = user(1); } s; }' 'wide calls out'
 refused '}
 extern "C" double cos(double); extern "C" double sin(double);

@@ -82,7 +82,7 @@ breaks() {
   echo "$1" >>"$build/mutants"
 }
 breaks "rays of sparse bundles are lost" bundle_stream.h \
-  's/\.run\(begin, end\)/.run(BROKEN ? end : begin, end)/'
+  's/(trace_sets\(geometry, stream, )begin, end/\1BROKEN ? end : begin, end/'
 breaks "shadow rays of sixteen lanes that are not sorted are lost" shadow_stream.h \
   's/(trace_scattered\(geometry, stream, )begin, (end, Form::automatic)/\1BROKEN ? end : begin, \2/'
 breaks "groups that are not done are taken for done" bundle_walk.h \

@@ -14,13 +14,35 @@
 /// Where few rays are near a leaf's spheres they are met one by one, W spheres at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-template <Common common, class Source, class Spheres>
+/// Where the packets of a bundle start, whatever its source is.
+class BundleStarts {
+ public:
+  template <class Source>
+  BOULE_INLINE BundleStarts(const Source& source, int packets)
+      : source_(&source), packet_([](const void* from, int ray, unsigned wanted) {
+          return static_cast<const Source*>(from)->packet(ray, wanted);
+        }) {
+    for (int p = 0; p < packets; ++p) starts_[p] = source.start(p * width);
+  }
+  [[nodiscard]] BOULE_INLINE const PacketStart& of(int packet) const { return starts_[packet]; }
+  /// The rays of a packet that are named by the bits of `wanted`; valid until the next call.
+  [[nodiscard]] BOULE_INLINE PacketRef packet(int packet, unsigned wanted) const {
+    return packet_(source_, packet * width, wanted);
+  }
+
+ private:
+  const void* source_;
+  PacketRef (*packet_)(const void* source, int ray, unsigned wanted);
+  PacketStart starts_[bundle_packets];
+};
+
+template <Common common, class Spheres>
 class BundleAny {
  public:
   static constexpr Sought sought = Sought::any;
 
-  BundleAny(const Source& source, const Spheres& spheres, const BundleRays& rays)
-      : source_(source), spheres_(spheres), rays_(rays) {
+  BundleAny(const BundleStarts& starts, const Spheres& spheres, const BundleRays& rays)
+      : starts_(starts), spheres_(spheres), rays_(rays) {
     for (int p = 0; p < rays.packets; ++p) start(p);
     for (int group = 0; group < bundle_groups; ++group) update(group);
     update();
@@ -93,11 +115,11 @@ class BundleAny {
   /// Finds limit() again.
   BOULE_INLINE void update() { limit_ = greatest_of_groups(limits_); }
 
-  /// Adds the planes and writes the answers.
-  void finish(const PlaneView& planes, std::uint8_t* occluded) {
+  /// Adds the planes, and finds for each packet the rays that have hit something, as bits.
+  void finish(const PlaneView& planes, unsigned* hit) {
     for (int p = 0; p < rays_.packets; ++p) {
       if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
-      source_.answer(p * width, hit_[p], occluded);
+      hit[p] = hit_[p];
     }
   }
 
@@ -116,7 +138,7 @@ class BundleAny {
     const int ray = p * width;
     const Real zero(0.0F), shift(rays_.shift);
     const Real largest(std::numeric_limits<float>::max());
-    const Real scale = load(rays_.scale + ray), tmax = source_.tmax(ray);
+    const Real scale = load(rays_.scale + ray), tmax = load(starts_.of(p).tmax);
     const Real until = select(largest < tmax, largest, tmax);
     Real begin = zero, end_low = until * scale, end_high = end_low;
     if constexpr (common == Common::end) {
@@ -163,9 +185,9 @@ class BundleAny {
               {load(begin_ + ray), load(end_low_ + ray), load(end_high_ + ray)}, disc, q);
     const unsigned open = verdict.open & ~hit_[p];
     if (open == 0) return false;
-    const unsigned own = own_sphere(ray, id_of(spheres_, slot));
+    const unsigned own = own_sphere(p, id_of(spheres_, slot));
     hit_[p] |= verdict.certain & open & ~own;
-    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(ray, own);
+    const unsigned unclear = open & ~hit_[p] & ~leaves_outside(p, own);
     if (unclear != 0) {
       ++unclear_;
       resolve(p, slot, unclear);
@@ -225,12 +247,12 @@ class BundleAny {
                            int at) {
     const int p = ray / width, lane = ray % width;
     const unsigned bit = 1U << lane;
-    const std::int32_t source = source_.sources(p * width)[lane];
+    const PacketStart& start = starts_.of(p);
     for (unsigned left = open; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
       const std::uint32_t slot = spheres.slot(at + k);
-      const bool own = id_of(spheres_, slot) == source;
-      if (own && source_.insides(p * width)[lane] == 0) continue;  // never met again
+      const bool own = id_of(spheres_, slot) == start.source[lane];
+      if (own && start.inside[lane] == 0) continue;  // never met again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
         resolve(p, slot, bit);
@@ -243,19 +265,19 @@ class BundleAny {
   }
 
   /// Lanes, as bits, whose rays leave the primitive `id`.
-  BOULE_INLINE unsigned own_sphere(int ray, std::int32_t id) const {
-    return bits(load_integers(source_.sources(ray)) == Bits(id));
+  BOULE_INLINE unsigned own_sphere(int p, std::int32_t id) const {
+    return bits(load_integers(starts_.of(p).source) == Bits(id));
   }
   /// Of the lanes in `own`, whose rays leave a sphere, those that leave it on its outside: they
   /// never meet it again.
-  BOULE_INLINE unsigned leaves_outside(int ray, unsigned own) const {
+  BOULE_INLINE unsigned leaves_outside(int p, unsigned own) const {
     if (own == 0) return 0;
-    return own & ~bits(load_set(source_.insides(ray)));
+    return own & ~bits(load_set(starts_.of(p).inside));
   }
 
   /// Solves a sphere for those rays of packet p whose bits are set in `open`.
   BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned open) {
-    const PacketRef packet = source_.packet(p * width, open);
+    const PacketRef packet = starts_.packet(p, open);
     ExactRays rays;
     load_exact(*packet.rays, packet.first, rays);
     hit_[p] |= open & bits(solve_robust(rays, broadcast_slot(spheres_, slot)).hit);
@@ -263,7 +285,7 @@ class BundleAny {
 
   BOULE_NOINLINE void meet_planes(int p, const PlaneView& planes) {
     const unsigned open = all_lanes & ~hit_[p];
-    const PacketRef packet = source_.packet(p * width, open);
+    const PacketRef packet = starts_.packet(p, open);
     ExactRays rays;
     load_exact(*packet.rays, packet.first, rays);
     for (std::size_t k = 0; k < planes.size; ++k)
@@ -273,7 +295,7 @@ class BundleAny {
   static constexpr int group_size = bundle_size / bundle_groups;
   static_assert(group_size <= 32);  // bits of an unsigned
 
-  const Source& source_;
+  const BundleStarts& starts_;
   const Spheres& spheres_;
   const BundleRays& rays_;
   tuning::Few few_ = tuning::few_at_first;

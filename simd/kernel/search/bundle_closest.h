@@ -90,7 +90,7 @@ class BundleClosest {
   }
 
   BOULE_INLINE void start(int ray) {
-    const Real largest(std::numeric_limits<float>::max()), tmax = source_.tmax(ray);
+    const Real largest(std::numeric_limits<float>::max()), tmax = load(source_.start(ray).tmax);
     // NaN stays, and nothing is nearer than NaN. Infinity stays, and every float is nearer.
     const Real end = select(largest < tmax, largest, tmax) * load(rays_.scale + ray);
     store(low_ + ray, end);

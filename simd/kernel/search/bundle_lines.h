@@ -10,9 +10,6 @@
 /// or bound its root, and what the double solver needs where they cannot decide.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// No sphere's slot.
-inline constexpr std::uint32_t no_slot = 0xffffffffU;
-
 /// Discs in lanes: the same one in all, or W.
 struct DiscLanes {
   Real x, y, z, squared, sure, depth, spread;

@@ -72,16 +72,26 @@ BOULE_NOINLINE Outcome trace_bundle(const Geometry& geometry, const RaysInOrder<
   return outcome;
 }
 
-/// Finds which rays of a bundle hit anything.
+/// Finds which rays of a bundle hit anything: for each packet, as bits.
+template <Common common, class Geometry>
+BOULE_NOINLINE Outcome find_occluded(const Geometry& geometry, const BundleRays& rays,
+                                     const BundleStarts& starts, Effort& effort, unsigned* hit) {
+  const DiscFactors factors(rays, common);
+  BundleAny<common, SpheresOf<Geometry>> any(starts, geometry.spheres, rays);
+  const Outcome outcome = meet_all<common>(rays, factors, geometry, effort, any);
+  if (outcome == Outcome::traced) any.finish(geometry.planes, hit);
+  return outcome;
+}
 template <Common common, class Geometry, class Source>
 BOULE_NOINLINE Outcome trace_bundle(const Geometry& geometry, const Source& source, Effort& effort,
                                     std::uint8_t* occluded) {
   BundleRays rays;
   if (!load_bundle<common, Sought::any>(source, rays)) return Outcome::no_bundle;
-  const DiscFactors factors(rays, common);
-  BundleAny<common, Source, SpheresOf<Geometry>> any(source, geometry.spheres, rays);
-  const Outcome outcome = meet_all<common>(rays, factors, geometry, effort, any);
-  if (outcome == Outcome::traced) any.finish(geometry.planes, occluded);
+  const BundleStarts starts(source, rays.packets);
+  unsigned hit[bundle_packets];
+  const Outcome outcome = find_occluded<common>(geometry, rays, starts, effort, hit);
+  if (outcome != Outcome::traced) return outcome;
+  for (int p = 0; p < rays.packets; ++p) source.answer(p * width, hit[p], occluded);
   return outcome;
 }
 

@@ -132,6 +132,13 @@ class SharedByRays {
   bool from_zero_, leaves_none_;
 };
 
+/// What W rays of a bundle bring besides their lines, in memory.
+struct PacketStart {
+  const float* tmax;
+  const std::int32_t* source;  ///< the ids of the primitives that they leave, or -1
+  const std::uint8_t* inside;  ///< 1 for those that leave it on its inside
+};
+
 /// Neighbours in a stream, in its order.
 template <Common common>
 class RaysInOrder {
@@ -161,19 +168,10 @@ class RaysInOrder {
   BOULE_INLINE RealMask belongs(int ray) const {
     return shared_.template belongs<sought>(packet(ray));
   }
-  BOULE_INLINE Real tmax(int ray) const {
-    const PacketRef rays = packet(ray);
-    return load(rays.rays->tmax + rays.first);
-  }
-  /// The ids of the primitives that they leave, or -1.
-  BOULE_INLINE const std::int32_t* sources(int ray) const {
-    const PacketRef rays = packet(ray);
-    return rays.rays->source + rays.rays->places(rays.first).start;
-  }
-  /// 1 for those that leave it on its inside.
-  BOULE_INLINE const std::uint8_t* insides(int ray) const {
-    const PacketRef rays = packet(ray);
-    return rays.rays->inside + rays.rays->places(rays.first).start;
+  BOULE_INLINE PacketStart start(int ray) const {
+    const auto [rays, first] = packet(ray);
+    const std::size_t at = rays->places(first).start;
+    return {rays->tmax + first, rays->source + at, rays->inside + at};
   }
   /// Those named by the bits of `wanted`, in memory; valid until the next call.
   BOULE_INLINE PacketRef packet(int ray, unsigned /*wanted*/ = all_lanes) const {

@@ -5,7 +5,7 @@
 
 #include "simd/kernel/search/bundle_search.h"
 #include "simd/kernel/search/packet_stream.h"
-#include "simd/kernel/search/ray_sets.h"
+#include "simd/kernel/search/scattered_stream.h"
 
 /// Streams of rays with something in common, bundle by bundle. Chosen where the caller promises a
 /// common origin, direction or end (Coherence) and asks for no other form. Rays that are no bundle
@@ -19,14 +19,14 @@ namespace boule::BOULE_KERNEL_ISA {
 template <class Geometry, class Answers>
 BOULE_INLINE void trace_rest(const Geometry& geometry, const PaddedStream& stream,
                              std::size_t begin, std::size_t end, Answers answers) {
-  trace_groups<Solver::robust>(geometry, stream, begin, end, Form::automatic, answers);
+  trace_groups(geometry, stream, begin, end, Solver::robust, Form::automatic, answers);
 }
 
 /// Traces rays whose bundle was too sparse: as sets, or as packets where there are several parts.
 template <class Answers>
-BOULE_NOINLINE void trace_sparse(const GeometryView& geometry, const PaddedStream& stream,
-                                 std::size_t begin, std::size_t end, Answers answers) {
-  RaySets<Answers>(geometry, stream, answers).run(begin, end);
+BOULE_INLINE void trace_sparse(const GeometryView& geometry, const PaddedStream& stream,
+                               std::size_t begin, std::size_t end, Answers answers) {
+  trace_sets(geometry, stream, begin, end, answers);
 }
 template <class Answers>
 BOULE_INLINE void trace_sparse(const PartsGeometry& geometry, const PaddedStream& stream,

@@ -22,8 +22,8 @@ namespace boule::BOULE_KERNEL_ISA {
 
 /// Meets some spheres. Hits: BundleClosest or BundleAny.
 template <Common common, class Hits>
-BOULE_INLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
-                               const BlockSpheres& spheres, Hits& hits) {
+BOULE_NOINLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
+                                 const BlockSpheres& spheres, Hits& hits) {
   Discs discs;
   locate_discs<common, Hits::sought>(rays, factors, spheres, hits.limit(), discs);
   for (unsigned left = discs.awkward; left != 0; left &= left - 1)

@@ -5,7 +5,9 @@
 #include <type_traits>
 
 #include "simd/kernel/search/flight.h"
+#include "simd/kernel/search/packet_hits.h"
 #include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
 
 /// Rays on their way into the tree one by one, as flights or sets: what is in no leaf they meet W
@@ -76,13 +78,9 @@ class Departures {
  private:
   template <class Best>
   BOULE_INLINE void meet_scanned(const RayLanes& rays, Best& best) {
-    if (rays.filter.origins_exact) {
-      scan_spheres<Solver::robust, OneForAll, true>(rays, geometry_.spheres, best);
-    } else {
-      scan_spheres<Solver::robust, OneForAll, false>(rays, geometry_.spheres, best);
-    }
+    scan_spheres<OneForAll>(rays, Solver::robust, geometry_.spheres, best);
     best.settle(geometry_.spheres, rays);
-    scan_planes<Solver::robust, OneForAll>(rays, geometry_.planes, best);
+    scan_planes<OneForAll>(rays, Solver::robust, geometry_.planes, best);
   }
   /// `reach`: nothing beyond this t |dir| is of interest.
   BOULE_INLINE void set(const RayLanes& packet, const Real& reach) {
@@ -104,17 +102,8 @@ class Departures {
   }
   /// Traces a ray as a single ray.
   BOULE_NOINLINE void go_alone(std::size_t index) {
-    RayLanes ray;
-    load_single(stream_.rays(), index, ray);
-    if constexpr (any_hit) {
-      AnyHit<true> best(ray);
-      visits_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
-      answers_[index] = best.hit != 0 ? 1 : 0;
-    } else {
-      ClosestHit best(ray);
-      visits_ += search<Solver::robust, OnePerLane>(ray, geometry_, best);
-      store_single(best, answers_, index);
-    }
+    visits_ +=
+        trace_groups(geometry_, stream_, index, index + 1, Solver::robust, Form::single, answers_);
   }
 
   const GeometryView& geometry_;

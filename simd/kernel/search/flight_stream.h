@@ -6,7 +6,6 @@
 
 #include "simd/kernel/search/departures.h"
 #include "simd/kernel/search/flight.h"
-#include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/pair_queue.h"
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"

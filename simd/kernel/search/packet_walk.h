@@ -30,13 +30,13 @@ BOULE_INLINE Entry enter_child(const BoxRays& rays, const BvhNode& node, int k, 
 
 /// Lists those of sixteen spheres, from step `begin` on and named by bits, that float does not rule
 /// out for every ray of `lanes`.
-template <bool origins_exact, class Spheres>
+template <class Spheres>
 BOULE_INLINE void list_among(const FilterRays& rays, const Spheres& spheres, std::size_t begin,
                              unsigned in, unsigned lanes, Survivors<bvh_leaf_size>& survivors) {
   const unsigned others = all_lanes & ~lanes;
   for (; in != 0; in &= in - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(in));
-    survivors.append(k, bits(spheres.template out<origins_exact>(rays, begin + k)) | others);
+    survivors.append(k, bits(spheres.out(rays, begin + k)) | others);
   }
 }
 
@@ -79,7 +79,6 @@ class PacketWalk {
   }
 
   /// Lists the spheres of a leaf that float does not rule out for every ray of `lanes`.
-  template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
                                    const Real& limit, float farthest,
                                    Survivors<bvh_leaf_size>& survivors) const {
@@ -88,9 +87,10 @@ class PacketWalk {
     if (one_by_one_.is_for(lanes, in)) {
       one_by_one_.list_survivors(leaf, lanes, in, limit, survivors);
     } else if (beam_.is_beam()) {
-      list_among<origins_exact>(rays_, leaf, 0, in, lanes, survivors);
+      list_among(rays_, leaf, 0, in, lanes, survivors);
     } else {
-      boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0, leaf.size, survivors);
+      const auto out = [&](std::size_t step) { return leaf.out(rays_, step); };
+      boule::BOULE_KERNEL_ISA::list_survivors(out, 0, leaf.size, survivors);
       for (std::size_t k = 0; k < survivors.count; ++k) survivors.out[k] |= all_lanes & ~lanes;
     }
   }

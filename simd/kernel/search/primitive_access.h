@@ -42,6 +42,9 @@ struct OnePerLane {
   }
 };
 
+/// No sphere's slot.
+inline constexpr std::uint32_t no_slot = 0xffffffffU;
+
 /// The sphere in a slot.
 struct SlotSphere {
   float x, y, z, radius;
@@ -102,10 +105,12 @@ struct ScannedSpheres {
   }
 
   /// Lanes that certainly miss.
-  template <bool origins_exact>
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
-    return rejected<origins_exact>(rays, center(step), Access::get(spheres.reject_squared, step),
-                                   Access::get(spheres.reject_radius, step));
+    return rejected(rays, center(step), Access::get(spheres.reject_radius, step));
+  }
+  /// The same where every origin is a float.
+  [[nodiscard]] BOULE_INLINE RealMask out_exact(const FilterRays& rays, std::size_t step) const {
+    return rejected_exact(rays, center(step), Access::get(spheres.reject_squared, step));
   }
 };
 
@@ -144,9 +149,8 @@ struct LeafSpheres {
   }
 
   /// Lanes that certainly miss, or hold no sphere.
-  template <bool origins_exact>
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
-    const RealMask misses = rejected_on_the_spot<origins_exact>(rays, center(step), radius(step));
+    const RealMask misses = rejected(rays, center(step), grown_on_the_spot(radius(step)));
     if constexpr (Access::one_ray) {
       return misses | (Bits(size) <= Access::indices(0, step));
     } else {

@@ -158,11 +158,9 @@ class RaysOfPool {
   BOULE_INLINE RealMask belongs(int /*ray*/) const {
     return uniform(true);
   }
-  BOULE_INLINE Real tmax(int ray) const { return load(tmax_ + ray); }
-  BOULE_INLINE const std::int32_t* sources(int ray) const { return source_ + ray; }
-  BOULE_INLINE const std::uint8_t* insides(int ray) const {
+  BOULE_INLINE PacketStart start(int ray) const {
     static constexpr std::uint8_t none[width] = {};
-    return pool_.any_inside() ? inside_ + ray : none;
+    return {tmax_ + ray, source_ + ray, pool_.any_inside() ? inside_ + ray : none};
   }
   BOULE_NOINLINE PacketRef packet(int ray, unsigned wanted) const {
     for (unsigned left = wanted; left != 0; left &= left - 1) {

@@ -8,9 +8,9 @@
 
 #include "simd/kernel/search/departures.h"
 #include "simd/kernel/search/flight.h"
-#include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/pair_queue.h"
 #include "simd/kernel/search/ray_by_ray.h"
+#include "simd/kernel/search/scattered_stream.h"
 #include "simd/kernel/search/set_candidates.h"
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
@@ -23,12 +23,6 @@
 /// (Tsakok 2009, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing".) The order of the visits
 /// changes nothing but the time.
 namespace boule::BOULE_KERNEL_ISA {
-
-/// What sets did: how often a ray was tested against a node or a leaf, and how often a node or a
-/// leaf was visited.
-struct SetEffort {
-  std::size_t steps = 0, visits = 0;
-};
 
 /// Sets of rays, one after the other. Answers: HitStream for nearest hits, std::uint8_t* for any.
 template <class Answers>

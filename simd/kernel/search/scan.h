@@ -30,13 +30,11 @@ struct Survivors {
 };
 
 /// The hot loop. It takes four steps a branch, so that the common case, nothing survives, costs one
-/// test of four masks: 15 to 20 % faster than a branch for each.
-template <bool origins_exact, class Spheres, std::size_t capacity>
-BOULE_INLINE void list_survivors(const FilterRays& rays, const Spheres& spheres, std::size_t begin,
-                                 std::size_t end, Survivors<capacity>& survivors) {
-  const auto test = [&](std::size_t step) {
-    return spheres.template out<origins_exact>(rays, step);
-  };
+/// test of four masks: 15 to 20 % faster than a branch for each. test(step): the lanes that
+/// certainly miss.
+template <class Test, std::size_t capacity>
+BOULE_INLINE void list_survivors(const Test& test, std::size_t begin, std::size_t end,
+                                 Survivors<capacity>& survivors) {
   const auto append = [&](std::size_t step, RealMask out) {
     survivors.append(static_cast<std::uint32_t>(step - begin), bits(out));
   };
@@ -114,43 +112,59 @@ BOULE_INLINE void solve_survivors(const RayLanes& rays, const All& all, const Sp
   }
 }
 
+/// Solver fast on survivors.
+template <class Spheres, class Best, std::size_t capacity>
+BOULE_NOINLINE void solve_survivors_fast(const RayLanes& rays, const Spheres& spheres,
+                                         std::size_t begin, const Survivors<capacity>& survivors,
+                                         Best& best) {
+  for (std::size_t k = 0; k < survivors.count; ++k) {
+    const std::size_t step = begin + survivors.offset[k];
+    const SphereLanes sphere = get_sphere(spheres, step);
+    best.offer(solve_fast(rays, sphere), sphere.id, spheres.slot(step), rays);
+  }
+}
+
 /// Meets the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: what
 /// has the spheres of all slots.
-template <Solver solver, class All, class Spheres, class Best, std::size_t capacity>
-BOULE_INLINE void meet_survivors(const RayLanes& rays, const All& all, const Spheres& spheres,
-                                 std::size_t begin, const Survivors<capacity>& survivors,
-                                 Best& best) {
-  if constexpr (solver == Solver::robust) {
-    solve_survivors(rays, all, spheres, begin, survivors, best);
+template <class All, class Spheres, class Best, std::size_t capacity>
+BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver solver, const All& all,
+                                 const Spheres& spheres, std::size_t begin,
+                                 const Survivors<capacity>& survivors, Best& best) {
+  if (solver == Solver::fast) {
+    solve_survivors_fast(rays, spheres, begin, survivors, best);
   } else {
-    for (std::size_t k = 0; k < survivors.count; ++k) {
-      const std::size_t step = begin + survivors.offset[k];
-      const SphereLanes sphere = get_sphere(spheres, step);
-      best.offer(solve_fast(rays, sphere), sphere.id, spheres.slot(step), rays);
-    }
+    solve_survivors(rays, all, spheres, begin, survivors, best);
   }
 }
 
 /// Scans the spheres that are in no leaf.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE void scan_spheres(const RayLanes& rays, const SphereView& spheres, Best& best) {
+template <class Access, class Best>
+BOULE_INLINE void scan_spheres(const RayLanes& rays, Solver solver, const SphereView& spheres,
+                               Best& best) {
   const std::size_t steps = Access::steps(spheres.scanned);
   for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
     const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
     const ScannedSpheres<Access> scanned{spheres};
     Survivors<Best::chunk> survivors;
-    list_survivors<origins_exact>(rays.filter, scanned, begin, end, survivors);
-    meet_survivors<solver>(rays, spheres, scanned, begin, survivors, best);
+    if (rays.filter.origins_exact) {
+      const auto out = [&](std::size_t step) { return scanned.out_exact(rays.filter, step); };
+      list_survivors(out, begin, end, survivors);
+    } else {
+      const auto out = [&](std::size_t step) { return scanned.out(rays.filter, step); };
+      list_survivors(out, begin, end, survivors);
+    }
+    meet_survivors(rays, solver, spheres, scanned, begin, survivors, best);
   }
 }
 
 /// Scans the planes.
-template <Solver solver, class Access, class Best>
-BOULE_INLINE void scan_planes(const RayLanes& rays, const PlaneView& planes, Best& best) {
+template <class Access, class Best>
+BOULE_INLINE void scan_planes(const RayLanes& rays, Solver solver, const PlaneView& planes,
+                              Best& best) {
   const std::size_t steps = Access::steps(planes.size);
   for (std::size_t step = 0; step < steps && !best.done(); ++step) {
     const PlaneLanes plane = get_plane<Access>(planes, step);
-    if constexpr (solver == Solver::fast) {
+    if (solver == Solver::fast) {
       best.offer(solve_fast(rays, plane), plane.id, Bits(0), rays);
     } else {
       best.offer(solve_robust(rays.exact, plane), plane.id, Bits(0), rays);

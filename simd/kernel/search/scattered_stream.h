@@ -2,169 +2,43 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
+#include "simd/abi/geometry.h"
 #include "simd/abi/isa.h"
-#include "simd/kernel/search/flight_stream.h"
 #include "simd/kernel/search/packet_stream.h"
-#include "simd/kernel/search/ray_sets.h"
-#include "simd/kernel/search/ticks.h"
-#include "simd/kernel/tuning.h"
+#include "simd/kernel/search/padded_stream.h"
+#include "simd/kernel/search/parts.h"
 
 /// Streams of rays of which nothing is promised: they go as sets, as packets, or, for nearest hits,
 /// fly. Now and then some rays are traced each way, and what did best traces the next ones. Which
-/// way a ray goes changes nothing but the time.
+/// way a ray goes changes nothing but the time. Answers: HitStream, or std::uint8_t*.
+/// (scattered.cpp)
 namespace boule::BOULE_KERNEL_ISA {
 
 enum class Way : std::size_t { set, packet, flight };
 
-/// Tells the rays of a stream which way to go: now and then some go each way, one after the other,
-/// and from what that took follows which way the next ones go.
-template <bool any>
-class Choice {
- public:
-  static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit flights are sets
-
-  explicit Choice(Experience& known) : known_(known) {}
-
-  [[nodiscard]] bool is_trial() const { return known_.left == 0; }
-  [[nodiscard]] Way way() const {
-    return static_cast<Way>(is_trial() ? known_.next_way : known_.way);
-  }
-  /// How many rays go that way now, if there are so many: a multiple of W.
-  [[nodiscard]] std::size_t rays() const {
-    if (!is_trial()) return (known_.left + width - 1) / width * width;
-    return tuning::rays_on_trial<any>[known_.next_way];
-  }
-
-  /// Takes note of rays that went that way, and took so many ticks. `shared`: of a set, whether so
-  /// many of its rays visited the same that flights cannot gain.
-  void add(std::size_t rays, std::uint64_t ticks, bool shared) {
-    if (!is_trial()) {
-      known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
-      return;
-    }
-    add_to(known_.cost[known_.next_way], static_cast<float>(rays), static_cast<float>(ticks));
-    if (way() == Way::set) known_.tried_ways = any || shared ? 2 : ways;
-    if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
-  }
-
- private:
-  /// Adds a trial to those before. It may have been interrupted, since the system gives the
-  /// processor to others as well, or the last one was.
-  static void add_to(Experience::Cost& cost, float rays, float ticks) {
-    const float before = cost.ticks / cost.rays * rays;  // NaN at first
-    if (tuning::most_growth_of_cost * before < ticks) ticks = tuning::most_growth_of_cost * before;
-    const bool forget = tuning::most_fall_of_cost * ticks < before;
-    const float share = forget ? 0.0F : tuning::share_of_earlier_trials;
-    cost.ticks = cost.ticks * share + ticks;
-    cost.rays = cost.rays * share + rays;
-  }
-  /// Chooses among the first `tried` ways, of which each has been tried once more.
-  void choose(std::size_t tried) {
-    std::size_t best = 0;
-    for (std::size_t way = 1; way < tried; ++way) best = of(way) < of(best) ? way : best;
-    const std::size_t current = known_.way;
-    const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
-    if (current < tried && !gains) best = current;
-    const bool is_first = known_.rays == 0;
-    bool is_clear = !is_first;
-    for (std::size_t way = 0; way < tried; ++way)
-      is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
-    // At first as if trials had preferred sets before.
-    std::size_t rays = is_first || best != current ? tuning::rays_after_trial
-                                                   : tuning::growth_while_agreed * known_.rays;
-    if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
-    known_.way = static_cast<std::uint32_t>(best);
-    known_.rays = known_.left = static_cast<std::uint32_t>(rays);
-    known_.next_way = 0;
-    if (is_first) {  // it met caches that held nothing of the tree yet
-      for (Experience::Cost& cost : known_.cost) cost = {};
-    }
-  }
-  /// Of a ray.
-  [[nodiscard]] float of(std::size_t way) const {
-    return known_.cost[way].ticks / known_.cost[way].rays;
-  }
-
-  Experience& known_;
-};
-
-/// Traces rays of one stream in any of the ways.
-template <class Answers>
-class ScatteredStream {
- public:
-  static constexpr bool any_hit = RaySets<Answers>::any_hit;
-
-  ScatteredStream(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
-      : geometry_(geometry),
-        stream_(stream),
-        answers_(answers),
-        flights_(geometry, stream, answers),
-        sets_(geometry, stream, answers) {}
-
-  /// Traces rays begin .. end - 1. For any hit there is no way `flight`. Returns whether they share
-  /// so many visits that flights cannot gain.
-  bool run(Way way, std::size_t begin, std::size_t end) {
-    if (way == Way::set) {
-      const SetEffort effort = sets_.run(begin, end);
-      return tuning::steps_of_shared_visit * effort.visits < effort.steps;
-    }
-    if constexpr (!any_hit) {
-      if (way == Way::flight) {
-        flights_.run(begin, end);
-        return false;
-      }
-    }
-    trace_groups<Solver::robust>(geometry_, stream_, begin, end, Form::automatic, answers_);
-    return false;
-  }
-  /// Traces rays begin .. end - 1 the way that trials among them, and before them, find fastest.
-  void run_by_trial(std::size_t begin, std::size_t end, Experience& known) {
-    Choice<any_hit> choice(known);
-    while (begin < end) {
-      const std::size_t rays = end - begin < choice.rays() ? end - begin : choice.rays();
-      const std::uint64_t before = ticks();
-      const bool shared = run(choice.way(), begin, begin + rays);
-      const std::uint64_t after = ticks();
-      choice.add(rays, before < after ? after - before : 0, shared);
-      begin += rays;
-    }
-  }
-
- private:
-  struct NoFlights {
-    NoFlights(const GeometryView&, const PaddedStream&, const Answers&) {}
-  };
-
-  const GeometryView& geometry_;
-  const PaddedStream& stream_;
-  const Answers answers_;
-  std::conditional_t<any_hit, NoFlights, Flights> flights_;
-  RaySets<Answers> sets_;
-};
-
 /// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight or set,
 /// which have no trials. `known`: Query::experience.
 template <class Answers>
-BOULE_NOINLINE void trace_scattered(const GeometryView& geometry, const PaddedStream& stream,
-                                    std::size_t begin, std::size_t end, Form form,
-                                    Experience* known, const Answers& answers) {
-  ScatteredStream<Answers> rays(geometry, stream, answers);
-  if (form == Form::automatic) {
-    Experience own;
-    rays.run_by_trial(begin, end, known == nullptr ? own : *known);
-  } else {
-    const bool fly = form == Form::flight && !ScatteredStream<Answers>::any_hit;
-    rays.run(fly ? Way::flight : Way::set, begin, end);
-  }
-}
+void trace_scattered(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                     std::size_t end, Form form, Experience* known, const Answers& answers);
 /// The same through parts: as packets.
 template <class Answers>
 BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStream& stream,
                                   std::size_t begin, std::size_t end, Form form,
                                   Experience* /*known*/, const Answers& answers) {
-  trace_groups<Solver::robust>(geometry, stream, begin, end, form, answers);
+  trace_groups(geometry, stream, begin, end, Solver::robust, form, answers);
 }
+
+/// What sets did: how often a ray was tested against a node or a leaf, and how often a node or a
+/// leaf was visited.
+struct SetEffort {
+  std::size_t steps = 0, visits = 0;
+};
+
+/// Traces rays begin .. end - 1 as sets; `begin` is a multiple of W.
+template <class Answers>
+SetEffort trace_sets(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                     std::size_t end, const Answers& answers);
 
 }  // namespace boule::BOULE_KERNEL_ISA

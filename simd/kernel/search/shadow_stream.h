@@ -54,7 +54,7 @@ BOULE_NOINLINE float cost_as_packets(const Geometry& geometry, const PaddedStrea
                                      std::size_t begin, std::size_t end, std::uint8_t* occluded) {
   const auto run = [&](std::size_t first, std::size_t until) {
     const std::size_t visits =
-        trace_groups<Solver::robust>(geometry, stream, first, until, Form::automatic, occluded);
+        trace_groups(geometry, stream, first, until, Solver::robust, Form::automatic, occluded);
     return static_cast<float>(visits) * tuning::cost_of_ray.packet_visit +
            static_cast<float>(until - first) * tuning::cost_of_ray.packet;
   };
@@ -65,9 +65,8 @@ BOULE_NOINLINE float cost_as_packets(const Geometry& geometry, const PaddedStrea
 template <class Geometry>
 BOULE_NOINLINE float cost_as_sets(const Geometry& geometry, const PaddedStream& stream,
                                   std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  RaySets<std::uint8_t*> sets(geometry, stream, occluded);
   const auto run = [&](std::size_t first, std::size_t until) {
-    const SetEffort effort = sets.run(first, until);
+    const SetEffort effort = trace_sets(geometry, stream, first, until, occluded);
     return static_cast<float>(effort.steps) * tuning::cost_of_ray.set_step +
            static_cast<float>(effort.visits) * tuning::cost_of_ray.set_visit +
            static_cast<float>(until - first) * tuning::cost_of_ray.set;

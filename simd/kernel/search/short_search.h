@@ -24,9 +24,9 @@ BOULE_INLINE unsigned open_rays(const AnyHit<false> (&best)[2]) {
 }
 
 /// Searches the tree for both. Returns how many nodes and leaves each has visited, in all.
-template <Solver solver>
-BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, ShortWalk<2>& walk,
-                                           const GeometryView& geometry, AnyHit<false> (&best)[2]) {
+BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, Solver solver,
+                                           ShortWalk<2>& walk, const GeometryView& geometry,
+                                           AnyHit<false> (&best)[2]) {
   using Walk = ShortWalk<2>;
   const WholeTree tree(geometry);
   std::size_t visits = 0;
@@ -51,9 +51,9 @@ BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, ShortWalk<
       const unsigned of_packet = Walk::of_packet(lanes, p);
       if (of_packet == 0) continue;
       Survivors<bvh_leaf_size> survivors;
-      walk.list_survivors<false>(p, leaf, of_packet, in, best[p].limit(), survivors);
+      walk.list_survivors(p, leaf, of_packet, in, best[p].limit(), survivors);
       if (survivors.count == 0) continue;
-      meet_survivors<solver>(packets.rays[p], geometry.spheres, leaf, 0, survivors, best[p]);
+      meet_survivors(packets.rays[p], solver, geometry.spheres, leaf, 0, survivors, best[p]);
     }
   }
   return visits;
@@ -71,23 +71,23 @@ BOULE_INLINE bool reach_the_same(const TwoPackets& packets, const AnyHit<false> 
 
 /// Searches all primitives for two packets. Returns how many nodes and leaves each has visited, in
 /// all.
-template <Solver solver>
-BOULE_NOINLINE std::size_t search_two(const TwoPackets& packets, const GeometryView& geometry,
-                                      AnyHit<false> (&best)[2]) {
+BOULE_NOINLINE inline std::size_t search_two(const TwoPackets& packets, Solver solver,
+                                             const GeometryView& geometry,
+                                             AnyHit<false> (&best)[2]) {
   if (geometry.bvh.size != 0) {
     ReachBox reach(packets.rays[0].filter, best[0].limit(), geometry.bvh.extent);
     if (reach_the_same(packets, best, geometry.bvh.extent, reach)) {
       for (int p = 0; p < 2; ++p)
-        scan_spheres<solver, OneForAll, false>(packets.rays[p], geometry.spheres, best[p]);
+        scan_spheres<OneForAll>(packets.rays[p], solver, geometry.spheres, best[p]);
       ShortWalk<2> walk(packets.rays, reach, untested_of(geometry.bvh), geometry.bvh.extent);
-      const std::size_t visits = traverse_together<solver>(packets, walk, geometry, best);
+      const std::size_t visits = traverse_together(packets, solver, walk, geometry, best);
       for (int p = 0; p < 2; ++p)
-        scan_planes<solver, OneForAll>(packets.rays[p], geometry.planes, best[p]);
+        scan_planes<OneForAll>(packets.rays[p], solver, geometry.planes, best[p]);
       return visits;
     }
   }
-  return search<solver, OneForAll>(packets.rays[0], geometry, best[0]) +
-         search<solver, OneForAll>(packets.rays[1], geometry, best[1]);
+  return search<OneForAll>(packets.rays[0], solver, geometry, best[0]) +
+         search<OneForAll>(packets.rays[1], solver, geometry, best[1]);
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -58,14 +58,13 @@ class ShortWalk {
   }
   /// Lists those of the spheres `in` of a leaf that float does not rule out for every ray of
   /// packet p that is among its `lanes`.
-  template <bool origins_exact>
   BOULE_INLINE void list_survivors(int p, const LeafSpheres<OneForAll>& leaf, unsigned lanes,
                                    unsigned in, const Real& limit,
                                    Survivors<bvh_leaf_size>& survivors) const {
     if (one_by_one_[p].is_for(lanes, in)) {
       one_by_one_[p].list_survivors(leaf, lanes, in, limit, survivors);
     } else {
-      list_among<origins_exact>(rays_[p].filter, leaf, 0, in, lanes, survivors);
+      list_among(rays_[p].filter, leaf, 0, in, lanes, survivors);
     }
   }
 
@@ -75,12 +74,11 @@ class ShortWalk {
     static_assert(packets == 1);
     visit_children(node, lanes, &limit, stack);
   }
-  template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
                                    const Real& limit, float,
                                    Survivors<bvh_leaf_size>& survivors) const {
     static_assert(packets == 1);
-    list_survivors<origins_exact>(0, leaf, lanes, reach(leaf, lanes), limit, survivors);
+    list_survivors(0, leaf, lanes, reach(leaf, lanes), limit, survivors);
   }
 
  private:

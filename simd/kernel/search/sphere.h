@@ -21,19 +21,17 @@ BOULE_INLINE Real reject_sum(const Vec3<Real>& f, const Real& b, const Real& rej
   return filter_fma(b, b, rest);
 }
 
-/// Lanes that certainly miss. `origins_exact` must be FilterRays::origins_exact; without it the
-/// sphere grows by the rounding error of the origin.
-template <bool origins_exact>
-BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
-                               const Real& reject_squared, const Real& reject_radius) {
+/// Lanes that certainly miss where every origin is a float: FilterRays::origins_exact.
+BOULE_INLINE RealMask rejected_exact(const FilterRays& rays, const Vec3<Real>& center,
+                                     const Real& reject_squared) {
   const Vec3<Real> f = center - rays.org;
-  const Real b = filter_dot(f, rays.h);
-  Real r2p = reject_squared;
-  if constexpr (!origins_exact) {
-    const Real grown = reject_radius + rays.origin_error;
-    r2p = grown * grown;
-  }
-  return reject_sum(f, b, r2p) < Real(0.0F);
+  return reject_sum(f, filter_dot(f, rays.h), reject_squared) < Real(0.0F);
+}
+/// Lanes that certainly miss: the sphere grows by the rounding error of the origin.
+BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
+                               const Real& reject_radius) {
+  const Real grown = reject_radius + rays.origin_error;
+  return rejected_exact(rays, center, grown * grown);
 }
 
 /// The radius that rejected() wants where it was not computed in advance.
@@ -41,15 +39,6 @@ BOULE_INLINE Real grown_on_the_spot(const Real& radius) {
   return filter_fma(abs(radius),
                     Real(static_cast<float>(1 + filter::slack_on_the_spot * filter::u)),
                     Real(static_cast<float>(2 * filter::floor)));
-}
-/// rejected() for a sphere whose reject_squared and reject_radius were not computed in advance.
-template <bool origins_exact>
-BOULE_INLINE RealMask rejected_on_the_spot(const FilterRays& rays, const Vec3<Real>& center,
-                                           const Real& radius) {
-  const Real outward(static_cast<float>(1 + filter::slack_on_the_spot * filter::u));
-  const Real squared =
-      filter_fma(radius * radius, outward, Real(static_cast<float>(2 * filter::squared_floor)));
-  return rejected<origins_exact>(rays, center, squared, grown_on_the_spot(radius));
 }
 
 /// Solver robust: closest approach in double, never fused. core/reference.cpp derives the formula.

@@ -42,11 +42,10 @@ class SingleWalk {
       }
     }
   }
-  template <bool origins_exact>
   BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, unsigned, const Real&,
                                    float, Survivors<bvh_leaf_size>& survivors) const {
-    boule::BOULE_KERNEL_ISA::list_survivors<origins_exact>(rays_, leaf, 0,
-                                                           OnePerLane::steps(leaf.size), survivors);
+    const auto out = [&](std::size_t step) { return leaf.out(rays_, step); };
+    boule::BOULE_KERNEL_ISA::list_survivors(out, 0, OnePerLane::steps(leaf.size), survivors);
   }
 
  private:
@@ -95,22 +94,22 @@ BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
 }
 
 /// Meets up to sixteen spheres. `all`: what has the spheres of all slots.
-template <Solver solver, class Access, bool origins_exact, class Walk, class All, class Best>
-BOULE_INLINE void meet_leaf(const RayLanes& rays, Walk& walk, const All& all, const LeafRef& at,
-                            std::uint32_t size, unsigned lanes, float& limit, Best& best) {
+template <class Access, class Walk, class All, class Best>
+BOULE_INLINE void meet_leaf(const RayLanes& rays, Solver solver, Walk& walk, const All& all,
+                            const LeafRef& at, std::uint32_t size, unsigned lanes, float& limit,
+                            Best& best) {
   const LeafSpheres<Access> leaf(at, size);
   Survivors<bvh_leaf_size> survivors;
-  walk.template list_survivors<origins_exact>(leaf, lanes, best.limit(), limit, survivors);
+  walk.list_survivors(leaf, lanes, best.limit(), limit, survivors);
   if (survivors.count == 0) return;
-  meet_survivors<solver>(rays, all, leaf, 0, survivors, best);
+  meet_survivors(rays, solver, all, leaf, 0, survivors, best);
   limit = limit_of_all<Access>(best.limit());
 }
 
 /// Searches a tree. Returns how many nodes and leaves were visited.
-template <Solver solver, class Access, bool origins_exact, class Walk, class Tree, class All,
-          class Best>
-BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Walk& walk, const Tree& tree,
-                                       const All& all, Best& best) {
+template <class Access, class Walk, class Tree, class All, class Best>
+BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Solver solver, Walk& walk,
+                                       const Tree& tree, const All& all, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
   stack.push({-static_cast<float>(no_hit), 0, 0}, 0);
@@ -124,29 +123,29 @@ BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Walk& walk, const T
     if (visit.leaf_size == 0) {
       walk.visit_children(tree.node(visit.child), lanes, best.limit(), limit, stack);
     } else {
-      meet_leaf<solver, Access, origins_exact>(rays, walk, all, tree.leaf(visit.child),
-                                               visit.leaf_size, lanes, limit, best);
+      meet_leaf<Access>(rays, solver, walk, all, tree.leaf(visit.child), visit.leaf_size, lanes,
+                        limit, best);
     }
   }
   return visits;
 }
 
 /// Searches the tree of a geometry without parts.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, const GeometryView& geometry,
-                                          Best& best) {
+template <class Access, class Best>
+BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, Solver solver,
+                                          const GeometryView& geometry, Best& best) {
   if (geometry.bvh.size == 0) return 0;
   return with_walk<Access>(rays, best, geometry.bvh, [&](auto& walk) {
-    return traverse_tree<solver, Access, origins_exact>(rays, walk, WholeTree(geometry),
-                                                        geometry.spheres, best);
+    return traverse_tree<Access>(rays, solver, walk, WholeTree(geometry), geometry.spheres, best);
   });
 }
 
 /// Scans the spheres of a geometry without a tree for short rays of which any hit will do: those
 /// that their reach box holds. Returns false where there is a tree, where the spheres are few, or
 /// the rays not short.
-template <Solver solver, bool origins_exact, class Best>
-BOULE_INLINE bool scan_reached(const RayLanes& rays, const GeometryView& geometry, Best& best) {
+template <class Best>
+BOULE_INLINE bool scan_reached(const RayLanes& rays, Solver solver, const GeometryView& geometry,
+                               Best& best) {
   const SphereView& spheres = geometry.spheres;
   if (geometry.bvh.size != 0 || spheres.scanned <= tuning::most_unasked) return false;
   const ReachBox reach(rays.filter, best.limit(), geometry.bvh.extent);
@@ -157,51 +156,52 @@ BOULE_INLINE bool scan_reached(const RayLanes& rays, const GeometryView& geometr
     const unsigned there = left < bvh_leaf_size ? (1U << left) - 1 : ~0U;
     const unsigned in = reach.meet(spheres.blocks[slot / bvh_leaf_size]) & there;
     Survivors<bvh_leaf_size> survivors;
-    list_among<origins_exact>(rays.filter, scanned, slot, in, all_lanes, survivors);
-    meet_survivors<solver>(rays, spheres, scanned, slot, survivors, best);
+    list_among(rays.filter, scanned, slot, in, all_lanes, survivors);
+    meet_survivors(rays, solver, spheres, scanned, slot, survivors, best);
   }
   return true;
 }
 
 /// Searches all spheres: those in no leaf first, then the tree.
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const GeometryView& geometry,
-                                        Best& best) {
+template <class Access, class Best>
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, Solver solver,
+                                        const GeometryView& geometry, Best& best) {
   if constexpr (!Access::one_ray && !Best::ordered) {
-    if (scan_reached<solver, origins_exact>(rays, geometry, best)) return 0;
+    if (scan_reached(rays, solver, geometry, best)) return 0;
   }
-  scan_spheres<solver, Access, origins_exact>(rays, geometry.spheres, best);
-  return traverse_spheres<solver, Access, origins_exact>(rays, geometry, best);
+  scan_spheres<Access>(rays, solver, geometry.spheres, best);
+  return traverse_spheres<Access>(rays, solver, geometry, best);
 }
 
 /// Meets up to sixteen spheres that are in no leaf, and may be beyond the range of most filters.
-template <Solver solver, class Access, bool origins_exact, class All, class Best>
-BOULE_INLINE void meet_scanned(const RayLanes& rays, const All& all, const LeafRef& at,
-                               std::uint32_t size, Best& best) {
+template <class Access, class All, class Best>
+BOULE_INLINE void meet_scanned(const RayLanes& rays, Solver solver, const All& all,
+                               const LeafRef& at, std::uint32_t size, Best& best) {
   const LeafSpheres<Access> spheres(at, size);
   Survivors<bvh_leaf_size> survivors;
-  list_survivors<origins_exact>(rays.filter, spheres, 0, Access::steps(size), survivors);
-  meet_survivors<solver>(rays, all, spheres, 0, survivors, best);
+  const auto out = [&](std::size_t step) { return spheres.out(rays.filter, step); };
+  list_survivors(out, 0, Access::steps(size), survivors);
+  meet_survivors(rays, solver, all, spheres, 0, survivors, best);
 }
 
 /// Searches a part: its spheres that are in no leaf first, then its tree.
-template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
-BOULE_INLINE std::size_t search_part(const RayLanes& rays, Walk& walk, const PartTree& tree,
-                                     const PartSpheres& all, Best& best) {
+template <class Access, class Walk, class Best>
+BOULE_INLINE std::size_t search_part(const RayLanes& rays, Solver solver, Walk& walk,
+                                     const PartTree& tree, const PartSpheres& all, Best& best) {
   const std::uint32_t scanned = tree.part().scanned_spheres;
   for (std::uint32_t slot = 0; slot < scanned && !best.done(); slot += bvh_leaf_size) {
     const std::uint32_t rest = scanned - slot;
-    meet_scanned<solver, Access, origins_exact>(
-        rays, all, tree.block(slot),
-        rest < bvh_leaf_size ? rest : static_cast<std::uint32_t>(bvh_leaf_size), best);
+    meet_scanned<Access>(rays, solver, all, tree.block(slot),
+                         rest < bvh_leaf_size ? rest : static_cast<std::uint32_t>(bvh_leaf_size),
+                         best);
   }
   if (tree.part().nodes == nullptr) return 0;
-  return traverse_tree<solver, Access, origins_exact>(rays, walk, tree, all, best);
+  return traverse_tree<Access>(rays, solver, walk, tree, all, best);
 }
 
 /// Searches all parts, near ones first.
-template <Solver solver, class Access, bool origins_exact, class Walk, class Best>
-BOULE_INLINE std::size_t search_parts(const RayLanes& rays, Walk& walk,
+template <class Access, class Walk, class Best>
+BOULE_INLINE std::size_t search_parts(const RayLanes& rays, Solver solver, Walk& walk,
                                       const PartsGeometry& geometry, Best& best) {
   std::size_t visits = 0;
   VisitStack stack;
@@ -215,37 +215,27 @@ BOULE_INLINE std::size_t search_parts(const RayLanes& rays, Walk& walk,
       walk.visit_children(geometry.bvh.nodes[visit.child], visit.lanes, best.limit(), limit, stack);
     } else {
       const PartTree tree(geometry.spheres.part(index_of(visit.child)));
-      visits +=
-          search_part<solver, Access, origins_exact>(rays, walk, tree, geometry.spheres, best);
+      visits += search_part<Access>(rays, solver, walk, tree, geometry.spheres, best);
     }
   }
   return visits;
 }
-template <Solver solver, class Access, bool origins_exact, class Best>
-BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, const PartsGeometry& geometry,
-                                        Best& best) {
+template <class Access, class Best>
+BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, Solver solver,
+                                        const PartsGeometry& geometry, Best& best) {
   return with_walk<Access>(rays, best, geometry.bvh, [&](auto& walk) {
-    return search_parts<solver, Access, origins_exact>(rays, walk, geometry, best);
+    return search_parts<Access>(rays, solver, walk, geometry, best);
   });
-}
-
-/// The same, and solves what is still to be solved. A function of its own for each kind of origin.
-template <Solver solver, class Access, bool origins_exact, class Geometry, class Best>
-BOULE_INLINE std::size_t search_and_settle(const RayLanes& rays, const Geometry& geometry,
-                                           Best& best) {
-  const std::size_t visits = search_spheres<solver, Access, origins_exact>(rays, geometry, best);
-  best.settle(geometry.spheres, rays);
-  return visits;
 }
 
 /// Searches all primitives. Returns how many nodes and leaves were visited. Geometry: GeometryView,
 /// or PartsGeometry.
-template <Solver solver, class Access, class Geometry, class Best>
-BOULE_NOINLINE std::size_t search(const RayLanes& rays, const Geometry& geometry, Best& best) {
-  const std::size_t visits = rays.filter.origins_exact
-                                 ? search_and_settle<solver, Access, true>(rays, geometry, best)
-                                 : search_and_settle<solver, Access, false>(rays, geometry, best);
-  scan_planes<solver, Access>(rays, geometry.planes, best);
+template <class Access, class Geometry, class Best>
+BOULE_NOINLINE std::size_t search(const RayLanes& rays, Solver solver, const Geometry& geometry,
+                                  Best& best) {
+  const std::size_t visits = search_spheres<Access>(rays, solver, geometry, best);
+  best.settle(geometry.spheres, rays);
+  scan_planes<Access>(rays, solver, geometry.planes, best);
   return visits;
 }
 

@@ -1,0 +1,127 @@
+// Packets and single rays through all primitives.
+#include "simd/kernel/search/packet_hits.h"
+#include "simd/kernel/search/packet_stream.h"
+#include "simd/kernel/search/short_search.h"
+#include "simd/kernel/search/traverse.h"
+
+namespace boule::BOULE_KERNEL_ISA {
+namespace {
+
+/// Whether the next ray goes alone. `remaining`: rays of the stream from it on.
+BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
+  if (form == Form::automatic) return remaining <= tuning::most_single_rays;
+  return form == Form::single;
+}
+
+/// Calls packet(rays, first, live) for packets, `live` of whose lanes are rays of the stream, and
+/// single(rays, index) for single rays, so that rays begin .. end - 1 are covered once. `begin` is
+/// a multiple of W.
+template <class Packet, class Single>
+BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end,
+                                 Form form, const Packet& packet, const Single& single) {
+  RayLanes rays;
+  std::size_t first = begin;
+  while (first < end) {
+    if (goes_single(form, end - first)) {
+      load_single(stream.rays(), first, rays);
+      single(rays, first);
+      ++first;
+    } else {
+      load_ahead(stream, first, rays);
+      packet(rays, first, stream.live(first));
+      first += width;
+    }
+  }
+}
+
+/// One ray's hit is the nearest over the lanes; equal t: the lower id.
+BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
+  alignas(64) double t[width];
+  alignas(64) std::int32_t id[width];
+  alignas(64) std::uint32_t slot[width];
+  store(t, best.t);
+  store(id, best.id);
+  store(slot, best.slot);
+  std::size_t nearest = 0;
+  for (std::size_t lane = 1; lane < width; ++lane) {
+    const bool tie = t[lane] == t[nearest] && is_lower(id[lane], id[nearest]);
+    if (t[lane] < t[nearest] || tie) nearest = lane;
+  }
+  hits.t[index] = t[nearest];
+  hits.id[index] = id[nearest];
+  hits.slot[index] = slot[nearest];
+}
+
+/// One ray's lanes are the same ray.
+BOULE_INLINE void store_single(const AnyHit<true>& best, std::uint8_t* occluded,
+                               std::size_t index) {
+  occluded[index] = best.hit != 0 ? 1 : 0;
+}
+
+/// What packets and single rays look for.
+template <class Answers>
+struct BestOf {
+  using Packet = ClosestHit;
+  using Single = ClosestHit;
+};
+template <>
+struct BestOf<std::uint8_t*> {
+  using Packet = AnyHit<false>;
+  using Single = AnyHit<true>;
+};
+
+/// Traces pairs of packets while there are any. Returns how many nodes and leaves were visited, and
+/// moves `begin` on.
+BOULE_INLINE std::size_t trace_pairs(const GeometryView& geometry, const PaddedStream& stream,
+                                     std::size_t& begin, std::size_t end, Solver solver,
+                                     std::uint8_t* occluded) {
+  std::size_t visits = 0;
+  TwoPackets packets;
+  for (; begin + 2 * width <= end; begin += 2 * width) {
+    load_ahead(stream, begin, packets.rays[0]);
+    load_ahead(stream, begin + width, packets.rays[1]);
+    AnyHit<false> best[2] = {AnyHit<false>(packets.rays[0]), AnyHit<false>(packets.rays[1])};
+    visits += search_two(packets, solver, geometry, best);
+    for (std::size_t p = 0; p < 2; ++p) store_packet(best[p], occluded, begin + p * width, width);
+  }
+  return visits;
+}
+/// Nearest hits, and parts, have no pairs.
+template <class Geometry, class Answers>
+BOULE_INLINE std::size_t trace_pairs(const Geometry&, const PaddedStream&, std::size_t&,
+                                     std::size_t, Solver, const Answers&) {
+  return 0;
+}
+
+}  // namespace
+
+template <class Geometry, class Answers>
+std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
+                         std::size_t end, Solver solver, Form form, const Answers& answers) {
+  std::size_t visits = 0;
+  if (form != Form::single) visits += trace_pairs(geometry, stream, begin, end, solver, answers);
+  for_each_group(
+      stream, begin, end, form,
+      [&](const RayLanes& packet, std::size_t first, std::size_t live) {
+        typename BestOf<Answers>::Packet best(packet);
+        visits += search<OneForAll>(packet, solver, geometry, best);
+        store_packet(best, answers, first, live);
+      },
+      [&](const RayLanes& ray, std::size_t index) {
+        typename BestOf<Answers>::Single best(ray);
+        visits += search<OnePerLane>(ray, solver, geometry, best);
+        store_single(best, answers, index);
+      });
+  return visits;
+}
+
+template std::size_t trace_groups(const GeometryView&, const PaddedStream&, std::size_t,
+                                  std::size_t, Solver, Form, const HitStream&);
+template std::size_t trace_groups(const GeometryView&, const PaddedStream&, std::size_t,
+                                  std::size_t, Solver, Form, std::uint8_t* const&);
+template std::size_t trace_groups(const PartsGeometry&, const PaddedStream&, std::size_t,
+                                  std::size_t, Solver, Form, const HitStream&);
+template std::size_t trace_groups(const PartsGeometry&, const PaddedStream&, std::size_t,
+                                  std::size_t, Solver, Form, std::uint8_t* const&);
+
+}  // namespace boule::BOULE_KERNEL_ISA
