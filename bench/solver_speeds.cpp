@@ -86,11 +86,12 @@ std::vector<Contender> make_contenders(Arena& arena) {
     const KernelTable* const kernels = select_kernels(info.name).value();
     const std::string isa(info.name);
     for (const auto& [name, query] : ours) {
-      all.push_back({isa,
-                     name,
-                     [kernels, query = query, &arena] { run_kernel(arena, *kernels, query, arena.hits); },
-                     [&arena](std::size_t i) { return arena.hits.get(i).t; },
-                     {}});
+      all.push_back(
+          {isa,
+           name,
+           [kernels, query = query, &arena] { run_kernel(arena, *kernels, query, arena.hits); },
+           [&arena](std::size_t i) { return arena.hits.get(i).t; },
+           {}});
     }
     for (const BookSolver& solver : book_solvers(info.isa)) {
       all.push_back(
