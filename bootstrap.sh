@@ -3,14 +3,15 @@
 set -euo pipefail
 
 # openimageio-tools: the CMake package of libopenimageio-dev refuses to load without its programs.
-readonly build_packages=(cmake g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
+# clang: the compiler that is taken where it is there; g++ brings its standard library.
+readonly build_packages=(cmake clang g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev
   gemmi-dev tao-pegtl-dev libboost-dev libpng-dev libturbojpeg0-dev libxxhash-dev)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
 # chromium-driver, python3-selenium: the pages, driven in a browser.
 # libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
 # bash-completion, fish, zsh, man-db, mandoc: who reads the manual pages and completions.
-readonly test_packages=(bash-completion binutils chromium-driver clang clang-format clang-tidy fish libclang-rt-14-dev libgmock-dev
+readonly test_packages=(bash-completion binutils chromium-driver clang-format clang-tidy fish libclang-rt-14-dev libgmock-dev
   libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev man-db
   mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-selenium qemu-user zsh)
 # For the package boule, and what its tests hold it against.
@@ -34,6 +35,11 @@ usage: ./bootstrap.sh render|test|python|report|package
 TEXT
 }
 
+# announce CPU_SECONDS WHAT: what is to be done, and about how long that takes here.
+announce() {
+  echo "bootstrap: $2; about $((($1 / $(nproc) + 30) / 60 + 1)) minutes here, if packages need not be installed"
+}
+
 is_installed() {
   [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]
 }
@@ -46,6 +52,10 @@ install_missing() {
     is_installed "$package" || missing+=("$package")
   done
   ((${#missing[@]} > 0)) || return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "bootstrap: there is no apt-get here; what Debian calls ${missing[*]} must be installed otherwise" >&2
+    exit 1
+  fi
   if ((EUID != 0)) && ! command -v sudo >/dev/null; then
     echo "bootstrap: packages are missing, and there is no sudo here; an administrator can run:" >&2
     echo "apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
@@ -59,6 +69,7 @@ install_missing() {
 }
 
 render() {
+  announce 300 "compiles Boule in build/release and renders first_light.png"
   install_missing "${build_packages[@]}"
   cmake --preset release -G Ninja -DBOULE_TESTS=OFF
   cmake --build build/release
@@ -67,6 +78,7 @@ render() {
 }
 
 run_tests() {
+  announce 1800 "compiles Boule and its tests in build/test and runs them"
   install_missing "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}" \
     "${python_test_packages[@]}"
   # As users run it, and a warning is an error.

@@ -18,7 +18,7 @@ mkdir "$folder/tools" "$folder/calls"
 cp "$bootstrap" "$folder/bootstrap.sh"
 chmod 755 "$folder" "$folder/bootstrap.sh"
 chmod 777 "$folder/calls"
-for tool in bash dirname env cat; do ln -s "$(command -v "$tool")" "$folder/tools/$tool"; done
+for tool in bash dirname env cat nproc; do ln -s "$(command -v "$tool")" "$folder/tools/$tool"; done
 
 # add_tool NAME LINE...: a program that does as the lines say.
 add_tool() {
@@ -66,4 +66,11 @@ run render || status=$?
 ((status == 3)) || fail "with sudo it ends with $status, not with cmake's 3"
 grep -q '^sudo$' "$folder/calls/log" || fail "sudo is there and has not been used"
 grep -q '^apt-get install .*g++' "$folder/calls/log" || fail "nothing was installed"
+grep -q '^bootstrap: compiles Boule .*; about [0-9]* minutes here' "$folder/out" || fail "it does not say what it will do"
+
+rm "$folder/tools/apt-get"
+status=0
+run render || status=$?
+((status == 1)) || fail "without apt-get it ends with $status, not 1"
+grep -q 'no apt-get here; .* g++ ' "$folder/err" || fail "without apt-get it does not say what is missing"
 echo "bootstrap.sh asks who may"
