@@ -14,6 +14,6 @@ endmacro()
 
 boule_isa(scalar ".*" -DBOULE_KERNEL_SCALAR)
 boule_isa(sse42  "x86_64|AMD64" -msse4.2 -mpopcnt)
-boule_isa(avx2   "x86_64|AMD64" -mavx2 -mfma)
-boule_isa(avx512 "x86_64|AMD64" -mavx2 -mfma -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512cd)
+boule_isa(avx2   "x86_64|AMD64" -mavx2 -mfma -mbmi -mbmi2)
+boule_isa(avx512 "x86_64|AMD64" -mavx2 -mfma -mbmi -mbmi2 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512cd)
 boule_isa(neon   "aarch64|arm64")

@@ -34,7 +34,7 @@ bool supports_sse42() { return has(cpuid(1).ecx, bit_SSE4_2 | bit_POPCNT); }
 bool supports_avx2() {
   constexpr unsigned xmm_ymm = 0x6;
   return has(saved_registers(), xmm_ymm) && has(cpuid(1).ecx, bit_AVX | bit_FMA) &&
-         has(cpuid(7).ebx, bit_AVX2);
+         has(cpuid(7).ebx, bit_AVX2 | bit_BMI | bit_BMI2);
 }
 
 bool supports_avx512() {

@@ -27,6 +27,9 @@ BOULE_INLINE unsigned first_lanes(std::size_t count) {
 /// How many bits are set. Without an instruction for it, std::popcount() of a whole word would call
 /// a library function, which kernels must not do.
 BOULE_INLINE int count_bits(unsigned bits) {
+#ifdef __POPCNT__
+  return __builtin_popcount(bits);
+#endif
   bits -= bits >> 1 & 0x55555555U;
   bits = (bits & 0x33333333U) + (bits >> 2 & 0x33333333U);
   return static_cast<int>(((bits + (bits >> 4)) & 0x0f0f0f0fU) * 0x01010101U >> 24);

@@ -56,6 +56,7 @@ BOULE_INLINE RealMask operator<=(Bits a, Bits b) { return {a.v <= b.v}; }
 BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return m.m ? a : b; }
 BOULE_INLINE Bits reverse_bits(Bits a) { return Bits(boule::detail::reverse_bits(a.v)); }
 BOULE_INLINE Wide to_wide(Bits a) { return static_cast<double>(a.v); }
+BOULE_INLINE Bits to_bits(Real a) { return Bits(static_cast<std::int32_t>(a.v)); }
 BOULE_INLINE Bits count_from(std::uint32_t first) { return Bits(first); }
 
 BOULE_INLINE Real load(const float* p) { return *p; }

@@ -93,6 +93,17 @@ BOULE_INLINE Doubles to_double_low(Integers a) { return vcvtq_f64_u64(vmovl_u32(
 BOULE_INLINE Doubles to_double_high(Integers a) { return vcvtq_f64_u64(vmovl_high_u32(a)); }
 #endif
 
+// Floats as integers with a sign, towards zero.
+#if defined(__AVX512F__)
+BOULE_INLINE Integers to_integers(Floats a) { return _mm512_cvttps_epi32(a); }
+#elif defined(__AVX2__)
+BOULE_INLINE Integers to_integers(Floats a) { return _mm256_cvttps_epi32(a); }
+#elif defined(__SSE4_2__)
+BOULE_INLINE Integers to_integers(Floats a) { return _mm_cvttps_epi32(a); }
+#else
+BOULE_INLINE Integers to_integers(Floats a) { return vreinterpretq_u32_s32(vcvtq_s32_f32(a)); }
+#endif
+
 // The lanes, of half a register, whose byte is not 0.
 #if defined(__AVX512F__)
 BOULE_INLINE DoubleMask load_set(const std::uint8_t* p) {

@@ -98,6 +98,8 @@ BOULE_INLINE Bits select(RealMask m, Bits a, Bits b) { return gaps::select(m.m, 
 BOULE_INLINE Bits reverse_bits(Bits a) { return gaps::reverse_bits(a.v); }
 /// Exactly.
 BOULE_INLINE Wide to_wide(Bits a) { return {gaps::to_double_low(a.v), gaps::to_double_high(a.v)}; }
+/// Towards zero. Precondition: a is in the range of std::int32_t.
+BOULE_INLINE Bits to_bits(const Real& a) { return gaps::to_integers(a.v); }
 /// first, first + 1, ...
 BOULE_INLINE Bits count_from(std::uint32_t first) { return Integers(first) + gaps::counted(); }
 

@@ -60,12 +60,19 @@ class BundleAny {
   /// A simple sphere against the rays of a group. Returns whether that may have changed their hits;
   /// update() is then to be called before limit().
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
-    const PacketRange packets = packets_of(rays_, group);
+    const BundleRays& rays = rays_;
+    const PacketRange packets = packets_of(rays, group);
     bool changed = false;
-    for (int p = packets.begin; p < packets.end; ++p) {
-      const Real q = disc_square<common>(rays_, p * width, disc);
-      if (any(Real(0.0F) <= q)) changed |= consider(p, disc, q, slot);
+    int p = packets.begin;
+    for (; p + 2 <= packets.end; p += 2) {
+      const Real q0 = disc_square<common>(rays, p * width, disc);
+      const Real q1 = disc_square<common>(rays, (p + 1) * width, disc);
+      if (!any((Real(0.0F) <= q0) | (Real(0.0F) <= q1))) continue;
+      changed |= consider(p, disc, q0, slot);
+      changed |= consider(p + 1, disc, q1, slot);
     }
+    if (p < packets.end)
+      changed |= consider(p, disc, disc_square<common>(rays, p * width, disc), slot);
     if (changed) update(group);
     return changed;
   }

@@ -71,21 +71,22 @@ class LightGrid {
   /// The cells of W rays.
   template <class Point>
   BOULE_INLINE void find_cells(const Point& point, std::uint16_t* cell) const {
-    alignas(64) float x[width], y[width];
-    store(x, cut_to_cells((point.x - x_low_) * scale_, side_ - 1));
-    store(y, cut_to_cells((point.y - y_low_) * scale_, side_ - 1));
-    for (int lane = 0; lane < width; ++lane) cell[lane] = curve_position(x[lane], y[lane]);
+    const Bits x = to_bits(cut_to_cells((point.x - x_low_) * scale_, side_ - 1));
+    const Bits y = to_bits(cut_to_cells((point.y - y_low_) * scale_, side_ - 1));
+    alignas(64) std::uint32_t position[width];
+    store(position, curve_position(x, y));
+    for (int lane = 0; lane < width; ++lane)
+      cell[lane] = static_cast<std::uint16_t>(position[lane]);
   }
 
  private:
   /// The six bits of x and those of y, one by one alternately.
-  BOULE_INLINE static std::uint16_t curve_position(float x, float y) {
-    unsigned both = static_cast<unsigned>(static_cast<int>(x)) |
-                    static_cast<unsigned>(static_cast<int>(y)) << 16;
-    both = (both | both << 4) & 0x030f030fU;
-    both = (both | both << 2) & 0x03330333U;
-    both = (both | both << 1) & 0x05550555U;
-    return static_cast<std::uint16_t>((both | both >> 15) & 0xfffU);
+  BOULE_INLINE static Bits curve_position(const Bits& x, const Bits& y) {
+    Bits both = x | y << 16;
+    both = (both | both << 4) & Bits(0x030f030fU);
+    both = (both | both << 2) & Bits(0x03330333U);
+    both = (both | both << 1) & Bits(0x05550555U);
+    return (both | both >> 15) & Bits(0xfffU);
   }
 
   Real x_low_, y_low_, scale_{0.0F};

@@ -24,6 +24,7 @@ void probe_integers(const test::LaneInputs& in, test::LaneOutputs& out) {
   out.integer_equal = bits(load_integers(out.signed_integers) == j);
   out.integer_less_equal = bits(i <= j);
   store(out.integer_as_wide, to_wide(i));
+  store(out.truncated, to_bits(Real(-0.25F) * narrow(to_wide(i >> 8))));
   store(out.reversed, reverse_bits(i));
   out.set_bytes = bits(load_set(in.bytes));
 }

@@ -36,6 +36,7 @@ struct LaneOutputs {
   alignas(64) std::uint32_t integer_select[most_lanes];  ///< i where a < b, else j
   alignas(64) std::int32_t signed_integers[most_lanes];  ///< i, through signed arrays
   alignas(64) double integer_as_wide[most_lanes];        ///< of i
+  alignas(64) std::uint32_t truncated[most_lanes];       ///< the upper 24 bits of i by -4
   alignas(64) std::uint32_t reversed[most_lanes];        ///< of i, its bits
   /// From index 1 on: the lanes where a < b, of a, one after the other; the same of i, and of
   /// whether i is j; the same of x where x < y; and of |a| the halves.

@@ -201,6 +201,7 @@ TEST_P(Lanes, RowsAndColumns) {
 TEST_P(Lanes, Integers) {
   for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int k) {
     const std::uint32_t i = in.i[k], j = in.j[k];
+    ASSERT_EQ(static_cast<std::int32_t>(out.truncated[k]), -static_cast<std::int32_t>(i >> 10));
     ASSERT_EQ(out.counted[k], 77U + static_cast<std::uint32_t>(k));
     ASSERT_EQ(out.integer_sum[k], i + j);
     ASSERT_EQ(out.integer_product[k], i * j);
