@@ -9,8 +9,7 @@
 #include "render/particle_file/gemmi_particles.h"
 #include "render/particle_file/text_lines.h"
 
-// clang refuses a std::vector of an incomplete type in gemmi/cifdoc.hpp, which C++20 forbids.
-#if defined(BOULE_HAS_GEMMI) && !defined(__clang__)
+#ifdef BOULE_HAS_GEMMI
 #include <gemmi/cif.hpp>
 #include <gemmi/elem.hpp>
 #include <gemmi/numb.hpp>
@@ -20,9 +19,8 @@
 
 namespace boule {
 
-#if !defined(BOULE_HAS_GEMMI) || defined(__clang__)
+#ifndef BOULE_HAS_GEMMI
 
-bool has_gemmi_cif() { return false; }
 Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view, bool,
                                                    const std::optional<std::vector<std::string>>&) {
   return Diagnostic::of("no gemmi");
@@ -38,7 +36,7 @@ using Row = cif::Table::Row;
 /// With the place, where gemmi tells it: "cif:LINE:COLUMN(BYTE): MESSAGE" or "cif:LINE MESSAGE".
 Diagnostic cif_error(const std::string& what) {
   constexpr std::string_view source = "cif:";
-  if (!what.starts_with(source)) return Diagnostic::of(what);
+  if (what.compare(0, source.size(), source) != 0) return Diagnostic::of(what);
   const char* const end = what.data() + what.size();
   Diagnostic error;
   const char* at = std::from_chars(what.data() + source.size(), end, error.line).ptr;
@@ -324,8 +322,6 @@ class CifAtoms {
 };
 
 }  // namespace
-
-bool has_gemmi_cif() { return true; }
 
 Result<std::vector<ParticleFrame>> read_cif_frames(
     std::string_view text, bool water, const std::optional<std::vector<std::string>>& wanted) {

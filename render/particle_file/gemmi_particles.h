@@ -14,10 +14,8 @@
 
 namespace boule {
 
-/// False in a build without gemmi. Then the other functions must not be called; read_cif_frames not
-/// without the second either, which is false for clang too: it does not compile that part.
+/// False in a build without gemmi. Then the other functions must not be called.
 bool has_gemmi();
-bool has_gemmi_cif();
 
 /// Adds the atoms of PDB records in their order.
 Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns);

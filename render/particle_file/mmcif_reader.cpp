@@ -50,7 +50,7 @@ std::uint64_t document_bytes(std::string_view text) {
 Result<std::unique_ptr<ParticleReader>> open_mmcif(MappedText bytes,
                                                    const ParticleFileOptions& options,
                                                    const ParallelFor&) {
-  if (!has_gemmi_cif()) {
+  if (!has_gemmi()) {
     return Diagnostic::of("this build of Boule lacks gemmi's reader of CIF files");
   }
   if (auto no_room = check_memory(document_bytes(bytes.text()), "reading it needs")) {

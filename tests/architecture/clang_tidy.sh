@@ -46,6 +46,10 @@ sources() {
         if (line ~ /^int main\(/) group = group " " file
       }
       close(file)
+      standard = command
+      sub(/.* -std=/, "", standard)  # the last one counts
+      sub(/ .*/, "", standard)
+      group = group " " standard
       if (seen[group, file]++) next
       # What the shell would unquote: without its blanks, for words are told apart by them.
       while (match(command, /\\"[^\\]*\\"/)) {
