@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t chunk_size = 16'384;
+constexpr std::size_t digest_chunk = 16'384;
 
 std::uint64_t word_of(float low, float high) {
   return std::bit_cast<std::uint32_t>(low) | std::uint64_t{std::bit_cast<std::uint32_t>(high)}
@@ -39,25 +39,26 @@ std::uint64_t hash_of(std::uint64_t before, std::span<const Sphere> spheres) {
 void SphereDigest::add_to_chunk(std::span<const Sphere> spheres) {
   chunk_ = hash_of(chunk_, spheres);
   count_ += spheres.size();
-  if (count_ % chunk_size != 0 || spheres.empty()) return;
+  if (count_ % digest_chunk != 0 || spheres.empty()) return;
   chunks_ = append(chunks_, mix64(chunk_));
   chunk_ = 0;
 }
 
 void SphereDigest::add(std::span<const Sphere> spheres, const ParallelFor& parallel_for) {
-  const std::size_t first = std::min(
-      spheres.size(), static_cast<std::size_t>((chunk_size - count_ % chunk_size) % chunk_size));
+  const std::size_t first =
+      std::min(spheres.size(),
+               static_cast<std::size_t>((digest_chunk - count_ % digest_chunk) % digest_chunk));
   add_to_chunk(spheres.first(first));
   const std::span<const Sphere> rest = spheres.subspan(first);
-  std::vector<std::uint64_t> hashes(rest.size() / chunk_size);
+  std::vector<std::uint64_t> hashes(rest.size() / digest_chunk);
   if (!hashes.empty()) {
     parallel_for(hashes.size(), [&](std::size_t i) {
-      hashes[i] = hash_of(0, rest.subspan(i * chunk_size, chunk_size));
+      hashes[i] = hash_of(0, rest.subspan(i * digest_chunk, digest_chunk));
     });
   }
   for (const std::uint64_t hash : hashes) chunks_ = append(chunks_, mix64(hash));
-  count_ += hashes.size() * chunk_size;
-  add_to_chunk(rest.subspan(hashes.size() * chunk_size));
+  count_ += hashes.size() * digest_chunk;
+  add_to_chunk(rest.subspan(hashes.size() * digest_chunk));
 }
 
 std::uint64_t SphereDigest::value() const { return mix64(mix64(mix64(chunks_) + chunk_) + count_); }

@@ -12,7 +12,7 @@ namespace boule::cli {
 namespace {
 
 std::atomic<int> pending_signal{0};
-std::atomic<bool> writing{false};
+std::atomic<bool> writing_file{false};
 std::atomic<bool> removing{false};
 std::atomic<bool> catching{false};
 std::atomic<int> caught_signal{0};
@@ -25,7 +25,7 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 /// The file to remove while `removing`. No file's name can be longer.
 char temporary[PATH_MAX] = "";
 
-const char* name_of(int signal) {
+const char* signal_name(int signal) {
   switch (signal) {
     case SIGINT:
       return "SIGINT";
@@ -39,7 +39,7 @@ const char* name_of(int signal) {
 /// Async-signal-safe.
 [[noreturn]] void leave(int signal) {
   char text[96] = "boule: interrupted (";
-  std::strcat(text, name_of(signal));
+  std::strcat(text, signal_name(signal));
   std::strcat(text, "), ");
   std::strcat(text, end_of_line);
   std::strcat(text, "\n");
@@ -50,7 +50,7 @@ void handle(int signal) {
   int none = 0;
   if (catching && caught_signal.compare_exchange_strong(none, signal)) {
     stop_flag = true;
-  } else if (writing) {
+  } else if (writing_file) {
     pending_signal = signal;
   } else {
     leave(signal);
@@ -77,18 +77,18 @@ void ignore_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
 }
 
-WriteGuard::WriteGuard() { writing = true; }
-WriteGuard::~WriteGuard() { writing = false; }
+WriteGuard::WriteGuard() { writing_file = true; }
+WriteGuard::~WriteGuard() { writing_file = false; }
 bool WriteGuard::interrupted() { return pending_signal != 0; }
 
 RemovalGuard::RemovalGuard(const std::string& path) {
   temporary[path.copy(temporary, sizeof temporary - 1)] = '\0';
   removing = true;
-  writing = false;
+  writing_file = false;
   exit_if_interrupted();
 }
 RemovalGuard::~RemovalGuard() {
-  writing = true;
+  writing_file = true;
   removing = false;
 }
 
@@ -101,7 +101,7 @@ StopGuard::~StopGuard() { catching = false; }
 const std::atomic<bool>& StopGuard::flag() { return stop_flag; }
 void StopGuard::stop() { stop_flag = true; }
 int StopGuard::caught() { return caught_signal; }
-const char* StopGuard::caught_name() { return name_of(caught_signal); }
+const char* StopGuard::caught_name() { return signal_name(caught_signal); }
 
 void leave_as_caught() { leave(caught_signal); }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/version.h"
 #include "core/scene/scene.h"
 #include "render/cli/command_app.h"
 #include "render/cli/look_options.h"
@@ -333,11 +334,11 @@ void add_commands(CLI::App& app, Commands& commands) {
   add("version", "Tell the version");
 }
 
-constexpr const char* version = "boule " BOULE_VERSION;
+std::string version_line() { return std::string("boule ") + library_version(); }
 
 /// Tells the app all that can be typed; `commands` takes it.
 void describe(CLI::App& app, Commands& commands) {
-  app.set_version_flag("--version", version, "Tell the version");
+  app.set_version_flag("--version", version_line(), "Tell the version");
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   add_commands(app, commands);
@@ -351,7 +352,7 @@ Command chosen_command(const CLI::App& app, Commands& commands) {
     return command;
   };
   if (is_chosen("help")) return help_on(app, commands.help_topic);
-  if (is_chosen("version")) return TextCommand{std::string(version) + "\n"};
+  if (is_chosen("version")) return TextCommand{version_line() + "\n"};
   if (is_chosen("render")) return checked("render", commands.render, commands.render.look);
   if (is_chosen("view")) return checked("view", commands.view, commands.view.render.look);
   if (is_chosen("scene")) return checked("scene", commands.scene, commands.scene.look);
@@ -373,7 +374,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp&) {
     return help_text(app.help());  // of the command that was chosen, if any
   } catch (const CLI::CallForVersion&) {
-    return TextCommand{std::string(version) + "\n"};
+    return TextCommand{version_line() + "\n"};
   } catch (const CLI::ParseError& error) {
     return explain_usage(app, error);
   }

@@ -104,19 +104,19 @@ const char* surroundings(const LookOptions& options) {
 }
 
 /// A string of TOML, in quotes. Precondition: the text is UTF-8.
-std::string quoted(std::string_view text) {
-  std::string quoted = "\"";
+std::string toml_string(std::string_view text) {
+  std::string all = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
+      all += '\\';
+      all += c;
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+      all += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     } else {
-      quoted += c;
+      all += c;
     }
   }
-  return quoted + "\"";
+  return all + "\"";
 }
 
 /// The shortest number that reads back as the same double.
@@ -133,13 +133,13 @@ void add_line(std::string& text, const char* key, const std::string& value) {
 /// A list of strings.
 std::string list(const std::vector<std::string>& texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + toml_string(text);
   return "[" + list + "]";
 }
 
 /// A map of colours: a name, or a list of colours, which have commas between them.
 std::string map_text(const std::string& map) {
-  return map.find('#') == std::string::npos ? quoted(map) : list(split(map, ','));
+  return map.find('#') == std::string::npos ? toml_string(map) : list(split(map, ','));
 }
 
 /// The keys that say which colours particles have. The table of a map comes last: what follows a
@@ -148,9 +148,9 @@ void add_color(std::string& text, const LookOptions& options) {
   const std::string& color = options.color;
   if (color.empty()) return;
   // What a column by itself is, numbers, names or colours, shows when it is read.
-  if (options.map.empty() && !options.range) return add_line(text, "color", quoted(color));
+  if (options.map.empty() && !options.range) return add_line(text, "color", toml_string(color));
   text += "[particles.color]\n";
-  add_line(text, "by", quoted(color));
+  add_line(text, "by", toml_string(color));
   if (!options.map.empty()) add_line(text, "map", map_text(options.map));
   if (options.range) {
     const auto& [least, largest] = *options.range;
@@ -160,17 +160,17 @@ void add_color(std::string& text, const LookOptions& options) {
 
 void add_particles(std::string& text, const std::string& file, const LookOptions& options) {
   text += "\n[[particles]]\n";
-  add_line(text, "file", quoted(file));
-  if (!options.format.empty()) add_line(text, "format", quoted(options.format));
+  add_line(text, "file", toml_string(file));
+  if (!options.format.empty()) add_line(text, "format", toml_string(options.format));
   if (!options.columns.empty()) add_line(text, "columns", list(options.columns));
   if (options.frame) add_line(text, "frame", std::to_string(*options.frame));
   if (options.water) add_line(text, "water", "true");
   if (!options.radius.empty()) {
     const bool is_number = parse_above_0(options.radius).has_value();
-    add_line(text, "radius", is_number ? options.radius : quoted(options.radius));
+    add_line(text, "radius", is_number ? options.radius : toml_string(options.radius));
   }
   if (options.scale) add_line(text, "scale", number(*options.scale));
-  if (!options.select.empty()) add_line(text, "select", quoted(options.select));
+  if (!options.select.empty()) add_line(text, "select", toml_string(options.select));
   add_line(text, "material", "\"particles\"");
   add_color(text, options);
 }
@@ -193,7 +193,7 @@ void add_floor(std::string& text, const LookFloor& floor) {
   text += "\n[[plane]]\n";
   add_line(text, "point", vector(floor.point));
   add_line(text, "normal", vector(floor.up));
-  add_line(text, "material", quoted(floor_material));
+  add_line(text, "material", toml_string(floor_material));
 }
 
 }  // namespace

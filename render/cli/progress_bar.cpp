@@ -27,7 +27,7 @@ std::string duration(double seconds) {
 }
 
 /// Rounded down: 100 % means that all is done.
-int percent(double share) { return static_cast<int>(share * 100); }
+int whole_percent(double share) { return static_cast<int>(share * 100); }
 
 std::string json_number(double seconds) {
   return seconds < 0 ? "null" : fmt::format("{:.3f}", seconds);
@@ -163,7 +163,8 @@ std::string ProgressBar::rate() const {
   const NoiseSoFar& noise = progress_.noise;
   if (noise.pixels == 0) return fmt::format("{:.1f} Mray/s", mrays_per_s_);
   const std::string spp = fmt::format("{:.1f} spp", noise.mean_samples());
-  return is_series() ? spp : fmt::format("{}, {} % settled", spp, percent(noise.settled_share()));
+  return is_series() ? spp
+                     : fmt::format("{}, {} % settled", spp, whole_percent(noise.settled_share()));
 }
 
 /// "reading a.toml", "waiting for 2 blocks of pixels"; empty while all goes on.
@@ -185,7 +186,7 @@ std::string ProgressBar::stage_line(double now) const {
 }
 
 std::string ProgressBar::plain_line(double now) const {
-  return fmt::format("boule: {:3} %, {}", percent(share()), state(now));
+  return fmt::format("boule: {:3} %, {}", whole_percent(share()), state(now));
 }
 
 /// Made for 80 columns. Where there is little room the text stays and the bar gets shorter.
@@ -199,8 +200,8 @@ std::string ProgressBar::bar_line(double now) const {
   const auto full =
       static_cast<std::size_t>(std::clamp(share(), 0.0, 1.0) * static_cast<double>(cells));
   const std::string bar = std::string(full, '#') + std::string(cells - full, '.');
-  return fmt::format("boule: {:3} % {}{}", percent(share()), cells > 0 ? "[" + bar + "] " : "",
-                     text);
+  return fmt::format("boule: {:3} % {}{}", whole_percent(share()),
+                     cells > 0 ? "[" + bar + "] " : "", text);
 }
 
 std::string ProgressBar::json_line(double now) const {

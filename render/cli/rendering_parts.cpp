@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/version.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/picture_stream.h"
@@ -15,7 +16,7 @@ namespace boule::cli {
 namespace {
 
 /// Rounded down to a tenth, so that 100 means all.
-double percent(double share) { return std::floor(share * 1000) / 10; }
+double percent_to_tenths(double share) { return std::floor(share * 1000) / 10; }
 
 /// The blocks that are rendered: all of them, or those of the shard.
 std::vector<PixelRect> blocks_of(const RenderCommand& command, const Renderer& renderer) {
@@ -56,7 +57,7 @@ ExitCode Rendering::prepare_parts(RenderOptions& options) {
 FilmHead Rendering::film_head(const Renderer& renderer) const {
   const RenderOptions& options = renderer.options();
   FilmHead head;
-  head.facts = facts_of(options, scene_hash_, BOULE_VERSION);
+  head.facts = facts_of(options, scene_hash_, library_version());
   const Shard shard = command_.shard.value_or(Shard{});
   head.share = {{"shard", fmt::format("{}/{}", shard.index, shard.count)}};
   head.metadata = picture_header(renderer, scene_hash_, origin_);
@@ -92,7 +93,7 @@ ExitCode Rendering::render_parts(Renderer& renderer) {
   if (const auto* team_run = dynamic_cast<const TeamRun*>(run.get())) add_team(renderer, *team_run);
   if (run->resumed() > 0 && tells_of_itself()) {
     report_.note(fmt::format("boule: note: {} had {:.1f} % of the samples", checkpoint_->file(),
-                             percent(run->resumed())));
+                             percent_to_tenths(run->resumed())));
   }
   live_.start_stage("writing " + printable(shown_output(command_.output)));
   const ExitCode code = write_parts(renderer, *run, head);
@@ -168,7 +169,8 @@ ExitCode Rendering::explain_parts(const Diagnostic& error, const PartRun& run) c
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");
   print_note(fmt::format("boule: {}: {}, {} holds {:.1f} % of the samples; --resume goes on",
-                         command_.output, cause, checkpoint_->file(), percent(run.share())));
+                         command_.output, cause, checkpoint_->file(),
+                         percent_to_tenths(run.share())));
   return StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : failed;
 }
 

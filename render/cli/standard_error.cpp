@@ -20,7 +20,7 @@ std::size_t drawn = 0;               // under the mutex: length of the line that
 bool keeping = false;                // under the mutex
 std::string kept;                    // under the mutex
 std::atomic<bool> line_open{false};  // for the last line, which takes no mutex
-std::atomic<bool> writing{false};
+std::atomic<bool> writing_line{false};
 std::atomic<bool> closed{false};  // the last line has been written, or will be at once
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -30,7 +30,7 @@ thread_local volatile std::sig_atomic_t writing_here = 0;
 /// Under the mutex.
 void put(const std::string& text) {
   writing_here = 1;
-  writing = true;
+  writing_line = true;
   // An error is not reported, since standard error itself fails; after EINTR it goes on.
   for (std::size_t at = 0; at < text.size() && !closed;) {
     const ssize_t written = ::write(STDERR_FILENO, text.data() + at, text.size() - at);
@@ -38,14 +38,14 @@ void put(const std::string& text) {
     if (written <= 0) break;
     at += static_cast<std::size_t>(written);
   }
-  writing = false;
+  writing_line = false;
   writing_here = 0;
 }
 
 /// Waits for another thread's line, but only for a while: the terminal may be stopped.
 void wait_for_others() {
   constexpr timespec millisecond{0, 1'000'000};
-  for (int i = 0; i < 200 && writing; ++i) nanosleep(&millisecond, nullptr);
+  for (int i = 0; i < 200 && writing_line; ++i) nanosleep(&millisecond, nullptr);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/version.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
 #include "render/cli/text_output.h"
@@ -72,8 +73,8 @@ Json rays_json(const Stats& s) {
 }
 
 std::string as_json(const Stats& s) {
-  Json json = {{"schema", 1},      {"version", BOULE_VERSION},    {"isa", s.isa},
-               {"width", s.width}, {"solver", name_of(s.solver)}, {"threads", s.threads}};
+  Json json = {{"schema", 1},      {"version", library_version()}, {"isa", s.isa},
+               {"width", s.width}, {"solver", name_of(s.solver)},  {"threads", s.threads}};
   if (s.picture) {
     json["size"] = {s.picture->size.width, s.picture->size.height};
     json["spp"] = s.picture->spp;

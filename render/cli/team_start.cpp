@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/base/version.h"
 #include "render/cli/file_owner.h"
 #include "render/cli/run_report.h"
 #include "render/cli/standard_error.h"
@@ -37,7 +38,7 @@ Result<std::unique_ptr<Team>> join_team(const RenderCommand& command) {
   TeamSettings settings;
   settings.name = {self.host, self.process, self.processes,
                    static_cast<int>(Scheduler(command.threads).workers())};
-  settings.version = BOULE_VERSION;
+  settings.version = library_version();
   settings.is_gone = is_gone;
   settings.lost = tell_lost;
   auto team = Team::join([&launcher] { return open_mpi_post(launcher.module); }, settings);

@@ -24,7 +24,7 @@ namespace boule::cli {
 namespace {
 
 /// Rays in memory at a time, so that a file of any length will do.
-constexpr std::uint64_t chunk_size = std::uint64_t{1} << 18;
+constexpr std::uint64_t rays_of_chunk = std::uint64_t{1} << 18;
 
 /// Errors in the command that show without reading any file.
 Status check(const TraceCommand& command) {
@@ -174,7 +174,7 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
 std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file) {
   do {
     const std::uint64_t left = rays.size() - traced_;
-    rays_.resize(static_cast<std::size_t>(std::min(left, chunk_size)));
+    rays_.resize(static_cast<std::size_t>(std::min(left, rays_of_chunk)));
     const Stopwatch reading;
     if (auto bad = read_chunk(rays)) return Failure{*bad, invalid_input};
     stats_.load_seconds += reading.seconds();

@@ -22,7 +22,7 @@ const char* kind_of(const std::string& path, bool particles) {
   return path.ends_with(".npy") ? "spheres" : "toml";
 }
 
-std::string quoted(const std::string& text) {
+std::string shell_word(const std::string& text) {
   std::string all = "'";
   for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return all + "'";
@@ -39,10 +39,10 @@ std::string fixed_options(const LookOptions& look) {
   if (look.water) text += " --water";
   if (!look.format.empty()) text += " --input-format " + look.format;
   if (!look.columns.empty())
-    text += " --columns " + quoted(fmt::format("{}", fmt::join(look.columns, ",")));
-  if (!look.radius.empty()) text += " --radius " + quoted(look.radius);
+    text += " --columns " + shell_word(fmt::format("{}", fmt::join(look.columns, ",")));
+  if (!look.radius.empty()) text += " --radius " + shell_word(look.radius);
   if (look.scale) text += fmt::format(" --scale {}", *look.scale);
-  if (!look.select.empty()) text += " --select " + quoted(look.select);
+  if (!look.select.empty()) text += " --select " + shell_word(look.select);
   if (look.up) text += " --up " + vector_text(*look.up);
   return text;
 }
@@ -160,9 +160,9 @@ std::string ViewSource::options_of(const view::ParticleLook& look, int frame) co
     text += fmt::format(" --frame {}", frame);
   }
   if (facts_.kind != "particles") return text;
-  if (!look.color.empty()) text += " --color " + quoted(look.color);
+  if (!look.color.empty()) text += " --color " + shell_word(look.color);
   if (!has_color_map(look.color)) return text;
-  if (!look.map.empty()) text += " --map " + quoted(look.map);
+  if (!look.map.empty()) text += " --map " + shell_word(look.map);
   if (look.range) return text + fmt::format(" --range {},{}", (*look.range)[0], (*look.range)[1]);
   for (const auto& [table, range] : options_.color_ranges)
     return text + fmt::format(" --range {},{}", range[0], range[1]);

@@ -14,11 +14,12 @@
 #include "render/memory/available_memory.h"
 
 namespace boule {
-namespace {
 
 Diagnostic cannot_read(const std::string& path, const std::string& reason) {
   return Diagnostic::in_file(path, "cannot read it: " + reason);
 }
+
+namespace {
 
 std::string system_reason() { return std::generic_category().message(errno); }
 

@@ -8,6 +8,9 @@
 
 namespace boule {
 
+/// What every refusal to read a file says.
+Diagnostic cannot_read(const std::string& path, const std::string& reason);
+
 /// A regular file open for reading; the destructor closes it. Directories, FIFOs, devices and
 /// sockets are refused before they are opened: opening one could block, or set off an action.
 class InputFile {

@@ -19,10 +19,6 @@ namespace {
 
 constexpr std::uint64_t largest_read = std::uint64_t{16} << 20;
 
-Diagnostic cannot_read(const std::string& path, const std::string& reason) {
-  return Diagnostic::in_file(path, "cannot read it: " + reason);
-}
-
 Result<std::string> read_whole(InputFile& file, const std::string& path) {
   if (auto none = check_memory(file.size(), "it needs")) return cannot_read(path, none->message);
   std::string text(static_cast<std::size_t>(file.size()), '\0');

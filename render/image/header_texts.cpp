@@ -7,14 +7,16 @@
 namespace boule {
 namespace {
 
-using Entry = Metadata::value_type;
+using HeaderEntry = Metadata::value_type;
 
-const std::string* text_of(const Entry& entry) { return std::get_if<std::string>(&entry.second); }
+const std::string* text_of(const HeaderEntry& entry) {
+  return std::get_if<std::string>(&entry.second);
+}
 
 /// The most bytes that an entry's text takes in a file. A file may keep the text with its name, its
 /// length and its offset, or as a list of parts between semicolons, each with its own length
 /// (IPTC).
-std::size_t room_of(const Entry& entry) {
+std::size_t room_of(const HeaderEntry& entry) {
   constexpr std::size_t numbers = 32, numbers_of_part = 8;
   const std::string* const text = text_of(entry);
   if (text == nullptr) return 0;
@@ -34,9 +36,10 @@ void end_texts_at_nul(Metadata& metadata) {
 /// Leaves one entry of each name, in the place of the first and with what the last one says.
 void keep_last(Metadata& metadata) {
   Metadata kept;
-  for (Entry& entry : metadata) {
-    const auto same = std::find_if(
-        kept.begin(), kept.end(), [&](const Entry& before) { return before.first == entry.first; });
+  for (HeaderEntry& entry : metadata) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const HeaderEntry& before) {
+      return before.first == entry.first;
+    });
     if (same == kept.end()) {
       kept.push_back(std::move(entry));
     } else {
@@ -47,7 +50,7 @@ void keep_last(Metadata& metadata) {
 }
 
 void leave_out_empty(Metadata& metadata) {
-  std::erase_if(metadata, [](const Entry& entry) {
+  std::erase_if(metadata, [](const HeaderEntry& entry) {
     const std::string* const text = text_of(entry);
     return entry.first.empty() || (text != nullptr && text->empty());
   });
@@ -74,15 +77,16 @@ std::string prepare_header_texts(Metadata& metadata, const ImageFormat& format) 
   leave_out_empty(metadata);
   const auto room = static_cast<std::size_t>(format.text_room);
   std::size_t taken = 0, largest = 0;
-  for (const Entry& entry : metadata) {
+  for (const HeaderEntry& entry : metadata) {
     const std::string problem = name_problem(entry.first);
     if (!problem.empty()) return "metadata " + quote(entry.first) + " " + problem;
     taken += room_of(entry);
     largest = std::max(largest, room_of(entry));
   }
   if (taken <= room) return {};
-  const auto longest = std::find_if(metadata.begin(), metadata.end(),
-                                    [&](const Entry& entry) { return room_of(entry) == largest; });
+  const auto longest =
+      std::find_if(metadata.begin(), metadata.end(),
+                   [&](const HeaderEntry& entry) { return room_of(entry) == largest; });
   return "metadata " + quote(longest->first) + " has " + std::to_string(text_of(*longest)->size()) +
          " bytes of text, a ." + format.extension + " file has room for " + std::to_string(room) +
          " in all";

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <set>
 
+#include "core/base/version.h"
 #include "render/image/header_texts.h"
 #include "render/image/output_file.h"
 
@@ -100,7 +101,7 @@ module::Attribute attribute_of(const std::string& name, const MetadataValue& val
 /// The standard entries of a header, and after them those that were asked for.
 Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   const std::string writer = format.writer;
-  Metadata header = {{"Software", "boule " BOULE_VERSION},
+  Metadata header = {{"Software", std::string("boule ") + library_version()},
                      {"DateTime", options.date_time},
                      {"oiio:ColorSpace", format.hdr ? "Linear" : "sRGB"}};
   // Straight colours stay as they are.

@@ -37,7 +37,7 @@ bool is_within(const fs::path& folder, const fs::path& tree) {
 }
 
 /// The bytes of a file. (A stream iterator would throw if the file cannot be read.)
-Result<std::string> bytes_of(const fs::path& file) {
+Result<std::string> contents_of(const fs::path& file) {
   errno = 0;
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
@@ -51,7 +51,7 @@ Result<std::string> bytes_of(const fs::path& file) {
 
 Result<const Table*> open_module(const fs::path& file) {
   const Diagnostic other = Diagnostic::of(file.string() + ": made for another version of boule");
-  const auto bytes = bytes_of(file);
+  const auto bytes = contents_of(file);
   if (!bytes) return bytes.error();
   if (bytes.value().find(image_module::version_mark) == std::string::npos) return other;
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -18,7 +18,7 @@ namespace module = image_module;
 
 constexpr const char* too_large = "it needs more memory than there is";
 
-Diagnostic cannot_read(const std::string& path, const std::string& reason) {
+Diagnostic cannot_read_image(const std::string& path, const std::string& reason) {
   return Diagnostic::in_file(path, "cannot read it: " + reason);
 }
 
@@ -74,13 +74,15 @@ void make_linear(Image& image) {
 Result<Image> read(const std::string& path, PictureContent content) {
   const ImageFormat* format = find_image_format(path);
   if (format == nullptr) {
-    return cannot_read(path, "unknown extension, expected one of " + known_image_extensions());
+    return cannot_read_image(path,
+                             "unknown extension, expected one of " + known_image_extensions());
   }
-  if (path.find('\0') != std::string::npos) return cannot_read(path, "its name holds a NUL byte");
+  if (path.find('\0') != std::string::npos)
+    return cannot_read_image(path, "its name holds a NUL byte");
   if (const auto damage = file_damage(path, *format); !damage.empty())
-    return cannot_read(path, damage);
+    return cannot_read_image(path, damage);
   const auto loaded = load_image_module(*format);
-  if (!loaded) return cannot_read(path, loaded.error().message);
+  if (!loaded) return cannot_read_image(path, loaded.error().message);
   Room room;
   module::PictureFile file{.path = path.c_str(),
                            .format = format->writer,
@@ -90,8 +92,8 @@ Result<Image> read(const std::string& path, PictureContent content) {
                            .is_integer = false};
   module::Report report{};
   loaded.value().table->read(&file, &report);
-  if (report.outcome == module::Outcome::stopped) return cannot_read(path, room.refusal);
-  if (report.outcome != module::Outcome::done) return cannot_read(path, report.text);
+  if (report.outcome == module::Outcome::stopped) return cannot_read_image(path, room.refusal);
+  if (report.outcome != module::Outcome::done) return cannot_read_image(path, report.text);
   if (content == PictureContent::colors && file.is_integer) make_linear(room.image);
   return std::move(room.image);
 }
@@ -103,7 +105,7 @@ Result<Image> read_image(const std::string& path, PictureContent content) {
   try {
     return read(path, content);
   } catch (const std::bad_alloc&) {
-    return cannot_read(path, too_large);
+    return cannot_read_image(path, too_large);
   }
 }
 

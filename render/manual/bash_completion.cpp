@@ -5,12 +5,6 @@
 namespace boule::manual {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
-}
-
 /// "fast robust|" or "|.png .exr"; a list's words end with a comma.
 std::string value_of(const ValueFacts& facts) {
   return joined(facts.words) + (facts.list ? "," : "") + "|" + joined(facts.endings);
@@ -24,7 +18,7 @@ std::string name_of(const CommandFacts& command) {
   return command.name.empty() ? "-" : command.name;
 }
 
-std::string options_of(const CommandFacts& command) {
+std::string options_entry(const CommandFacts& command) {
   std::vector<std::string> names;
   for (const OptionFacts& option : command.options) {
     if (!option.letter.empty()) names.push_back("-" + option.letter);
@@ -58,7 +52,7 @@ std::string bash_completion(const std::vector<CommandFacts>& commands,
     if (!command.name.empty()) names.push_back(command.name);
   }
   for (const CommandFacts& command : commands) {
-    options += options_of(command);
+    options += options_entry(command);
     takes += takes_of(command, joined(names));
   }
   return "# Completes boule in bash (4.3 or newer).\n_boule_commands='" + joined(names) +

@@ -7,6 +7,12 @@
 
 namespace boule::manual {
 
+inline std::string joined(const std::vector<std::string>& words, const char* separator = " ") {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : separator) + word;
+  return line;
+}
+
 /// Scripts that complete command lines: commands, options, the names that are values of options,
 /// and the files that fit, by their endings. Where no file fits, all are offered.
 /// `functions` is what the shell runs, functions.bash or functions.fish.

@@ -5,19 +5,13 @@
 namespace boule::manual {
 namespace {
 
-std::string quoted(std::string_view text) {
-  std::string quoted = "'";
+std::string fish_string(std::string_view text) {
+  std::string all = "'";
   for (const char letter : text) {
-    if (letter == '\'' || letter == '\\') quoted += '\\';
-    quoted += letter;
+    if (letter == '\'' || letter == '\\') all += '\\';
+    all += letter;
   }
-  return quoted + "'";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
+  return all + "'";
 }
 
 /// The options of `complete` for a value.
@@ -25,7 +19,7 @@ std::string takes_of(const ValueFacts& facts) {
   if (facts.list)
     return " -x -a '(__fish_complete_list , \"printf \\\\\"%s\\\\n\\\\\" " + joined(facts.words) +
            "\")'";
-  if (!facts.words.empty()) return " -x -a " + quoted(joined(facts.words));
+  if (!facts.words.empty()) return " -x -a " + fish_string(joined(facts.words));
   if (!facts.endings.empty()) return " -x -a '(__boule_files " + joined(facts.endings) + ")'";
   return " -x";
 }
@@ -33,7 +27,8 @@ std::string takes_of(const ValueFacts& facts) {
 std::string option_line(const std::string& when, const OptionFacts& option) {
   return "complete -c boule -n '" + when + "'" +
          (option.letter.empty() ? "" : " -s " + option.letter) + " -l " + option.name +
-         (option.value.empty() ? "" : takes_of(option.takes)) + " -d " + quoted(option.text) + "\n";
+         (option.value.empty() ? "" : takes_of(option.takes)) + " -d " + fish_string(option.text) +
+         "\n";
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ std::string fish_completion(const std::vector<CommandFacts>& commands,
     text += "\n";
     if (!is_program) {
       text += "complete -c boule -n __boule_begins -a " + command.name + " -d " +
-              quoted(command.text) + "\n";
+              fish_string(command.text) + "\n";
     }
     for (const OptionFacts& option : command.options) text += option_line(when, option);
     for (const OptionFacts& positional : command.positionals) {

@@ -68,7 +68,7 @@ std::string meaning_of(const OptionFacts& option) {
 }
 
 /// The options of a command, under the headings of its help.
-std::string options_of(const CommandFacts& command) {
+std::string options_section(const CommandFacts& command) {
   std::vector<std::string> groups;
   for (const OptionFacts& option : command.options) {
     if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
@@ -159,7 +159,7 @@ ManualFile command_page(const Section& section, const std::vector<Section>& sect
   for (const CommandFacts* command : section.commands) {
     text += (command == section.commands[0] ? "" : ".br\n") + synopsis_of(*command) + "\n";
     const bool has_own = command->options.size() > 1;  // besides --help
-    if (has_own || command == section.commands[0]) options += options_of(*command);
+    if (has_own || command == section.commands[0]) options += options_section(*command);
   }
   text += ".SH DESCRIPTION\n" + roff_blocks(blocks_of(section, false), 2);
   text += ".SH OPTIONS\n" + options;
@@ -194,7 +194,7 @@ ManualFile program_page(const std::vector<Section>& sections,
   text += ".SH SYNOPSIS\n" + bold("boule") + " " + slanted("COMMAND") + " [" + slanted("options") +
           "]\n.SH DESCRIPTION\n" + roff_lines(roff_literal(commands.front().text));
   text += ".SH COMMANDS\n" + commands_of(sections, commands);
-  text += ".SH OPTIONS\n" + options_of(commands.front());
+  text += ".SH OPTIONS\n" + options_section(commands.front());
   for (const Section& section : sections) {
     if (!section.commands.empty()) continue;
     text += roff_blocks({{BlockKind::heading, 2, section.heading, {}, {}}}, 2);

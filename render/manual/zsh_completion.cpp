@@ -19,16 +19,10 @@ std::string escaped(std::string_view text) {
   return escaped;
 }
 
-std::string joined(const std::vector<std::string>& words, std::string_view separator) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : std::string(separator)) + word;
-  return line;
-}
-
 /// What fits: names, files by their endings (all where none fits), or a message only.
 std::string action_of(const ValueFacts& facts) {
-  if (facts.list) return "_values -s , name " + joined(facts.words, " ");
-  if (!facts.words.empty()) return "(" + joined(facts.words, " ") + ")";
+  if (facts.list) return "_values -s , name " + joined(facts.words);
+  if (!facts.words.empty()) return "(" + joined(facts.words) + ")";
   if (facts.endings.empty()) return " ";
   std::vector<std::string> endings;
   for (const std::string& ending : facts.endings) endings.push_back(ending.substr(1));

@@ -14,14 +14,14 @@ namespace {
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kibibyte = 1024, mebibyte = 1024 * kibibyte;
 
-std::uint64_t bytes_of(long pages) {
+std::uint64_t bytes_of_pages(long pages) {
   const long page = sysconf(_SC_PAGE_SIZE);
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
 }
 
 /// The number after a name in a file with lines "NAME NUMBER ..." and others; 0 if the name is not
 /// there.
-std::uint64_t number_in(const std::string& path, std::string_view wanted) {
+std::uint64_t number_after(const std::string& path, std::string_view wanted) {
   std::ifstream file(path);
   std::string name, rest;
   std::uint64_t number = 0;
@@ -33,10 +33,10 @@ std::uint64_t number_in(const std::string& path, std::string_view wanted) {
 }
 
 std::uint64_t system_memory() {
-  if (const auto linux_has = number_in("/proc/meminfo", "MemAvailable:"); linux_has > 0)
+  if (const auto linux_has = number_after("/proc/meminfo", "MemAvailable:"); linux_has > 0)
     return linux_has * kibibyte;
   const long pages = sysconf(_SC_PHYS_PAGES);
-  return pages > 0 ? bytes_of(pages) : unlimited;
+  return pages > 0 ? bytes_of_pages(pages) : unlimited;
 }
 
 /// Bytes that a limit leaves; `used` is the name, in the status file, of what counts for it, in
@@ -46,7 +46,7 @@ std::uint64_t room_below(__rlimit_resource resource, const std::string& status,
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
   return limit.rlim_cur -
-         std::min<std::uint64_t>(limit.rlim_cur, number_in(status, used) * kibibyte);
+         std::min<std::uint64_t>(limit.rlim_cur, number_after(status, used) * kibibyte);
 }
 
 /// What the control group of the process and all groups around it leave.
@@ -84,8 +84,8 @@ std::uint64_t control_group_memory(const std::string& folder) {
   std::ifstream(folder + "/memory.current") >> used;
   // The pages of files count as used, but the system gives them up when memory is needed.
   const std::string statistics = folder + "/memory.stat";
-  used -=
-      std::min(used, number_in(statistics, "active_file") + number_in(statistics, "inactive_file"));
+  used -= std::min(
+      used, number_after(statistics, "active_file") + number_after(statistics, "inactive_file"));
   return limit - std::min(limit, used);
 }
 

@@ -13,11 +13,11 @@ float coordinate(const Sphere& s, int axis) {
 }
 
 /// How long the sample is along an axis.
-struct Range {
+struct CenterRange {
   float low, high;
 };
 
-Range range_along(int axis, const Sphere* begin, const Sphere* end) {
+CenterRange range_along(int axis, const Sphere* begin, const Sphere* end) {
   const auto [low, high] =
       std::minmax_element(begin, end, [axis](const Sphere& a, const Sphere& b) {
         return coordinate(a, axis) < coordinate(b, axis);

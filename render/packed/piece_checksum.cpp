@@ -7,7 +7,7 @@
 namespace boule {
 namespace {
 
-std::string_view bytes_of(const std::uint64_t* values, std::size_t count) {
+std::string_view bytes_of_words(const std::uint64_t* values, std::size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof *values};
 }
 
@@ -26,7 +26,7 @@ void PieceChecksum::add(std::string_view bytes) {
 
 void PieceChecksum::end_piece() {
   const std::uint64_t value = current_->value();
-  pieces_.add(bytes_of(&value, 1));
+  pieces_.add(bytes_of_words(&value, 1));
   current_.reset();
   size_ = 0;
 }
@@ -46,7 +46,7 @@ std::uint64_t PieceChecksum::of_all(std::string_view bytes, const ParallelFor& p
   std::vector<std::uint64_t> pieces((bytes.size() + piece - 1) / piece);
   parallel_for(pieces.size(),
                [&](std::size_t i) { pieces[i] = of_piece(bytes.substr(i * piece, piece)); });
-  return of_piece(bytes_of(pieces.data(), pieces.size()));
+  return of_piece(bytes_of_words(pieces.data(), pieces.size()));
 }
 
 }  // namespace boule

@@ -149,10 +149,10 @@ struct NumberTask {
   std::size_t stride;
 };
 
-class TableReader {
+class BinaryTableReader {
  public:
-  TableReader(const BinaryTable& table, const char* first_row,
-              const std::optional<std::vector<std::string>>& wanted)
+  BinaryTableReader(const BinaryTable& table, const char* first_row,
+                    const std::optional<std::vector<std::string>>& wanted)
       : table_(table), first_row_(first_row), wanted_(wanted) {}
 
   Result<ParticleFrame> read(const ParallelFor& parallel_for) {
@@ -287,7 +287,7 @@ Status check_binary_columns(const BinaryTable& table) {
 Result<ParticleFrame> read_binary_table(const BinaryTable& table, const char* first_row,
                                         const std::optional<std::vector<std::string>>& wanted,
                                         const ParallelFor& parallel_for) {
-  return TableReader(table, first_row, wanted).read(parallel_for);
+  return BinaryTableReader(table, first_row, wanted).read(parallel_for);
 }
 
 }  // namespace boule

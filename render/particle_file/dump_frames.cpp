@@ -28,9 +28,9 @@ Item item_of(std::string_view header) {
   return Item::other;
 }
 
-class FrameFinder {
+class DumpFrameFinder {
  public:
-  explicit FrameFinder(std::string_view text) : text_(text), lines_(text) {}
+  explicit DumpFrameFinder(std::string_view text) : text_(text), lines_(text) {}
 
   Result<DumpFrames> run() {
     for (lines_.skip_blank_lines(); !lines_.at_end(); lines_.skip_blank_lines()) {
@@ -137,6 +137,6 @@ class FrameFinder {
 
 }  // namespace
 
-Result<DumpFrames> find_dump_frames(std::string_view text) { return FrameFinder(text).run(); }
+Result<DumpFrames> find_dump_frames(std::string_view text) { return DumpFrameFinder(text).run(); }
 
 }  // namespace boule

@@ -16,7 +16,7 @@ namespace boule {
 namespace {
 
 /// Where a frame is in the text.
-struct FramePlace {
+struct GroFrame {
   std::size_t title = 0;       ///< first byte of the first line
   std::size_t begin = 0;       ///< of the rows,
   std::size_t end = 0;         ///< which end before this byte, where the box begins
@@ -24,26 +24,21 @@ struct FramePlace {
   std::uint64_t row_line = 0;  ///< line of the first row
 };
 
-std::optional<std::uint64_t> count_of(std::string_view line) {
-  const auto words = words_of(line);
-  return words.size() == 1 ? count_in(words.front()) : std::nullopt;
-}
-
 /// True if nothing but blank lines is left. A title may be blank too.
 bool is_over(TextLines lines) {
   lines.skip_blank_lines();
   return lines.at_end();
 }
 
-Result<std::vector<FramePlace>> find_frames(std::string_view text) {
-  std::vector<FramePlace> frames;
+Result<std::vector<GroFrame>> find_gro_frames(std::string_view text) {
+  std::vector<GroFrame> frames;
   TextLines lines(text);
   while (!is_over(lines)) {
-    FramePlace frame{.title = lines.offset()};
+    GroFrame frame{.title = lines.offset()};
     lines.skip(1);
     const std::uint64_t count_line = lines.line();
     const std::string_view line = lines.next();
-    const auto count = count_of(line);
+    const auto count = count_in(without_blanks(line));
     if (!count) {
       return error_at_line(
           count_line, "expected a count of atoms below the title, found " + quote(line), "count");
@@ -104,13 +99,13 @@ Result<std::optional<ParticleCell>> box_of(std::string_view line, std::uint64_t 
 
 class GroReader : public ParticleReader {
  public:
-  GroReader(MappedText bytes, ParticleFileOptions options, std::vector<FramePlace> places)
+  GroReader(MappedText bytes, ParticleFileOptions options, std::vector<GroFrame> places)
       : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
 
   [[nodiscard]] std::size_t frames() const override { return places_.size(); }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
-    const FramePlace& place = places_[frame];
+    const GroFrame& place = places_[frame];
     const std::string_view text = bytes_.text();
     ParticleFrame read;
     read.length_in_angstrom = 10;
@@ -129,13 +124,13 @@ class GroReader : public ParticleReader {
  private:
   MappedText bytes_;
   ParticleFileOptions options_;
-  std::vector<FramePlace> places_;
+  std::vector<GroFrame> places_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_gro(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto places = find_frames(bytes.text());
+  auto places = find_gro_frames(bytes.text());
   if (!places) return places.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<GroReader>(std::move(bytes), options, std::move(places).value()));
@@ -145,7 +140,7 @@ Result<std::unique_ptr<ParticleReader>> open_gro(MappedText bytes,
 bool starts_like_gro(std::string_view start) {
   TextLines lines(start);
   lines.next();
-  const auto count = count_of(lines.next());
+  const auto count = count_in(without_blanks(lines.next()));
   if (!count || *count == 0 || lines.at_end()) return false;
   const std::string_view row = lines.next();
   const auto residue = words_of(row.substr(0, 5));

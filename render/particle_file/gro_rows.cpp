@@ -33,12 +33,6 @@ struct GroPlan {
   std::size_t end = 0;  ///< of a row; what follows must be blank
 };
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// Makes room in `frame`; the plan's pointers go there.
 class GroPlanner {
  public:
@@ -121,20 +115,20 @@ class GroPieceReader {
       const std::size_t begin = std::min(field.begin, line_.size());
       const std::string_view text = line_.substr(begin, field.width);
       if (field.texts != nullptr) {
-        field.texts[row_] = piece_.interners[field.interner].index_of(trimmed(text));
+        field.texts[row_] = piece_.interners[field.interner].index_of(without_blanks(text));
       } else if (!read_number(field, text)) {
         return false;
       }
     }
     if (line_.size() <= plan_.end) return true;
-    const std::string_view rest = trimmed(line_.substr(plan_.end));
+    const std::string_view rest = without_blanks(line_.substr(plan_.end));
     return rest.empty() || fail(rest, "the row goes on with " + quote(rest) + " behind column " +
                                           std::to_string(plan_.end));
   }
 
   bool read_number(const GroField& field, std::string_view text) {
     double& value = field.numbers[row_ * field.stride];
-    const std::string_view token = trimmed(text);
+    const std::string_view token = without_blanks(text);
     const char* const end = token.data() + token.size();
     if (read_short_number(token.data(), end, value) == end && !token.empty()) return true;
     if (token.empty() && field.optional) return value = 0, true;
@@ -209,8 +203,8 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
     return error_at_line(rows.first_line,
                          "expected three positions of the same width from column 21 on");
   }
-  const bool velocities =
-      first_row.size() > head + 3 * *width && !trimmed(first_row.substr(head + 3 * *width)).empty();
+  const bool velocities = first_row.size() > head + 3 * *width &&
+                          !without_blanks(first_row.substr(head + 3 * *width)).empty();
   const std::uint64_t row_bytes = 3 * sizeof(std::uint32_t) + 8 * (velocities ? 8 : 5);
   if (auto none = check_memory(row_bytes * rows.rows, std::to_string(rows.rows) + " atoms need")) {
     return none;

@@ -16,7 +16,7 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t no_row = std::numeric_limits<std::size_t>::max();
 
 Diagnostic id_twice(double id, std::size_t first, std::size_t second, std::uint64_t first_line) {
   const auto [earlier, later] = std::minmax(first, second);
@@ -34,13 +34,13 @@ bool is_whole(double id) { return std::trunc(id) == id; }
 /// as usual.
 Result<std::vector<std::size_t>> order_of_close(const std::vector<double>& ids, double least,
                                                 std::size_t range, std::uint64_t first_line) {
-  std::vector<std::size_t> rows(range, none);
+  std::vector<std::size_t> rows(range, no_row);
   for (std::size_t row = 0; row < ids.size(); ++row) {
     std::size_t& place = rows[static_cast<std::size_t>(ids[row] - least)];
-    if (place != none) return id_twice(ids[row], place, row, first_line);
+    if (place != no_row) return id_twice(ids[row], place, row, first_line);
     place = row;
   }
-  rows.erase(std::remove(rows.begin(), rows.end(), none), rows.end());
+  rows.erase(std::remove(rows.begin(), rows.end(), no_row), rows.end());
   return rows;
 }
 

@@ -36,14 +36,14 @@ const AtomStyle* find_style(std::string_view name) {
   return found == styles.end() ? nullptr : &*found;
 }
 
-bool is_whole(std::string_view word) {
+bool is_integer(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   return count_in(word).has_value();
 }
 
 /// True if a row of `count` columns ends with the three whole numbers of an image of the box.
 bool has_images(const std::vector<std::string_view>& words, std::size_t count) {
-  return words.size() == count + 3 && std::all_of(words.end() - 3, words.end(), is_whole);
+  return words.size() == count + 3 && std::all_of(words.end() - 3, words.end(), is_integer);
 }
 
 /// True if a row can be of molecular or full: the third column is a type.

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/base/ascii.h"
 #include "core/base/float_environment.h"
 #include "render/file/mapped_text.h"
 #include "render/file/npz_member.h"
@@ -13,18 +14,9 @@
 namespace boule {
 namespace {
 
-/// Small letters for the capital ones of ASCII, whatever the locale.
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return small;
-}
-
 /// The file's name in lower case, without its folder and without an ending of compression.
 std::string bare_name(std::string_view path) {
-  std::string name = lower(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
+  std::string name = ascii_lower(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
   for (const std::string_view packed : {".gz", ".zst"}) {
     if (!name.ends_with(packed)) continue;
     name.resize(name.size() - packed.size());

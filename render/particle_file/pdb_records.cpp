@@ -29,11 +29,8 @@ bool is_record(std::string_view line, std::string_view name) {
   });
 }
 
-std::string_view text_of(std::string_view line, const PdbField& field) {
-  std::string_view text = line.substr(std::min(field.begin, line.size()), field.width);
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
+std::string_view field_text(std::string_view line, const PdbField& field) {
+  return without_blanks(line.substr(std::min(field.begin, line.size()), field.width));
 }
 
 constexpr std::size_t width = 80, id_begin = 72, element_end = 78;
@@ -57,7 +54,7 @@ bool has_line_number(std::string_view line) {
 
 Result<double> number_of(std::string_view line, std::uint64_t line_number, const PdbField& field,
                          const std::string& key) {
-  const std::string_view text = text_of(line, field);
+  const std::string_view text = field_text(line, field);
   if (text.empty()) {
     return error_at_word(line_number, line, line.substr(std::min(field.begin, line.size())),
                          "expected a number in columns " + std::to_string(field.begin + 1) +
@@ -76,9 +73,9 @@ Result<double> number_of(std::string_view line, std::uint64_t line_number, const
   return *number;
 }
 
-class FrameFinder {
+class PdbFrameFinder {
  public:
-  explicit FrameFinder(std::string_view text) : lines_(text) {}
+  explicit PdbFrameFinder(std::string_view text) : lines_(text) {}
 
   Result<std::vector<PdbFrame>> run() {
     begin_frame();
@@ -122,7 +119,7 @@ class FrameFinder {
 }  // namespace
 
 Result<std::vector<PdbFrame>> find_pdb_frames(std::string_view text) {
-  return FrameFinder(text).run();
+  return PdbFrameFinder(text).run();
 }
 
 bool is_pdb_atom(std::string_view line) {
@@ -141,10 +138,10 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
   if (auto wrong = read(positions[0], numbers.position.x)) return wrong;
   if (auto wrong = read(positions[1], numbers.position.y)) return wrong;
   if (auto wrong = read(positions[2], numbers.position.z)) return wrong;
-  if (fields.occupancy && !text_of(line, occupancy).empty()) {
+  if (fields.occupancy && !field_text(line, occupancy).empty()) {
     if (auto wrong = read(occupancy, numbers.occupancy)) return wrong;
   }
-  if (fields.b_factor && !text_of(line, b_factor).empty()) {
+  if (fields.b_factor && !field_text(line, b_factor).empty()) {
     if (auto wrong = read(b_factor, numbers.b_factor)) return wrong;
   }
   const std::size_t first = records.lines.size() + positions[0].begin;
@@ -159,7 +156,7 @@ Result<std::string> pdb_cell_records(std::string_view text, std::uint64_t line_n
   TextLines lines(text);
   const std::string_view line = lines.next();
   constexpr PdbField all{"CRYST1", 6, 48};
-  if (text_of(line, all).empty()) return std::string();
+  if (field_text(line, all).empty()) return std::string();
   std::array<double, 3> edges{};
   for (std::size_t i = 0; i < cell_fields.size(); ++i) {
     const PdbField& field = cell_fields[i];

@@ -17,7 +17,7 @@ Diagnostic wrong_element(const PlyElement& element, std::string message) {
   return error_at_line(element.line, std::move(message), element.name);
 }
 
-Diagnostic too_short(const PlyElement& element, std::uint64_t found) {
+Diagnostic ends_early(const PlyElement& element, std::uint64_t found) {
   return wrong_element(element, "it promises " + std::to_string(element.count) +
                                     " of these, the file ends after " + std::to_string(found));
 }
@@ -104,13 +104,13 @@ Result<std::size_t> data_bytes(std::string_view rest, const PlyElement& element,
     const std::size_t bytes = element.fixed_bytes();
     if (bytes == 0) return std::size_t{0};
     const std::uint64_t room = rest.size() / bytes;
-    if (element.count > room) return too_short(element, room);
+    if (element.count > room) return ends_early(element, room);
     return static_cast<std::size_t>(element.count) * bytes;
   }
   std::size_t at = 0;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     const auto bytes = element_bytes(rest.substr(at), element, is_big_endian);
-    if (!bytes) return too_short(element, i);
+    if (!bytes) return ends_early(element, i);
     at += *bytes;
   }
   return at;
@@ -135,7 +135,7 @@ Result<PlyVertices> find_ply_vertices(std::string_view bytes, const PlyHeader& h
     if (header.encoding == PlyEncoding::ascii) {
       TextLines lines(rest);
       const std::uint64_t rows = lines.skip(element->count);
-      if (rows < element->count) return too_short(*element, rows);
+      if (rows < element->count) return ends_early(*element, rows);
       size = lines.offset();
       if (element != vertex) found.line += rows;
     } else {

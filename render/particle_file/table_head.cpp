@@ -40,12 +40,6 @@ FirstLines first_lines(std::string_view text) {
   return found;
 }
 
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 std::string_view without_comment_mark(std::string_view line) {
   line = without_blanks(line);
   while (!line.empty() && (line.front() == '#' || line.front() == '/')) line.remove_prefix(1);

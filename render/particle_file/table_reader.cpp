@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/ascii.h"
 #include "render/particle_file/named_columns.h"
 #include "render/particle_file/table_head.h"
 #include "render/particle_file/text_lines.h"
@@ -15,14 +16,6 @@
 
 namespace boule {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return small;
-}
 
 /// The name under which readers look for a column. Others stay as they are.
 std::string usual_name(const std::string& name) {
@@ -47,7 +40,7 @@ std::string usual_name(const std::string& name) {
                                  Spelling{"type", "type"},
                                  Spelling{"species", "species"},
                                  Spelling{"element", "element"}};
-  const std::string small = lower(name);
+  const std::string small = ascii_lower(name);
   const auto found = std::find_if(spellings.begin(), spellings.end(),
                                   [&](const Spelling& s) { return s.small == small; });
   return found == spellings.end() ? name : std::string(found->usual);

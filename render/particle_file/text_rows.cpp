@@ -80,7 +80,7 @@ const char* line_end(const char* at, const char* end) {
 }
 
 /// A column's text in a row, without its quotes and the blanks behind it.
-struct Token {
+struct RowToken {
   std::string_view text;
   const char* end;  ///< of what it takes in the row
 };
@@ -134,7 +134,7 @@ class PieceReader {
     }
   }
 
-  Token token() const {
+  RowToken token() const {
     if (is_table && at_ < end_ && *at_ == '"') {
       const char* stop = at_ + 1;
       while (stop < end_ && *stop != '"' && *stop != '\n') ++stop;
@@ -202,7 +202,7 @@ class PieceReader {
     if (column.use == ColumnUse::number || column.use == ColumnUse::position) {
       return column.positive ? read_positive_number(i) : read_number(i);
     }
-    const Token read = token();
+    const RowToken read = token();
     if (column.use == ColumnUse::logical) {
       const auto value = logical_in(read.text);
       if (!value) return fail(i, "expected T or F, found " + quote(read.text));
@@ -222,7 +222,7 @@ class PieceReader {
       at_ = stop;
       return true;
     }
-    const Token read = token();
+    const RowToken read = token();
     const auto number = number_in(read.text);
     if (!number) return fail(i, "expected a number, found " + quote(read.text));
     if (!std::isfinite(*number)) {

@@ -12,7 +12,7 @@
 namespace boule {
 namespace {
 
-struct Entry {
+struct XyzEntry {
   std::string_view key;
   std::string_view value;  ///< without its quotes or braces
   bool closed = true;      ///< false: the line ends before they do
@@ -37,12 +37,12 @@ class CommentParser {
  public:
   explicit CommentParser(std::string_view line) : line_(line) {}
 
-  std::vector<Entry> entries() {
-    std::vector<Entry> found;
+  std::vector<XyzEntry> entries() {
+    std::vector<XyzEntry> found;
     for (skip_blanks(); at_ < line_.size(); skip_blanks()) {
       const std::size_t begin = at_;
       while (at_ < line_.size() && !is_blank(line_[at_]) && line_[at_] != '=') ++at_;
-      Entry entry{line_.substr(begin, at_ - begin), {}};
+      XyzEntry entry{line_.substr(begin, at_ - begin), {}};
       if (at_ < line_.size() && line_[at_] == '=') {
         ++at_;
         take_value(entry);
@@ -57,7 +57,7 @@ class CommentParser {
     while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
   }
 
-  void take_value(Entry& entry) {
+  void take_value(XyzEntry& entry) {
     const char open = at_ < line_.size() ? line_[at_] : '\0';
     const char close = closing(open);
     if (close == 0) {
@@ -105,7 +105,7 @@ class CommentReader {
   explicit CommentReader(std::string_view line) : line_(line) {}
 
   Result<XyzComment> read() {
-    for (const Entry& entry : CommentParser(line_).entries()) {
+    for (const XyzEntry& entry : CommentParser(line_).entries()) {
       if (auto wrong = read_entry(entry)) return *wrong;
     }
     if (cell_) {
@@ -117,7 +117,7 @@ class CommentReader {
   }
 
  private:
-  Status read_entry(const Entry& entry) {
+  Status read_entry(const XyzEntry& entry) {
     const bool is_time = entry.key == "Time" || entry.key == "time";
     const bool is_known = is_time || entry.key == "Properties" || entry.key == "Lattice" ||
                           entry.key == "Origin" || entry.key == "pbc";
@@ -129,19 +129,19 @@ class CommentReader {
     return entry.key == "Lattice" ? read_lattice(entry) : read_origin(entry);
   }
 
-  Status wrong(const Entry& entry, std::string_view word, std::string message) const {
+  Status wrong(const XyzEntry& entry, std::string_view word, std::string message) const {
     return error_at_word(0, line_, word, std::move(message), std::string(entry.key));
   }
 
   /// Other programs may mean something else by a time, so one that is no number is no error.
-  Status read_time(const Entry& entry) {
+  Status read_time(const XyzEntry& entry) {
     const auto time = number_in(entry.value);
     if (time && std::isfinite(*time)) read_.time = *time;
     return std::nullopt;
   }
 
   template <std::size_t count>
-  Status read_numbers(const Entry& entry, std::array<double, count>& numbers) const {
+  Status read_numbers(const XyzEntry& entry, std::array<double, count>& numbers) const {
     const auto items = items_of(entry.value);
     if (items.size() != count) {
       return wrong(
@@ -158,7 +158,7 @@ class CommentReader {
     return std::nullopt;
   }
 
-  Status read_lattice(const Entry& entry) {
+  Status read_lattice(const XyzEntry& entry) {
     std::array<double, 9> n{};
     if (auto wrong = read_numbers(entry, n)) return wrong;
     cell_.emplace();
@@ -168,14 +168,14 @@ class CommentReader {
     return std::nullopt;
   }
 
-  Status read_origin(const Entry& entry) {
+  Status read_origin(const XyzEntry& entry) {
     std::array<double, 3> n{};
     if (auto wrong = read_numbers(entry, n)) return wrong;
     origin_ = {n[0], n[1], n[2]};
     return std::nullopt;
   }
 
-  Status read_periodic(const Entry& entry) {
+  Status read_periodic(const XyzEntry& entry) {
     const auto items = items_of(entry.value);
     if (items.size() != 3) {
       return wrong(entry, entry.value, "expected three of T and F, found " + quote(entry.value));
@@ -191,7 +191,7 @@ class CommentReader {
     return std::nullopt;
   }
 
-  Status read_properties(const Entry& entry) {
+  Status read_properties(const XyzEntry& entry) {
     std::string_view rest = entry.value;
     const auto next = [&rest] {
       const std::size_t end = std::min(rest.find(':'), rest.size());

@@ -16,7 +16,7 @@ namespace boule {
 namespace {
 
 /// Where a frame is in the text.
-struct FramePlace {
+struct XyzFrame {
   std::size_t comment = 0;     ///< first byte of the second line
   std::size_t begin = 0;       ///< of the rows,
   std::size_t end = 0;         ///< which end before this byte
@@ -25,11 +25,6 @@ struct FramePlace {
 };
 
 /// The count of particles that a frame's first line is.
-std::optional<std::uint64_t> count_of(std::string_view line) {
-  const auto words = words_of(line);
-  return words.size() == 1 ? count_in(words.front()) : std::nullopt;
-}
-
 /// Skips so many lines, or as many as there are, and returns how many. What is behind is let go.
 std::uint64_t skip_rows(std::uint64_t count, TextLines& lines, const MappedText& bytes) {
   constexpr std::uint64_t portion = std::uint64_t{1} << 16;
@@ -44,19 +39,19 @@ std::uint64_t skip_rows(std::uint64_t count, TextLines& lines, const MappedText&
   return skipped;
 }
 
-Result<std::vector<FramePlace>> find_frames(const MappedText& bytes) {
-  std::vector<FramePlace> frames;
+Result<std::vector<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
+  std::vector<XyzFrame> frames;
   const std::string_view text = bytes.text();
   TextLines lines(text);
   for (lines.skip_blank_lines(); !lines.at_end(); lines.skip_blank_lines()) {
     const std::uint64_t first_line = lines.line();
     const std::string_view line = lines.next();
-    const auto count = count_of(line);
+    const auto count = count_in(without_blanks(line));
     if (!count) {
       return error_at_line(first_line, "expected a count of particles, found " + quote(line),
                            "count");
     }
-    FramePlace frame{.comment = lines.offset(), .count = *count};
+    XyzFrame frame{.comment = lines.offset(), .count = *count};
     const bool has_comment = lines.skip(1) == 1;
     frame.begin = lines.offset();
     frame.row_line = lines.line();
@@ -119,13 +114,13 @@ void add_property(const XyzProperty& property, NamedColumns& columns) {
 
 class XyzReader : public ParticleReader {
  public:
-  XyzReader(MappedText bytes, ParticleFileOptions options, std::vector<FramePlace> places)
+  XyzReader(MappedText bytes, ParticleFileOptions options, std::vector<XyzFrame> places)
       : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
 
   [[nodiscard]] std::size_t frames() const override { return places_.size(); }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
-    const FramePlace& place = places_[frame];
+    const XyzFrame& place = places_[frame];
     const std::string_view text = bytes_.text();
     auto comment = parse_xyz_comment(TextLines(text.substr(place.comment)).next());
     if (!comment) {
@@ -177,13 +172,13 @@ class XyzReader : public ParticleReader {
 
   MappedText bytes_;
   ParticleFileOptions options_;
-  std::vector<FramePlace> places_;
+  std::vector<XyzFrame> places_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_xyz(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto places = find_frames(bytes);
+  auto places = find_xyz_frames(bytes);
   if (!places) return places.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<XyzReader>(std::move(bytes), options, std::move(places).value()));
@@ -192,7 +187,7 @@ Result<std::unique_ptr<ParticleReader>> open_xyz(MappedText bytes,
 /// A count, a comment, and a row of a name and three numbers.
 bool starts_like_xyz(std::string_view start) {
   TextLines lines(start);
-  const auto count = count_of(lines.next());
+  const auto count = count_in(without_blanks(lines.next()));
   lines.next();
   if (!count || *count == 0 || lines.at_end()) return false;
   const auto words = words_of(lines.next());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/base/chunks.h"
@@ -11,19 +10,17 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
 bool is_zero(const Vec3d& v) { return v == Vec3d{}; }
 
-double length(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
+double long_length(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
 
-Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
+Vec3d unit_of(const Vec3d& v) { return v * (1 / long_length(v)); }
 
 /// A direction across v.
 Vec3d across(const Vec3d& v) {
   const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
   const Vec3d axis = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
-  return unit(cross(unit(v), axis));
+  return unit_of(cross(unit_of(v), axis));
 }
 
 /// The vectors of the cell, with some direction for those of length 0. Nothing if all are 0.
@@ -37,7 +34,7 @@ std::optional<std::array<Vec3d, 3>> full_vectors(const ParticleCell& cell) {
     for (const Vec3d& one : vectors) {
       if (!is_zero(one) && &one != &*first) other = &one;
     }
-    vector = other == nullptr ? across(*first) : unit(cross(unit(*first), unit(*other)));
+    vector = other == nullptr ? across(*first) : unit_of(cross(unit_of(*first), unit_of(*other)));
   }
   return vectors;
 }
@@ -54,10 +51,11 @@ class Fractions {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3d& own = (*vectors)[i];
       // Across the two others, and as long as fractions of the own vector.
-      const Vec3d normal = cross(unit((*vectors)[(i + 1) % 3]), unit((*vectors)[(i + 2) % 3]));
+      const Vec3d normal =
+          cross(unit_of((*vectors)[(i + 1) % 3]), unit_of((*vectors)[(i + 2) % 3]));
       const double height = dot(normal, own);
       constexpr double flattest = 1e-10;
-      if (!(std::fabs(height) > flattest * length(own))) return std::nullopt;
+      if (!(std::fabs(height) > flattest * long_length(own))) return std::nullopt;
       fractions.rows_[i] = normal * (1 / height);
     }
     return fractions;
@@ -82,7 +80,7 @@ Status wrap_into(const ParticleCell& cell, std::vector<Vec3d>& positions,
     return Diagnostic::about("wrap", "the vectors of the file's cell lie in a plane or a line");
   }
   const std::array<Vec3d, 3> vectors{cell.a, cell.b, cell.c};
-  std::vector<std::size_t> wrong(chunks_of(positions.size()), none);
+  std::vector<std::size_t> wrong(chunks_of(positions.size()), no_particle);
   in_chunks(parallel_for, positions.size(),
             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
               constexpr double farthest = 1e9;
@@ -99,8 +97,9 @@ Status wrap_into(const ParticleCell& cell, std::vector<Vec3d>& positions,
                 if (moves) positions[i] = positions[i] - shift;
               }
             });
-  const std::size_t first = wrong.empty() ? none : *std::min_element(wrong.begin(), wrong.end());
-  if (first == none) return std::nullopt;
+  const std::size_t first =
+      wrong.empty() ? no_particle : *std::min_element(wrong.begin(), wrong.end());
+  if (first == no_particle) return std::nullopt;
   return Diagnostic::about("wrap", particle_text(first, positions.size()) +
                                        " is more than 1e9 cells away from the cell");
 }

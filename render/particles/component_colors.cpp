@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/chunks.h"
@@ -10,8 +9,6 @@
 
 namespace boule {
 namespace {
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 using Columns = std::array<ParticleNumbers, 3>;
 using Components = std::array<double, 3>;
@@ -40,7 +37,7 @@ bool is_code(double v) { return v >= 0 && v <= 255 && v == std::floor(v); }
 /// The first particles with a component that is not from 0 to 1, not whole and from 0 to 255, or
 /// neither of these.
 struct Found {
-  std::size_t no_part = none, no_code = none, neither = none;
+  std::size_t no_part = no_particle, no_code = no_particle, neither = no_particle;
 };
 
 Found check(const ColoredFrame& colored, const Columns& columns) {
@@ -84,9 +81,9 @@ Result<ParticleMaterials> take_components(const ColoredFrame& colored,
     columns[k] = std::move(found).value();
   }
   const Found found = check(colored, columns);
-  const bool codes = found.no_part != none;
-  if (codes && found.no_code != none) {
-    const bool parts_and_codes = found.neither == none;
+  const bool codes = found.no_part != no_particle;
+  if (codes && found.no_code != no_particle) {
+    const bool parts_and_codes = found.neither == no_particle;
     return wrong_components(colored, columns, parts_and_codes ? found.no_part : found.neither);
   }
   ParticleMaterials made;

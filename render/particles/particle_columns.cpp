@@ -12,7 +12,7 @@
 namespace boule {
 namespace {
 
-constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
 /// The norm; the sum of squares is used where it neither overflows nor loses digits.
 double norm(double x, double y, double z) {
@@ -34,7 +34,7 @@ std::optional<ParticleNumbers> find_norm(const ParticleFrame& frame, std::string
     std::size_t found = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const NumberColumn* const column =
-          find_number_column(frame, axis_name(name, separator, axes[axis]));
+          find_number_column(frame, axis_name(name, separator, axis_names[axis]));
       if (column == nullptr) break;
       columns[axis] = column->values.data();
       ++found;
@@ -61,7 +61,7 @@ std::optional<std::vector<double>> numbers_of(const std::vector<std::string>& te
 }
 
 std::vector<std::string_view> column_names(const ParticleFrame& frame) {
-  std::vector<std::string_view> names(axes.begin(), axes.end());
+  std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
   for (const NumberColumn& column : frame.numbers) names.push_back(column.name);
   for (const TextColumn& column : frame.texts) names.push_back(column.name);
   if (frame.species) names.push_back(frame.species->name);
@@ -105,10 +105,10 @@ Result<ParticleNumbers> find_particle_numbers(const ParticleFrame& frame, const 
   }
   const TextColumn* const texts = find_particle_texts(frame, name);
   if (texts == nullptr) {
-    const auto axis = std::find(axes.begin(), axes.end(), name);
-    if (axis == axes.end()) return no_such_column(frame, name, key);
+    const auto axis = std::find(axis_names.begin(), axis_names.end(), name);
+    if (axis == axis_names.end()) return no_such_column(frame, name, key);
     return frame.positions.empty() ? ParticleNumbers(0)
-                                   : axis_of(frame.positions, axis - axes.begin());
+                                   : axis_of(frame.positions, axis - axis_names.begin());
   }
   if (auto values = numbers_of(texts->texts)) return ParticleNumbers(*texts, *std::move(values));
   return Diagnostic::about(key, "the column " + quote(name) + " is of texts, expected numbers");
@@ -146,7 +146,7 @@ void add_column_names(const std::string& name, std::vector<std::string>& names) 
     return;
   }
   for (const std::string_view separator : {"", "_"}) {
-    for (const std::string_view axis : axes) {
+    for (const std::string_view axis : axis_names) {
       names.push_back(axis_name(vector, separator, axis));
     }
   }

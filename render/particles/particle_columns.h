@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,9 @@
 #include "render/particle_file/particle_frame.h"
 
 namespace boule {
+
+/// In place of a particle's number: there is none.
+inline constexpr std::size_t no_particle = std::numeric_limits<std::size_t>::max();
 
 /// A number of each particle, of whatever a frame has. It is a view: the frame outlives it.
 class ParticleNumbers {

@@ -16,8 +16,6 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
 const char* table_text(RadiusTable table) {
   return table == RadiusTable::vdw ? "van der Waals radii" : "covalent radii";
 }
@@ -161,7 +159,7 @@ ParticleRadii one_radius(double radius, bool is_used) {
 
 /// The radii of a chunk; the first that cannot be used, and the least of the others.
 struct Chunk {
-  std::size_t wrong = none;
+  std::size_t wrong = no_particle;
   double smallest = std::numeric_limits<double>::infinity();
 };
 
@@ -187,7 +185,7 @@ Result<double> read_radii(const ParticleNumbers& numbers, double factor, double 
   });
   double smallest = std::numeric_limits<double>::infinity();
   for (const Chunk& chunk : chunks) {
-    if (chunk.wrong != none) {
+    if (chunk.wrong != no_particle) {
       return wrong_radius("the radius of " + name_of(chunk.wrong), numbers.at(chunk.wrong) * factor,
                           scale);
     }

@@ -14,12 +14,11 @@
 namespace boule {
 namespace {
 
-using Kind = SelectStep::Kind;
-constexpr std::size_t block_size = 2048;
+constexpr std::size_t select_block = 2048;
 
 /// A step with its columns found. A comparison is of numbers, or it is an answer for each text.
 struct FoundStep {
-  Kind kind = Kind::compare;
+  SelectStep::Kind kind = SelectStep::Kind::compare;
   Comparison comparison{};
   std::optional<ParticleNumbers> left, right;
   const std::uint32_t* texts = nullptr;
@@ -54,7 +53,7 @@ class Finder {
     FoundStep found;
     found.kind = step.kind;
     found.comparison = step.comparison;
-    if (step.kind != Kind::compare) return found;
+    if (step.kind != SelectStep::Kind::compare) return found;
     const auto* const left_text = std::get_if<std::string>(&step.left);
     const auto* const right_text = std::get_if<std::string>(&step.right);
     if (left_text != nullptr) return find_texts(step, *left_text, step.right, found);
@@ -125,23 +124,23 @@ class Finder {
 class Block {
  public:
   explicit Block(std::size_t depth)
-      : answers_(depth * block_size), left_(block_size), right_(block_size) {}
+      : answers_(depth * select_block), left_(select_block), right_(select_block) {}
 
   /// The answers of all steps for particles begin .. end - 1.
   const std::uint8_t* run(const std::vector<FoundStep>& steps, std::size_t begin, std::size_t end) {
     const std::size_t count = end - begin;
     std::uint8_t* top = answers_.data();
     for (const FoundStep& step : steps) {
-      std::uint8_t* const last = top - block_size;
-      if (step.kind == Kind::compare) {
+      std::uint8_t* const last = top - select_block;
+      if (step.kind == SelectStep::Kind::compare) {
         compare(step, begin, end, top);
-        top += block_size;
-      } else if (step.kind == Kind::negate) {
+        top += select_block;
+      } else if (step.kind == SelectStep::Kind::negate) {
         for (std::size_t i = 0; i < count; ++i) last[i] ^= 1U;
       } else {
-        std::uint8_t* const other = last - block_size;
+        std::uint8_t* const other = last - select_block;
         for (std::size_t i = 0; i < count; ++i) {
-          other[i] = step.kind == Kind::both ? other[i] & last[i] : other[i] | last[i];
+          other[i] = step.kind == SelectStep::Kind::both ? other[i] & last[i] : other[i] | last[i];
         }
         top = last;
       }
@@ -196,8 +195,8 @@ Result<std::vector<std::uint8_t>> select_particles(const ParticleFrame& frame,
   const std::size_t depth = expression.value().depth();
   in_chunks(parallel_for, frame.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     Block block(depth);
-    for (; begin < end; begin += block_size) {
-      const std::size_t stop = std::min(begin + block_size, end);
+    for (; begin < end; begin += select_block) {
+      const std::size_t stop = std::min(begin + select_block, end);
       std::copy_n(block.run(steps, begin, stop), stop - begin, selected.data() + begin);
     }
   });

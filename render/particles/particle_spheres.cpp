@@ -21,8 +21,6 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
 /// The product of the counts, or the first number above the most spheres if it is larger.
 std::uint64_t count_images(const std::array<int, 3>& counts) {
   std::uint64_t images = 1;
@@ -264,7 +262,7 @@ Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size
   }
   const std::size_t first = spheres.size(), particles = frame_->size();
   make_room(spheres, count);
-  std::size_t wrong = none;
+  std::size_t wrong = no_particle;
   for (std::size_t begin = 0; begin < count;) {
     const std::size_t end = std::min(begin + portion_of(count), count);
     append_blank(spheres, end - begin, parallel_for);
@@ -274,18 +272,18 @@ Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size
     if (end > last_image) let_go(std::max(begin, last_image) - last_image, end - last_image);
     begin = end;
   }
-  if (wrong == none) return std::nullopt;
+  if (wrong == no_particle) return std::nullopt;
   spheres.resize(first);
   return Diagnostic::about(key, "the position of " + particle_text(wrong, particles) +
                                     " is too far from the origin for a sphere");
 }
 
-/// Sets some of the spheres. Returns the first particle whose centre is too large, or `none`.
+/// Sets some of the spheres. Returns the first particle whose centre is too large, or no_particle.
 std::size_t ParticleSpheres::make_spheres(const Range& range, const Vec3d& origin, Sphere* spheres,
                                           const ParallelFor& parallel_for) const {
   const std::vector<Vec3d>& positions = frame_->positions;
   const std::size_t count = range.end - range.begin;
-  std::vector<std::size_t> wrong(chunks_of(count), none);
+  std::vector<std::size_t> wrong(chunks_of(count), no_particle);
   in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const std::size_t start = range.begin + begin;
     std::size_t image = start / positions.size(), i = start % positions.size();

@@ -11,37 +11,38 @@ namespace boule {
 namespace {
 
 constexpr std::size_t bins = 4096;
-constexpr std::size_t block_size = 2048;
+constexpr std::size_t binning_block = 2048;
 
 /// Calls body(number) for each number of begin .. end - 1.
 template <class Body>
 void for_numbers(const ParticleNumbers& numbers, std::size_t begin, std::size_t end,
                  const Body& body) {
-  std::array<double, block_size> block;
-  for (; begin < end; begin += block_size) {
-    const std::size_t stop = std::min(begin + block_size, end);
+  std::array<double, binning_block> block;
+  for (; begin < end; begin += binning_block) {
+    const std::size_t stop = std::min(begin + binning_block, end);
     numbers.read(begin, stop, block.data());
     std::for_each_n(block.begin(), stop - begin, body);
   }
 }
 
-struct Range {
+struct ValueRange {
   double least = std::numeric_limits<double>::infinity();
   double largest = -std::numeric_limits<double>::infinity();
 };
 
-Range range_of(const ParticleNumbers& numbers, std::size_t count, const ParallelFor& parallel_for) {
-  std::vector<Range> ranges(chunks_of(count));
+ValueRange range_of(const ParticleNumbers& numbers, std::size_t count,
+                    const ParallelFor& parallel_for) {
+  std::vector<ValueRange> ranges(chunks_of(count));
   in_chunks(parallel_for, count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    Range range;
+    ValueRange range;
     for_numbers(numbers, begin, end, [&](double number) {
       range.least = std::min(range.least, number);
       range.largest = std::max(range.largest, number);
     });
     ranges[chunk] = range;
   });
-  Range all;
-  for (const Range& range : ranges) {
+  ValueRange all;
+  for (const ValueRange& range : ranges) {
     all.least = std::min(all.least, range.least);
     all.largest = std::max(all.largest, range.largest);
   }
@@ -52,7 +53,7 @@ Range range_of(const ParticleNumbers& numbers, std::size_t count, const Parallel
 /// bin or a later one, however this rounds.
 class Binning {
  public:
-  explicit Binning(const Range& range)
+  explicit Binning(const ValueRange& range)
       : half_least_(range.least / 2),
         bins_per_half_(static_cast<double>(bins) / (range.largest / 2 - half_least_)) {}
 
@@ -125,7 +126,7 @@ std::array<std::vector<double>, 2> numbers_in(const std::array<Place, 2>& places
 
 std::array<double, 2> percentiles(const ParticleNumbers& numbers, std::size_t count,
                                   const ParallelFor& parallel_for) {
-  const Range range = range_of(numbers, count, parallel_for);
+  const ValueRange range = range_of(numbers, count, parallel_for);
   if (!(range.least < range.largest)) return {range.least, range.largest};
   const Binning binning(range);
   const Counts counts = count_bins(numbers, count, binning, parallel_for);

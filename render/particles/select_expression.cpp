@@ -10,19 +10,16 @@
 namespace boule {
 namespace {
 
-using Token = SelectToken;
-using Kind = SelectStep::Kind;
-
-std::optional<Comparison> comparison_in(const Token& token) {
+std::optional<Comparison> comparison_in(const SelectToken& token) {
   constexpr std::array<std::string_view, 6> signs{"<", "<=", "==", "!=", ">=", ">"};
-  if (token.kind != Token::Kind::sign) return std::nullopt;
+  if (token.kind != SelectToken::Kind::sign) return std::nullopt;
   const auto found = std::find(signs.begin(), signs.end(), token.text);
   if (found == signs.end()) return std::nullopt;
   return static_cast<Comparison>(found - signs.begin());
 }
 
-std::string found_text(const Token& token) {
-  return token.kind == Token::Kind::end ? "found the end" : "found " + quote(token.text);
+std::string found_text(const SelectToken& token) {
+  return token.kind == SelectToken::Kind::end ? "found the end" : "found " + quote(token.text);
 }
 
 /// Recursive descent: || of && of ( ), !( ) and comparisons.
@@ -31,7 +28,7 @@ class Parser {
   Parser(std::string_view text, const std::string& key) : tokens_(text, key) {}
 
   Result<SelectExpression> parse() {
-    if (advance() && parse_either() && token_.kind != Token::Kind::end) {
+    if (advance() && parse_either() && token_.kind != SelectToken::Kind::end) {
       fail(token_, comparison_in(token_) ? "comparisons do not chain, join two of them with &&"
                                          : "expected && or ||, " + found_text(token_));
     }
@@ -42,7 +39,7 @@ class Parser {
  private:
   static constexpr int most_nested = 100;
 
-  bool fail(const Token& token, const std::string& message) {
+  bool fail(const SelectToken& token, const std::string& message) {
     error_ = tokens_.error(token.place, message);
     return false;
   }
@@ -58,10 +55,10 @@ class Parser {
   }
 
   [[nodiscard]] bool at(std::string_view sign) const {
-    return token_.kind == Token::Kind::sign && token_.text == sign;
+    return token_.kind == SelectToken::Kind::sign && token_.text == sign;
   }
 
-  void add(Kind kind) {
+  void add(SelectStep::Kind kind) {
     SelectStep step;
     step.kind = kind;
     expression_.steps.push_back(step);
@@ -71,7 +68,7 @@ class Parser {
     if (!parse_both()) return false;
     while (at("||")) {
       if (!advance() || !parse_both()) return false;
-      add(Kind::either);
+      add(SelectStep::Kind::either);
     }
     return true;
   }
@@ -80,7 +77,7 @@ class Parser {
     if (!parse_one()) return false;
     while (at("&&")) {
       if (!advance() || !parse_one()) return false;
-      add(Kind::both);
+      add(SelectStep::Kind::both);
     }
     return true;
   }
@@ -93,18 +90,19 @@ class Parser {
     }
     if (!at("(")) return parse_comparison();
     if (!parse_nested()) return false;
-    if (negated) add(Kind::negate);
+    if (negated) add(SelectStep::Kind::negate);
     return true;
   }
 
   bool parse_nested() {
-    const Token opening = token_;
+    const SelectToken opening = token_;
     if (nested_ == most_nested) return fail(opening, "the parentheses are nested too deeply");
     ++nested_;
     if (!advance() || !parse_either()) return false;
     --nested_;
     if (at(")")) return advance();
-    if (token_.kind == Token::Kind::end) return fail(opening, "this parenthesis is not closed");
+    if (token_.kind == SelectToken::Kind::end)
+      return fail(opening, "this parenthesis is not closed");
     return fail(token_, comparison_in(token_) ? "comparisons do not chain, join two of them with &&"
                                               : "expected && or || or ), " + found_text(token_));
   }
@@ -125,17 +123,17 @@ class Parser {
 
   bool parse_value(SelectValue& value) {
     switch (token_.kind) {
-      case Token::Kind::number:
+      case SelectToken::Kind::number:
         value = token_.number;
         break;
-      case Token::Kind::name:
+      case SelectToken::Kind::name:
         value = ColumnName{std::string(token_.text), token_.place};
         break;
-      case Token::Kind::text:
+      case SelectToken::Kind::text:
         value = std::string(token_.text);
         break;
-      case Token::Kind::sign:
-      case Token::Kind::end:
+      case SelectToken::Kind::sign:
+      case SelectToken::Kind::end:
         return fail(token_,
                     "expected a column, a number or a text in quotes, " + found_text(token_));
     }
@@ -143,7 +141,7 @@ class Parser {
   }
 
   SelectTokens tokens_;
-  Token token_;
+  SelectToken token_;
   SelectExpression expression_;
   Status error_;
   int nested_ = 0;
@@ -154,8 +152,8 @@ class Parser {
 std::size_t SelectExpression::depth() const {
   std::size_t now = 0, most = 0;
   for (const SelectStep& step : steps) {
-    if (step.kind == Kind::compare) most = std::max(most, ++now);
-    if (step.kind == Kind::both || step.kind == Kind::either) --now;
+    if (step.kind == SelectStep::Kind::compare) most = std::max(most, ++now);
+    if (step.kind == SelectStep::Kind::both || step.kind == SelectStep::Kind::either) --now;
   }
   return most;
 }

@@ -11,9 +11,9 @@
 namespace boule {
 namespace {
 
-constexpr int none = std::numeric_limits<int>::max();
+constexpr int no_child = std::numeric_limits<int>::max();
 
-double Vec3d::*const axes[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
+double Vec3d::*const coordinates[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
 
 /// Regions of space with about as many points each: some leaves of a k-d tree over a sample. Those
 /// between them are left out, so that most points are dropped after a few steps.
@@ -35,29 +35,29 @@ class Regions {
 
   [[nodiscard]] std::size_t size() const { return std::min(leaves_, most); }
 
-  /// The region of a point, or `none`.
+  /// The region of a point, or `no_child`.
   [[nodiscard]] int find(const Vec3d& point) const {
     int at = root_;
-    while (at >= 0 && at != none) {
+    while (at >= 0 && at != no_child) {
       const Node& node = nodes_[static_cast<std::size_t>(at)];
       at = node.children[point.*node.axis < node.split ? 0 : 1];
     }
-    return at == none ? none : -1 - at;
+    return at == no_child ? no_child : -1 - at;
   }
 
  private:
-  /// A child is a node, `none`, or -1 - R for the region R.
+  /// A child is a node, `no_child`, or -1 - R for the region R.
   struct Node {
     double Vec3d::*axis = &Vec3d::x;
     double split = 0;
-    std::array<int, 2> children{none, none};
+    std::array<int, 2> children{no_child, no_child};
   };
 
   /// Splits the sample into leaves first .. first + leaves - 1 and returns the child to be.
   int split(Vec3d* begin, Vec3d* end, std::size_t first, std::size_t leaves) {
     const std::size_t stride = leaves_ / size();
-    if (leaves == 1) return first % stride == 0 ? -1 - static_cast<int>(first / stride) : none;
-    if (leaves < stride && first % stride != 0) return none;
+    if (leaves == 1) return first % stride == 0 ? -1 - static_cast<int>(first / stride) : no_child;
+    if (leaves < stride && first % stride != 0) return no_child;
     Node node;
     node.axis = longest_axis(begin, end);
     Vec3d* const middle = begin + (end - begin) / 2;
@@ -73,9 +73,9 @@ class Regions {
   }
 
   static double Vec3d::*longest_axis(const Vec3d* begin, const Vec3d* end) {
-    double Vec3d::*longest = axes[0];
+    double Vec3d::*longest = coordinates[0];
     double most_length = -1;
-    for (double Vec3d::*const axis : axes) {
+    for (double Vec3d::*const axis : coordinates) {
       const auto [least, largest] = std::minmax_element(
           begin, end, [&](const Vec3d& a, const Vec3d& b) { return a.*axis < b.*axis; });
       const double length = largest->*axis - least->*axis;
@@ -89,7 +89,7 @@ class Regions {
 
   std::size_t leaves_ = 1;
   std::vector<Node> nodes_;
-  int root_ = none;
+  int root_ = no_child;
 };
 
 using PointsOfRegions = std::array<std::vector<Vec3d>, Regions::most>;
@@ -101,7 +101,7 @@ PointsOfRegions points_of(const Regions& regions, const std::vector<Vec3d>& poin
             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
               for (std::size_t i = begin; i < end; ++i) {
                 const int region = regions.find(points[i]);
-                if (region != none)
+                if (region != no_child)
                   found[chunk][static_cast<std::size_t>(region)].push_back(points[i]);
               }
             });

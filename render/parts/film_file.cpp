@@ -64,7 +64,7 @@ Numbers numbers_of(const FilmHead& head, std::size_t text_bytes) {
 }
 
 template <class T>
-std::string_view bytes_of(const T* values, std::size_t count) {
+std::string_view bytes_of_values(const T* values, std::size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof(T)};
 }
 
@@ -107,9 +107,9 @@ Status write_all(OutputFile& file, const FilmHead& head, const PartSheet& sheet,
   const std::string text = film_text(head);
   const Numbers numbers = numbers_of(head, text.size());
   Writer writer(file, stop);
-  if (auto bad = writer.write(bytes_of(&numbers, 1))) return bad;
+  if (auto bad = writer.write(bytes_of_values(&numbers, 1))) return bad;
   if (auto bad = writer.write(text)) return bad;
-  if (auto bad = writer.write(bytes_of(head.blocks.data(), head.blocks.size()))) return bad;
+  if (auto bad = writer.write(bytes_of_values(head.blocks.data(), head.blocks.size()))) return bad;
   if (auto bad = write_parts(writer, head, sheet)) return bad;
   return writer.end();
 }
@@ -194,7 +194,7 @@ Result<Reader> Reader::open(const std::string& path) {
 std::string Reader::parse() {
   const std::string_view all = bytes_;
   Numbers n{};
-  if (all.size() < sizeof n || all.substr(0, sizeof magic) != bytes_of(magic, sizeof magic))
+  if (all.size() < sizeof n || all.substr(0, sizeof magic) != bytes_of_values(magic, sizeof magic))
     return "is no film file of boule, or cut off in its head";
   std::memcpy(&n, all.data(), sizeof n);
   if (n.version != format_version) {

@@ -36,12 +36,12 @@ Compass compass_of(const Vec3d& up) {
 }
 
 /// How long the spheres are together along an axis, and how far their centres are apart.
-struct Extent {
+struct AxisExtent {
   double spheres = 0, centers = 0;
 };
 
 /// Where spheres lie along an axis.
-struct Range {
+struct AxisRange {
   static constexpr double inf = std::numeric_limits<double>::infinity();
   double low = inf, high = -inf, lowest_center = inf, highest_center = -inf;
 
@@ -49,18 +49,18 @@ struct Range {
     const double along = dot(center, axis);
     add({along - radius, along + radius, along, along});
   }
-  void add(const Range& range) {
+  void add(const AxisRange& range) {
     low = std::min(low, range.low);
     high = std::max(high, range.high);
     lowest_center = std::min(lowest_center, range.lowest_center);
     highest_center = std::max(highest_center, range.highest_center);
   }
-  [[nodiscard]] Extent extent() const {
+  [[nodiscard]] AxisExtent extent() const {
     return {std::max(high - low, 0.0), std::max(highest_center - lowest_center, 0.0)};
   }
 };
 
-using Ranges = std::array<Range, 3>;
+using Ranges = std::array<AxisRange, 3>;
 
 /// Along the three directions of a compass.
 Ranges ranges_of(const Compass& compass, const SphereRuns& spheres,
@@ -80,7 +80,7 @@ Ranges ranges_of(const Compass& compass, const SphereRuns& spheres,
 }
 
 /// True if spheres are a sheet, one sphere thick, as simulations in two dimensions are.
-bool is_sheet(const Extent& thick, const Extent& a, const Extent& b) {
+bool is_sheet(const AxisExtent& thick, const AxisExtent& a, const AxisExtent& b) {
   constexpr double centers = 1e-3, thin = 0.25;
   return thick.centers <= centers * thick.spheres &&
          thick.spheres <= thin * std::min(a.spheres, b.spheres);
@@ -93,7 +93,7 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : 1; }
 Vec3d way_to_camera(Compass compass, const Ranges& ranges, bool has_floor) {
   // Tangents. They are those of 32 and 20 degrees, and of 50 for what is flat.
   constexpr double aside = 0.625, above = 0.371, above_flat = 1.19;
-  const Extent x = ranges[0].extent(), y = ranges[1].extent(), z = ranges[2].extent();
+  const AxisExtent x = ranges[0].extent(), y = ranges[1].extent(), z = ranges[2].extent();
   if (is_sheet(y, x, z) && !has_floor) return compass.up;
   if (is_sheet(z, x, y)) return compass.front;
   if (is_sheet(x, y, z)) return compass.right;

@@ -8,7 +8,7 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-constexpr const char* description =
+constexpr const char* error_description =
     "What is wrong with a scene, a file or an argument.\n\n"
     "str() of it is one line. Attributes, each None where it is not known:\n"
     "  file    name of the file that it was read from\n"
@@ -48,7 +48,7 @@ void bind_errors(py::module_& module) {
   for (const char* name : {"file", "line", "column", "key"}) members[name] = py::none();
   members["__module__"] = "boule";
   error_type =
-      PyErr_NewExceptionWithDoc("boule.Error", description, PyExc_ValueError, members.ptr());
+      PyErr_NewExceptionWithDoc("boule.Error", error_description, PyExc_ValueError, members.ptr());
   if (!error_type) throw py::error_already_set();
   module.attr("Error") = error_type;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/version.h"
 #include "render/cli/option_values.h"
 #include "render/particle_file/particle_file.h"
 #include "render/python/call.h"
@@ -32,7 +33,7 @@ std::string isa() { return std::string(isa_name(take(select_kernels("auto"))->is
 PYBIND11_MODULE(_core, module) {
   using namespace boule::python;
   module.doc() = "The compiled part of boule. Use boule itself.";
-  module.attr("version") = BOULE_VERSION;
+  module.attr("version") = library_version();
   bind_errors(module);
   bind_tables(module);
   bind_scenes(module);

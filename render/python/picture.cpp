@@ -42,7 +42,7 @@ py::buffer_info buffer_of(const Picture& picture) {
 }
 
 /// For numpy: the pixels in place, or in another type.
-py::object array_of(const py::object& picture, const py::object& dtype) {
+py::object as_array(const py::object& picture, const py::object& dtype) {
   const Image& image = py::cast<const Picture&>(picture).parts->image;
   const py::ssize_t row = number_size * 3 * image.width;
   py::array view = view_of<float>(&image.pixels.front().r, {image.height, image.width, 3},
@@ -156,7 +156,7 @@ double share_of(const Picture& picture) {
   return static_cast<double>(partial->done) / static_cast<double>(partial->all);
 }
 
-std::string text_of(const Picture& picture) {
+std::string repr_of(const Picture& picture) {
   const PictureParts& parts = *picture.parts;
   const std::string unfinished =
       parts.partial ? fmt::format(", unfinished: {:.1f} % of its samples", parts.partial->percent())
@@ -187,7 +187,7 @@ py::dict aovs_of(const py::object& picture) {
   return aovs;
 }
 
-constexpr const char* description =
+constexpr const char* picture_description =
     "A picture that was rendered: linear RGB in float32. It does not change.\n\n"
     "np.asarray(picture) is H x W x 3, row 0 on top, in place and read-only. With alpha\n"
     "(background=\"transparent\") colours are premultiplied. Notebooks show it.";
@@ -196,7 +196,7 @@ constexpr const char* description =
 
 void bind_picture(py::module_& module) {
   py::class_<Picture> picture(module, "Picture", py::buffer_protocol(), made_by_calls(),
-                              description);
+                              picture_description);
   picture.attr("__module__") = "boule";
   picture.def_buffer(&buffer_of)
       .def_property_readonly(
@@ -230,10 +230,10 @@ void bind_picture(py::module_& module) {
           "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure, of "
           "-100 to 100). It appears under its name when it is complete. compression, of .exr: "
           "none, rle or zip. Raises Error.")
-      .def("__array__", &array_of, py::arg("dtype") = py::none())
+      .def("__array__", &as_array, py::arg("dtype") = py::none())
       .def(
           "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, "For notebooks.")
-      .def("__repr__", &text_of);
+      .def("__repr__", &repr_of);
 }
 
 }  // namespace boule::python

@@ -28,13 +28,13 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-constexpr std::size_t chunk_size = std::size_t{1} << 15;
+constexpr std::size_t rows_of_chunk = std::size_t{1} << 15;
 
 /// Calls body(begin, end) for all rows, chunk by chunk.
 template <class Body>
 void each_chunk(std::size_t rows, const ParallelFor& parallel_for, const Body& body) {
-  parallel_for((rows + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
-    body(chunk * chunk_size, std::min(rows, (chunk + 1) * chunk_size));
+  parallel_for((rows + rows_of_chunk - 1) / rows_of_chunk, [&](std::size_t chunk) {
+    body(chunk * rows_of_chunk, std::min(rows, (chunk + 1) * rows_of_chunk));
   });
 }
 

@@ -8,13 +8,13 @@ namespace boule {
 namespace {
 
 /// One number of the AOVs.
-struct Kind {
+struct AovKind {
   const char* name;             ///< of its channel
   bool AovSelection::*wanted;   ///< what asks for it
   float (*value)(const Aovs&);  ///< null: the id
 };
 
-constexpr Kind kinds[] = {
+constexpr AovKind kinds[] = {
     {"Z", &AovSelection::depth, [](const Aovs& v) { return v.depth; }},
     {"N.X", &AovSelection::normal, [](const Aovs& v) { return v.normal.x; }},
     {"N.Y", &AovSelection::normal, [](const Aovs& v) { return v.normal.y; }},
@@ -55,7 +55,7 @@ AovChannels::AovChannels(const AovSelection& selection, const PixelRect& rect) :
 void AovChannels::set(int x, int y, const Aovs& aovs) {
   const std::size_t pixel = rect_.index(x, y);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const Kind& kind = kinds[kinds_[i]];
+    const AovKind& kind = kinds[kinds_[i]];
     if (kind.value != nullptr) {
       std::get<std::vector<float>>(channels_[i].samples)[pixel] = kind.value(aovs);
     } else {
@@ -68,7 +68,7 @@ std::vector<ImageChannel> AovChannels::release() { return std::exchange(channels
 
 std::vector<std::string> AovChannels::names(const AovSelection& selection) {
   std::vector<std::string> names;
-  for (const Kind& kind : kinds) {
+  for (const AovKind& kind : kinds) {
     if (selection.*kind.wanted) names.emplace_back(kind.name);
   }
   if (selection.noise) names.emplace_back("noise");
@@ -79,7 +79,7 @@ std::vector<std::string> AovChannels::names(const AovSelection& selection) {
 std::size_t AovChannels::traced(const AovSelection& selection) {
   return static_cast<std::size_t>(
       std::count_if(std::begin(kinds), std::end(kinds),
-                    [&](const Kind& kind) { return selection.*kind.wanted; }));
+                    [&](const AovKind& kind) { return selection.*kind.wanted; }));
 }
 
 std::uint64_t AovChannels::bytes(const AovSelection& selection, const PixelRect& rect) {

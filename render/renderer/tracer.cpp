@@ -17,7 +17,7 @@ namespace boule {
 namespace {
 
 /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t rays_of_stream = 1024;
 /// Rays whose surfaces are found at a time: few enough for them to stay in the nearest caches.
 constexpr std::size_t surface_block_size = 256;
 
@@ -209,15 +209,15 @@ Status Tracer::run_blocks(std::size_t rays, const Load& load, const Body& body) 
     if (options_.progress) options_.progress({share, done});
   };
   const auto work = [&](unsigned index, std::size_t block) {
-    const std::size_t first = block * block_size;
-    const std::size_t count = std::min(block_size, rays - first);
+    const std::size_t first = block * rays_of_stream;
+    const std::size_t count = std::min(rays_of_stream, rays - first);
     Worker& mine = worker(index);
     load(mine, first, count);
     body(mine, first);
     done += count;
     if (index == 0) report(static_cast<double>(done) / static_cast<double>(rays));
   };
-  const std::size_t blocks = rays / block_size + (rays % block_size != 0 ? 1 : 0);
+  const std::size_t blocks = rays / rays_of_stream + (rays % rays_of_stream != 0 ? 1 : 0);
   Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
   if (status) return status;

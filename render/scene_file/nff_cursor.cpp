@@ -13,15 +13,15 @@ namespace boule {
 namespace {
 
 /// Space, '\t', '\v', '\f' or '\r' (and '\n', which no line has within).
-bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_nff_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::size_t skip_blanks(std::string_view line, std::size_t at) {
-  while (at < line.size() && is_blank(line[at])) ++at;
+  while (at < line.size() && is_nff_blank(line[at])) ++at;
   return at;
 }
 
 std::size_t skip_word(std::string_view line, std::size_t at) {
-  while (at < line.size() && !is_blank(line[at])) ++at;
+  while (at < line.size() && !is_nff_blank(line[at])) ++at;
   return at;
 }
 
@@ -88,7 +88,7 @@ bool NffCursor::take(const char* key, float& out) {
   const char* const line_end = line_.data() + line_.size();
   double number = 0;
   const auto [end, code] = std::from_chars(line_.data() + start, line_end, number);
-  const bool is_word = end == line_end || is_blank(*end);
+  const bool is_word = end == line_end || is_nff_blank(*end);
   if (code != std::errc{} || !is_word || !fits_float32(number)) return take_unusual(key, out);
   at_ = static_cast<std::size_t>(end - line_.data());
   out = static_cast<float>(number);

@@ -12,7 +12,7 @@
 namespace boule {
 namespace {
 
-constexpr const char* names[] = {"center x", "center y", "center z", "radius"};
+constexpr const char* sphere_columns[] = {"center x", "center y", "center z", "radius"};
 
 /// A number of a row.
 double number_at(const unsigned char* row, std::size_t column, std::size_t width) {
@@ -31,7 +31,7 @@ Sphere sphere_of(const unsigned char* row, std::size_t width) {
 std::string problem_of(const unsigned char* row, std::size_t width) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (!to_float32(number_at(row, i, width)))
-      return std::string(names[i]) + " is too large for a 32-bit float";
+      return std::string(sphere_columns[i]) + " is too large for a 32-bit float";
   }
   const auto problem = find_problem(sphere_of(row, width));
   return problem ? problem->field + " " + problem->message : std::string();

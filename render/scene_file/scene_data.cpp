@@ -12,8 +12,6 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t chunk_size = std::size_t{1} << 16;
-
 Vec3f rounded(const Vec3d& v) {
   return {float32_or_inf(v.x), float32_or_inf(v.y), float32_or_inf(v.z)};
 }
@@ -36,7 +34,7 @@ Status SphereArrays::append_to(std::vector<Sphere>& target, const Vec3d& origin,
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::atomic<std::size_t> bad{none};
   const Vec3d shift = base - origin;
-  parallel_for((count + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+  parallel_for(chunks_of(count), [&](std::size_t chunk) {
     const std::size_t end = std::min(count, (chunk + 1) * chunk_size);
     for (std::size_t i = chunk * chunk_size; i < end; ++i) {
       Sphere& sphere = target[before + i];

@@ -17,7 +17,7 @@ namespace {
 void finish(TomlTable& table) { table.finish({"eye", "look_at"}); }
 
 template <class Kind>
-void read_keys(TomlTable& table, Kind& camera) {
+void read_camera_kind(TomlTable& table, Kind& camera) {
   read_fields(table, camera);
   finish(table);
 }
@@ -68,7 +68,7 @@ void read_focus(TomlTable& table, Kind& camera) {
   camera.focus = static_cast<float>(depth);
 }
 
-void read_keys(TomlTable& table, ThinLensCamera& camera) {
+void read_camera_kind(TomlTable& table, ThinLensCamera& camera) {
   read_fields(table, camera);
   read_focus(table, camera);
   read_aperture(table, camera.aperture);
@@ -98,7 +98,7 @@ Result<std::vector<LensSurface>> read_surfaces(TomlTable& table, const std::stri
   return read_lens(table.file_path(name));
 }
 
-void read_keys(TomlTable& table, LensCamera& camera) {
+void read_camera_kind(TomlTable& table, LensCamera& camera) {
   std::string name;
   float f_number = 1;
   read_fields(table, camera.pose);  // first: errors list the keys in the order of reading
@@ -150,7 +150,8 @@ Camera read_camera(TomlTable& table) {
   table.has("distortion");  // makes it known: it has a reader of its own
   table.has("key");         // likewise: apply_camera_keys() has read these tables
   table.has("fit");         // is false
-  Camera camera = read_kind<Camera>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
+  Camera camera =
+      read_kind<Camera>(table, [](auto& from, auto& kind) { read_camera_kind(from, kind); });
   table.check(find_problem(camera));
   return camera;
 }

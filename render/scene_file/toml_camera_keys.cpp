@@ -22,7 +22,7 @@ TextPlace place_at(const CameraTrack& track, double frame) {
   return track.places[value_before(track.values[0], frame)];
 }
 
-TomlMember* find_member(TomlMembers& members, std::string_view key) {
+TomlMember* find_key(TomlMembers& members, std::string_view key) {
   const auto found = std::find_if(members.begin(), members.end(),
                                   [&](const TomlMember& member) { return member.key == key; });
   return found == members.end() ? nullptr : &*found;
@@ -129,10 +129,10 @@ Camera without_elements(const Camera& camera, const CameraMotion& motion) {
 
 std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
                                               FirstError& error) {
-  TomlMember* const camera = find_member(root, "camera");
+  TomlMember* const camera = find_key(root, "camera");
   if (camera == nullptr) return std::nullopt;
   auto* const members = std::get_if<TomlMembers>(&camera->value.data);
-  if (members == nullptr || find_member(*members, "key") == nullptr) return std::nullopt;
+  if (members == nullptr || find_key(*members, "key") == nullptr) return std::nullopt;
   CameraMotion motion =
       CameraKeys(TomlTable(*members, camera->value.place, "camera", error)).read();
   if (error.status()) return std::nullopt;

@@ -11,14 +11,14 @@ namespace {
 
 /// Finishes the table and checks what came of it.
 template <class Kind>
-void read_keys(TomlTable& table, Kind& kind) {
+void read_entity(TomlTable& table, Kind& kind) {
   read_fields(table, kind);
   table.finish();
   table.check(first_problem(kind));
 }
 
 /// Reads the file only if all keys are right.
-void read_keys(TomlTable& table, EnvironmentBackground& background) {
+void read_entity(TomlTable& table, EnvironmentBackground& background) {
   std::string name;
   table.read_file_name("file", name);
   read_fields(table, background);
@@ -57,19 +57,19 @@ Background read_background(TomlTable& table, Scene& scene) {
   return read_kind<Background>(table, [&](auto& from, auto& kind) {
     from.read("ambient", scene.ambient);
     if (from.has("backdrop")) from.read("backdrop", scene.backdrop.emplace());
-    read_keys(from, kind);
+    read_entity(from, kind);
   });
 }
 
 Material read_material(TomlTable& table) {
-  return read_kind<Material>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
+  return read_kind<Material>(table, [](auto& from, auto& kind) { read_entity(from, kind); });
 }
 
 Light read_light(TomlTable& table) {
   std::string frame;
   table.read("relative_to", frame);
   if (frame == name_of(LightFrame::camera)) table.set_origin(nullptr);
-  return read_kind<Light>(table, [](auto& from, auto& kind) { read_keys(from, kind); });
+  return read_kind<Light>(table, [](auto& from, auto& kind) { read_entity(from, kind); });
 }
 
 }  // namespace boule

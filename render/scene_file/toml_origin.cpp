@@ -25,7 +25,7 @@ double largest_component(const Vec3d& v) {
 }
 
 /// The box around the centres of all spheres, and the smallest of their radii.
-struct Extent : SphereExtent {
+struct ExtentOfAll : SphereExtent {
   [[nodiscard]] Vec3d middle() const { return low * 0.5 + high * 0.5; }
   [[nodiscard]] double half_width() const { return largest_component(high * 0.5 - low * 0.5); }
   /// The largest component of a centre that is counted from `origin`.
@@ -34,11 +34,11 @@ struct Extent : SphereExtent {
   }
 };
 
-std::optional<Extent> extent_of(const ExactSpheres& spheres) {
-  std::optional<Extent> all;
+std::optional<ExtentOfAll> extent_of(const ExactSpheres& spheres) {
+  std::optional<ExtentOfAll> all;
   for (const SphereExtent& one : spheres.extents) {
     if (std::isinf(one.radius)) continue;
-    if (!all) all = Extent{one};
+    if (!all) all = ExtentOfAll{one};
     all->low = {std::min(all->low.x, one.low.x), std::min(all->low.y, one.low.y),
                 std::min(all->low.z, one.low.z)};
     all->high = {std::max(all->high.x, one.high.x), std::max(all->high.y, one.high.y),
@@ -54,13 +54,13 @@ Vec3d to_multiple(const Vec3d& point, double step) {
 }
 
 /// True if rounding goes unseen where centres are counted from `origin`.
-bool is_near_enough(const Vec3d& origin, const Extent& extent) {
+bool is_near_enough(const Vec3d& origin, const ExtentOfAll& extent) {
   return extent.reach(origin) * float_error <= extent.radius * unseen;
 }
 
 /// The point with the fewest digits, such as [1000000, 0, 0], that is near enough. So particles
 /// that were moved by a round number are counted as if they had not been.
-std::optional<Vec3d> short_point(const Vec3d& middle, const Extent& extent) {
+std::optional<Vec3d> short_point(const Vec3d& middle, const ExtentOfAll& extent) {
   for (double step = largest_step; step >= extent.radius; step /= 10) {
     const Vec3d origin = to_multiple(middle, step);
     if (is_near_enough(origin, extent)) return origin;
@@ -70,7 +70,7 @@ std::optional<Vec3d> short_point(const Vec3d& middle, const Extent& extent) {
 
 /// The point near the middle in whole multiples of a power of 2 that is at most an eighth of the
 /// extent.
-Vec3d near_point(const Vec3d& middle, const Extent& extent) {
+Vec3d near_point(const Vec3d& middle, const ExtentOfAll& extent) {
   const double size = std::max(extent.half_width(), extent.radius);
   return to_multiple(middle, std::ldexp(1, std::ilogb(size) - 3));
 }

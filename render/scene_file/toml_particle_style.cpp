@@ -36,7 +36,7 @@ RadiusRule read_radius(TomlTable& table) {
 }
 
 /// The words of a text, which blanks divide.
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> split_words(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t i = text.find_first_not_of(' '); i != std::string::npos;) {
     const std::size_t end = std::min(text.find(' ', i), text.size());
@@ -51,7 +51,7 @@ ColorRule read_color_text(TomlTable& table) {
   table.read("color", text);
   if (text.starts_with('#')) return read_color_codes(table, "color");
   if (text == "element" || text == "species") return SpeciesColors{};
-  std::vector<std::string> words = words_of(text);
+  std::vector<std::string> words = split_words(text);
   if (words.empty()) {
     table.report("color", quote(text) +
                               " is no colour, expected \"#rrggbb\", \"element\", a column or three "

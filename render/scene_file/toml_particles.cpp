@@ -33,7 +33,7 @@ void check_format(TomlTable& table, const std::string& format) {
                              did_you_mean(format, known));
 }
 
-ParticleKeys read_keys(TomlTable& table, std::uint32_t material) {
+ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
   ParticleKeys keys;
   std::string as_written;
   table.read("file", as_written);
@@ -209,7 +209,7 @@ void ParticleTable::report_key(const Diagnostic& error) {
 
 std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
                                             const SceneFileOptions& options) {
-  ParticleKeys keys = read_keys(table, material);
+  ParticleKeys keys = read_particle_keys(table, material);
   if (!table.ok()) return std::nullopt;
   keys.path = table.file_path(keys.name);
   return ParticleTable(table, std::move(keys), options).read();

@@ -11,7 +11,7 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t row_bytes = 24;
+constexpr std::size_t hit_bytes = 24;
 constexpr std::size_t rows_per_write = 4096;
 
 /// The header as numpy.save writes it: the count has room to grow to 21 digits, and the data begin
@@ -72,7 +72,7 @@ Status HitFile::take(HitKind kind, std::size_t hits) {
 
 Status HitFile::append(std::span<const TracedHit> hits) {
   if (auto bad = take(HitKind::closest, hits.size())) return bad;
-  rows_.resize(rows_per_write * row_bytes);
+  rows_.resize(rows_per_write * hit_bytes);
   for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
     unsigned char* end = rows_.data();
     for (const TracedHit& hit :

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t columns = 8;
 constexpr std::size_t rows_per_read = 4096;
 
-std::size_t row_bytes(bool is_double) {
+std::size_t ray_bytes(bool is_double) {
   return columns * (is_double ? sizeof(double) : sizeof(float));
 }
 
@@ -31,7 +31,7 @@ Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
                           ", expected (N, 8): origin, tmin, direction, tmax");
   }
-  return check_npy_length(header, row_bytes(npy_is_double(header)), file_size);
+  return check_npy_length(header, ray_bytes(npy_is_double(header)), file_size);
 }
 
 /// The ray of one row, counted from `zero`. Adds 1 to `lost` if rounding took its origin or
@@ -75,7 +75,7 @@ Result<RayFile> RayFile::open(const std::string& path) {
 Status RayFile::read(std::span<Ray> rays) {
   const FloatEnvironment environment;
   if (const auto open = file_.read(nullptr, 0); !open) return open.error();  // it was moved away
-  const std::size_t width = row_bytes(is_double_);
+  const std::size_t width = ray_bytes(is_double_);
   rows_.resize(rows_per_read * width);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {
     const std::size_t count = std::min(rows_per_read, rays.size() - first);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/version.h"
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
 #include "render/particles/color_map.h"
@@ -181,7 +182,7 @@ std::string state_text(const ShownState& shown) {
   return text_of(
       {{"type", "state"},
        {"number", shown.wish.number},
-       {"version", BOULE_VERSION},
+       {"version", library_version()},
        {"scene",
         {{"path", shown.facts.path},
          {"kind", shown.facts.kind},

@@ -8,6 +8,7 @@
 # Kernels and lanes are read as scalar code and as AVX2, every other source once. 77: there is no
 # clang-tidy.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/compilations.sh"
 root="$1" commands="$2" clang_tidy="$3"
 shift 3
 folders="$*"
@@ -25,13 +26,11 @@ trap 'rm -rf "$work"' EXIT
 
 # A line per compilation: its group, the file, and what of its options says how to read it.
 sources() {
-  awk -v root="$root/" -v folders="${folders// /|}" '
-    /"command":/ { command = $0 }
-    /"file":/ {
-      file = $0
-      sub(/^[^:]*: *"/, "", file)
-      sub(/",? *$/, "", file)
-      if (index(file, root) != 1) next
+  compilations "$commands" "$root" |
+    awk -F'\t' -v root="$root/" -v folders="${folders// /|}" '
+    {
+      file = $1
+      command = $2
       group = substr(file, length(root) + 1)
       if (folders != "" && group !~ "^(" folders ")/") next
       sub(/\/[^\/]*$/, "", group)
@@ -64,7 +63,7 @@ sources() {
         else if (word[i] ~ /^-([DI]|std=|m)./) options = options "\t" word[i]
       }
       print group "\t" file options
-    }' "$commands" | LC_ALL=C sort
+    }' | LC_ALL=C sort
 }
 
 # read_together FILE OPTIONS...: the sources in FILE, a line each.

@@ -4,14 +4,12 @@
 # vectoriser.
 set -euo pipefail
 
-# One line per entry: the database writes an entry's members on lines of their own.
-awk -v root="$2/" -v compiler="$3" '
-  /"command":/ { command = $0 }
-  /"file":/ {
-    file = $0
-    sub(/^[^:]*: *"/, "", file)
-    sub(/",? *$/, "", file)
-    if (index(file, root) != 1) next
+source "$(dirname "${BASH_SOURCE[0]}")/compilations.sh"
+
+compilations "$1" "$2" | awk -F'\t' -v root="$2/" -v compiler="$3" '
+  {
+    file = $1
+    command = $2
     ++sources
     if (command !~ / -ffp-contract=off /) {
       print file ": compiled without -ffp-contract=off"
@@ -26,10 +24,9 @@ awk -v root="$2/" -v compiler="$3" '
       print file ": compiled with" substr(command, RSTART, RLENGTH)
       wrong = 1
     }
-    command = ""
   }
   END {
     if (!sources) print "no sources of " root " in the compile commands"
     else if (!wrong) print sources " compilations keep to exact arithmetic"
     exit wrong || !sources
-  }' "$1"
+  }'

@@ -6,7 +6,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 failures=0
 
-compiler=Clang
+compiler=Clang file=/src/a.cpp
 # expect RESULT FLAGS...: a database of one entry per argument passes or fails.
 expect() {
   local wanted="$1" result=fails flags
@@ -14,8 +14,8 @@ expect() {
   {
     echo '['
     for flags in "$@"; do
-      printf '{\n  "directory": "/b",\n  "command": "/usr/bin/c++ %s -o a.o -c /src/a.cpp",\n' "$flags"
-      printf '  "file": "/src/a.cpp"\n},\n'
+      printf '{\n  "directory": "/b",\n  "command": "/usr/bin/c++ %s -o a.o -c %s",\n' "$flags" "$file"
+      printf '  "file": "%s"\n},\n' "$file"
     done
     echo ']'
   } >"$work/commands.json"
@@ -36,6 +36,15 @@ for flag in -ffast-math -Ofast -funsafe-math-optimizations -ffinite-math-only -f
   expect fails "-ffp-contract=off $flag"
   expect fails "$flag -ffp-contract=off"
 done
+# Sources that are compiled together.
+mkdir "$work/Unity"
+file="$work/Unity/unity_0_cxx.cxx"
+echo '#include "/src/a.cpp"' >"$file"
+expect passes '-O2 -ffp-contract=off -Wall'
+expect fails '-O2'
+echo '#include "/elsewhere/a.cpp"' >"$file"
+expect fails '-O2 -ffp-contract=off -Wall'
+file=/src/a.cpp
 compiler=GNU
 expect fails '-O2 -ffp-contract=off -Wall'
 expect passes '-O2 -ffp-contract=off -fno-tree-slp-vectorize -Wall'
