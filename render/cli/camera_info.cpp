@@ -1,5 +1,6 @@
 #include "render/cli/camera_info.h"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <variant>
 #include <vector>

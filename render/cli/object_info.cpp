@@ -1,6 +1,7 @@
 #include "render/cli/object_info.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/scene/instances.h"
 #include "render/cli/field_info.h"

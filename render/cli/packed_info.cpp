@@ -1,5 +1,6 @@
 #include "render/cli/packed_info.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "render/cli/scene_info.h"

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/chunks.h"
 #include "render/file/float32.h"
 #include "render/file/sphere_room.h"
 

@@ -171,7 +171,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
   Hub& hub_;
   const Counted counted_;
-  websocket::stream<beast::tcp_stream> socket_;
+  websocket::stream<beast::tcp_stream, false> socket_;  // false: nothing is compressed
   asio::steady_timer deadline_;
   beast::flat_buffer buffer_;
   std::string outgoing_;
