@@ -33,7 +33,7 @@ std::string isa() { return std::string(isa_name(take(select_kernels("auto"))->is
 PYBIND11_MODULE(_core, module) {
   using namespace boule::python;
   module.doc() = "The compiled part of boule. Use boule itself.";
-  module.attr("version") = library_version();
+  module.attr("version") = boule::library_version();
   bind_errors(module);
   bind_tables(module);
   bind_scenes(module);
