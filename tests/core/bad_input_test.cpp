@@ -21,7 +21,7 @@
 #include "core/scene/scene.h"
 #include "core/surface.h"
 
-namespace boule::test {
+namespace boule::test::bad_input {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -230,4 +230,4 @@ TEST(BadInput, RangesSayWhatWouldDo) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::bad_input

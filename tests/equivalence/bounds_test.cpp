@@ -7,7 +7,7 @@
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::bounds {
 namespace {
 
 class Bounds : public OnEachIsa {
@@ -148,4 +148,4 @@ TEST_P(Bounds, EndsOfShortRays) {
 INSTANTIATE_TEST_SUITE_P(Tables, Bounds, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::bounds

@@ -8,7 +8,7 @@
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::camera_twin {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -341,4 +341,4 @@ TEST_P(CameraTwin, WithoutAFocusLookAtIsSharp) {
 INSTANTIATE_TEST_SUITE_P(Tables, CameraTwin, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::camera_twin

@@ -7,7 +7,7 @@
 
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::contract {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -214,4 +214,4 @@ TEST_P(ContractOf, ATangentAtTheOriginHasNoPhantomRootBehind) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::contract

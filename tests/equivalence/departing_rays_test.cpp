@@ -11,7 +11,7 @@
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::departing_rays {
 namespace {
 
 /// The primitives that rays may meet.
@@ -135,4 +135,4 @@ TEST(DepartingRays, ReflectedRaysDoNotPassThroughASphereInContact) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::departing_rays

@@ -8,7 +8,7 @@
 #include "tests/support/case_random.h"
 #include "tests/support/hard_case_runs.h"
 
-namespace boule::test {
+namespace boule::test::hard_bundles {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -326,4 +326,4 @@ TEST_P(HardBundles, SortShadowRays) {
 INSTANTIATE_TEST_SUITE_P(Tables, HardBundles, each_hard_case(), hard_case_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::hard_bundles

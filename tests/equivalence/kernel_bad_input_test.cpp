@@ -15,7 +15,7 @@
 #include "tests/support/kernel_runs.h"
 #include "tests/support/odd_float_environment.h"
 
-namespace boule::test {
+namespace boule::test::kernel_bad_input {
 namespace {
 
 constexpr auto inf = std::numeric_limits<float>::infinity();
@@ -234,4 +234,4 @@ TEST_P(KernelBadInput, AFloatEnvironmentAroundItIsEnough) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::kernel_bad_input

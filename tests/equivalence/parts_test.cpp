@@ -8,7 +8,7 @@
 #include "tests/support/kernel_runs.h"
 #include "tests/support/placed_groups.h"
 
-namespace boule::test {
+namespace boule::test::parts {
 namespace {
 
 /// Turned, scaled and shifted copies that overlap, one sphere a giant among the others.
@@ -384,4 +384,4 @@ TEST_P(Parts, IdsAndSlotsBeyond31BitsAreRight) {
 INSTANTIATE_TEST_SUITE_P(Tables, Parts, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::parts

@@ -3,7 +3,7 @@
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::primary_rays {
 namespace {
 
 class PrimaryRays : public OnEachIsa {};
@@ -56,4 +56,4 @@ TEST_P(PrimaryRays, EqualTheScalarPathThroughAMap) {
 INSTANTIATE_TEST_SUITE_P(Tables, PrimaryRays, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::primary_rays

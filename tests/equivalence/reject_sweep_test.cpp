@@ -12,7 +12,7 @@
 #include "tests/support/kernel_runs.h"
 #include "tests/support/test_size.h"
 
-namespace boule::test {
+namespace boule::test::reject_sweep {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -138,4 +138,4 @@ TEST_P(RejectSweep, TheSphereGrowsByTheOriginsError) {
 INSTANTIATE_TEST_SUITE_P(Tables, RejectSweep, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::reject_sweep

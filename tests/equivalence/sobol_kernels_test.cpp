@@ -4,7 +4,7 @@
 #include "tests/support/expect_same.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::sobol_kernels {
 namespace {
 
 constexpr std::size_t count = 1003;  // the last packet is not whole
@@ -37,4 +37,4 @@ TEST_P(SobolKernels, EqualTheScalarPath) {
 INSTANTIATE_TEST_SUITE_P(Tables, SobolKernels, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::sobol_kernels

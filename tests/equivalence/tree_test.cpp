@@ -9,7 +9,7 @@
 #include "tests/support/case_random.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::tree {
 namespace {
 
 struct TreeScene {
@@ -335,4 +335,4 @@ TEST_P(Tree, RaysAlongAnAxisAreNoSlower) {
 INSTANTIATE_TEST_SUITE_P(Tables, Tree, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::tree

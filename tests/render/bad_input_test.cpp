@@ -22,7 +22,7 @@
 #include "simd/dispatch/dispatch.h"
 #include "tests/support/test_scenes.h"
 
-namespace boule::test {
+namespace boule::test::bad_input {
 namespace {
 
 using testing::HasSubstr;
@@ -358,4 +358,4 @@ TEST(BadInput, AnEmptyLoopBodyIsADiagnostic) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::bad_input

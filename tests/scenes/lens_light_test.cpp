@@ -13,7 +13,7 @@
 #include "tests/support/kernel_runs.h"
 #include "tests/support/lens_twin.h"
 
-namespace boule::test {
+namespace boule::test::lens_light {
 namespace {
 
 /// A shipped lens, its film as long as a picture of 301 x 225 pixels has it.
@@ -126,4 +126,4 @@ INSTANTIATE_TEST_SUITE_P(Lenses, LensLight,
                                          Shipped{"wide_angle_22mm.lens", "film_width = 30\n"}));
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::lens_light

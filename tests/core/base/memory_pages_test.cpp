@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace boule {
+namespace boule::memory_pages {
 namespace {
 
 constexpr std::size_t size = std::size_t{1} << 20;
@@ -67,4 +67,4 @@ TEST(MemoryPages, WhereThereIsNoRoomPagesStayAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::memory_pages

@@ -10,7 +10,7 @@
 #include "tests/support/case_random.h"
 #include "tests/support/long_double_formulas.h"
 
-namespace boule::test {
+namespace boule::test::light_cone {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -80,4 +80,4 @@ TEST(LightCone, WaysEndJustBeforeTheSphere) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::light_cone

@@ -8,7 +8,7 @@
 #include "core/math/color.h"
 #include "core/math/geometry.h"
 
-namespace boule {
+namespace boule::vec {
 namespace {
 
 const Vec3d x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
@@ -97,4 +97,4 @@ TEST(Color, Arithmetic) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::vec

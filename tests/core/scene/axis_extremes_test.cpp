@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace boule::test {
+namespace boule::test::axis_extremes {
 namespace {
 
 bool has(const std::vector<Sphere>& spheres, const Sphere& one) {
@@ -62,4 +62,4 @@ TEST(AxisExtremes, KeepTheFirstOfSeveralHoweverTheSpheresAreCut) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::axis_extremes

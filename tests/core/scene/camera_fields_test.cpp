@@ -4,7 +4,7 @@
 #include "core/scene/scene.h"
 #include "tests/core/scene/broken_scene.h"
 
-namespace boule::test {
+namespace boule::test::camera_fields {
 namespace {
 
 const Breakage camera[] = {
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(RoundCameras, ValidateRefuses, testing::ValuesIn(round_
 INSTANTIATE_TEST_SUITE_P(Camera, ValidateRefuses, testing::ValuesIn(camera), name_of);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::camera_fields

@@ -8,7 +8,7 @@
 #include "simd/stream/stream_buffer.h"
 #include "tests/render/cli/trace_program.h"
 
-namespace boule::test {
+namespace boule::test::cli_trace {
 namespace {
 
 using testing::ElementsAre;
@@ -259,4 +259,4 @@ TEST_F(Trace, HelpNamesEveryOption) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::cli_trace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boule {
+namespace boule::tone {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -100,4 +100,4 @@ TEST(Tone, ExposureBeyondReasonIsBounded) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::tone

@@ -5,7 +5,7 @@
 
 // Dumps and data files of LAMMPS that are refused.
 
-namespace boule {
+namespace boule::broken_lammps {
 namespace {
 
 using test::BrokenFile;
@@ -217,4 +217,4 @@ INSTANTIATE_TEST_SUITE_P(Sections, BrokenData, testing::ValuesIn(broken_sections
                          test::broken_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::broken_lammps

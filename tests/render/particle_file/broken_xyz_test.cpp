@@ -3,7 +3,7 @@
 
 #include "tests/render/particle_file/broken_file.h"
 
-namespace boule {
+namespace boule::broken_xyz {
 namespace {
 
 using test::BrokenFile;
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(Comments, BrokenXyz, testing::ValuesIn(broken_comments(
                          test::broken_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::broken_xyz

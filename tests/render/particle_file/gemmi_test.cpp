@@ -8,7 +8,7 @@
 
 // PDB and CIF files, which gemmi reads.
 
-namespace boule {
+namespace boule::gemmi {
 namespace {
 
 using test::particle_error;
@@ -387,4 +387,4 @@ INSTANTIATE_TEST_SUITE_P(
             "9:0: expected a finite number in row 1 of the atoms, found '0(x)' (y)")));
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::gemmi

@@ -9,7 +9,7 @@
 
 // GRO files of GROMACS.
 
-namespace boule {
+namespace boule::gro {
 namespace {
 
 using test::particle_error;
@@ -238,4 +238,4 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{with_box(hydrogen), "4:5: expected a finite number, found '1SOL' (box)"}));
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::gro

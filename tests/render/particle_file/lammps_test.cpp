@@ -5,7 +5,7 @@
 
 // Dumps and data files of LAMMPS.
 
-namespace boule {
+namespace boule::lammps {
 namespace {
 
 using test::particle_error;
@@ -184,4 +184,4 @@ TEST(LammpsData, RefusesUnknownStylesUnlessColumnsAreNamed) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::lammps

@@ -11,7 +11,7 @@
 #include "tests/render/particle_file/broken_file.h"
 #include "tests/render/particle_file/read_text.h"
 
-namespace boule {
+namespace boule::ply {
 namespace {
 
 using test::append_bytes;
@@ -260,4 +260,4 @@ INSTANTIATE_TEST_SUITE_P(Headers, BrokenPly, testing::ValuesIn(broken_headers())
 INSTANTIATE_TEST_SUITE_P(Data, BrokenPly, testing::ValuesIn(broken_data()), test::broken_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::ply

@@ -7,7 +7,7 @@
 #include "tests/render/particle_file/broken_file.h"
 #include "tests/render/particle_file/read_text.h"
 
-namespace boule {
+namespace boule::table {
 namespace {
 
 using test::BrokenFile;
@@ -250,4 +250,4 @@ INSTANTIATE_TEST_SUITE_P(Values, BrokenTable, testing::ValuesIn(broken_values())
 INSTANTIATE_TEST_SUITE_P(Rows, BrokenTable, testing::ValuesIn(broken_rows()), test::broken_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::table

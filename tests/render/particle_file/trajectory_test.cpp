@@ -10,7 +10,7 @@
 
 // Trajectories whose frames are found once and then read by themselves.
 
-namespace boule {
+namespace boule::trajectory {
 namespace {
 
 constexpr int frames = 500, atoms = 3000;
@@ -91,4 +91,4 @@ INSTANTIATE_TEST_SUITE_P(Formats, Trajectories, testing::Values("xyz", "dump"),
                          });
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::trajectory

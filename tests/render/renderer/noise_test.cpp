@@ -13,7 +13,7 @@
 #include "tests/render/path_scenes.h"
 #include "tests/support/bit_hash.h"
 
-namespace boule::test {
+namespace boule::test::noise {
 namespace {
 
 constexpr int width = 40, height = 28;
@@ -219,4 +219,4 @@ TEST(Noise, TheMeanOfRareBrightSamplesIsUnbiased) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::noise

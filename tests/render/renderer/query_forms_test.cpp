@@ -16,7 +16,7 @@
 #include "tests/support/kernel_runs.h"
 #include "tests/support/test_scenes.h"
 
-namespace boule::test {
+namespace boule::test::query_forms {
 namespace {
 
 constexpr int side = 64;
@@ -110,4 +110,4 @@ TEST_P(Paths, GiveTheSamePicture) {
 INSTANTIATE_TEST_SUITE_P(Tables, Paths, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::query_forms

@@ -10,7 +10,7 @@
 
 #include "render/renderer/tracer.h"
 
-namespace boule::test {
+namespace boule::test::ray_columns {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -154,4 +154,4 @@ TEST(RayColumns, RoomForTheResultsMustBeThere) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::ray_columns

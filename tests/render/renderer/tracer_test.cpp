@@ -16,7 +16,7 @@
 #include "tests/render/ray_clouds.h"
 #include "tests/support/test_scenes.h"
 
-namespace boule::test {
+namespace boule::test::tracer {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -378,4 +378,4 @@ TEST(Tracer, CanBeMoved) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::tracer

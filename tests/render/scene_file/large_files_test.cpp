@@ -22,7 +22,7 @@
 // What is read in blocks and without a look at single things: files of more than one block, and
 // the borders of blocks.
 
-namespace boule {
+namespace boule::large_files {
 namespace {
 
 using test::SceneFolder;
@@ -344,4 +344,4 @@ TEST(SphereRoom, GrowsByHalfAtLeastAndKeepsWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::large_files

@@ -2,7 +2,7 @@
 
 // NFF files that are wrong: each is refused at its line and column, with its key.
 
-namespace boule {
+namespace boule::nff_errors {
 namespace {
 
 using test::Refusal;
@@ -115,4 +115,4 @@ const Refusal polygons[] = {
 INSTANTIATE_TEST_SUITE_P(Polygons, NffErrors, testing::ValuesIn(polygons), test::refusal_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::nff_errors

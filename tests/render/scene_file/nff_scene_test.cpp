@@ -7,7 +7,7 @@
 
 // NFF files that are right: the Scene is exactly what they say.
 
-namespace boule {
+namespace boule::nff_scene {
 namespace {
 
 using test::dump;
@@ -171,4 +171,4 @@ TEST(NffScene, NumbersAreRoundedToFloatOnce) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::nff_scene

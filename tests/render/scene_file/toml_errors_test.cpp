@@ -5,7 +5,7 @@
 
 // TOML files that are wrong: each is refused at its line and column, with its key.
 
-namespace boule {
+namespace boule::toml_errors {
 namespace {
 
 using test::Refusal;
@@ -303,4 +303,4 @@ const Refusal objects[] = {
 INSTANTIATE_TEST_SUITE_P(Objects, TomlErrors, testing::ValuesIn(objects), test::refusal_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::toml_errors

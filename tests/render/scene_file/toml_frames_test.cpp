@@ -5,7 +5,7 @@
 
 // Series of frames: camera keys, and names with the frame's number.
 
-namespace boule {
+namespace boule::toml_frames {
 namespace {
 
 using test::Refusal;
@@ -311,4 +311,4 @@ const Refusal wrong[] = {
 INSTANTIATE_TEST_SUITE_P(Wrong, CameraKeyErrors, testing::ValuesIn(wrong), test::refusal_name);
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::toml_frames

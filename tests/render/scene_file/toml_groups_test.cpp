@@ -4,7 +4,7 @@
 
 // Groups in TOML files: what they say, and how wrong ones are refused.
 
-namespace boule {
+namespace boule::toml_groups {
 namespace {
 
 using test::dump;
@@ -134,4 +134,4 @@ TEST(TomlGroups, TooManySpheresAreRefusedAtTheInstanceThatBringsThem) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::toml_groups

@@ -8,7 +8,7 @@
 #include "core/math/srgb.h"
 #include "tests/render/scene_file/scene_folder.h"
 
-namespace boule {
+namespace boule::toml_particles {
 namespace {
 
 using testing::ElementsAre;
@@ -394,4 +394,4 @@ TEST_F(TomlParticlesTest, TextIsReadAsIfItStoodInAFile) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::toml_particles

@@ -5,7 +5,7 @@
 
 // TOML files that are right: the Scene is exactly what they say.
 
-namespace boule {
+namespace boule::toml_scene {
 namespace {
 
 using test::dump;
@@ -355,4 +355,4 @@ TEST(TomlScene, DotsInStringsCommentsAndListsAreNoKeys) {
 }
 
 }  // namespace
-}  // namespace boule
+}  // namespace boule::toml_scene

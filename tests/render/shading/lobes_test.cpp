@@ -6,7 +6,7 @@
 #include "tests/render/shading/lobe_twin.h"
 #include "tests/support/test_scenes.h"
 
-namespace boule::test {
+namespace boule::test::lobes {
 namespace {
 
 /// A surface with normal z, seen at this angle from the normal.
@@ -112,4 +112,4 @@ TEST(LobeSampler, EnergyIsConserved) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::lobes

@@ -11,7 +11,7 @@
 #include "tests/render/shading/direct_light_twin.h"
 #include "tests/support/case_random.h"
 
-namespace boule::test {
+namespace boule::test::shading {
 namespace {
 
 constexpr double degree = 3.141592653589793 / 180;
@@ -184,4 +184,4 @@ TEST(Background, IsAColourOrAGradientAlongUp) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::shading

@@ -13,7 +13,7 @@
 #include "tests/render/shading/kernel_rays.h"
 #include "tests/support/kernel_runs.h"
 
-namespace boule::test {
+namespace boule::test::whitted_kernels {
 namespace {
 
 constexpr std::size_t count = 251;  // the last packet is not whole
@@ -241,4 +241,4 @@ TEST_P(WhittedKernels, SamplesGetTheLightOfTheirRaysInOrder) {
 INSTANTIATE_TEST_SUITE_P(Tables, WhittedKernels, each_isa(), isa_name);
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::whitted_kernels

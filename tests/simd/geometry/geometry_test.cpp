@@ -10,7 +10,7 @@
 #include "simd/abi/isa.h"
 #include "tests/support/case_random.h"
 
-namespace boule::test {
+namespace boule::test::geometry {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -123,4 +123,4 @@ TEST(Geometry, TheExtentHoldsSpheresThatAreScanned) {
 }
 
 }  // namespace
-}  // namespace boule::test
+}  // namespace boule::test::geometry
