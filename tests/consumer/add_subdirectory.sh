@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# add_subdirectory.sh CMAKE GENERATOR CXX flags=FLAGS SOURCE: boule inside an outside project builds neither tests
-# nor benchmarks, installs nothing and leaves the project's own flags alone.
+# add_subdirectory.sh CMAKE GENERATOR CXX flags=FLAGS SOURCE COMPILE_COMMANDS OPTION...: boule inside an outside
+# project, configured with these options, builds neither tests nor benchmarks, installs nothing and leaves the
+# project's own flags alone. What the project compiles just as the build of these compile commands did is
+# not compiled again.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
-boule="$1"
+boule="$1" commands="$2"
+shift 2
 
-build add_subdirectory -DBOULE_SOURCE="$boule" -DBOULE_ONLY_ISAS=scalar
+build add_subdirectory -DBOULE_SOURCE="$boule" -DBOULE_ONLY_ISAS=scalar \
+  -DCMAKE_CXX_COMPILER_LAUNCHER="$here/compiled_before.sh;$commands" "$@"
 inherits hits.cpp "-I$boule"
 prints 'ray 0: primitive 0 at t = 5
 ray 1: primitive 1 at t = 0.5' "$work/build/hits"
