@@ -1,5 +1,7 @@
 // The same bits on every machine: one number over all inputs and one over all answers, held against
 // constants that were measured once. Every kernel table, compiler and processor must find them.
+#include <vector>
+
 #include "core/math/elementary.h"
 #include "core/optics/camera_builder.h"
 #include "tests/support/bit_hash.h"
@@ -57,11 +59,12 @@ TEST(Hash, OfTheReferencePath) {
 class Kernels : public OnEachIsa {};
 
 TEST_P(Kernels, HashOfAllHits) {
+  std::vector<HardCase> cases;
+  for (const HardCaseSpec& spec : hard_case_specs()) cases.push_back(hashed_case(spec));
   for (const Structure structure : {Structure::scan, Structure::bvh}) {
     for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight, Form::set}) {
       BitHash hash;
-      for (const HardCaseSpec& spec : hard_case_specs()) {
-        const HardCase hard_case = hashed_case(spec);
+      for (const HardCase& hard_case : cases) {
         const Geometry geometry(hard_case.spheres, hard_case.planes, structure);
         const Query query{Solver::robust, form, Coherence::none};
         hash.add(run_closest(*kernels, geometry.view(), hard_case.rays, query));
