@@ -1,13 +1,10 @@
 # instructions.awk -v prefix=NAME: of what objdump -d says, each instruction once, as the assembler reads it, to
-# NAME.s; the function where it was first found, on the same line of NAME.where. Members kernels.cpp.o
-# of archives are left out: they are looked at by themselves.
+# NAME.s; the function where it was first found, on the same line of NAME.where.
 BEGIN { FS = "\t" }
-
-/^[^ ].*: +file format / { kernel = /^kernels\.cpp\.o:/ }
 
 /^[0-9a-f]+ <.*>:$/ { where = substr($0, index($0, "<") + 1); sub(/>:$/, "", where) }
 
-!kernel && NF > 1 && $1 ~ /^ *[0-9a-f]+:$/ {
+NF > 1 && $1 ~ /^ *[0-9a-f]+:$/ {
   said = $2
   sub(/ *[#<].*/, "", said)
   gsub(/-?0x[0-9a-f]+\(/, "8(", said)  # whatever the distance

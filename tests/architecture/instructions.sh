@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# instructions.sh ISA=OBJECT... -- OBJECT|ARCHIVE...: the object of an instruction set has no instruction of
-# a wider one. What stands after the --, the rest of the program, runs on every x86-64.
+# instructions.sh ISA=OBJECT[,OBJECT]... -- OBJECT|ARCHIVE...: the objects of an instruction set have no
+# instruction of a wider one. What stands after the --, the rest of the program, runs on every x86-64.
 #
 # The code is disassembled, and what that says is assembled again for a CPU that has these
 # instructions and no others: the assembler's tables are the judge. Every path is seen, whether a test
@@ -17,8 +17,8 @@ wrong=0 total=0
 declare -A has=(
   [scalar]=
   [sse42]=+sse4.2+popcnt
-  [avx2]=+avx2+fma+popcnt
-  [avx512]=+avx2+fma+popcnt+avx512f+avx512bw+avx512dq+avx512vl+avx512cd
+  [avx2]=+avx2+fma+bmi+bmi2+popcnt
+  [avx512]=+avx2+fma+bmi+bmi2+popcnt+avx512f+avx512bw+avx512dq+avx512vl+avx512cd
 )
 
 # complain NAME LIST: reads "LINE, tab, words" about that line of LIST.s; each mnemonic once.
@@ -56,7 +56,8 @@ while [[ "$1" != -- ]]; do
   isa="${1%%=*}"
   [[ -n "${has[$isa]+known}" ]] || { echo "$isa: nobody knows what it has"; exit 1; }
   isas+=("$isa")
-  check "$isa" "${has[$isa]}" "${1#*=}"
+  IFS=, read -ra objects <<<"${1#*=}"
+  check "$isa" "${has[$isa]}" "${objects[@]}"
   shift
 done
 shift

@@ -17,7 +17,7 @@ object() {
 faultless() {
   object scalar 'addsd %xmm0, %xmm1' 'rep bsf %eax, %ecx'
   object sse42 'pshufb %xmm0, %xmm1' 'pcmpgtq %xmm0, %xmm1' 'popcnt %eax, %ecx'
-  object avx2 'vpaddd %ymm0, %ymm1, %ymm2' 'vfmadd213ps %ymm0, %ymm1, %ymm2' 'popcnt %eax, %ecx'
+  object avx2 'vpaddd %ymm0, %ymm1, %ymm2' 'vfmadd213ps %ymm0, %ymm1, %ymm2' 'shlx %eax, %ecx, %edx'
   object avx512 'vpaddd %zmm0, %zmm1, %zmm2{%k1}' 'vpconflictd %xmm0, %xmm1' 'vpaddd %ymm0, %ymm1, %ymm17'
   object rest 'cpuid' 'xgetbv' 'addps %xmm0, %xmm1' 'jmp .' 'nopw %cs:0x0(%rax,%rax,1)' 'call 0x20'
 }
@@ -57,7 +57,8 @@ refused sse42 'pclmulqdq $0, %xmm0, %xmm1'
 refused avx2 'vpaddd %zmm0, %zmm1, %zmm2'
 refused avx2 'vpaddd %ymm0, %ymm1, %ymm17'
 refused avx2 'kmovw %k1, %eax'
-refused avx2 'shlx %eax, %ecx, %edx'
+refused sse42 'shlx %eax, %ecx, %edx'
+refused avx2 'lzcnt %eax, %ecx'
 refused avx512 'vpdpbusd %zmm0, %zmm1, %zmm2'
 refused avx512 'vpopcntd %zmm0, %zmm1'
 refused avx512 'vrcp14ps %zmm0, %zmm1' 'is an estimate'
