@@ -70,11 +70,7 @@ std::vector<BrokenFile> broken_rows() {
       {"NoColumnNames", head + "ITEM: ATOMS\n" + rows,
        "9:1: it does not name its columns, as in ITEM: ATOMS id type x y z"},
       {"TooManyColumns",
-       [] {
-         std::string names = "ITEM: ATOMS x y z";
-         for (int i = 0; i < 2500000; ++i) names += " c_1";
-         return head + names + "\n" + rows;
-       }(),
+       {head + "ITEM: ATOMS x y z", 2500000, " c_1", "\n" + rows},
        "9:1: it has more than 4096 columns"},
       {"NoZ", head + "ITEM: ATOMS id x y\n1 1 2\n2 3 4\n",
        "9:1: there is no column of positions for z; 'columns' can name it (z)"},
@@ -103,7 +99,8 @@ std::vector<BrokenFile> broken_rows() {
        "9:1: in a tilted box, all of x, y and z must be fractions of it, or none (xs)"},
       {"FractionsBeyondDouble", with(head, "-5 5", "0 1e300") + scaled + "1 1 2 3\n2 4 1e300 6\n",
        "11:1: its position in the box is too large a number"},
-      {"LongLine", head + atoms + "1 1 2 3\n2 4 5 " + std::string(10000000, '6') + "x\n",
+      {"LongLine",
+       {head + atoms + "1 1 2 3\n2 4 5 ", 10000, std::string(1000, '6'), "x\n"},
        "11:7: expected a number, found '6666"},
       {"TooFewGiven",
        head + atoms + rows,
@@ -190,7 +187,7 @@ std::vector<BrokenFile> broken_sections() {
       {"IdIsAFraction", data_head + data_title + "1 1 1 2 3\n2.5 2 4 5 6\n",
        "13:1: the id 2.5 is no whole number (id)"},
       {"LongLine",
-       data_head + data_title + "1 1 1 2 3\n2 2 4 5 " + std::string(10000000, '6') + "x\n",
+       {data_head + data_title + "1 1 1 2 3\n2 2 4 5 ", 10000, std::string(1000, '6'), "x\n"},
        "13:9: expected a number, found '6666"},
       {"NoSuchType", data_head + masses + data_title + "1 1 1 2 3\n2 3 4 5 6\n",
        "17:1: an atom is of no type from 1 to 2 (type)"},
