@@ -24,7 +24,8 @@ readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopen
 usage() {
   cat <<'TEXT'
 usage: ./bootstrap.sh render|test|python|report|package
-  render  install what is missing, build a release, render scenes/first_light.toml to first_light.png
+  render  install what is missing, build the program in build/release, render scenes/first_light.toml to
+          first_light.png
   test    install what is missing, build the tests in build/test and run them
   python  install what is missing, build the Python package in build/python, run its tests, say how to
           import it
@@ -69,11 +70,11 @@ install_missing() {
 }
 
 render() {
-  announce 440 "compiles Boule in build/release and renders first_light.png"
+  announce 440 "compiles the program in build/release and renders first_light.png"
   install_missing "${build_packages[@]}"
   # The picture is the same on every instruction set: the widest that runs here will do.
   cmake --preset release -G Ninja -DBOULE_TESTS=OFF -DBOULE_ONLY_ISAS=native
-  cmake --build build/release
+  cmake --build build/release --target boule_program
   build/release/bin/boule render scenes/first_light.toml -o first_light.png
   echo "bootstrap: the picture is $PWD/first_light.png"
 }
