@@ -19,7 +19,6 @@ declare -A exempt=(
   [docs/building.md]='not yet rewritten'
   [docs/cluster.md]='not yet rewritten'
   [docs/command_line.md]='not yet rewritten'
-  [docs/experiments.md]='not yet rewritten'
   [docs/howto/camera.md]='not yet rewritten'
   [docs/howto/claims.md]='not yet rewritten'
   [docs/howto/feature.md]='not yet rewritten'
@@ -32,14 +31,13 @@ declare -A exempt=(
   [docs/numerics.md]='not yet rewritten'
   [docs/packed.md]='not yet rewritten'
   [docs/particles.md]='not yet rewritten'
-  [docs/performance.md]='not yet rewritten'
   [docs/python.md]='not yet rewritten'
   [docs/scene_format.md]='not yet rewritten'
   [docs/versions.md]='not yet rewritten'
   [docs/view.md]='not yet rewritten'
   [docs/view_protocol.md]='not yet rewritten'
 )
-how_to='^(README|docs/(command_line|python|particles|cluster|view|building|library|howto/.*))\.md$'
+how_to='^(README|docs/(command_line|python|particles|cluster|view|building|library|measuring|howto/.*))\.md$'
 
 mapfile -t documents < <(pages .)
 ((${#documents[@]} > 0)) || { echo "no documents in $1"; exit 1; }
