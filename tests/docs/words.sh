@@ -26,7 +26,6 @@ declare -A exempt=(
   [docs/howto/molecules.md]='not yet rewritten'
   [docs/howto/movie.md]='not yet rewritten'
   [docs/library.md]='not yet rewritten'
-  [docs/numerics.md]='not yet rewritten'
   [docs/packed.md]='not yet rewritten'
   [docs/particles.md]='not yet rewritten'
   [docs/python.md]='not yet rewritten'
