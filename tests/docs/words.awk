@@ -45,6 +45,11 @@ function count_sentence(sentence, question,    token, count, i, word, before, op
 }
 
 function paragraph_ends(    rest, sentence, mark) {
+  gsub(/!\[[^]]*\]\([^)]*\)/, "", text)
+  gsub(/``[^`]*``|`[^`]*`/, "code", text)
+  gsub(/\]\([^)]*\)/, "", text)
+  gsub(/<?https?:[^ >)]*>?/, "", text)
+  gsub(/\*\*|\[|\]/, "", text)
   rest = text
   text = ""
   while (match(rest, /[.!?]+["')*_]*([ ]|$)/)) {
@@ -70,12 +75,5 @@ comment { next }
 /^ *$/ { paragraph_ends(); next }
 /^ *(\||#|<)/ || /^    / && text == "" { paragraph_ends(); next }
 /^ *([-*+]|[0-9]+[.)]) / { paragraph_ends(); sub(/^ *([-*+]|[0-9]+[.)]) /, "") }
-{
-  gsub(/!\[[^]]*\]\([^)]*\)/, "")
-  gsub(/``[^`]*``|`[^`]*`/, "code")
-  gsub(/\]\([^)]*\)/, "")
-  gsub(/<?https?:[^ >)]*>?/, "")
-  gsub(/\*\*|\[|\]/, "")
-  text = text " " $0
-}
+{ text = text " " $0 }
 END { page_ends() }

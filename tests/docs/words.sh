@@ -29,7 +29,6 @@ declare -A exempt=(
   [docs/python.md]='not yet rewritten'
   [docs/scene_format.md]='not yet rewritten'
   [docs/view.md]='not yet rewritten'
-  [docs/view_protocol.md]='not yet rewritten'
 )
 how_to='^(README|docs/(command_line|python|particles|cluster|view|building|library|measuring|howto/.*))\.md$'
 

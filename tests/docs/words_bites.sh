@@ -52,6 +52,7 @@ expect fails "Your page: $(times 300 'it is')" '1 times you' howto/other
 # What is no prose.
 many="$(times 9 'what nobody')"
 expect passes "Words: \`$many\`, [a link]($many) and ![a picture]($many)."
+expect passes $'Words: `code and\n'"$many"$'`, [a\nlink]('"$many)."
 expect passes $'Words:\n\n| '"$many"$' |\n|---|\n\n## '"$many"
 expect passes $'Words:\n\n```text\n'"$many"$'\n```'
 expect passes $'Words:\n\n- an item\n\n  ```text\n  '"$many"$'\n  ```'
