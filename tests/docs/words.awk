@@ -2,7 +2,8 @@
 #
 # Prose is what is left without blocks of code, tables, headings, pictures, HTML and the targets of links.
 # `code` counts as one word. A paragraph or an item of a list ends a sentence, as do . ! and ?
-# HEADLESS: what, whatever, whoever; who where no noun comes before it. A question may have them.
+# HEADLESS: what, whatever, whoever; who at the beginning of a clause, or after a word that is no noun. A question
+# may have them.
 # NONE: no, none, nothing, nobody. YOU: you, your, yours, yourself.
 # OPENERS: sentences that open with what, whatever, who, whoever, where, so or else.
 

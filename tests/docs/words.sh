@@ -21,7 +21,7 @@ declare -A exempt=(
   [docs/scene_format.md]='not yet rewritten'
   [docs/view.md]='not yet rewritten'
 )
-how_to='^(README|docs/(command_line|python|particles|cluster|view|building|library|measuring|howto/.*))\.md$'
+how_to='^(README|docs/(command_line|python|particles|cluster|view|building|library|measuring|recipes|howto/.*))\.md$'
 
 mapfile -t documents < <(pages .)
 ((${#documents[@]} > 0)) || { echo "no documents in $1"; exit 1; }
