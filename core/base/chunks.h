@@ -8,8 +8,8 @@
 
 namespace boule {
 
-/// Into how many chunks a loop over so many things is cut. It depends on nothing else, so what
-/// is put together chunk by chunk does not depend on the threads.
+/// The number of elements in a chunk of a loop. The partition depends only on the length of the
+/// loop, so results that are put together chunk by chunk are independent of the threads.
 inline constexpr std::size_t chunk_size = std::size_t{1} << 16;
 constexpr std::size_t chunks_of(std::size_t count) { return (count + chunk_size - 1) / chunk_size; }
 

@@ -9,49 +9,51 @@
 
 namespace boule {
 
-/// What went wrong, and where. Lines and columns count from 1; 0 means "not in a file's text".
+/// An error: its message, and the place where it occurred. Lines and columns count from 1; 0 means
+/// outside a file's text.
 ///
-/// Functions that can fail return a Diagnostic in a Result or a Status. Unless they say so, the
-/// only exception they throw is std::bad_alloc, where there is no memory even for the Diagnostic.
+/// Functions that can fail return a Diagnostic in a Result or a Status. Unless a comment names
+/// others, the only exception they throw is std::bad_alloc, when there is no memory even for the
+/// Diagnostic.
 struct Diagnostic {
-  std::string message;  ///< what is wrong, and what was expected; may repeat bytes of a file
+  std::string message;  ///< the error and the expected value; may repeat bytes of a file
   std::string key{};    ///< dotted path of the offending key ("camera.fov"), or empty
-  std::string file{};   ///< file it was read from, or empty
+  std::string file{};   ///< the file that was read, or empty
   int line = 0;
   int column = 0;
-  bool of_memory = false;  ///< there is too little memory
+  bool of_memory = false;  ///< too little memory is the cause
 
-  /// About nothing that has a key or stands in a file.
+  /// An error without a key or a file.
   static Diagnostic of(std::string message) { return {.message = std::move(message)}; }
 
-  /// About memory that is missing.
+  /// An error for lack of memory.
   static Diagnostic out_of_memory(std::string message) {
     return {.message = std::move(message), .of_memory = true};
   }
 
-  /// About a key, or an option of the command line.
+  /// An error about a key, or about an option of the command line.
   static Diagnostic about(std::string key, std::string message) {
     return {.message = std::move(message), .key = std::move(key)};
   }
 
-  /// About a whole file.
+  /// An error about a whole file.
   static Diagnostic in_file(std::string file, std::string message) {
     return {.message = std::move(message), .file = std::move(file)};
   }
 };
 
-/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", without the parts that are not known. The text
-/// is one line and safe to print: control bytes are escaped. Throws std::bad_alloc.
+/// "FILE:LINE:COLUMN: error: MESSAGE (key 'KEY')", without unknown parts. The text is one line and
+/// safe to print: control bytes are escaped. Throws std::bad_alloc.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-/// Text from outside made safe to print. Control bytes, which could end a line or steer a terminal,
+/// External text, made safe to print. Control bytes, which could end a line or steer a terminal,
 /// become \xNN; the text is cut to `longest` characters. Throws std::bad_alloc.
 std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
 
 /// printable() in quotation marks. Throws std::bad_alloc.
 std::string quote(std::string_view text, std::size_t longest = 40);
 
-/// A value, or the Diagnostic that explains why there is none.
+/// A value, or the Diagnostic that explains its absence.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -62,19 +64,19 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value. Throws std::bad_variant_access where not ok().
+  /// The value. Throws std::bad_variant_access if not ok().
   T& value() & { return std::get<0>(state_); }
   const T& value() const& { return std::get<0>(state_); }
   T&& value() && { return std::get<0>(std::move(state_)); }
 
-  /// The Diagnostic. Throws std::bad_variant_access where ok().
+  /// The Diagnostic. Throws std::bad_variant_access if ok().
   [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
 
  private:
   std::variant<T, Diagnostic> state_;
 };
 
-/// Nothing, or the Diagnostic that explains the failure.
+/// std::nullopt for success, or the Diagnostic that explains the failure.
 using Status = std::optional<Diagnostic>;
 
 }  // namespace boule

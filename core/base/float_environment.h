@@ -4,13 +4,13 @@
 
 namespace boule {
 
-/// While it lives, the thread computes as IEEE 754 says by default: it rounds to nearest, keeps
-/// denormals and traps nothing. Afterwards everything is as the caller had it, the raised
-/// exceptions too. So the bits are the same whatever the host application has set.
+/// During its lifetime, the thread computes by the defaults of IEEE 754: it rounds to nearest,
+/// keeps denormals and masks all exceptions. Its destructor restores the caller's environment,
+/// raised exceptions included. So the bits are the same whatever the host application has set.
 ///
-/// Functions of render that read, prepare, render, trace or write make one of their own and call
-/// callbacks in it. Core and simd compute as their caller does: a caller who has changed the
-/// environment makes one around them.
+/// Functions of render that read, prepare, render, trace or write make their own and call callbacks
+/// in it. Core and simd compute in the caller's environment: if you have changed it, put a
+/// FloatEnvironment around the calls.
 class FloatEnvironment {
  public:
   FloatEnvironment() {

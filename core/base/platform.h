@@ -1,6 +1,6 @@
 #pragma once
 
-/// The project's only macros. They say about inlining what the language cannot say.
+/// The project's only macros. They control inlining beyond the means of the language.
 
 /// Forces inlining, so that a template shared with a kernel leaves no weak symbol behind.
 #define BOULE_INLINE [[gnu::always_inline]] inline

@@ -4,8 +4,8 @@
 
 namespace boule {
 
-/// Linear RGB in float, unbounded above (lecture "Color": HDR, of which a tone curve makes LDR).
-/// Any numbers will do, as for Vec3.
+/// Linear RGB in float, unbounded above (lecture "Color": HDR, which a tone curve turns into LDR).
+/// Components may be any numbers, as in Vec3.
 struct Color {
   float r = 0, g = 0, b = 0;
 };

@@ -10,9 +10,9 @@
 
 namespace boule::elementary {
 
-/// Elementary functions with the same bits on every machine: only + - * / and bit patterns, no
-/// libm. Errors are measured against MPFR in the tests; the bounds stated here are tested. What a
-/// function says of its arguments is a precondition: beyond it the result is any number, or NaN.
+/// Elementary functions with the same bits on every machine: only + - * / and bit patterns, without
+/// libm. The tests measure the errors against MPFR and check the bounds stated here. The stated
+/// ranges of arguments are preconditions: beyond them the result is any number, or NaN.
 
 inline constexpr double pi = 3.141592653589793;
 
@@ -87,8 +87,8 @@ BOULE_INLINE SumOf<T> log_of_mantissa(const T& m) {
   return multiply({T(2.0) * s, T(2.0) * s_lo}, add({T(1.0), T(0.0)}, multiply(z, inner)));
 }
 
-/// log(x) for normal and denormal x > 0, with a relative error of about 2^-68. A power is wrong by
-/// no more than 745 times that, because exp takes exponents up to 745: far below half an ulp.
+/// log(x) for normal and denormal x > 0, with a relative error of about 2^-68. A power has an error
+/// of at most 745 times that, because exp takes exponents up to 745: far below half an ulp.
 template <class T>
 BOULE_INLINE SumOf<T> log_extended(const T& given) {
   const Mask<T> denormal = given < T(0x1p-1022);
@@ -139,7 +139,7 @@ requires(!std::is_integral_v<T>)  // whole numbers count as double
   const detail::SumOf<T> product = detail::two_product(log.hi, y);
   const T ordinary =
       detail::exp_extended(detail::fast_two_sum(product.hi, product.lo + log.lo * y));
-  // What two_product() cannot take.
+  // Numbers that two_product() cannot take.
   const Mask<T> up = zero < y, grows = select(zero < log.hi, up, y <= zero);
   const T huge = select(grows, T(inf), zero);
   const T finite = select((T(1e290) < y) | (y < T(-1e290)), huge, ordinary);

@@ -13,13 +13,13 @@ BOULE_INLINE T length(const Vec3<T>& v) {
   return sqrt(dot(v, v));
 }
 
-/// v / |v|; NaN or 0 in some component where |v|^2 is 0, NaN or infinite.
+/// v / |v|; NaN or 0 in some component if |v|^2 is 0, NaN or infinite.
 template <class T = double>
 BOULE_INLINE Vec3<T> normalize(const Vec3<T>& v) {
   return v * (T(1.0) / length(v));
 }
 
-/// True if no component is NaN or infinite.
+/// True if every component is finite.
 template <class T>
 inline bool is_finite(const Vec3<T>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -13,7 +13,7 @@ struct IntervalOf {
 using Interval = IntervalOf<double>;
 
 /// A random number of an interval, spread over [0, 1) again. So a number that has chosen one of
-/// several intervals can be used once more. Precondition: the interval holds u, but for rounding.
+/// several intervals can be used once more. Precondition: the interval holds u, up to rounding.
 template <class T = double>
 BOULE_INLINE T rescale(const T& u, const IntervalOf<T>& interval) {
   const T spread = (u - interval.first) / interval.size, most(below_one);

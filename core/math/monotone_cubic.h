@@ -8,13 +8,13 @@
 
 namespace boule {
 
-/// A value, and the time at which it holds.
+/// A value and its time.
 struct TimedValue {
   double time, value;
 };
 
-/// The index of the last of `values` that is not after `time`, or else of the first; 0 where there
-/// are none. Precondition, here and of monotone_cubic(): the times grow strictly.
+/// The index of the last of `values` at or before `time`, otherwise of the first; 0 for an empty
+/// list. Precondition, here and of monotone_cubic(): the times grow strictly.
 inline std::size_t value_before(std::span<const TimedValue> values, double time) {
   const auto after =
       std::upper_bound(values.begin(), values.end(), time,
@@ -29,8 +29,8 @@ inline double chord(std::span<const TimedValue> values, std::size_t i) {
   return (values[i + 1].value - values[i].value) / (values[i + 1].time - values[i].time);
 }
 
-/// Steffen's slope at value i: that of the parabola through it and its neighbours, made so small
-/// that nothing overshoots; at an end that of the chord there.
+/// Steffen's slope at value i: that of the parabola through it and its neighbours, limited so that
+/// the curve stays between the values; at an end, that of the chord there.
 inline double steffen_slope(std::span<const TimedValue> values, std::size_t i) {
   if (values.size() == 1) return 0;
   if (i == 0) return chord(values, 0);
@@ -47,9 +47,9 @@ inline double steffen_slope(std::span<const TimedValue> values, std::size_t i) {
 }  // namespace detail
 
 /// The cubic interpolation of Steffen ("A simple method for monotonic interpolation in one
-/// dimension", Astronomy and Astrophysics 239, 1990): smooth (C1), exactly the value at each time,
-/// between two values never beyond them; before the first and after the last it stays. NaN where
-/// there are no values.
+/// dimension", Astronomy and Astrophysics 239, 1990). It is smooth (C1) and exact at each time, and
+/// it stays between two neighbouring values. Before the first time and after the last it is
+/// constant. NaN for an empty list.
 inline double monotone_cubic(std::span<const TimedValue> values, double time) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::size_t i = value_before(values, time);

@@ -12,20 +12,21 @@
 namespace boule {
 
 /// A formula that a double and W doubles at a time (Wide, in simd/lanes) have in common is written
-/// once, as a template over the number type. It may ask of its type + - * /, the ordered
-/// comparisons < <= ==, and what follows, here for double; simd/lanes has the same for Wide. A
-/// formula has no branches that depend on numbers: it calculates both sides and selects.
+/// once, as a template over the number type. The type must have + - * /, the ordered comparisons <
+/// <= ==, and the functions below, here for double; simd/lanes has the same functions for Wide. A
+/// formula is free of branches on numbers: it computes both sides and selects.
 
-/// What a comparison of numbers gives: bool, or one truth value for each lane.
+/// The type of a comparison's result: bool, or one truth value per lane.
 template <class T>
 using Mask = decltype(std::declval<T>() < std::declval<T>());
 
 BOULE_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 BOULE_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }
 BOULE_INLINE bool select(bool mask, bool a, bool b) { return mask ? a : b; }
-/// True if the mask is set in some lane. Formulas may ask it to leave out what no lane needs.
+/// True if the mask is set in some lane. Formulas may use it to skip computations that all lanes
+/// can do without.
 BOULE_INLINE bool any(bool mask) { return mask; }
-/// Where the mask is not set.
+/// The inverted mask.
 BOULE_INLINE bool complement(bool mask) { return !mask; }
 BOULE_INLINE double sqrt(double a) { return std::sqrt(a); }
 BOULE_INLINE double abs(double a) { return std::fabs(a); }
@@ -33,7 +34,7 @@ BOULE_INLINE double copysign(double magnitude, double sign) {
   return std::copysign(magnitude, sign);
 }
 
-/// Rounded to float, and back. A mask of doubles is made one of floats.
+/// Conversions: to float by rounding, and back. A mask of doubles becomes one of floats.
 BOULE_INLINE float narrow(double a) { return static_cast<float>(a); }
 BOULE_INLINE bool narrow(bool mask) { return mask; }
 BOULE_INLINE double widen(float a) { return static_cast<double>(a); }
@@ -42,8 +43,8 @@ BOULE_INLINE double widen(float a) { return static_cast<double>(a); }
 template <class T>
 using Single = decltype(narrow(std::declval<T>()));
 
-// Of a positive normal number m 2^e, with m in [1, 2): e + 1023, and m. Of any other number: some
-// number.
+// For a positive normal number m 2^e, with m in [1, 2): e + 1023, and m. For any other number: an
+// undefined number.
 BOULE_INLINE double biased_exponent(double a) {
   return static_cast<double>(std::bit_cast<std::uint64_t>(a) >> 52);
 }
@@ -51,7 +52,7 @@ BOULE_INLINE double mantissa(double a) {
   return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a) & 0x000fffffffffffff) |
                                0x3ff0000000000000);
 }
-/// 2^k for whole k from -1022 to 1023; else some number.
+/// 2^k for whole k from -1022 to 1023; otherwise an undefined number.
 BOULE_INLINE double power_of_two(double k) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + (0x1p52 + 1023)) << 52);
 }
@@ -78,7 +79,7 @@ BOULE_INLINE Numbers<double, count> look_up(Numbers<double, n> given, const Find
   return found;
 }
 
-// What follows from these, for any number type.
+// Functions that follow from these, for any number type.
 
 template <class M, class T>
 BOULE_INLINE Vec3<T> select(const M& mask, const Vec3<T>& a, const Vec3<T>& b) {

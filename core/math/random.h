@@ -7,7 +7,7 @@ namespace boule {
 
 /// Philox4x32-10, a counter-based generator (Salmon, Moraes, Dror, Shaw, "Parallel random numbers:
 /// as easy as 1, 2, 3", SC 2011). The same counter and key give the same four words on every
-/// machine, in any order, on any thread. Any numbers will do, here and below.
+/// machine, in any order, on any thread. The functions of this file take any numbers.
 inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                            std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 10; ++round) {

@@ -8,7 +8,7 @@
 
 namespace boule {
 
-/// p -> scale (R p) + shift with a rotation R: what keeps every sphere a sphere.
+/// p -> scale (R p) + shift with a rotation R: it maps spheres to spheres.
 struct Similarity {
   Vec3d row_x{1, 0, 0}, row_y{0, 1, 0}, row_z{0, 0, 1};  ///< of R
   double scale = 1;
@@ -34,7 +34,7 @@ inline Similarity compose(const Similarity& outer, const Similarity& inner) {
 /// The cosine and sine of an angle in degrees: the same bits on every machine, and exact at
 /// multiples of 90. NaN where the angle is not finite.
 inline Angle turn_of(double degrees) {
-  double rest = std::fmod(degrees, 360.0);  // exact, as IEEE 754 wants it
+  double rest = std::fmod(degrees, 360.0);  // exact, by IEEE 754
   int quarters = 0;
   for (; rest > 45; rest -= 90) ++quarters;
   for (; rest < -45; rest += 90) --quarters;
@@ -54,7 +54,7 @@ inline Angle turn_of(double degrees) {
   }
 }
 
-/// The rotation about the x axis, then about y, then about z, axes that stay where they are. In
+/// The rotation about the x axis, then about y, then about z, all fixed axes. Angles are in
 /// degrees, counter-clockwise as seen from the axis' tip. R = Rz Ry Rx.
 inline Similarity rotation(const Vec3d& degrees) {
   const auto [cx, sx] = turn_of(degrees.x);

@@ -40,7 +40,7 @@ BOULE_INLINE T scramble(T x, T seed) {
 }
 
 /// Pascal's triangle modulo 2 times the bits of x: digits of the second Sobol dimension, the first
-/// in bit 0. Digit i is the sum, modulo 2, of those bits j of x where the number j has all the
+/// in bit 0. Digit i is the sum, modulo 2, of those bits j of x for which the number j has all the
 /// binary digits of i (Lucas's theorem).
 template <class T>
 BOULE_INLINE T pascal(T x) {
@@ -53,13 +53,13 @@ BOULE_INLINE T pascal(T x) {
 
 }  // namespace detail
 
-/// What the numbers of a sample are for. Each use has a set of its own; those of the bounces are
-/// counted from first_bounce on.
+/// The uses of a sample's random numbers. Each use has its own set; those of the bounces count from
+/// first_bounce on.
 enum class RandomSet : std::uint32_t { film, lens, first_bounce };
 
-/// A key for each pixel, from which all random numbers of the pixel follow. Different pixels, of
-/// coordinates from 0 on, and different seeds of pictures have different keys. Any key is as good
-/// as any other, 0 too.
+/// A key for each pixel, from which all random numbers of the pixel follow. Different pixels, with
+/// coordinates from 0 on, and different seeds of pictures have different keys. Any key is valid, 0
+/// included.
 class PixelKeys {
  public:
   explicit PixelKeys(std::uint64_t seed) : seed_(mix64(seed)) {}
@@ -72,7 +72,7 @@ class PixelKeys {
   std::uint64_t seed_;
 };
 
-/// What a pixel's and a set's points are scrambled by.
+/// The seeds that scramble the points of a pixel and a set.
 template <class Integer>
 struct SobolSeedsOf {
   Integer shuffle, u, v;
@@ -86,7 +86,7 @@ inline SobolSeeds sobol_seeds(std::uint64_t key, RandomSet set) {
           static_cast<std::uint32_t>(more)};
 }
 
-/// Point `sample` of the sequence that these seeds make: see sobol_pair(). The integers are
+/// Point `sample` of the sequence with these seeds: see sobol_pair(). The integers are
 /// std::uint32_t, or W of them at a time.
 template <class Integer>
 BOULE_INLINE auto sobol_point(const SobolSeedsOf<Integer>& seeds, Integer sample) {
@@ -99,14 +99,14 @@ BOULE_INLINE auto sobol_point(const SobolSeedsOf<Integer>& seeds, Integer sample
 }
 
 /// Point `sample` of the Sobol (0, 2)-sequence, shuffled and Owen-scrambled anew for every pixel
-/// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). The first n samples
-/// of a pixel have, for any n, in every rectangle of 2^-a by 2^-b that tiles the unit square,
-/// n 2^-(a+b) points, rounded up or down: samples are even in both directions and after any n. One
-/// sample's points in two sets are independent (padding). Those of two samples are not quite: every
-/// shuffle keeps samples together whose numbers differ in the last bits only. So a mean over
-/// several sets is right, but its error is not quite that of independent sets, and a function of
-/// two sets converges about as with random numbers. The bits are the same on every machine, in any
-/// order.
+/// and `set` (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020). For any n, the
+/// first n samples of a pixel have n 2^-(a+b) points, rounded up or down, in every rectangle of
+/// 2^-a by 2^-b that tiles the unit square: samples are even in both directions and after any n.
+/// One sample's points in two sets are independent (padding). The points of two samples are
+/// slightly dependent: every shuffle keeps samples together whose numbers differ only in the last
+/// bits. So a mean over several sets is right, but its error differs slightly from that of
+/// independent sets, and a function of two sets converges about as with random numbers. The bits
+/// are the same on every machine, in any order.
 inline UnitPair sobol_pair(std::uint64_t key, RandomSet set, std::uint32_t sample) {
   return sobol_point(sobol_seeds(key, set), sample);
 }

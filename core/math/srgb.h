@@ -12,7 +12,7 @@
 
 namespace boule {
 
-/// A colour of 8 bits a component, with the sRGB curve (IEC 61966-2-1): what "#rrggbb" says.
+/// A colour of 8 bits a component, with the sRGB curve (IEC 61966-2-1), as "#rrggbb" gives it.
 struct SrgbColor {
   std::uint8_t r = 0, g = 0, b = 0;
 };
@@ -20,22 +20,23 @@ constexpr bool operator==(const SrgbColor& a, const SrgbColor& b) {
   return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/// "#rrggbb" as a colour, or nothing; and a colour as "#rrggbb".
+/// "#rrggbb" as a colour, or std::nullopt for other text; and a colour as "#rrggbb".
 std::optional<SrgbColor> parse_hex_color(std::string_view text);
 std::string hex_text(SrgbColor color);
 
-/// The linear value of a value `s` of the sRGB curve, for 0..1 the exact one. The curve goes on
-/// outside of 0..1. Same bits on every machine.
+/// The linear value of a value `s` of the sRGB curve, exact for 0..1. The curve continues outside
+/// of 0..1. Same bits on every machine.
 double linear_from_srgb(double s);
-/// The other way round, for 0..1.
+/// The inverse, for 0..1.
 double srgb_from_linear(double v);
 
-/// What a display shows of any number: the same after it is cut to 0..1.
+/// The displayed value of any number: srgb_from_linear() after clamping to 0..1.
 double srgb_displayed(double v);
 
-/// From linear values to codes and back by tables, without a power for each. The upper 16 bits of a
-/// float below 1 choose a bucket, whose relative width is 2^-7. Any two steps from code to code are
-/// further apart than that, so a bucket holds at most one step, and one comparison decides.
+/// From linear values to codes and back by tables, without a power for each value. The upper 16
+/// bits of a float below 1 choose a bucket, whose relative width is 2^-7. Any two steps from code
+/// to code are farther apart than that, so a bucket holds at most one step, and one comparison
+/// decides.
 class SrgbTable {
  public:
   /// The one table of the program, made on first use.

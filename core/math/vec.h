@@ -4,8 +4,8 @@
 
 namespace boule {
 
-/// Three components over any lane type: float, double, or a register of either. Any numbers will
-/// do: everything here is as IEEE 754 has it, NaN and overflow too.
+/// Three components of any lane type: float, double, or a register of either. Components may be any
+/// numbers: all operations follow IEEE 754, NaN and overflow included.
 template <class T>
 struct Vec3 {
   T x{}, y{}, z{};

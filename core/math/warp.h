@@ -6,10 +6,10 @@
 
 namespace boule {
 
-/// From the unit square to directions, the same bits on every machine. Directions are of unit
-/// length; densities are per solid angle. Preconditions, which nobody checks in these inner loops:
-/// axes of unit length, u in [0, 1), turns in [0, 1], 0 < height <= 2, n >= 0. T is double, or
-/// lanes of it.
+/// Maps from the unit square to directions, with the same bits on every machine. Directions are of
+/// unit length; densities are per solid angle. Preconditions, unchecked in these inner loops: axes
+/// of unit length, u in [0, 1), turns in [0, 1], 0 < height <= 2, n >= 0. T is double, or lanes of
+/// it.
 
 /// Cosine and sine of an angle: around an axis, or from it.
 template <class T>
@@ -18,7 +18,7 @@ struct AngleOf {
 };
 using Angle = AngleOf<double>;
 
-/// The angle of so many turns, 0 <= turns <= 1; error below 1e-15.
+/// The angle of `turns` full turns, 0 <= turns <= 1; error below 1e-15.
 template <class T>
 BOULE_INLINE AngleOf<T> full_turns(const T& turns) {
   const T quarters = turns * T(4.0) + T(0.5);

@@ -7,7 +7,7 @@ namespace boule {
 
 using CameraSample = CameraSampleOf<double>;
 
-/// What a camera sends through one sample; with weight 0 there is no ray.
+/// The ray of a camera through one sample; with weight 0 there is no ray.
 struct CameraRay {
   Ray ray;
   float weight = 1;

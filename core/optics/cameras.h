@@ -11,19 +11,20 @@
 
 namespace boule {
 
-/// How each kind of camera makes a ray of a sample, as a formula for doubles and for lanes of them.
-/// A further camera is a further struct here, its kind in CameraKind, a line in visit_camera() and
-/// its numbers in build_camera().
+/// The formulas that turn a sample into a ray, one for each kind of camera, for doubles and for
+/// lanes of them. A new camera is a new struct here, its kind in CameraKind, a line in
+/// visit_camera() and its numbers in build_camera().
 
-/// Where a camera is sampled: the raster point, and the lens, 0 .. 1 each, (0.5, 0.5) its centre.
+/// A sample of a camera: the raster point, and the lens point, 0 .. 1 each, with (0.5, 0.5) as the
+/// lens' centre.
 template <class T>
 struct CameraSampleOf {
   RasterPointOf<T> raster;
   T lens_x = T(0.5), lens_y = T(0.5);
 };
 
-/// What a camera sends through a sample: a ray, its direction still to be rounded to float, and how
-/// much its radiance counts. With weight 0 there is no ray, and its numbers are any.
+/// The ray of a camera through a sample, before its direction is rounded to float, and the weight
+/// of its radiance. With weight 0 there is no ray, and its numbers are undefined.
 template <class T>
 struct CameraRayOf {
   Vec3<T> org, dir;
@@ -82,10 +83,10 @@ struct FisheyeRay {
   }
 };
 
-/// From eye + o along unit(forward + p - o / focus), o a point of the lens. A thin lens bends all
-/// rays from one film point to where the one through its centre, which goes on straight, crosses
-/// the plane in focus: at forward + p, times the focal distance. Divided by that distance, a sample
-/// at the lens' centre gives the pinhole's direction itself.
+/// From eye + o along unit(forward + p - o / focus), where o is a point of the lens. A thin lens
+/// bends all rays from one film point to one point of the plane in focus. The ray through the lens'
+/// centre goes straight on, so that point is at forward + p, times the focal distance. Divided by
+/// that distance, a sample at the lens' centre gives the pinhole's direction itself.
 struct ThinLensRay {
   static constexpr CameraKind kind = CameraKind::thin_lens;
   static constexpr CommonPart common = CommonPart::none;
@@ -101,9 +102,9 @@ struct ThinLensRay {
   }
 };
 
-/// What comes out of a lens of real elements. The lens' space has right, up and -forward as its
-/// axes, the eye as its origin and `scale` as its unit. A lens throws its picture upside down: the
-/// film's coordinates change their signs to make up for it.
+/// The rays of a lens of real elements. The lens' space has right, up and -forward as its axes, the
+/// eye as its origin and `scale` as its unit. A lens turns its picture upside down, so the film's
+/// coordinates change their signs to compensate.
 struct LensCameraRay {
   static constexpr CameraKind kind = CameraKind::lens;
   static constexpr CommonPart common = CommonPart::none;
@@ -144,7 +145,7 @@ BOULE_INLINE constexpr auto visit_camera(CameraKind kind, const Visitor& visit) 
   return visit(PinholeRay{});
 }
 
-/// What all primary rays of this kind of camera have in common.
+/// The part that all primary rays of this kind of camera have in common.
 constexpr CommonPart common_part(CameraKind kind) {
   return visit_camera(kind, [](auto formula) { return decltype(formula)::common; });
 }

@@ -5,12 +5,12 @@
 
 namespace boule {
 
-/// How a ray goes on when it enters another medium; of doubles, or of lanes of them.
+/// The refraction of a ray that enters another medium, for doubles or for lanes of them.
 template <class T>
 struct RefractionOf {
-  Vec3<T> direction;  ///< unit length; anything if `total`
-  T cosine = T(0.0);  ///< of the angle beyond the surface; anything if `total`
-  Mask<T> total;      ///< total internal reflection: nothing goes through
+  Vec3<T> direction;  ///< unit length; undefined if `total`
+  T cosine = T(0.0);  ///< of the angle beyond the surface; undefined if `total`
+  Mask<T> total;      ///< total internal reflection: there is no refracted ray
 };
 using Refraction = RefractionOf<double>;
 
@@ -25,9 +25,9 @@ BOULE_INLINE RefractionOf<T> refract(const Vec3<T>& view, const Vec3<T>& normal,
   return {view * eta + normal * (eta * cosine - beyond), beyond, T(1.0) <= sine_squared};
 }
 
-/// The share of unpolarised light that a dielectric reflects, which is the mean of both
-/// polarisations (Fresnel's equations; Born and Wolf, Principles of Optics, 1.5.2). `bent` is
-/// what refract() gives for `cosine` and `eta`. Precondition: the reflection is not total.
+/// The fraction of unpolarised light that a dielectric reflects, the mean of both polarisations
+/// (Fresnel's equations; Born and Wolf, Principles of Optics, 1.5.2). `bent` is the result of
+/// refract() for `cosine` and `eta`. Precondition: the reflection is not total.
 template <class T = double>
 BOULE_INLINE T fresnel(const T& cosine, const RefractionOf<T>& bent, const T& eta) {
   const T s = (eta * cosine - bent.cosine) / (eta * cosine + bent.cosine);

@@ -20,10 +20,10 @@ struct FilmPointOf {
   T x, y;
 };
 
-/// For look_up(): the four pixels of an ST map around a point. Given: x and y of the point, in
-/// pixels from the first pixel's centre. Found: how far the point lies right of the pixels on its
-/// left, and below those above it, in pixels (outside 0 .. 1 beyond the map's rim); then the four
-/// s and then the four t, row by row.
+/// For look_up(): the four pixels of an ST map around a point. Input: x and y of the point, in
+/// pixels from the first pixel's centre. Output: the distance of the point to the right of the
+/// pixels on its left, and below those above it, in pixels (outside 0 .. 1 beyond the map's rim);
+/// then the four s and then the four t, row by row.
 struct MapCorners {
   const DistortionView& map;
 
@@ -56,7 +56,7 @@ BOULE_INLINE T blend(const T* corners, const T& right, const T& down) {
   return top + (bottom - top) * down;
 }
 
-/// Where the camera's ST map moves a raster point to: (s extent_x, (1 - t) extent_y).
+/// The point to which the camera's ST map moves a raster point: (s extent_x, (1 - t) extent_y).
 template <class T>
 BOULE_INLINE RasterPointOf<T> distort(const CameraView& camera, const RasterPointOf<T>& raster) {
   const DistortionView& map = camera.distortion;
@@ -75,7 +75,7 @@ BOULE_INLINE T film_coordinate(const RasterToFilm& map, const T& raster) {
   return (raster * T(map.scale) + T(map.offset)) / T(map.extent);
 }
 
-/// Where a raster point lies on the film.
+/// The point of the film for a raster point.
 template <class T>
 BOULE_INLINE FilmPointOf<T> film_point(const CameraView& camera, const RasterPointOf<T>& asked) {
   const RasterPointOf<T> raster = camera.distortion.st != nullptr ? distort(camera, asked) : asked;

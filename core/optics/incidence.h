@@ -7,23 +7,23 @@
 
 namespace boule {
 
-/// What follows from where a ray met a sphere or a plane, as formulas for doubles and for lanes of
-/// them: see Surface. They take any numbers; those that are not finite make such numbers.
+/// The geometry of hits with spheres and planes, as formulas for doubles and for lanes of them: see
+/// Surface. They take any numbers; numbers that are not finite give such numbers.
 
-/// A ray that met something.
+/// A ray that hit a primitive.
 template <class T>
 struct ArrivalOf {
   Vec3<T> org, dir;
   Vec3<T> point;           ///< org + t dir
-  Mask<T> leaves_it;       ///< the ray starts on the primitive that it meets
+  Mask<T> leaves_it;       ///< the ray starts on the primitive that it hits
   Mask<T> is_from_origin;  ///< its tmin is 0
 };
 
-/// The surface where a ray arrived.
+/// The surface at which a ray arrived.
 template <class T>
 struct ContactOf {
   Vec3<T> outward;  ///< geometric normal, of unit length, or not finite
-  T reach;          ///< what the error of the point is relative to
+  T reach;          ///< the error of the point is relative to this
   Mask<T> inner;    ///< on the sphere's inside, or on the plane's back
 };
 
@@ -32,9 +32,9 @@ BOULE_INLINE ContactOf<T> meet_sphere(const ArrivalOf<T>& ray, const Vec3<T>& ce
                                       const T& radius) {
   const Vec3<T> f = center - ray.org, outward = ray.point - center;
   const T ff = dot(f, f);
-  // Which side is met follows from where the ray started, not from the angle: the solver took the
-  // second root for the same sign of the same expression, so a grazing ray cannot change sides. A
-  // ray that begins elsewhere than at its origin may meet the other root: there the angle tells.
+  // The ray's start decides which side it hits, rather than the angle: the solver took the second
+  // root by the same sign of the same expression, so a grazing ray cannot change sides. A ray whose
+  // interval begins away from its origin may hit the other root: there the angle decides.
   const Mask<T> starts_inside = ray.leaves_it | (ff - radius * radius <= T(0.0));
   const Mask<T> goes_out = T(0.0) < dot(outward, ray.dir);
   return {normalize(outward), sqrt(ff) + radius,
@@ -59,7 +59,7 @@ struct PrimitiveOf {
   Vec3<T> direction;  ///< normalize(normal), of a plane
 };
 
-/// meet_plane() or meet_sphere(). Both need the distance of `place`, which is found once.
+/// meet_plane() or meet_sphere(). Both need the distance of `place`, which is computed once.
 template <class T>
 BOULE_INLINE ContactOf<T> meet_primitive(const ArrivalOf<T>& ray, const PrimitiveOf<T>& met) {
   const ContactOf<T> sphere = meet_sphere(ray, met.place, met.radius);
@@ -68,13 +68,13 @@ BOULE_INLINE ContactOf<T> meet_primitive(const ArrivalOf<T>& ray, const Primitiv
           select(met.plane, T(0.0) < dot(ray.dir, met.normal), sphere.inner)};
 }
 
-/// The normal on the side that a ray came from; not finite where `outward` is not.
+/// The normal on the side from which a ray came; not finite if `outward` is not.
 template <class T>
 BOULE_INLINE Vec3<T> turned_normal(const ContactOf<T>& contact) {
   return contact.outward * select(contact.inner, T(-1.0), T(1.0));
 }
 
-/// True if no component is NaN or infinite.
+/// True if every component is finite.
 template <class T>
 BOULE_INLINE Mask<T> all_finite(const Vec3<T>& v) {
   const T largest(std::numeric_limits<double>::max());
@@ -82,12 +82,12 @@ BOULE_INLINE Mask<T> all_finite(const Vec3<T>& v) {
   return x & y & z;
 }
 
-/// The unit normal on the side that a ray came from; `view` is the ray's unit direction.
+/// The unit normal on the side from which a ray came; `view` is the ray's unit direction.
 template <class T>
 BOULE_INLINE Vec3<T> facing_normal(const ContactOf<T>& contact, const Vec3<T>& view) {
   const Vec3<T> turned = turned_normal(contact);
-  // Of a sphere that is too small for its distance from (0, 0, 0) the point is the centre. Any
-  // normal is right then; this one faces the ray.
+  // For a sphere that is too small for its distance from (0, 0, 0), the point equals the centre.
+  // Any normal is right then; this one faces the ray.
   return select(all_finite(turned), turned, view * T(-1.0));
 }
 
@@ -104,8 +104,8 @@ BOULE_INLINE Vec3<T> mirror(const Vec3<T>& view, const Vec3<T>& normal, const T&
   return view + normal * (T(2.0) * cosine);
 }
 
-/// A hit's point is known to this share of the distances that made it (ContactOf::reach), axis by
-/// axis.
+/// The error of a hit's point as a fraction of the distances it was computed from
+/// (ContactOf::reach), axis by axis.
 inline constexpr double point_error = 0x1p-49;
 
 /// The point, moved along a unit normal until it is certainly on that side of the surface.

@@ -11,10 +11,10 @@ struct DiscPointOf {
   T x, y;
 };
 
-/// The point of the unit disc that a lens sample stands for, 0 .. 1 each: the squares around the
-/// sample square's middle become the circles around the disc's, a quarter of the circle for each
-/// side (Shirley and Chiu, "A low distortion map between disk and square", Journal of Graphics
-/// Tools 2(3), 1997). Areas keep their proportions, and the middle, (0.5, 0.5), stays.
+/// The point of the unit disc for a lens sample, 0 .. 1 each: the squares around the sample
+/// square's middle become the circles around the disc's, a quarter of the circle for each side
+/// (Shirley and Chiu, "A low distortion map between disk and square", Journal of Graphics Tools
+/// 2(3), 1997). Areas keep their proportions, and the middle, (0.5, 0.5), stays.
 template <class T>
 BOULE_INLINE DiscPointOf<T> disc_point(const T& lens_x, const T& lens_y) {
   const T x = lens_x * T(2.0) - T(1.0);

@@ -7,8 +7,7 @@
 
 namespace boule {
 
-/// A lens focused and ready to be traced: it owns the numbers of a LensView, which says what they
-/// mean.
+/// A lens, focused and ready to be traced. It owns the numbers of a LensView, which documents them.
 struct LensOptics {
   std::vector<LensElement> elements;
   std::vector<PupilRing> pupil;
@@ -19,13 +18,13 @@ struct LensOptics {
   double scale;
   double exposure;
 
-  /// Valid until this lens is changed or destroyed; moving it does no harm.
+  /// A view that is valid until this lens is changed or destroyed; it survives a move.
   [[nodiscard]] LensView view() const;
 };
 
-/// A valid camera's lens (find_problem()), focused, with its exit pupil in so many rings, for a
-/// picture of so many pixels, all 1 or more. Other lenses and sizes give numbers that may be NaN,
-/// and rays that are stopped. Throws std::bad_alloc.
+/// A valid camera's lens (find_problem()), focused, with its exit pupil in `rings` rings, for a
+/// picture of `width` x `height` pixels, all 1 or more. Other lenses and sizes give numbers that
+/// may be NaN, and rays that are stopped. Throws std::bad_alloc.
 LensOptics make_optics(const LensCamera& camera, int width, int height, int rings = 64);
 
 /// The light that the middle of such a camera's film gathers: light_in_the_middle(). 0 for a camera

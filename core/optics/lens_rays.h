@@ -15,16 +15,16 @@ struct LensRayOf {
 };
 using LensRay = LensRayOf<double>;
 
-/// Sends a ray from the film through one surface. `passed` becomes false where it is stopped: by
-/// the rim, beside the sphere (NaN passes no comparison) or by total reflection.
+/// Sends a ray from the film through one surface. `passed` becomes false if the ray is stopped: by
+/// the rim, beside the sphere (NaN fails every comparison) or by total reflection.
 template <class T>
 BOULE_INLINE void pass_element(const LensElement& element, LensRayOf<T>& ray, Mask<T>& passed) {
   const T radius(element.radius), z(element.z), eta(element.eta);
   const Vec3<T> center{T(0.0), T(0.0), z};
   T t = (z - ray.org.z) / ray.dir.z;
   if (element.radius != 0) {
-    // Of the two points of the sphere the one on the surface's side: behind the centre as seen from
-    // the film if that is on the film's side.
+    // The point of the sphere, among two, on the surface's side: behind the centre as seen from the
+    // film if the centre is on the film's side.
     const Vec3<T> f = center - ray.org;
     const T b = dot(f, ray.dir);
     const Vec3<T> l = f - ray.dir * b;
@@ -42,10 +42,10 @@ BOULE_INLINE void pass_element(const LensElement& element, LensRayOf<T>& ray, Ma
   ray.dir = ray.dir * eta + normal * (sqrt(cosine2) - eta * cosine);
 }
 
-/// For look_up(): the boxes of the exit pupil between which a film point's box lies. Given: how
-/// many rings the point is from the film's middle. Found: how far its box is from the inner to the
-/// outer one, 0 .. 1; then x0, x1 and y, of the inner and of the outer one each. Beyond the last
-/// ring it is that ring's outer box.
+/// For look_up(): the boxes of the exit pupil around the box of a film point. Input: the distance
+/// of the point from the film's middle, in rings. Output: the position of its box between the inner
+/// and the outer one, 0 .. 1; then x0, x1 and y, of the inner and of the outer one each. Beyond the
+/// last ring it is that ring's outer box.
 struct PupilBoxes {
   const LensView& lens;
 
@@ -82,9 +82,9 @@ BOULE_INLINE PupilBoxOf<T> pupil_box(const LensView& lens, const T& distance) {
 }
 
 /// The ray of the film point (x, y) through the point (a, b) of its pupil box, 0 .. 1 each (Kolb,
-/// Mitchell, Hanrahan, "A realistic camera model for computer graphics", SIGGRAPH 1995). It counts
-/// cos^4 of its angle with the axis times the box' area, in units of what arrives in the film's
-/// middle; 0 where it is stopped. Returns that weight.
+/// Mitchell, Hanrahan, "A realistic camera model for computer graphics", SIGGRAPH 1995). Returns
+/// its weight: cos^4 of its angle with the axis times the area of the box, relative to the light
+/// that arrives in the film's middle; 0 if it is stopped.
 template <class T>
 BOULE_INLINE T send_through(const LensView& lens, const T& x, const T& y, const T& a, const T& b,
                             LensRayOf<T>& ray) {

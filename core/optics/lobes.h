@@ -5,37 +5,37 @@
 
 namespace boule {
 
-/// How paths go on from surfaces, as formulas for doubles and for lanes of them. A surface has up
-/// to four lobes: the diffuse one, the highlight around the mirrored view direction, the reflected
-/// direction and the refracted one. The probability of a lobe is its share of the light that the
-/// surface sends on. The materials are those of flatten_for_paths().
+/// The continuation of paths at surfaces, as formulas for doubles and for lanes of them. A surface
+/// has up to four lobes: the diffuse one, the highlight around the mirrored view direction, the
+/// reflected direction and the refracted one. The probability of a lobe is its fraction of the
+/// light that the surface sends on. The materials are those of flatten_for_paths().
 
-/// What materials of one kind have in common.
+/// The kinds of materials, by their lobes.
 /// - matte: the diffuse lobe alone
-/// - glossy: the diffuse lobe or the highlight, and perhaps the others
-/// - clear: neither of them
+/// - glossy: the diffuse lobe or the highlight, and possibly others
+/// - clear: only reflection and refraction
 enum class LobeKind { none, matte, glossy, clear };
 
 /// The largest probability with which a path survives Russian roulette: in a scene that absorbs
 /// nothing, paths must end as well.
 inline constexpr float largest_survival = 0.95F;
 
-/// A random direction in which a path goes on.
+/// A random direction in which a path continues.
 template <class T>
 struct BounceOf {
-  Vec3<T> direction;  ///< unit length; anything where the weight is black
+  Vec3<T> direction;  ///< unit length; undefined if the weight is black
   ColorOf<T> weight;  ///< of light from there: reflectance times cosine over density
   T density;          ///< per solid angle; 0 for the one direction of a mirror or of refraction
   Mask<T> beyond;     ///< the path goes through the surface
 };
 
-/// The highlight's largest share of light: Ks.
+/// The largest fraction of light that the highlight sends on: Ks.
 template <class T>
 BOULE_INLINE T highlight_albedo(const CoefficientsOf<T>& m) {
   return m.highlight * T(2.0) / (m.shininess + T(2.0));
 }
 
-/// The lobes of a surface. A kind that has fewer of them takes less time; the bits are the same.
+/// The lobes of a surface. A kind with fewer lobes takes less time; the bits are the same.
 template <class T, LobeKind kind>
 class LobesOf {
  public:
@@ -55,12 +55,12 @@ class LobesOf {
     }
   }
 
-  /// Where the surface sends light on.
+  /// Whether the surface sends light on.
   [[nodiscard]] BOULE_INLINE Mask<T> shine() const { return T(0.0) < sum_; }
 
-  /// What the diffuse lobe and the highlight do with light from a direction.
+  /// The response of the diffuse lobe and the highlight to light from a direction.
   struct Response {
-    T density;             ///< with which the two choose the direction
+    T density;             ///< of choosing the direction by these two lobes
     ColorOf<T> reflected;  ///< the reflectance times n.l times pi
   };
 
@@ -121,8 +121,8 @@ class LobesOf {
             counts};
   }
 
-  /// Into the reflected or the refracted direction; the shares of the lobes before them are
-  /// `first`.
+  /// Into the reflected or the refracted direction; `first` is the sum of the shares of the lobes
+  /// before.
   [[nodiscard]] BOULE_INLINE BounceOf<T> straight(const T& u, const T& first) const {
     const Mask<T> goes_back = (u < first + reflection_) | complement(T(0.0) < refraction_);
     const ColorOf<T> back = weights_.reflection * narrow(sum_ / reflection_);
@@ -136,21 +136,22 @@ class LobesOf {
   const CoefficientsOf<T>& material_;
   const IncidenceOf<T>& met_;
   ScatterOf<T> weights_;
-  T diffuse_, highlight_, reflection_, refraction_;  ///< the light that each sends on
+  T diffuse_, highlight_, reflection_, refraction_;  ///< the light that each lobe sends on
   T sum_;
 };
 
 /// Veach's power heuristic with exponent 2 ("Robust Monte Carlo methods for light transport
-/// simulation", 1997, 9.2): the weight of a sample with density a, where the other way would have
-/// chosen it with density b.
+/// simulation", 1997, 9.2): the weight of a sample with density a, where the other strategy would
+/// have chosen it with density b.
 template <class T>
 BOULE_INLINE T power_heuristic(const T& a, const T& b) {
   const T ratio = b / a;
   return T(1.0) / (T(1.0) + ratio * ratio);
 }
 
-/// False only if a line along `dir` certainly misses the sphere; takes no root and no quotient.
-/// Compares the line's distance from the centre with twice the radius, plus a little for rounding.
+/// False only if a line along `dir` certainly misses the sphere. It takes neither a root nor a
+/// quotient: it compares the line's distance from the centre with twice the radius, plus a little
+/// for rounding.
 template <class T>
 BOULE_INLINE Mask<T> may_meet(const Vec3<T>& dir, const Vec3<T>& to_center, const T& radius) {
   const Vec3<T> aside = cross(dir, to_center);
@@ -162,7 +163,7 @@ BOULE_INLINE Mask<T> may_meet(const Vec3<T>& dir, const Vec3<T>& to_center, cons
 template <class T>
 BOULE_INLINE ColorOf<T> gradient_color(const ColorOf<T>& bottom, const ColorOf<T>& top,
                                        const T& cosine) {
-  // Clamped, because rounding could take it out of 0..1 and a colour below 0.
+  // Clamped, because rounding could push it out of 0..1, and a colour below 0.
   const T height = (T(1.0) + cosine) / T(2.0);
   const T held = select(height < T(0.0), T(0.0), select(T(1.0) < height, T(1.0), height));
   const Single<T> share = narrow(held);

@@ -10,9 +10,9 @@
 
 namespace boule {
 
-/// What surfaces do with light, as formulas for doubles and for lanes of them. Coefficients,
-/// weights and colours are floats, as in FlatMaterial; directions, cosines and densities are
-/// doubles.
+/// The reflection and refraction of light at surfaces, as formulas for doubles and for lanes of
+/// them. Coefficients, weights and colours are floats, as in FlatMaterial; directions, cosines and
+/// densities are doubles.
 
 template <class T>
 using ColorOf = Vec3<Single<T>>;
@@ -67,22 +67,22 @@ BOULE_INLINE T cosine_power(const T& base, const T& exponent) {
   return result;
 }
 
-/// (r.l)^n of the highlight; 0 where the material has none, or light does not come from there.
+/// (r.l)^n of the highlight; 0 for materials without one, and for light from the other side.
 template <class T>
 BOULE_INLINE T highlight_power(const CoefficientsOf<T>& material, const Vec3<T>& mirrored,
                                const Vec3<T>& to_light) {
   if (!any(T(0.0) < material.highlight)) return T(0.0);
   const T along = dot(mirrored, to_light);
-  // At most 1, or a large exponent makes infinity of a rounding error.
+  // At most 1, because a large exponent would turn a rounding error into infinity.
   const T r_dot_l = select(T(1.0) < along, T(1.0), along);
   const Mask<T> seen = (T(0.0) < material.highlight) & (T(0.0) < r_dot_l);
   if (!any(seen)) return T(0.0);
   return select(seen, cosine_power(select(seen, r_dot_l, T(1.0)), material.shininess), T(0.0));
 }
 
-/// The light that a surface sends to the viewer when light of `intensity` arrives from a direction:
-/// C Kd (n.l) I + Ks (r.l)^n I (lecture "Phong"; Whitted 1980). `power`: highlight_power(). With
-/// `share` the highlight is multiplied by it: n.l or 1. Precondition: n.l > 0.
+/// The light that a surface sends to the viewer for light of `intensity` from a direction: C Kd
+/// (n.l) I + Ks (r.l)^n I (lecture "Phong"; Whitted 1980). `power`: highlight_power(). With `share`
+/// the highlight is multiplied by it: n.l or 1. Precondition: n.l > 0.
 template <class T>
 BOULE_INLINE ColorOf<T> reflected_light(const CoefficientsOf<T>& material, const T& n_dot_l,
                                         const T& power, const Single<T>& share,
@@ -94,17 +94,17 @@ BOULE_INLINE ColorOf<T> reflected_light(const CoefficientsOf<T>& material, const
   return select(narrow(seen), sum + intensity * highlight, sum);
 }
 
-/// How much the rays that continue from a surface count. There is no ray where the weight is black.
+/// The weights of the rays that continue from a surface. There is no ray if the weight is black.
 template <class T>
 struct ScatterOf {
   ColorOf<T> reflection;  ///< weight of the ray along the mirrored direction
   ColorOf<T> refraction;  ///< weight of the ray along `refracted`
-  Vec3<T> refracted;      ///< unit length; anything where `refraction` is black
+  Vec3<T> refracted;      ///< unit length; undefined if `refraction` is black
 };
 
 /// The weights of the reflected and the refracted ray (Whitted 1980). For a dielectric, Fresnel's
-/// equations divide the light between them. At total internal reflection the light that would go
-/// through is reflected as well.
+/// equations divide the light between them. At total internal reflection, the transmitted light is
+/// reflected as well.
 template <class T>
 BOULE_INLINE ScatterOf<T> scatter(const CoefficientsOf<T>& material, const IncidenceOf<T>& met) {
   using F = Single<T>;

@@ -8,16 +8,16 @@
 
 namespace boule {
 
-/// Of spheres that pass by, one with the largest radius, and for each direction along an axis of
-/// coordinates, both ways, one whose centre lies outermost and one whose surface does. Of several,
-/// the first that came.
+/// The extreme spheres of a sequence: one with the largest radius and, for each direction along an
+/// axis of coordinates, both ways, one with the outermost centre and one with the outermost
+/// surface. Among equal ones, the first.
 class AxisExtremes {
  public:
   void add(const Sphere& sphere);
-  /// Adds those of spheres that came later.
+  /// Adds the extremes of a later part of the sequence.
   void add(const AxisExtremes& later);
 
-  /// Of no spheres: none.
+  /// Empty for an empty sequence.
   [[nodiscard]] std::vector<Sphere> spheres() const;
 
  private:

@@ -33,8 +33,8 @@ inline constexpr auto fields<GradientBackground> =
                field("top", &GradientBackground::top, rule::not_negative),
                field("up", &GradientBackground::up, rule::direction));
 
-/// A latitude-longitude image of everything around the scene. Its top row is up (+y); its middle is
-/// seen along -z, or `rotation` degrees to the right of that.
+/// A latitude-longitude image of the surroundings of the scene. Its top row is up (+y); its middle
+/// is in direction -z, or `rotation` degrees to the right of that.
 struct EnvironmentBackground {
   int width = 0, height = 0;  ///< >= 1
   std::vector<Color> pixels;  ///< radiance, row by row, the top one first

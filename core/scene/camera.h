@@ -9,7 +9,7 @@
 
 namespace boule {
 
-/// Which side of the film the field of view spans: x (its width), y, or the longer of the two
+/// The side of the film that the field of view spans: x (its width), y, or the longer of the two
 /// (the lecture's -1..1 rule).
 enum class FovAxis { x, y, max };
 template <>
@@ -39,8 +39,8 @@ inline constexpr auto fields<OrthographicCamera> =
     field_list("orthographic", field("pose", &OrthographicCamera::pose),
                field("height", &OrthographicCamera::height, rule::positive));
 
-/// All rays from the eye, their angle from the view in proportion to the distance from the middle
-/// of the film (equidistant projection); fov in degrees, 0 < fov <= 360.
+/// All rays from the eye, at angles from the view direction in proportion to the distance from the
+/// middle of the film (equidistant projection); fov in degrees, 0 < fov <= 360.
 struct FisheyeCamera {
   CameraPose pose;
   float fov = 180;
@@ -52,8 +52,8 @@ inline constexpr auto fields<FisheyeCamera> = field_list(
     "fisheye", field("pose", &FisheyeCamera::pose),
     field("fov", &FisheyeCamera::fov, rule::any_view), field("fov_axis", &FisheyeCamera::fov_axis));
 
-/// A pinhole opened to a disc (Cook, Porter, Carpenter, "Distributed ray tracing", SIGGRAPH 1984):
-/// what lies at the distance `focus` along L is sharp; fov as there.
+/// A pinhole opened to a disc (Cook, Porter, Carpenter, "Distributed ray tracing", SIGGRAPH 1984).
+/// Points at the distance `focus` along L are sharp; fov as in PinholeCamera.
 struct ThinLensCamera {
   CameraPose pose;
   float fov = 45;
@@ -73,9 +73,9 @@ inline constexpr auto fields<ThinLensCamera> =
 using Camera =
     std::variant<PinholeCamera, OrthographicCamera, FisheyeCamera, ThinLensCamera, LensCamera>;
 
-/// The first Problem of a camera: a field against its rule, eye = look_at, up within 1e-6 rad of
-/// the direction of view; or a lens that does not gather light, whose film cannot be focused, or
-/// that lets no light to the middle of the film.
+/// The first Problem of a camera: a field against its rule; eye = look_at; up within 1e-6 rad of
+/// the direction of view; a lens that does not gather light, whose film cannot be focused, or that
+/// lets no light to the middle of the film.
 std::optional<Problem> find_problem(const Camera& camera);
 
 }  // namespace boule

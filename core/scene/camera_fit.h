@@ -15,19 +15,20 @@ template <>
 inline constexpr std::array<std::string_view, 2> names<FittedCamera>{"pinhole", "orthographic"};
 
 namespace rule {
-/// What a margin leaves of the picture must not be nothing.
+/// The allowed margins, which leave some of the picture.
 inline constexpr NumberRule margin{.low = 0, .high = 0.5, .takes_high = false};
 }  // namespace rule
 
-/// How the camera of a scene is found that has none: the tightest frame in which the outlines of
-/// all spheres lie.
+/// The settings for fitting a camera to a scene without one: the tightest frame that holds the
+/// outlines of all spheres.
 struct CameraFit {
   FittedCamera type = FittedCamera::pinhole;
-  std::optional<Vec3f> direction{};   ///< in which it looks, any length; none: default_view()
+  std::optional<Vec3f> direction{};   ///< direction of view, of any length; none: default_view()
   std::optional<Vec3f> up{};          ///< as that of a CameraPose; none: default_view()
   float fov = 45;                     ///< of a pinhole, in degrees, 0 < fov < 180
   std::optional<FovAxis> fov_axis{};  ///< of a pinhole; none: the shorter side of the picture
-  float margin = 0.05F;               ///< left free at each edge, of the picture's side; 0 to 0.5
+  float margin = 0.05F;               ///< left free at each edge, as a fraction of the picture's
+                                      ///< side; 0 to 0.5
 
   friend bool operator==(const CameraFit&, const CameraFit&) = default;
 };

@@ -8,10 +8,10 @@
 
 namespace boule {
 
-/// An ST map says for each point of a picture which point of the film is seen there: it gives any
-/// camera the distortions of a lens. Its pixels span the whole frame, whatever the size of either.
-/// Between the pixels' centres the numbers are bilinear; beyond the outermost centres the same
-/// bilinear functions go on.
+/// An ST map gives, for each point of a picture, the point of the film that is seen there: it gives
+/// any camera the distortions of a lens. Its pixels span the whole frame, whatever the sizes of
+/// both. Between the pixels' centres the numbers are bilinear; beyond the outermost centres the
+/// same bilinear functions continue.
 struct DistortionMap {
   int width = 0, height = 0;  ///< >= 2
   /// s and t of each pixel, row 0 on top: s runs from 0 at the left edge of the film to 1 at the
@@ -25,7 +25,8 @@ inline constexpr auto fields<DistortionMap> = field_list(
     "distortion", field("size", &DistortionMap::width, &DistortionMap::height, rule::from_file),
     field("file", &DistortionMap::st, rule::from_file));
 
-/// The first Problem of a map: fewer than 2 x 2 pixels, not two numbers for each, any not finite.
+/// The first Problem of a map: fewer than 2 x 2 pixels, a wrong number of values (two per pixel),
+/// or a value that is not finite.
 std::optional<Problem> find_problem(const DistortionMap& map);
 
 }  // namespace boule

@@ -44,7 +44,7 @@ struct PairField {
   static constexpr std::size_t member_count = 2;
 };
 
-/// The two members of a PairField.
+/// References to the two members of a PairField.
 template <class Member>
 struct Both {
   Member& first;
@@ -57,11 +57,12 @@ Both(Member&, Member&) -> Both<Member>;
 /// Scene hashes depend on the order.
 template <class... Fields>
 struct FieldList {
-  std::string_view type;  ///< what scene files call the struct: the `type` of a camera, a section
+  std::string_view type;  ///< the name of the struct in scene files: the `type` of a camera, a
+                          ///< section
   std::tuple<Fields...> list;
 };
 
-/// The FieldList of a struct; null for a type that has none.
+/// The FieldList of a struct; null for a type without one.
 template <class T>
 inline constexpr std::nullptr_t fields = nullptr;
 
@@ -86,7 +87,7 @@ constexpr auto field_list(std::string_view type, Fields... list) {
 
 namespace detail {
 
-/// Stands for a value of any type where only the number of values matters.
+/// Converts to any type, for code that only counts values.
 struct AnyMember {
   template <class T>
   operator T() const;
@@ -97,7 +98,7 @@ constexpr bool takes_members(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), AnyMember{})...}; };
 }
 
-/// How many members an aggregate has.
+/// The number of members of an aggregate.
 template <class T, std::size_t least = 0>
 constexpr std::size_t count_members() {
   if constexpr (takes_members<T>(std::make_index_sequence<least + 1>{})) {
@@ -130,7 +131,7 @@ constexpr auto members_of(const PairField<Owner, Member, Rule>& field) {
   return std::tuple{field.first, field.second};
 }
 
-/// True if no member is listed twice.
+/// True if every member is listed only once.
 template <class... Fields>
 constexpr bool lists_once(const FieldList<Fields...>& all) {
   const auto members = std::apply(
@@ -162,7 +163,7 @@ inline constexpr bool lists_every_member =
     detail::count_members<T>() == detail::count_listed(fields<T>) && detail::lists_once(fields<T>);
 
 /// Calls visitor(field, member) for each field of a struct, in the order of its list. `member` is a
-/// reference to the member, or for a PairField a Both. What the visitor throws reaches the caller.
+/// reference to the member, or for a PairField a Both. Exceptions of the visitor propagate.
 template <HasFields T, class Visitor>
 constexpr void each_field(T& value, Visitor&& visitor) {
   using Struct = std::remove_const_t<T>;

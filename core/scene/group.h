@@ -12,8 +12,8 @@
 
 namespace boule {
 
-/// A copy of a group in the scene (lecture "Scene graph"): all that is in the group is scaled, then
-/// rotated, then moved.
+/// A copy of a group in the scene (lecture "Scene graph"): the contents of the group are scaled,
+/// then rotated, then moved.
 struct Instance {
   std::uint32_t group = 0;  ///< index in Scene::groups
   Vec3f translate;
@@ -48,11 +48,11 @@ inline constexpr auto fields<Group> = field_list("group", field("name", &Group::
 /// The first Problem of an instance by itself: a field against its rule.
 std::optional<Problem> find_problem(const Instance& instance);
 
-/// The transformation of a valid instance. That of others may hold NaN and infinities.
+/// The transformation of a valid instance. For an invalid one it may hold NaN and infinities.
 Similarity transform_of(const Instance& instance);
 
-/// A sphere or plane under a transformation, with another material where one is given. Every number
-/// is computed in double and rounded to float once. Numbers beyond float's range become infinite:
+/// A sphere or plane under a transformation, with another material if one is given. Every number is
+/// computed in double and rounded to float once. Numbers beyond float's range become infinite:
 /// find_problem() of the result finds them.
 Sphere transformed(const Sphere& sphere, const Similarity& transform,
                    std::optional<std::uint32_t> material);

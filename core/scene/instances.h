@@ -11,81 +11,83 @@
 
 namespace boule {
 
-/// Groups may be nested so deep.
+/// The greatest depth of nested groups.
 inline constexpr std::size_t max_nesting = 256;
 
-/// What is wrong with one instance of a scene.
+/// A Problem of one instance of a scene.
 struct InstanceProblem {
   std::optional<std::size_t> group;  ///< the group that the instance is in; none: the scene itself
   std::size_t instance = 0;          ///< its index there
   Problem problem;
 };
 
-/// The first thing wrong with a scene's instances: a Problem of one by itself, a group or material
-/// that there is not, a group that contains itself (the message names the way round), too deep a
-/// nesting, more primitives than a scene may have, or a sphere or plane that leaves the range of
-/// float. Groups and materials are valid by themselves. Throws std::bad_alloc, as all these do.
+/// The first Problem of a scene's instances: one of an instance by itself, an unknown group or
+/// material, a group that contains itself (the message names the cycle), too deep nesting, more
+/// primitives than a scene may have, or a sphere or plane that leaves the range of float. Groups
+/// and materials are valid by themselves. Throws std::bad_alloc, as do all functions here.
 std::optional<InstanceProblem> find_instance_problem(const Scene& scene);
 
-/// As find_instance_problem(), but for spheres and planes that leave the range of float: fast,
-/// since it does not go through the spheres and planes that the instances show.
+/// As find_instance_problem(), but without the test for spheres and planes that leave the range of
+/// float. It is fast, because it skips the spheres and planes that the instances show.
 std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 
-/// The most spheres and planes of a scene, with those of groups that are shared
-/// (groups_to_share()): ids are 32 bits, those from 2^31 on negative as std::int32_t, and two are
-/// no id. In one tree max_primitives.
+/// The largest number of spheres and planes of a scene, those of shared groups (groups_to_share())
+/// included: ids have 32 bits, those from 2^31 on are negative as std::int32_t, and two numbers are
+/// no ids. One tree holds at most max_primitives.
 inline constexpr std::uint64_t max_shown_primitives = 4294967293;
 
-/// How many spheres and planes a scene has, those of its instances among them.
+/// The numbers of spheres and planes of a scene, those of its instances included.
 struct PrimitiveCount {
   std::uint64_t spheres = 0, planes = 0;
-  std::uint64_t placements = 0;  ///< how often groups that have spheres of their own are shown
+  std::uint64_t placements = 0;  ///< number of times that groups with spheres of their own are
+                                 ///< shown
 
   [[nodiscard]] std::uint64_t total() const { return spheres + planes; }
 };
-/// Precondition of this and of all functions below, not checked: find_reference_problem() finds
+/// Precondition of this function and of all below, unchecked: find_reference_problem() finds
 /// nothing.
 PrimitiveCount count_primitives(const Scene& scene);
 
 /// Calls the function with every sphere or plane that the instances of a valid scene show, in the
 /// order of their ids, which follow those of the scene's own. The order is depth first: instance by
-/// instance, and in each one the group's own spheres or planes before its instances. What the
-/// function throws reaches the caller.
+/// instance, and in each one the group's own spheres or planes before its instances. Exceptions of
+/// the function propagate.
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
 void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
 
-/// The spheres of a group, but not those of its instances, where an instance shows them.
+/// The spheres of a group, without those of its instances, at the place where an instance shows
+/// them.
 struct ShownGroup {
   std::uint32_t group = 0;                ///< index in Scene::groups
   Similarity transform;                   ///< for transformed()
-  std::optional<std::uint32_t> material;  ///< likewise
+  std::optional<std::uint32_t> material;  ///< for transformed()
 };
-/// Calls the function for every group that has spheres and is shown, as often as it is, in the
-/// order of the spheres' ids.
+/// Calls the function for every group that has spheres and is shown, as often as it is shown, in
+/// the order of the spheres' ids.
 void visit_shown_groups(const Scene& scene, const std::function<void(const ShownGroup&)>& function);
 
-/// What calls its argument with all of some spheres, a run of them at a time.
+/// A function that calls its argument with all spheres of a list, a run of them at a time.
 using SphereRun = std::span<const Sphere>;
 using SphereRuns = std::function<void(const std::function<void(SphereRun)>&)>;
 
-/// The groups that are shown, if it saves much memory not to write their spheres out: in every
-/// other case nothing, and expand_instances() is for the scene. What is shown is the same. Throws
-/// std::bad_alloc.
+/// The groups that are shown, if sharing their spheres saves much memory over expanding them;
+/// otherwise std::nullopt, and the scene is for expand_instances(). The picture is the same either
+/// way. Throws std::bad_alloc.
 std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene);
 
-/// The same for a valid scene, of which then only spheres are left in groups; else it is expanded.
+/// The same for a valid scene, whose groups then hold only spheres; otherwise expands the scene.
 std::optional<std::vector<ShownGroup>> share_or_expand(Scene& scene);
 
-/// Coordinates and radii of groups that are shared, where they are shown too, are below this:
-/// within the range of the kernels' filters.
+/// The bound of coordinates and radii in shared groups, also as placed in the scene: within the
+/// range of the kernels' filters.
 inline constexpr double most_shared_coordinate = 1e17;
 
-/// Makes the planes that a valid scene's instances show planes of the scene, with the same ids, and
-/// removes those of its groups. Throws std::bad_alloc.
+/// Turns the planes that a valid scene's instances show into planes of the scene, with the same
+/// ids, and removes those of its groups. Throws std::bad_alloc.
 void expand_planes(Scene& scene);
 
 /// Replaces a valid scene's instances by the spheres and planes that they show, and removes its
-/// groups. The spheres and planes of a scene without instances stay where they are. Throws
+/// groups. The spheres and planes of a scene without instances stay in place. Throws
 /// std::bad_alloc.
 void expand_instances(Scene& scene);
 

@@ -18,8 +18,8 @@ struct LensSurface {
   float aperture = 0;   ///< diameter, > 0
 };
 
-/// The indices of refraction that are accepted. No medium has one outside of them, relative to
-/// whatever fills the world: such a number stands in the wrong column of its file.
+/// The accepted indices of refraction. All real media are within them, relative to any medium that
+/// fills the world, so a number outside stands in the wrong column of its file.
 inline constexpr float least_index = 0.25f, most_index = 8;
 
 template <>
@@ -29,13 +29,13 @@ inline constexpr auto fields<LensSurface> = field_list(
     field("index", &LensSurface::index, rule::from_to(double{least_index}, double{most_index})),
     field("aperture", &LensSurface::aperture, rule::positive));
 
-/// The least width of a surface as a share of the last one's. The search for the exit pupil goes in
-/// steps and would miss narrower ones.
+/// The least width of a surface as a fraction of the last one's. The search for the exit pupil goes
+/// in steps and would miss narrower ones.
 inline constexpr double least_width = 1.0 / 500;
 
 /// A lens of real elements before a film (Kolb, Mitchell, Hanrahan, "A realistic camera model for
-/// computer graphics", SIGGRAPH 1995). The eye is the middle of its first surface; the film moves
-/// so that what is at the distance `focus` from there along L is sharp.
+/// computer graphics", SIGGRAPH 1995). The eye is the middle of its first surface. The film moves
+/// such that points at the distance `focus` from there along L are sharp.
 struct LensCamera {
   CameraPose pose;
   std::vector<LensSurface> surfaces;  ///< not empty, in any unit of length
@@ -51,23 +51,24 @@ inline constexpr auto fields<LensCamera> = field_list(
     field("scale", &LensCamera::scale, rule::positive),
     field("focus", &LensCamera::focus, rule::positive).with_other_forms());
 
-/// The focal length of a lens for rays close to its axis, in its own unit. This and all functions
-/// here take any surfaces; the result is infinite or NaN where they are no lens, or none.
+/// The focal length of a lens for rays close to its axis, in its own unit. This function and all
+/// below take any surfaces; for surfaces that form no lens the result is infinite, NaN or
+/// std::nullopt.
 double focal_length(const std::vector<LensSurface>& surfaces);
 
-/// The image distance: rays close to the axis that come from a point at `distance` before the first
-/// surface meet again so far behind the last one. `distance` may be infinite. A result of 0 or
-/// below means that they meet nowhere behind the lens.
+/// The image distance: rays close to the axis from a point at `distance` before the first surface
+/// meet again this far behind the last one. `distance` may be infinite. A result of 0 or below
+/// means that they do not meet behind the lens.
 double image_distance(const std::vector<LensSurface>& surfaces, double distance);
 
-/// The index of a lens' stop: its only flat surface between equal media. None where there is no
-/// such surface, or more than one.
+/// The index of a lens' stop: its only flat surface between equal media. std::nullopt without such
+/// a surface, or with several.
 std::optional<std::size_t> find_stop(const std::vector<LensSurface>& surfaces);
 
 /// The diameter of a stop at the f-number N = f / D, where D is the diameter of the beam along the
 /// axis that passes the stop. A ray that comes in parallel to the axis at the height 1 passes the
-/// stop at some y, so the stop's diameter is |y| f / N. The same formula makes an f-number of a
-/// diameter. NaN where `stop` is no index of a surface.
+/// stop at some y, so the stop's diameter is |y| f / N. The same formula turns a diameter into an
+/// f-number. NaN if `stop` is not the index of a surface.
 double stop_diameter(const std::vector<LensSurface>& surfaces, std::size_t stop, double f_number);
 
 }  // namespace boule

@@ -10,15 +10,14 @@
 
 namespace boule {
 
-/// How a point light weakens with distance d: not at all (the lecture's), or as 1 / d^2.
+/// The falloff of a point light with distance d: none (the lecture's), or 1 / d^2.
 enum class Falloff { none, inverse_square };
 template <>
 inline constexpr std::array<std::string_view, 2> names<Falloff>{"none", "inverse_square"};
 
-/// By what the numbers of a light are measured. scene: by the scene's axes. camera: by the
-/// camera's, which are its right, its up and its backward direction. Positions are then counted
-/// from the eye, and lengths in units of the distance from the eye to what the camera looks at, so
-/// that the light goes with a camera that is fitted.
+/// The frame of a light's numbers. scene: the scene's axes. camera: the camera's axes, which are
+/// its right, its up and its backward direction. Positions then count from the eye, and lengths are
+/// in units of the distance from the eye to look_at, so that the light follows a fitted camera.
 enum class LightFrame { scene, camera };
 template <>
 inline constexpr std::array<std::string_view, 2> names<LightFrame>{"scene", "camera"};
@@ -50,7 +49,7 @@ inline constexpr auto fields<DirectionalLight> =
                field("intensity", &DirectionalLight::intensity, rule::not_negative),
                field("relative_to", &DirectionalLight::relative_to));
 
-/// A sphere that radiates alike in all directions. It is not an object: rays pass through it.
+/// A sphere that radiates equally in all directions. It is not an object: rays pass through it.
 struct SphereLight {
   Vec3f center;
   float radius = 1;

@@ -53,7 +53,7 @@ inline constexpr auto fields<Glass> = field_list("glass",
                                                  field("color", &Glass::color, rule::not_negative),
                                                  field("ior", &Glass::ior, rule::positive));
 
-/// Radiates on both sides, reflects nothing.
+/// Radiates on both sides and reflects nothing.
 struct Emissive {
   Color radiance{1, 1, 1};
 };
@@ -62,8 +62,8 @@ template <>
 inline constexpr auto fields<Emissive> =
     field_list("emissive", field("radiance", &Emissive::radiance, rule::not_negative));
 
-/// Whitted's model as it stands, also NFF's `f` line (Haines 1987): ambient ka, diffuse kd,
-/// highlight and mirror ks, transmission T with index of refraction ior.
+/// Whitted's original model, also NFF's `f` line (Haines 1987): ambient ka, diffuse kd, highlight
+/// and mirror ks, transmission T with index of refraction ior.
 struct Phong {
   Color color{0.8f, 0.8f, 0.8f};
   float ka = 0;
@@ -85,8 +85,8 @@ inline constexpr auto fields<Phong> = field_list(
 
 using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong>;
 
-/// A material in another colour, which takes the place of its own. The radiance of an emissive one
-/// becomes that colour times its largest component.
+/// A material in another colour, which replaces its own. The radiance of an emissive one becomes
+/// that colour times its largest component.
 Material recolored(const Material& material, const Color& color);
 
 /// The first Problem of a material: a field against its rule.

@@ -7,15 +7,16 @@
 
 namespace boule {
 
-/// What a primitive is made of, in 32 bits: the index of a material in Scene::materials and, if the
+/// The material of a primitive, in 32 bits: the index of a material in Scene::materials and, if the
 /// primitive has a colour of its own, that colour, which replaces the material's. So a colour costs
 /// a sphere no memory.
 class MaterialRef {
  public:
-  /// Only the first materials of a scene can be given a colour: those with an index below this.
+  /// The number of materials, the first ones of a scene, that can be given a colour: those with an
+  /// index below this.
   static constexpr std::uint32_t max_colored = 128;
 
-  /// A material as it is. Precondition: index < 2^31.
+  /// A material in its own colour. Precondition: index < 2^31.
   template <class Index>
   requires std::is_integral_v<Index>
   constexpr MaterialRef(Index index) : bits_(static_cast<std::uint32_t>(index)) {}
@@ -38,7 +39,7 @@ class MaterialRef {
     return {static_cast<std::uint8_t>(bits_ >> 16), static_cast<std::uint8_t>(bits_ >> 8),
             static_cast<std::uint8_t>(bits_)};
   }
-  /// All of it as one number, which no other MaterialRef has.
+  /// All of it as one number, unique to this MaterialRef.
   [[nodiscard]] constexpr std::uint32_t bits() const { return bits_; }
 
  private:

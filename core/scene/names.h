@@ -12,14 +12,14 @@ namespace boule {
 template <class Enum>
 inline constexpr std::array<std::string_view, 0> names{};
 
-/// True if the value is one of its enum's enumerators: the compiler prints others as numbers.
+/// True if the value is one of its enum's enumerators: the compiler prints other values as numbers.
 template <auto value>
 constexpr bool is_enumerator() {
   const std::string_view signature = __PRETTY_FUNCTION__;
   return signature[signature.find("value = ") + 8] != '(';
 }
 
-/// True if an enum's names are as many as its enumerators.
+/// True if an enum has as many names as enumerators.
 template <class Enum>
 inline constexpr bool names_every_enumerator = [] {
   constexpr std::size_t count = names<Enum>.size();
@@ -31,7 +31,7 @@ inline constexpr bool names_every_enumerator = [] {
   }
 }();
 
-/// The name of an enum's value; of a number that is no enumerator, the first name.
+/// The name of an enum's value; for other numbers, the first name.
 template <class Enum>
 requires std::is_enum_v<Enum>
 constexpr std::string_view name_of(Enum value) {

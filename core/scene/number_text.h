@@ -6,7 +6,7 @@
 
 namespace boule {
 
-/// A number for a message, in so many digits at most, with a point in any locale. Throws
+/// A number for a message, with at most `digits` digits, and with a point in any locale. Throws
 /// std::bad_alloc. Precondition: 1 <= digits <= 17.
 inline std::string number_text(double value, int digits = 6) {
   std::array<char, 32> buffer{};

@@ -10,7 +10,7 @@
 
 namespace boule {
 
-/// A sphere of positive radius; `material` is one of Scene::materials, perhaps in another colour.
+/// A sphere of positive radius; `material` is one of Scene::materials, possibly in another colour.
 struct Sphere {
   Vec3f center;
   float radius = 1;
@@ -38,7 +38,7 @@ inline constexpr auto fields<Plane> = field_list("plane",
                                                  field("material", &Plane::material,
                                                        rule::material));
 
-/// True if a sphere by itself has no Problem. Short and inline: there may be millions.
+/// True if a sphere by itself has no Problem. Short and inline, because there may be millions.
 inline bool is_valid(const Sphere& sphere) {
   const auto& [x, y, z] = sphere.center;
   const float radius = sphere.radius;
@@ -47,8 +47,8 @@ inline bool is_valid(const Sphere& sphere) {
   return zero == 0 && radius > 0;
 }
 
-/// The first Problem of a sphere or plane by itself: a field against its rule. Whether the scene
-/// has the material is checked by validate().
+/// The first Problem of a sphere or plane by itself: a field against its rule. validate() checks
+/// whether the scene has the material.
 std::optional<Problem> find_problem(const Sphere& sphere);
 std::optional<Problem> find_problem(const Plane& plane);
 

@@ -21,8 +21,8 @@ namespace boule {
 
 class ProblemFinder;
 
-/// Check what several fields together must satisfy, for the types that have such conditions. They
-/// are called only where every field by itself is right.
+/// Check the conditions on several fields together, for the types that have such conditions. They
+/// are called only if every field by itself is valid.
 void check_whole(ProblemFinder& finder, const CameraPose& pose);
 void check_whole(ProblemFinder& finder, const CameraFit& fit);
 void check_whole(ProblemFinder& finder, const LensSurface& surface);
@@ -82,7 +82,7 @@ class ProblemFinder {
   requires std::is_enum_v<Enum>
   void check(std::string_view, const TypeRule&, Enum) {}
   void check(std::string_view, const TypeRule&, bool) {}
-  /// Whether the scene has the material or group is checked with the scene.
+  /// validate() checks whether the scene has the material or group.
   void check(std::string_view, const MaterialRule&, std::uint32_t) {}
   void check(std::string_view, const MaterialRule&, MaterialRef) {}
   void check(std::string_view, const GroupRule&, std::uint32_t) {}
@@ -90,7 +90,7 @@ class ProblemFinder {
   template <class T>
   void check(std::string_view, const FileRule&, const T&) {}
 
-  /// Reports a Problem where a condition does not hold.
+  /// Reports a Problem if a condition fails.
   void require(std::string_view key, bool holds, std::string message) {
     if (!holds) report(key, std::move(message));
   }

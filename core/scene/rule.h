@@ -5,14 +5,14 @@
 
 namespace boule {
 
-/// The rule of a field says which values it may hold. describe() words a rule for error messages,
-/// so that "must be" and the words make a sentence; it throws std::bad_alloc.
+/// The rule of a field gives its allowed values. describe() words a rule for error messages, as the
+/// rest of a sentence that begins with "must be"; it throws std::bad_alloc.
 
 /// Finite numbers between two bounds. The rule holds for every component of a vector or a colour.
 struct NumberRule {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool takes_low = true, takes_high = true;  ///< whether the bound itself may be held
+  bool takes_low = true, takes_high = true;  ///< whether the bound itself is allowed
   const char* unit = "";
 
   [[nodiscard]] bool allows(double x) const;
@@ -25,8 +25,8 @@ struct WholeRule {
   [[nodiscard]] constexpr bool allows(int x) const { return x >= low && x <= high; }
 };
 
-/// Finite points of the scene. Scene files may count them from another point than 0: their `origin`
-/// is subtracted from each.
+/// Finite points of the scene. Scene files may measure them from another point than 0: their
+/// `origin` is subtracted from each.
 struct PointRule : NumberRule {};
 
 /// Finite vectors of any length but 0.
@@ -36,8 +36,8 @@ struct DirectionRule {};
 struct MaterialRule {};
 struct GroupRule {};
 
-/// Values that scene files take from another file that they name. They are checked by check_whole()
-/// of the struct.
+/// Values that scene files take from another file that they name. check_whole() of the struct
+/// checks them.
 struct FileRule {};
 
 /// Every value of the type; a struct with fields of its own has their rules.

@@ -23,7 +23,7 @@ namespace boule {
 
 inline constexpr int max_image_side = 65535;               ///< pixels
 inline constexpr int max_count = 2147483647;               ///< of samples, of bounces
-inline constexpr std::size_t max_primitives = 2147483647;  ///< ids are 31 bits
+inline constexpr std::size_t max_primitives = 2147483647;  ///< ids have 31 bits
 
 namespace rule {
 inline constexpr WholeRule image_side{.low = 1, .high = max_image_side};
@@ -34,8 +34,8 @@ inline constexpr NumberRule noise{.low = 0, .high = 1};
 inline constexpr WholeRule least_samples{.low = 16, .high = max_count};
 }  // namespace rule
 
-/// How a pixel is made of the samples around it. box: the mean over the pixel itself. tent: a mean
-/// over twice its width and height, whose weights fall from the pixel's centre to 0 at the rim.
+/// The filter that combines samples into a pixel. box: the mean over the pixel itself. tent: a mean
+/// over twice its width and height, with weights that fall from the pixel's centre to 0 at the rim.
 enum class PixelFilter { box, tent };
 template <>
 inline constexpr std::array<std::string_view, 2> names<PixelFilter>{"box", "tent"};
@@ -46,8 +46,8 @@ struct ImageSettings {
   int height = 720;  ///< pixels, 1 .. 65535
   int spp = 1;       ///< samples per pixel, >= 1
   PixelFilter filter = PixelFilter::box;
-  bool transparent = false;  ///< with alpha: how much of a pixel the objects cover
-  float outline = 0;         ///< width of dark lines around what is seen, in pixels; 0: none
+  bool transparent = false;  ///< with alpha: the fraction of a pixel that objects cover
+  float outline = 0;         ///< width of dark lines around objects, in pixels; 0: off
 };
 
 template <>
@@ -57,18 +57,18 @@ inline constexpr auto fields<ImageSettings> = field_list(
     field("transparent", &ImageSettings::transparent),
     field("outline", &ImageSettings::outline, rule::outline));
 
-/// How light is followed. whitted: direct light, mirrors and glass. path: all light, by path
+/// The rendering method. whitted: direct light, mirrors and glass. path: all light, by path
 /// tracing.
 enum class Method { whitted, path };
 template <>
 inline constexpr std::array<std::string_view, 2> names<Method>{"whitted", "path"};
 
-/// How a scene asks to be rendered; the command line may override it.
+/// The render settings a scene asks for; the command line may override them.
 struct RenderSettings {
   int max_depth = 5;  ///< bounces after the primary hit, >= 0
   Method method = Method::whitted;
-  /// Pixels get samples, min_spp to image.spp of them, until the half-widths of their 95 %
-  /// confidence intervals are this, 0 .. 1, in displayed values; 0: all get image.spp.
+  /// The half-width of the 95 % confidence interval at which a pixel stops, 0 .. 1, in displayed
+  /// values; a pixel gets min_spp to image.spp samples. 0: all pixels get image.spp samples.
   float noise = 0;
   int min_spp = 32;  ///< >= 16
 };
@@ -96,16 +96,16 @@ inline constexpr auto fields<NamedMaterial> = field_list(
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
 /// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
-/// likewise. Where there are packed spheres, there are no others.
+/// likewise. If there are packed spheres, they are the only ones.
 struct Scene {
   ImageSettings image;
   RenderSettings render;
   std::optional<Camera> camera;             ///< none: fitted to the objects
-  CameraFit fit;                            ///< how, where there is none
+  CameraFit fit;                            ///< the settings of the fitted camera
   std::optional<DistortionMap> distortion;  ///< of the camera's film
   Background background = ConstantBackground{};
-  Color ambient;  ///< what every surface receives from everywhere
-  /// What camera rays see that hit nothing; none: the background. Mirrors, glass and paths always
+  Color ambient;  ///< light that every surface receives from all directions
+  /// The colour for camera rays that miss; none: the background. Mirrors, glass and paths always
   /// see the background.
   std::optional<Color> backdrop;
   std::vector<NamedMaterial> materials;
@@ -129,18 +129,18 @@ inline constexpr auto fields<Scene> = field_list(
     field("group", &Scene::groups), field("instance", &Scene::instances),
     field("packed", &Scene::packed));
 
-/// The first thing wrong with a scene, or nothing. The Diagnostic's key is a dotted path as in
-/// scene files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer,
-/// Tracer and prepare() call it, and the readers return only scenes that pass. Takes any values; a
-/// number that is no enumerator is accepted and means one of those that are. Throws std::bad_alloc.
+/// The first Problem of a scene, or std::nullopt. The Diagnostic's key is a dotted path as in scene
+/// files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer, Tracer and
+/// prepare() call it, and the readers return only scenes that pass. Takes any values; an unknown
+/// enumerator is accepted and acts as a known one. Throws std::bad_alloc.
 Status validate(const Scene& scene);
 
-/// As validate(), but without the spheres, planes and instances: only the number of spheres and
-/// planes is checked. For readers, which check each sphere and plane as they read it (there may be
-/// millions) and call find_instance_problem() for the instances.
+/// As validate(), but of the spheres, planes and instances it checks only the number of spheres and
+/// planes. For readers, which check each sphere and plane as they read it (there may be millions)
+/// and call find_instance_problem() for the instances.
 Status validate_all_but_primitives(const Scene& scene);
 
-/// Nothing, or a Diagnostic with this key that says which whole numbers are allowed (WholeRule).
+/// std::nullopt, or a Diagnostic with this key that gives the allowed whole numbers (WholeRule).
 /// Throws std::bad_alloc.
 Status check_range(const char* key, int value, const WholeRule& rule);
 

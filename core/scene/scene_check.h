@@ -5,8 +5,8 @@
 
 namespace boule {
 
-/// validate(scene), whose spheres several threads check. The Diagnostic is the same for any of
-/// them. Passes on what `parallel_for` throws.
+/// validate(scene) with the spheres checked by several threads. The Diagnostic is the same for any
+/// number of threads. Passes on exceptions of `parallel_for`.
 Status validate_in_parallel(const Scene& scene, const ParallelFor& parallel_for);
 
 }  // namespace boule

@@ -9,11 +9,11 @@
 
 namespace boule {
 
-/// A hash of spheres in their order, which come in parts of any size: 64 bits that are the same
-/// however they are cut into parts, and whatever runs the loops. Not cryptographic.
+/// A hash of spheres in their order, added in parts of any size: 64 bits that are the same for any
+/// partition and any `parallel_for`. Not cryptographic.
 class SphereDigest {
  public:
-  /// Throws std::bad_alloc, and what `parallel_for` throws.
+  /// Throws std::bad_alloc, and the exceptions of `parallel_for`.
   void add(std::span<const Sphere> spheres, const ParallelFor& parallel_for = serial_for);
 
   [[nodiscard]] std::uint64_t value() const;

@@ -11,22 +11,23 @@ namespace boule {
 /// top, for a picture that is written while it is rendered. Every pixel is in exactly one block.
 class Bands {
  public:
-  /// The most bytes that the bands take that are in memory at the same time, unless two bands of
-  /// one row take more.
+  /// The memory limit, in bytes, for the bands that are in memory at the same time. Two bands of
+  /// one row each may exceed it.
   static constexpr std::uint64_t most_bytes = std::uint64_t{20} << 20;
 
   /// Blocks are `tile` x `tile` pixels, or cut off at the lower edge of a band and at the right
   /// edge. A band has several blocks for each of the workers, if that leaves room for two bands.
-  /// Preconditions: `rect` is not empty and its sides are at most 65535; the others are at least 1.
+  /// Preconditions: `rect` is not empty and its sides are at most 65535; the other arguments are at
+  /// least 1.
   Bands(const PixelRect& rect, int tile, unsigned workers, std::size_t pixel_bytes);
 
-  /// How many bands there are, and how many of them are in memory at the same time.
+  /// The number of bands, and the number in memory at the same time.
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t in_memory() const { return in_memory_; }
   /// The pixels of a band. Precondition: band < size().
   [[nodiscard]] PixelRect operator[](std::size_t band) const;
 
-  /// How many blocks there are in all bands, and in one.
+  /// The number of blocks in all bands, and in one.
   [[nodiscard]] std::size_t blocks() const;
   [[nodiscard]] std::size_t blocks_in(std::size_t band) const;
   /// The band of a block, and its pixels. Blocks are counted through all bands. Precondition: block
@@ -34,7 +35,7 @@ class Bands {
   [[nodiscard]] std::size_t band_of(std::size_t block) const { return block / blocks_in(0); }
   [[nodiscard]] PixelRect block(std::size_t block) const;
 
-  /// Bytes that the bands in memory take.
+  /// The number of bytes of the bands in memory.
   [[nodiscard]] std::uint64_t bytes() const { return in_memory_ * row_bytes_ * rows_; }
 
  private:

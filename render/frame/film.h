@@ -16,17 +16,17 @@ namespace boule {
 struct FilmPixel {
   double r = 0, g = 0, b = 0;
   std::int32_t samples = 0;
-  std::uint32_t covered = 0;  ///< how many of the samples are
+  std::uint32_t covered = 0;  ///< number of samples that are covered
 };
 
-/// The samples of a picture so far, or of a part of it: their sum and their number per pixel. Two
-/// threads may add to different pixels at the same time.
+/// The samples so far of a picture, or of a part of it: their sum and their number per pixel. Two
+/// threads may add to different pixels in parallel.
 class Film {
  public:
   /// A film of the frame's pixels in `rect`. Precondition of all functions that take a pixel: it
   /// lies in `rect`.
   explicit Film(const PixelRect& rect) { restart(rect); }
-  /// The film that was moved away has no pixels.
+  /// A film that was moved from has no pixels.
   Film(Film&& other) noexcept
       : rect_(std::exchange(other.rect_, {})), pixels_(std::move(other.pixels_)) {}
   Film(const Film&) = default;
@@ -36,8 +36,8 @@ class Film {
     return *this;
   }
 
-  /// Begins anew with other pixels, in the same memory if it is large enough. The film is unchanged
-  /// if this throws.
+  /// Starts again with other pixels, in the same memory if it is large enough. The film is
+  /// unchanged if this throws.
   void restart(const PixelRect& rect) {
     pixels_.assign(static_cast<std::size_t>(rect.area()), {});
     rect_ = rect.empty() ? PixelRect{} : rect;
@@ -54,7 +54,7 @@ class Film {
     pixel.b += static_cast<double>(sample.b);
     ++pixel.samples;
   }
-  /// The same for a sample of which 1 is covered by objects, or 0.
+  /// The same for a sample with its coverage by objects: 1 or 0.
   void add(int x, int y, const Color& sample, std::uint8_t covered) {
     add(x, y, sample);
     pixels_[rect_.index(x, y)].covered += covered;
@@ -66,8 +66,8 @@ class Film {
   /// The number of samples of all pixels together.
   [[nodiscard]] std::uint64_t total_samples() const;
 
-  /// The mean of each pixel's samples, at most the largest float; black where there is no sample.
-  /// Alpha is the share of the samples that were added as covered; 0 where there is no sample.
+  /// The mean of each pixel's samples, at most the largest float; black for pixels without samples.
+  /// Alpha is the fraction of samples that were added as covered; 0 for pixels without samples.
   [[nodiscard]] Image to_image(Alpha alpha = Alpha::none) const;
 
   /// Writes the same into `image`, a picture of the frame's pixels in `rect`, with alpha if the
@@ -78,12 +78,12 @@ class Film {
   [[nodiscard]] std::span<const FilmPixel> row(int x0, int x1, int y) const {
     return {pixels_.data() + rect_.index(x0, y), static_cast<std::size_t>(x1 - x0)};
   }
-  /// The same, to be set to what another film had there.
+  /// The same, writable: for pixels that are copied from another film.
   [[nodiscard]] std::span<FilmPixel> row(int x0, int x1, int y) {
     return {pixels_.data() + rect_.index(x0, y), static_cast<std::size_t>(x1 - x0)};
   }
 
-  /// Bytes that a film of the pixels in `rect` takes.
+  /// The number of bytes of a film of the pixels in `rect`.
   static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(FilmPixel); }
 
  private:

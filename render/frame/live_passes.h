@@ -10,7 +10,7 @@
 namespace boule {
 
 /// Some of a picture's pixels, spread evenly: the points of a grid, or one of `slices` random
-/// shares.
+/// subsets.
 struct PixelPick {
   int x0 = 0, y0 = 0;        ///< the picture's upper left pixel
   int spacing = 1;           ///< pixels from one point of the grid to the next, a power of two
@@ -38,23 +38,22 @@ struct PixelPick {
 struct LivePass {
   PixelPick pick;
   int until = 1;
-  double share = 1;  ///< of all samples, about, that are done after this pass
+  double share = 1;  ///< the approximate fraction of all samples that are done after this pass
 };
 
 /// The spacing of the first pass in order progressive.
 inline constexpr int coarsest_spacing = 16;
 
-/// The passes in which a picture grows while somebody watches.
+/// The passes in which a picture that is shown live grows.
 /// - progressive: the first sample of every 16th pixel in every 16th row, then of every 8th, 4th
-/// and
-///   2nd, then of all pixels; after that one more sample of all pixels per pass.
+///   and 2nd, then of all pixels; after that one more sample of all pixels per pass.
 /// - frameless: the first sample of a random sixteenth of the pixels, then of another, until every
 ///   pixel has one; after that one more sample of all pixels per pass (after Bishop, Fuchs,
 ///   McMillan and Zagier, "Frameless rendering", SIGGRAPH 1994).
 /// - rows, tiles: all samples in one pass.
 class LivePasses {
  public:
-  /// Order progressive: how many passes there are until every pixel has its first sample.
+  /// Order progressive: the number of passes until every pixel has its first sample.
   static constexpr std::size_t coarse_passes =
       std::bit_width(static_cast<unsigned>(coarsest_spacing));
 
@@ -65,8 +64,8 @@ class LivePasses {
   /// Pass i. Precondition: i < size().
   [[nodiscard]] LivePass operator[](std::size_t i) const;
 
-  /// How many passes at the beginning may come in any order: each gives other pixels their first
-  /// sample.
+  /// The number of passes at the beginning that may come in any order: each gives other pixels
+  /// their first sample.
   [[nodiscard]] std::size_t interchangeable() const;
 
  private:

@@ -15,15 +15,15 @@ namespace boule {
 /// A pixel whose noise was measured.
 struct MeasuredPixel {
   Color color{};
-  float alpha = 0;  ///< the share of it that is covered
+  float alpha = 0;  ///< fraction of the pixel that is covered
   /// The standard error of the displayed value (NoiseTarget), of the channel where it is greatest:
   /// the half-width of the 95 % confidence interval divided by 1.96.
   float noise = 0;
-  std::uint32_t samples = 0;  ///< 0: it is not rendered yet
+  std::uint32_t samples = 0;  ///< number of samples; 0: not rendered yet
 };
 
-/// A picture whose noise was measured, or a part of it. Two threads may set different pixels at the
-/// same time.
+/// A picture whose noise was measured, or a part of it. Two threads may set different pixels in
+/// parallel.
 class MeasuredPicture {
  public:
   /// Black, without samples, of the frame's pixels in `rect`. Precondition of all functions that
@@ -51,7 +51,7 @@ class MeasuredPicture {
   [[nodiscard]] std::vector<float> noise() const;
   [[nodiscard]] std::vector<std::uint32_t> samples() const;
 
-  /// Bytes that the pixels in `rect` take.
+  /// The number of bytes of the pixels in `rect`.
   static std::uint64_t bytes(const PixelRect& rect) { return rect.area() * sizeof(MeasuredPixel); }
 
  private:
@@ -59,28 +59,30 @@ class MeasuredPicture {
   std::vector<MeasuredPixel> pixels_;
 };
 
-/// What is known of its pixels in `block`, which lies in the picture; `max_spp` as NoiseTarget.
+/// The progress of its pixels in `block`, which lies in the picture; `max_spp` as in NoiseTarget.
 NoiseSoFar noise_so_far(const MeasuredPicture& picture, const PixelRect& block, int max_spp);
 
-/// How many of its pixels have samples.
+/// The number of its pixels that have samples.
 std::uint64_t count_measured(const MeasuredPicture& picture);
 
-/// How a picture's noise stands to its target.
+/// The noise that a picture reached.
 struct NoiseReached {
-  double half_width = 0;    ///< that 95 % of the pixels stay within
-  double mean_samples = 0;  ///< of a pixel
-  double share = 0;         ///< of the pixels that have fewer than the most samples
+  double half_width = 0;    ///< the half-width that 95 % of the pixels stay within
+  double mean_samples = 0;  ///< the mean number of samples of a pixel
+  double share = 0;         ///< the fraction of pixels with fewer than the largest number of
+                            ///< samples
 };
 
-/// Of the pixels that have samples; all zeros if none has. `max_spp` as NoiseTarget.
+/// The noise over the pixels with samples; all zeros without such pixels. `max_spp` as in
+/// NoiseTarget.
 NoiseReached noise_reached(const MeasuredPicture& picture, int max_spp);
 
-/// The most samples that a pixel can have: both halves have the same number.
+/// The largest number of samples of a pixel: both halves have the same number.
 constexpr std::uint32_t most_samples(int max_spp) {
   return static_cast<std::uint32_t>(max_spp / 2 * 2);
 }
 
-/// The half-width of a 95 % confidence interval in standard errors, as `noise` has them.
+/// The half-width of a 95 % confidence interval in standard errors, the unit of `noise`.
 inline constexpr double interval_in_errors = 1.96;
 
 }  // namespace boule

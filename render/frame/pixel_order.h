@@ -12,7 +12,7 @@
 namespace boule {
 
 /// The order in which the blocks of a picture are rendered (lecture "Frame loop"). The finished
-/// picture does not depend on it.
+/// picture is the same for all.
 /// - rows: row by row.
 /// - tiles: along a Morton curve.
 /// - progressive: every 2^k-th block of every 2^k-th row, then those between, down to k = 0.
@@ -38,7 +38,7 @@ class BlockOrder {
   /// Block i. Precondition: i < size().
   [[nodiscard]] PixelRect operator[](std::size_t i) const;
 
-  /// Bytes that the order of such blocks takes.
+  /// The number of bytes of the order of such blocks.
   static std::uint64_t bytes(const PixelRect& rect, int tile);
 
  private:

@@ -7,50 +7,51 @@
 
 namespace boule {
 
-/// What is known of the pixels that have as many samples as their noise asks for.
+/// The progress of the pixels that have reached their target of noise.
 struct NoiseSoFar {
-  std::uint64_t pixels = 0;   ///< 0: noise is not measured, or no pixel has them yet
+  std::uint64_t pixels = 0;   ///< 0: noise is not measured, or all pixels need more samples
   std::uint64_t samples = 0;  ///< of all of them
-  std::uint64_t settled = 0;  ///< those that have fewer than the most samples
+  std::uint64_t settled = 0;  ///< pixels with fewer than the largest number of samples
 
-  /// Adds a pixel that has so many samples, where so many are the most.
+  /// Adds a pixel that has `count` samples, where `most` is the largest number.
   void add(std::uint32_t count, std::uint32_t most) {
     pixels += 1;
     samples += count;
     settled += count < most ? 1 : 0;
   }
-  /// The mean samples of a pixel, and the share that is settled. Precondition: there are pixels.
+  /// The mean number of samples of a pixel, and the fraction of settled pixels. Precondition: there
+  /// are pixels.
   [[nodiscard]] double mean_samples() const { return of_pixels(samples); }
   [[nodiscard]] double settled_share() const { return of_pixels(settled); }
 
-  /// `number` for each pixel.
+  /// `number` divided by the number of pixels.
   [[nodiscard]] double of_pixels(std::uint64_t number) const {
     return static_cast<double>(number) / static_cast<double>(pixels);
   }
 };
 
-/// How far the work on pixels or rays has come.
+/// The progress of the work on pixels or rays.
 struct Progress {
-  double share = 0;         ///< of all work that is done, 0 .. 1
+  double share = 0;         ///< fraction of all work that is done, 0 .. 1
   std::uint64_t rays = 0;   ///< of all kinds, traced so far
-  std::size_t running = 0;  ///< blocks that are being worked on; 0 if that is not known
+  std::size_t running = 0;  ///< number of blocks in work; 0 if it is unknown
   NoiseSoFar noise{};
-  double resumed = 0;  ///< the share that was done before the work began, by a run before
+  double resumed = 0;  ///< fraction that an earlier run had done
 };
 
-/// The progress of rendering, which any thread may read at any time, so also while the rendering
-/// thread works on a long block and reports nothing. One thread begins passes; every thread begins
-/// and ends its own blocks.
+/// The progress of rendering. Any thread may read it at any time, also while the rendering thread
+/// works on a long block and reports nothing. One thread begins passes; every thread begins and
+/// ends its own blocks.
 class LiveProgress {
  public:
-  /// What a pass covers of all work.
+  /// The part of all work that a pass covers.
   struct PassSpan {
-    double begin = 0, end = 1;  ///< share of the work that is done before and after it
+    double begin = 0, end = 1;  ///< fraction of the work that is done before and after it
     std::uint64_t rays = 0;     ///< traced before it
-    std::uint64_t pixels = 0;   ///< of all blocks, where noise is measured; 0: whole blocks count
+    std::uint64_t pixels = 0;   ///< of all blocks, if noise is measured; 0: whole blocks count
   };
 
-  /// Forgets all passes. Of the next one, what lies before it was done by a run before.
+  /// Forgets all passes. The work before the next pass then counts as done by an earlier run.
   void restart() {
     begin_pass(1, {});
     measured_ = samples_ = settled_ = 0;
@@ -69,26 +70,26 @@ class LiveProgress {
     end_ = span.end;
   }
   void begin_block() { ++running_; }
-  /// Ends a block that is done, for which so many rays were traced.
+  /// Ends a block that is done, for which `rays` rays were traced.
   void end_block(std::uint64_t rays) {
     rays_ += rays;
     ++ended_;
     --running_;
   }
-  /// Counts pixels whose noise was measured, of a block that is being worked on.
+  /// Counts pixels whose noise was measured, in a block that is still in work.
   void add_measured(const NoiseSoFar& noise) {
-    measured_ += noise.pixels;  // first, and read last: no more are settled than there are
+    measured_ += noise.pixels;  // first, and read last: settled pixels never exceed all pixels
     samples_ += noise.samples;
     settled_ += noise.settled;
   }
-  /// Ends a block that is not done, because it was cancelled.
+  /// Ends a block that was cancelled before its end.
   void drop_block() { --running_; }
 
-  /// Blocks of the pass that are done.
+  /// The number of blocks of the pass that are done.
   [[nodiscard]] std::size_t ended() const { return ended_; }
 
   [[nodiscard]] Progress read() const {
-    // These two first: if a pass begins meanwhile, the share is too small rather than too large.
+    // These two first: if a pass begins in between, the share is too small rather than too large.
     const double begin = begin_, end = end_;
     const std::uint64_t settled = settled_, samples = samples_;
     return {.share = begin + (end - begin) * share_of_pass(),
@@ -99,8 +100,8 @@ class LiveProgress {
   }
 
  private:
-  /// By blocks, or by pixels, some of which take many times as long as others. 1 only where all
-  /// blocks have ended.
+  /// By blocks or by pixels, because some blocks take many times as long as others. 1 only after
+  /// all blocks have ended.
   [[nodiscard]] double share_of_pass() const {
     constexpr double not_all = 0.9999;
     const std::size_t ended = ended_, blocks = blocks_;

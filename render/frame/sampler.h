@@ -13,17 +13,18 @@ struct RasterPoint {
   double x, y;
 };
 
-/// Where a pixel is sampled (lecture "Sampling"): one sample lies at the centre; several are spread
-/// evenly by sobol_pair(), wherever one stops. The filter decides how likely a sample is where, and
-/// all samples count the same, so each belongs to one pixel (Ernst, Stamminger, Greiner, "Filter
-/// importance sampling", 2006).
-/// - box: anywhere in the pixel, equally likely.
-/// - tent: up to a pixel's width from the centre, less likely the further away.
+/// The positions of samples in a pixel (lecture "Sampling"). A single sample lies at the centre;
+/// several are spread evenly by sobol_pair(), after any number of them. The filter sets the density
+/// of samples, and all samples count the same, so each belongs to one pixel (Ernst, Stamminger,
+/// Greiner, "Filter importance sampling", 2006).
+/// - box: uniform over the pixel.
+/// - tent: up to a pixel's width from the centre, with a density that falls with the distance.
+///
 /// A position depends on pixel, sample, seed and filter, and on whether there is one sample or
 /// more.
 class Sampler {
  public:
-  /// `spp`: samples per pixel in all. Takes any values, as do the functions below.
+  /// `spp`: number of samples per pixel. Takes any values, as do the functions below.
   Sampler(int spp, std::uint64_t seed, PixelFilter filter = PixelFilter::box)
       : single_(spp == 1), keys_(seed), filter_(filter) {}
 
@@ -33,10 +34,10 @@ class Sampler {
   /// The key of pixel (x, y) for its random numbers.
   [[nodiscard]] std::uint64_t key(int x, int y) const { return keys_.of(x, y); }
 
-  /// Where one of several samples of pixel (x, y) lies, from its numbers of RandomSet::film.
+  /// The position of one of several samples of pixel (x, y), from its numbers of RandomSet::film.
   [[nodiscard]] RasterPoint position(int x, int y, const UnitPair& numbers) const;
 
-  /// Where a sample lies.
+  /// The position of a sample.
   [[nodiscard]] RasterPoint position(const SampleId& id) const;
 
  private:

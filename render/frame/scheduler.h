@@ -10,15 +10,15 @@
 
 namespace boule {
 
-/// Runs loops on several threads, the caller's among them: each worker takes the next index until
-/// none is left. Every worker computes in a FloatEnvironment.
+/// Runs loops on several threads, the caller's included: each worker takes the next index until all
+/// are done. Every worker computes in a FloatEnvironment.
 class Scheduler {
  public:
   /// body(worker, index) with worker < workers(). A worker calls it for one index at a time. Worker
   /// 0 is the caller's thread.
   using Body = std::function<void(unsigned worker, std::size_t index)>;
 
-  /// For so many threads, max_workers at most; 0 means as many as the hardware runs at once.
+  /// For `threads` threads, at most max_workers; 0 means as many as the hardware runs at once.
   explicit Scheduler(unsigned threads);
 
   static constexpr unsigned max_workers = 1024;
@@ -33,8 +33,8 @@ class Scheduler {
   /// becomes true, the loop stops without a Diagnostic.
   Status run(std::size_t count, const Body& body, const std::atomic<bool>* cancel = nullptr);
 
-  /// This scheduler as a ParallelFor, which is valid as long as the scheduler. Exceptions reach the
-  /// caller. If `*cancel` becomes true, a loop stops and throws std::runtime_error.
+  /// This scheduler as a ParallelFor, which is valid as long as the scheduler. Exceptions propagate
+  /// to the caller. If `*cancel` becomes true, a loop stops and throws std::runtime_error.
   ParallelFor parallel_for(const std::atomic<bool>* cancel = nullptr);
 
  private:

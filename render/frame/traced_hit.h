@@ -8,7 +8,7 @@
 
 namespace boule {
 
-/// What one traced ray meets. The defaults are those of a miss.
+/// The hit of one traced ray. The defaults are those of a miss.
 struct TracedHit {
   double t =
       std::numeric_limits<double>::infinity();  ///< double, in units of the direction's length

@@ -16,7 +16,7 @@ struct ChannelForm {
   bool is_integer = false;  ///< uint32, not float
 };
 
-/// What is known of a picture before it has pixels.
+/// The form of a picture, known before its pixels.
 struct ImageForm {
   int width = 0;
   int height = 0;
@@ -24,18 +24,18 @@ struct ImageForm {
   std::vector<ChannelForm> channels{};
 };
 
-/// Writes a picture like write_image(), but takes it in bands of rows from the top, so that the
-/// whole of it need not be in memory. The file has the same bytes, however high the bands are. A
-/// writer that is not finished leaves an old file as it was, and nothing else. Diagnostics are
-/// those of write_image(), also for what callbacks throw; after one, no call succeeds. One thread
-/// at a time may use it, not always the same one.
+/// Writes a picture like write_image(), but takes it in bands of rows from the top, so only a part
+/// of it need be in memory. The file has the same bytes for any height of the bands. A writer that
+/// is destroyed unfinished leaves an old file as it was and removes the new one. Diagnostics are
+/// those of write_image(), for exceptions of callbacks, too; after one, every call fails. Threads
+/// may take turns in using it, one at a time.
 class BandWriter {
  public:
-  /// Begins the file. Of options.channels nothing is used: `form` says which there are.
+  /// Begins the file. `form` lists the channels; options.channels is ignored.
   static Result<BandWriter> open(const ImageForm& form, const std::string& path,
                                  const ImageFileOptions& options = {});
-  /// The same for a PNG that goes into a file of the caller's, where it is not checked.
-  /// options.temporary is not called. What `file` refers to must outlive the writer.
+  /// The same for a PNG into a file of the caller's, which is left unchecked. options.temporary is
+  /// not called. The objects in `file` must outlive the writer.
   static Result<BandWriter> open_png(const ImageForm& form, const OpenFile& file,
                                      const ImageFileOptions& options);
 
@@ -43,17 +43,17 @@ class BandWriter {
   BandWriter& operator=(BandWriter&& other) noexcept;
   ~BandWriter();
 
-  /// Takes the next rows: a picture of the form's width, with alpha if the form has that, and its
+  /// Takes the next rows: a picture of the form's width, with alpha if the form has it, and its
   /// channels in the form's order. An error for another picture.
   Status put(const Image& band, const std::vector<ImageChannel>& channels = {});
 
-  /// Checks the file and gives it its name. An error if there are too few rows yet.
+  /// Checks the file and gives it its name. An error if rows are missing.
   Status finish();
 
  private:
   struct State;
   explicit BandWriter(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;  ///< null once it was moved away
+  std::unique_ptr<State> state_;  ///< null after a move
 };
 
 }  // namespace boule

@@ -12,23 +12,23 @@
 namespace boule {
 
 /// The functions for a format that the program writes without OpenImageIO, whose libraries take a
-/// fifth of a second to load: PPM, and PNG where the program was built with libpng. With the
-/// headers that Boule gives them their files are those that OpenImageIO would write. Null for other
-/// formats. `read` is null, and so is `inspect` of PPM: these need OpenImageIO.
+/// fifth of a second to load: PPM, and PNG if the program was built with libpng. With Boule's
+/// headers, the files equal those of OpenImageIO. Null for other formats. `read` is null, and so is
+/// `inspect` of PPM: these need OpenImageIO.
 const image_module::Table* built_in_table(const ImageFormat& format);
 
 /// The same for PNG alone (png_table.cpp).
 const image_module::Table* png_table();
 
-/// What the tables share: a picture of 8 bits that is written row by row.
+/// The common part of the tables: a picture of 8 bits that is written row by row.
 class RowWriter {
  public:
   /// `picture` must outlive it.
   RowWriter(const image_module::Picture& picture, int descriptor)
       : picture_(picture), sink_(descriptor) {}
 
-  /// Calls write(row) for the next rows, the samples of each pixel side by side. Ends early where
-  /// the picture's `stop` asks for that, or the file cannot be written.
+  /// Calls write(row) for the next rows, the samples of each pixel side by side. Ends early if the
+  /// picture's `stop` returns true, or if writing to the file fails.
   template <class Write>
   void put(const image_module::Samples* samples, int rows, image_module::Report& report,
            const Write& write) {
@@ -63,7 +63,7 @@ class RowWriter {
   ByteSink sink_;
   std::vector<unsigned char> row_;
   int written_ = 0;
-  std::size_t since_asked_ = often_asked;  ///< bytes written since `stop` was asked
+  std::size_t since_asked_ = often_asked;  ///< bytes written since the last call of `stop`
 };
 
 }  // namespace boule

@@ -10,9 +10,9 @@
 
 namespace boule {
 
-/// Writes bytes one after the other to an open file. It gathers them first. After a failure it
-/// keeps the errno code and drops what follows. Once it is made it throws nothing: libraries in C
-/// call it.
+/// Writes bytes one after the other to an open file. It buffers them. After a failure it keeps the
+/// errno code and drops later bytes. After its construction it throws nothing, because libraries in
+/// C call it.
 class ByteSink {
  public:
   explicit ByteSink(int descriptor)
@@ -28,7 +28,7 @@ class ByteSink {
       if (size_ == room) flush();
     }
   }
-  /// Writes what is gathered.
+  /// Writes the buffered bytes.
   void flush() noexcept {
     for (std::size_t done = 0; done < size_ && code_ == 0;) {
       const ssize_t written = ::write(descriptor_, gathered_.get() + done, size_ - done);

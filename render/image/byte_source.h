@@ -20,7 +20,8 @@ class ByteSource {
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
 
-  /// Reads up to `count` bytes. Returns how many there were: fewer at the end, or after a failure.
+  /// Reads up to `count` bytes. Returns the number of bytes read: fewer at the end, or after a
+  /// failure.
   std::size_t read(void* bytes, std::size_t count) {
     auto* const to = static_cast<char*>(bytes);
     std::size_t done = 0;

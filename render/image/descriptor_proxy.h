@@ -11,9 +11,9 @@
 
 namespace boule::image_module {
 
-/// Writes OpenImageIO's bytes to a file descriptor. It gathers them first, because the PNM writer
-/// writes single bytes. After a failure it keeps the errno code and claims success: otherwise
-/// libjpeg would end the process, and others would lose the reason. One thread at a time may use
+/// Writes OpenImageIO's bytes to a file descriptor. It buffers them, because the PNM writer writes
+/// single bytes. After a failure it keeps the errno code and claims success: otherwise libjpeg
+/// would end the process, and other libraries would lose the reason. One thread at a time may use
 /// it.
 class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
  public:
@@ -50,7 +50,7 @@ class DescriptorProxy final : public OIIO::Filesystem::IOProxy {
     return got < 0 ? 0 : static_cast<size_t>(got);
   }
 
-  /// Writes what is gathered. Returns the errno code of the first failure so far, or 0.
+  /// Writes the buffered bytes. Returns the errno code of the first failure so far, or 0.
   int finish() {
     flush_gathered();
     return code_;

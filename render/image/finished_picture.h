@@ -14,9 +14,9 @@ struct PictureShape {
   std::vector<std::string> channels{};  ///< beside R, G and B
 };
 
-/// True if there is a picture of that name already, as write_image() leaves it: a regular file of
-/// this shape that can be read to its end, and whose ImageDescription does not say that it is
-/// partial. Takes any name and any shape. False if the module that reads pictures cannot be loaded.
+/// True if a finished picture of that name exists: a regular file of this shape that can be read to
+/// its end, and whose ImageDescription does not say that it is partial. Takes any name and any
+/// shape. False if the module that reads pictures cannot be loaded.
 bool is_finished_picture(const std::string& path, const PictureShape& shape);
 
 }  // namespace boule

@@ -9,18 +9,19 @@ namespace boule {
 struct ImageFormat {
   const char* extension;  ///< lower case, without the dot
   const char* writer;     ///< OpenImageIO's name of the format
-  /// Most pixels on a side; libjpeg ends the process beyond its limit.
+  /// The largest number of pixels on a side; libjpeg ends the process beyond its limit.
   int longest_side = std::numeric_limits<int>::max();
-  /// Most bytes of all texts in the header; far above any remark where the format has no limit.
+  /// The largest number of bytes of all texts in the header; far above any remark for formats
+  /// without a limit.
   int text_room = 1 << 24;
-  bool alpha = false;     ///< stores alpha: premultiplied where it is hdr, else straight
-  bool hdr = false;       ///< stores linear floats; else 8 bits with the sRGB curve
+  bool alpha = false;     ///< stores alpha: premultiplied if it is hdr, otherwise straight
+  bool hdr = false;       ///< stores linear floats; otherwise 8 bits with the sRGB curve
   bool channels = false;  ///< stores extra named channels, and the crop window
   bool remarks = false;   ///< its header holds text, such as the remark that a picture is partial
 };
 
-/// The format that the extension of a file name stands for, in upper or lower case; null if there
-/// is no extension or an unknown one. Takes any name, and does not look at the file.
+/// The format of the extension of a file name, in upper or lower case; null for an unknown
+/// extension or without one. Takes any name, and leaves the file unread.
 const ImageFormat* find_image_format(const std::string& path);
 
 /// All known extensions for a message: "exr, hdr, png, ...".

@@ -13,7 +13,8 @@
 
 namespace boule {
 
-/// What the module reads of a picture to be written: plain structs, and what they point to.
+/// The input of the module for writing a picture: plain structs, and the data behind their
+/// pointers.
 struct ImagePlan {
   ImageForm form;
   std::vector<image_module::Channel> channels;
@@ -21,11 +22,11 @@ struct ImagePlan {
   std::vector<image_module::Attribute> attributes;
   image_module::Picture picture{};
   std::function<bool()> stop;
-  mutable std::exception_ptr thrown{};  ///< what `stop` threw
+  mutable std::exception_ptr thrown{};  ///< the exception of `stop`
 };
 
-/// The plan of a file of this name, or what is wrong with these arguments. `format` is null if the
-/// name has no known extension. The plan is on the heap, because its picture points into it.
+/// The plan of a file of this name, or the error in these arguments. `format` is null for an
+/// unknown extension. The plan is on the heap, because its picture points into it.
 Result<std::unique_ptr<ImagePlan>> make_plan(const ImageForm& form, const std::string& path,
                                              const ImageFileOptions& options,
                                              const ImageFormat* format);

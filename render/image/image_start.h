@@ -10,13 +10,13 @@ namespace boule {
 
 class Threads;
 
-/// Loads OpenImageIO for a picture that write_image() will write later, where its format needs it,
-/// and starts all threads that this will need. It does so in a thread of its own, beside the
-/// rendering. So what can fail there fails before the rendering is done and not after it.
+/// Loads OpenImageIO for a picture that write_image() will write later, if its format needs it, and
+/// starts all threads for that. It does so in a thread of its own, beside the rendering, so
+/// failures show before the rendering is done.
 class ImageStart {
  public:
   /// Begins, for a picture of this name and with these ImageFileOptions::threads. Takes any values.
-  /// If no thread can be had, the caller's does it all before this returns.
+  /// If a new thread is refused, the caller's thread does it all before this returns.
   ImageStart(std::string path, int threads);
   /// Waits until it is done: half a second at most on an idle system.
   ~ImageStart();
@@ -26,8 +26,7 @@ class ImageStart {
   /// True if wait() would return at once.
   [[nodiscard]] bool done() const { return done_; }
 
-  /// Waits until it is done. A failure is the one that write_image() would give: "cannot write
-  /// 'NAME': REASON".
+  /// Waits until it is done. A failure is that of write_image(): "cannot write 'NAME': REASON".
   Status wait();
 
  private:

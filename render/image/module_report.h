@@ -7,8 +7,8 @@
 
 #include "render/image/image_module.h"
 
-/// How the functions of a Table fill in their Report: those of the module, and those that are built
-/// in.
+/// Helpers that fill in the Report of the functions of a Table: those of the module, and the
+/// built-in ones.
 namespace boule::image_module {
 
 inline void fail(Report* report, const std::string& text) {
@@ -18,7 +18,7 @@ inline void fail(Report* report, const std::string& text) {
   report->text[length] = 0;
 }
 
-/// Says which errno code a file has, unless that is 0. Returns whether it has one.
+/// Reports the errno code of a file, unless it is 0. Returns whether it reported one.
 inline bool fail_by(int code, Report* report) {
   if (code == 0) return false;
   report->outcome = Outcome::system_error;
@@ -26,7 +26,7 @@ inline bool fail_by(int code, Report* report) {
   return true;
 }
 
-/// Runs a step and turns its exceptions into reports: none may leave the module.
+/// Runs a step and turns its exceptions into reports, because they must stay within the module.
 template <class Step>
 void guarded(Report* report, const Step& step) {
   *report = {};

@@ -19,8 +19,8 @@ std::string reason_of(std::string text);
 
 OIIO::TypeDesc type_of(SampleType type);
 
-/// Rows are gathered and go to OpenImageIO so many at a time whatever portions they come in: some
-/// formats' bytes depend on it.
+/// Buffers rows and passes a fixed number at a time to OpenImageIO, whatever the portions of the
+/// caller: the bytes of some formats depend on it.
 struct Writer {
  public:
   Writer(const Picture& picture, int descriptor) : picture_(picture), proxy_(descriptor) {}
@@ -38,9 +38,9 @@ struct Writer {
   DescriptorProxy proxy_;
   std::unique_ptr<OIIO::ImageOutput> output_;  ///< after the proxy, which it uses
   std::size_t pixel_size_ = 0;                 ///< bytes
-  int at_once_ = 0;                            ///< rows for OpenImageIO
+  int at_once_ = 0;                            ///< rows per call of OpenImageIO
   int written_ = 0, gathered_ = 0;             ///< rows
-  std::vector<unsigned char> packed_;          ///< the gathered rows
+  std::vector<unsigned char> packed_;          ///< the buffered rows
 };
 
 }  // namespace boule::image_module

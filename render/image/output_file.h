@@ -15,19 +15,21 @@ Diagnostic cannot_write(const std::string& name, int code);
 
 /// A file that appears under its name only when it is complete. Until then it is a temporary file
 /// in the target's folder, which commit() renames and the destructor removes. Where the file system
-/// allows it, the temporary file has no name until then, so that nothing is left however the
-/// program ends. A failure leaves an old file as it was.
+/// allows it, the temporary file is nameless until then, so it disappears however the program ends.
+/// A failure leaves an old file as it was.
 ///
-/// The new file has the permissions of the old one, or else 0666 less the umask. A symbolic link is
-/// followed: the file that it names is replaced, and the link stays. A link is refused if somebody
-/// else put it into a folder to which everybody may write (/tmp), as fs.protected_symlinks does it.
-/// A device, pipe or socket is never replaced: the data are gathered in memory, and commit() copies
-/// them into it. After commit(), and once it was moved away, an OutputFile refuses all calls below.
+/// The new file has the permissions of the old one, otherwise 0666 less the umask. A symbolic link
+/// is followed: the file that it names is replaced, and the link stays. A link is refused if
+/// another user put it into a folder to which everybody may write (/tmp), as with
+/// fs.protected_symlinks. A device, pipe or socket is never replaced: the data are buffered in
+/// memory, and commit() copies them into it. After commit(), and after a move, an OutputFile
+/// refuses all calls below.
 class OutputFile {
  public:
   /// Makes the temporary file. Takes any name; the Diagnostic (cannot_write) carries the system's
-  /// reason. If the target is a FIFO without a reader, this waits for one and asks `stop` ten times
-  /// a second; true ends the waiting. What `stop` throws reaches the caller, here and in commit().
+  /// reason. If the target is a FIFO without a reader, this waits for one and calls `stop` ten
+  /// times a second; true ends the waiting. Exceptions of `stop` propagate to the caller, here and
+  /// in commit().
   static Result<OutputFile> create(const std::string& target,
                                    const std::function<bool()>& stop = {});
 
@@ -37,8 +39,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// The path of the temporary file, by which it can be opened and checked, and removed if the
-  /// program ends early. A file without a name cannot be removed, and need not be.
+  /// The path of the temporary file, for opening and checking it, and for removing it if the
+  /// program ends early. A nameless file disappears by itself.
   [[nodiscard]] const std::string& path() const { return path_; }
   /// The descriptor of the temporary file, open for reading, writing and seeking.
   [[nodiscard]] int descriptor() const { return descriptor_; }
@@ -46,11 +48,11 @@ class OutputFile {
   /// Appends `count` bytes at the descriptor's position.
   Status write(const void* bytes, std::size_t count);
 
-  /// Makes the data durable. After the last write it saves commit() that time.
+  /// Makes the data durable. After the last write, it saves commit() that time.
   Status sync();
 
   /// Makes the data durable and gives the file its name. Call it once, after the last write. `stop`
-  /// is asked before that, and ten times a second while the reader of a pipe is slow; true makes
+  /// is called before that, and ten times a second while the reader of a pipe is slow; true makes
   /// this fail with the reason "interrupted".
   Status commit(const std::function<bool()>& stop = {});
 
@@ -66,11 +68,11 @@ class OutputFile {
 
   std::string name_;         // of the target as the caller wrote it, for messages
   std::string real_target_;  // the target with its links resolved; empty for a stream
-  std::string path_;         // of the temporary file; in /proc while it has no name
-  std::string temporary_;    // the name of the temporary file; empty while it has none
+  std::string path_;         // of the temporary file; in /proc while it is nameless
+  std::string temporary_;    // the name of the temporary file; empty while it is nameless
   int descriptor_ = -1;
   int stream_ = -1;      // of the device or pipe itself
-  bool synced_ = false;  // nothing was written since the last sync()
+  bool synced_ = false;  // all writes were before the last sync()
 };
 
 }  // namespace boule

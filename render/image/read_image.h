@@ -7,19 +7,19 @@
 
 namespace boule {
 
-/// What the numbers of a picture mean.
+/// The meaning of the numbers in a picture.
 /// - colors: colours. Integers (PNG, JPEG, ...) are codes of the sRGB curve and become linear.
 /// - numbers: numbers that stay as they are, with integers as 0..1.
 enum class PictureContent { colors, numbers };
 
 /// Reads a picture in the format of its extension, one that write_image() knows. It takes the first
-/// three channels: a single one counts as gray, a third one that is missing is 0, alpha is left
-/// out. Numbers are as they are in the file, also NaN, infinite and negative ones. A part of a
-/// frame (EXR's data window) is refused, and so is a picture that does not fit into memory. Takes
-/// any file. The Diagnostic says "cannot read it: REASON", and its file is `path`.
+/// three channels: a single one counts as gray, a missing third one is 0, and alpha is left out.
+/// Numbers keep the values in the file, NaN, infinite and negative ones included. A part of a frame
+/// (EXR's data window) is refused, and so is a picture that exceeds the available memory. Takes any
+/// file. The Diagnostic says "cannot read it: REASON", and its file is `path`.
 ///
-/// OpenImageIO is loaded as by write_image(), where more is said of that. libpng may write a line
-/// to standard error about a PNG file that has nonsense in it under correct checksums.
+/// The first call may load OpenImageIO: see write_image(). libpng may write a line to standard
+/// error about a PNG file that holds nonsense under correct checksums.
 Result<Image> read_image(const std::string& path, PictureContent content);
 
 }  // namespace boule

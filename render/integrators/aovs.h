@@ -10,23 +10,23 @@
 
 namespace boule {
 
-/// The id of a ray that meets nothing.
+/// The id of a ray that misses.
 inline constexpr std::uint32_t no_aov_id = 4294967295;
 
-/// What one camera ray meets, as numbers rather than light ("arbitrary output variables"). The
-/// defaults are those of a ray that meets nothing.
+/// The hit of one camera ray, as numbers rather than light ("arbitrary output variables"). The
+/// defaults are those of a miss.
 struct Aovs {
   /// Euclidean distance of the hit from the ray's origin; finite for every hit.
   float depth = std::numeric_limits<float>::infinity();
   Vec3f normal;    ///< geometric, unit length, towards the viewer, as for shading; miss: 0
   Vec3f position;  ///< the hit's point, rounded to float; miss: 0
   std::uint32_t id = no_aov_id;  ///< the primitive's: spheres in order, then planes
-  /// The share of light that the surface sends on: the diffuse colour and the weights of the
-  /// reflected and the refracted ray together, at most 1. Highlights, ambient light and emission do
-  /// not count. Miss: 0.
+  /// The fraction of light that the surface sends on: the diffuse colour plus the weights of the
+  /// reflected and the refracted ray, at most 1. Highlights, ambient light and emission are left
+  /// out. Miss: 0.
   Color albedo;
   /// The hit's distance from the eye along the camera's view direction L, which is L.(P - E). A
-  /// fisheye also sees what lies behind the eye; there it is negative.
+  /// fisheye also sees points behind the eye; there it is negative.
   float along = std::numeric_limits<float>::infinity();
 };
 
@@ -37,7 +37,7 @@ class AovTracer {
   AovTracer(const PreparedScene& scene, const KernelTable& kernels, Solver solver)
       : scene_(scene), kernels_(kernels), solver_(solver), geometry_(scene.geometry.view()) {}
 
-  /// Sets aovs[k] to what rays[k] meets. Takes any rays. Precondition: `aovs` has room for one per
+  /// Sets aovs[k] to the hit of rays[k]. Takes any rays. Precondition: `aovs` has room for one per
   /// ray.
   void trace(RayBuffer& rays, Coherence coherence, Aovs* aovs);
 

@@ -15,7 +15,7 @@ namespace boule {
 
 class RayRecord;
 
-/// How many rays were traced, by kind.
+/// The number of traced rays, by kind.
 struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t shadow = 0;
@@ -30,42 +30,43 @@ struct RayCounts {
   [[nodiscard]] std::uint64_t total() const { return primary + shadow + continuation; }
 };
 
-/// How path tracing finds the light of spheres and environment images. The expected picture is the
-/// same for all three, but not its noise.
+/// The way in which path tracing finds the light of spheres and environment images. The expected
+/// picture is the same for all three; the noise differs.
 /// - both: by light sampling and by the directions of paths, weighted (multiple importance
 ///   sampling).
 /// - lights: by light sampling only (next-event estimation).
 /// - paths: by the directions of paths only.
 enum class LightSampling { both, lights, paths };
 
-/// How an integrator works.
+/// The settings of an integrator.
 struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
   std::uint64_t seed = 0;  ///< of the random numbers of paths
-  /// None: shadow rays know which surface they leave. Else they start by the lecture's epsilon, 0
-  /// or more: start_by_epsilon(). For teaching.
+  /// The lecture's epsilon, 0 or more, at which shadow rays start: start_by_epsilon(). Without it,
+  /// shadow rays know the surface that they leave. For teaching.
   std::optional<float> shadow_epsilon{};
-  /// Whitted only: keeps the rays of one camera ray; null: nobody asks. Then stream_size is 1.
+  /// Whitted only: receives the rays of one camera ray; null: off. Requires a stream_size of 1.
   RayRecord* record = nullptr;
   LightSampling light_sampling = LightSampling::both;
-  std::size_t stream_size = 16384;            ///< most rays in one continuation stream, >= 1
+  std::size_t stream_size = 16384;            ///< largest number of rays in one continuation
+                                              ///< stream, >= 1
   const std::atomic<bool>* cancel = nullptr;  ///< stops soon after it becomes true
 };
 
-/// Camera rays, and what is known of them.
+/// Camera rays, and the known facts about them.
 struct CameraRays {
   RayBuffer& rays;
-  Coherence coherence;      ///< what they have in common
-  const SampleId* samples;  ///< of each ray; null will do except for path tracing
-  /// Room for one number per ray, which becomes 1 where the ray hits something, else 0; null where
-  /// nobody asks.
+  Coherence coherence;      ///< what the rays have in common
+  const SampleId* samples;  ///< of each ray; may be null except for path tracing
+  /// Room for one number per ray, which becomes 1 if the ray hits something, otherwise 0; null:
+  /// off.
   std::uint8_t* covered = nullptr;
 };
 
-/// Turns camera rays into radiance. One integrator serves one thread. It keeps its working memory
-/// from call to call, so after the first calls it allocates nothing. Takes any rays; those with NaN
-/// see the background. Precondition: the settings are in their ranges.
+/// Turns camera rays into radiance. One integrator serves one thread. It reuses its working memory,
+/// so after the first calls it allocates nothing. Takes any rays; those with NaN see the
+/// background. Precondition: the settings are in their ranges.
 class Integrator {
  public:
   Integrator() = default;
@@ -73,15 +74,15 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// Sets radiance[k] to what arrives along ray k, finite and not negative; it does not depend on
-  /// the other rays. False if it was cancelled, and then nothing is written. Precondition:
-  /// `radiance` has room for one colour per ray.
+  /// Sets radiance[k] to the radiance that arrives along ray k, finite and at least 0; it is
+  /// independent of the other rays. Returns false after a cancellation, with nothing written.
+  /// Precondition: `radiance` has room for one colour per ray.
   virtual bool trace(const CameraRays& camera, Color* radiance) = 0;
 
   /// All rays that this integrator traced.
   [[nodiscard]] virtual RayCounts counts() const = 0;
 
-  /// What was wrong with the radiance of its samples before it was settled().
+  /// The faults in the radiance of its samples before settled().
   [[nodiscard]] virtual SampleFaults faults() const = 0;
 };
 

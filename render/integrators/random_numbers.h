@@ -9,18 +9,18 @@
 
 namespace boule {
 
-/// The random numbers of many samples at once: for each of them what sobol_pair() gives.
-/// Precondition of all functions but resize(): there is room.
+/// The random numbers of many samples at once: the pair of sobol_pair() for each. Precondition of
+/// all functions but resize(): there is room.
 class RandomNumbers {
  public:
-  /// Makes room for so many pairs.
+  /// Makes room for `size` pairs.
   void resize(std::size_t size) {
     for (auto* numbers : {&sample_, &shuffle_, &seed_u_, &seed_v_}) numbers->resize(size);
     u_.resize(size);
     v_.resize(size);
   }
 
-  /// Asks for pair i, which is that of a pixel's key, a set and a sample.
+  /// Requests pair i, for a pixel's key, a set and a sample.
   void ask(std::size_t i, std::uint64_t key, RandomSet set, std::uint32_t sample) {
     if (key != key_ || set != set_) {  // samples of one pixel often follow each other
       key_ = key;
@@ -33,12 +33,12 @@ class RandomNumbers {
     seed_v_[i] = seeds_.v;
   }
 
-  /// What the numbers of a sample depend on, beside their set.
+  /// The arguments of a sample's numbers besides their set.
   struct Key {
     std::uint64_t pixel;
     std::uint32_t sample;
   };
-  /// Asks for the first `size` pairs, all of one set: pair i is that of key_of(i).
+  /// Requests the first `size` pairs, all of one set: pair i is that of key_of(i).
   template <class KeyOf>
   void ask_all(std::size_t size, RandomSet set, const KeyOf& key_of) {
     std::uint32_t *const sample = sample_.data(), *const shuffle = shuffle_.data(),
@@ -58,7 +58,7 @@ class RandomNumbers {
     }
   }
 
-  /// Finds the first `size` pairs. Precondition: all of them were asked for.
+  /// Computes the first `size` pairs. Precondition: all of them were requested.
   void find(const KernelTable& kernels, std::size_t size) {
     kernels.sobol_points({sample_.data(), shuffle_.data(), seed_u_.data(), seed_v_.data(),
                           u_.data(), v_.data(), size});

@@ -10,7 +10,7 @@
 
 namespace boule {
 
-/// What a ray of Whitted's recursion is for.
+/// The purpose of a ray in Whitted's recursion.
 enum class RayKind { primary, reflection, refraction, shadow };
 
 /// One ray of the recursion, as a teacher draws it on the board.
@@ -19,42 +19,43 @@ struct RecordedRay {
   int parent = -1;  ///< an earlier ray's index; -1: none
   int depth = 0;    ///< bounces before it
   Ray ray;
-  Hit hit;           ///< of a shadow ray: what is in its way
+  Hit hit;           ///< of a shadow ray: the hit that blocks it
   Color weight;      ///< in the light that its parent returns
   Color throughput;  ///< in the sample
-  Color own;         ///< what it found by itself; of a shadow ray: the light that it lets through
-  std::size_t light = 0;  ///< of a shadow ray: which light it goes to
+  Color own;         ///< light found by the ray itself; of a shadow ray: the light that it lets
+                     ///< through
+  std::size_t light = 0;  ///< of a shadow ray: index of its light
 };
 
 /// The rays of one sample, in the order of the recursion: parents before children, shadow rays
-/// behind the ray whose hit they leave. An integrator keeps it for one camera ray with streams of
+/// after the ray whose hit they leave. An integrator fills it for one camera ray, with streams of
 /// one ray each (IntegratorSettings::record).
 class RayRecord {
  public:
   static constexpr std::size_t most_rays = 4096;
 
-  /// Forgets everything.
+  /// Forgets all rays.
   void start();
-  /// The next ray of the recursion begins, which is what the last calls of expect() have told.
+  /// Begins the next ray of the recursion, which the last calls of expect() announced.
   void begin(const Ray& ray, const Hit& hit, const Color& throughput);
-  /// A shadow ray of the current ray to one of the lights.
+  /// Adds a shadow ray of the current ray to one of the lights.
   void add_shadow(std::size_t light, const Ray& ray, const Hit& hit, const Color& arriving);
-  /// The current ray sends on a ray.
+  /// Announces a child of the current ray.
   void expect(RayKind kind, const Color& weight);
-  /// What the current ray found by itself.
+  /// Sets the light that the current ray found itself.
   void finish(const Color& own);
 
   [[nodiscard]] const std::vector<RecordedRay>& rays() const { return rays_; }
 
-  /// True once there are more rays than anybody reads: it keeps no more, and IntegratorSettings
-  /// cancels by it.
+  /// True once there are more rays than a reader can use. The record then keeps no more, and
+  /// IntegratorSettings cancels by it.
   [[nodiscard]] const std::atomic<bool>& full() const { return full_; }
 
   /// The radiance of the sample: summed per depth, and then over the depths, in float, as the
   /// renderer does.
   [[nodiscard]] Color total() const;
-  /// What each ray returns to its parent: `own` and the weighted light of its children, in their
-  /// order. Of a shadow ray: `own`.
+  /// The light that each ray returns to its parent: `own` and the weighted light of its children,
+  /// in their order. Of a shadow ray: `own`.
   [[nodiscard]] std::vector<Color> returned() const;
 
  private:

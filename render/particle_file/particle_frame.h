@@ -12,8 +12,7 @@
 
 namespace boule {
 
-/// The parallelepiped in which a simulation runs: the points origin + x a + y b + z c with x, y, z
-/// in [0, 1].
+/// The parallelepiped of a simulation: the points origin + x a + y b + z c with x, y, z in [0, 1].
 struct ParticleCell {
   Vec3d a, b, c;
   Vec3d origin;
@@ -23,14 +22,14 @@ struct ParticleCell {
 /// True if all of the cell's numbers are finite.
 bool is_finite(const ParticleCell& cell);
 
-/// A number of every particle, under the name that the file gives it; whole numbers are exact up
-/// to 2^53.
+/// A number of every particle, under its name in the file; whole numbers are exact up to 2^53.
 struct NumberColumn {
   std::string name;
   std::vector<double> values;  ///< by particle
 };
 
-/// A text of every particle, such as the name of a residue: an index into the texts that occur.
+/// A text of every particle, such as the name of a residue: an index into the list of different
+/// texts.
 struct TextColumn {
   std::string name;
   std::vector<std::string> texts;      ///< in the order of their first use
@@ -41,19 +40,20 @@ struct TextColumn {
 /// lists by particle have as many entries as `positions`, and all numbers are finite.
 struct ParticleFrame {
   std::vector<Vec3d> positions;
-  /// The particles' kinds: elements ("C", "Fe") where the file tells them, else types ("1").
-  /// Empty where it tells neither.
+  /// The particles' kinds: elements ("C", "Fe") if the file has them, otherwise types ("1"). Empty
+  /// if it has neither.
   std::optional<TextColumn> species;
   std::vector<NumberColumn> numbers;  ///< in the order of the file, without the positions
   std::vector<TextColumn> texts;      ///< likewise, without the species
-  /// The names of columns that the file has and nobody wanted: for what asks for a name like them.
+  /// The names of columns that the file has and that were not requested, for messages about similar
+  /// names.
   std::vector<std::string> unread;
   std::optional<ParticleCell> cell;
   std::optional<double> time;
-  /// How many angstrom the file's unit of length has (10 for nm); 1 where nothing tells it. Tables
-  /// of radii need it.
+  /// The file's unit of length in angstrom (10 for nm); 1 if it is unknown. Tables of radii need
+  /// it.
   double length_in_angstrom = 1;
-  std::vector<std::string> notes;  ///< what was left out or decided, a sentence each
+  std::vector<std::string> notes;  ///< omissions and automatic choices, a sentence each
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };
@@ -62,7 +62,7 @@ struct ParticleFrame {
 const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name);
 const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name);
 
-/// Whether a column is to be read: all are where nobody says which.
+/// Whether a column is to be read: all are if `wanted` is empty.
 bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name);
 
 }  // namespace boule

@@ -11,13 +11,13 @@
 
 namespace boule {
 
-/// The colour maps that are known by name.
+/// The colour maps with names.
 enum class NamedColorMap { viridis, magma, plasma, inferno, cividis, coolwarm, turbo, grey };
 template <>
 inline constexpr std::array<std::string_view, 8> names<NamedColorMap>{
     "viridis", "magma", "plasma", "inferno", "cividis", "coolwarm", "turbo", "grey"};
 
-/// From a number in [0, 1] to a colour: evenly spaced colours, at least one, and straight lines
+/// A map from numbers in [0, 1] to colours: evenly spaced colours, at least one, and straight lines
 /// between them in sRGB codes.
 class ColorMap {
  public:
@@ -32,8 +32,8 @@ class ColorMap {
   std::vector<SrgbColor> colors_;
 };
 
-/// Where a number lies between the ends of a range, for a colour map: 0 at the least, 1 at the
-/// largest, 0.5 if the ends are one number. All are finite; their difference may be too large for a
+/// The position of a number between the ends of a range, for a colour map: 0 at the least, 1 at the
+/// largest, 0.5 if the ends are equal. All are finite; their difference may be too large for a
 /// double.
 class RangePlace {
  public:

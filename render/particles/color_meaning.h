@@ -11,20 +11,20 @@
 
 namespace boule {
 
-/// What the colours of particles mean: one entry for each species, or a map of numbers.
+/// The meaning of the particles' colours: one entry for each species, or a map of numbers.
 struct ParticleColors {
   struct Species {
     std::string name;
     SrgbColor color;
-    std::size_t count = 0;  ///< of particles that are shown, without periodic images
+    std::size_t count = 0;  ///< number of shown particles, without periodic images
   };
   struct Scale {
     std::string by;  ///< as MappedColors
     ColorMap map;
-    std::array<double, 2> range{};  ///< that was chosen
+    std::array<double, 2> range{};  ///< the chosen range
   };
-  /// Those that are shown, in the order of the file; or the texts of another column that tells
-  /// particles apart. Empty for other rules.
+  /// The shown species, in the order of the file; or the texts of another column that distinguishes
+  /// particles. Empty for other rules.
   std::vector<Species> species;
   std::optional<Scale> scale;
 };

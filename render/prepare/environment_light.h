@@ -14,13 +14,13 @@ namespace boule {
 /// here: the image is valid.
 Color environment_radiance(const EnvironmentBackground& image, const Vec3d& direction);
 
-/// A direction, chosen by how much light comes from there.
+/// A direction, chosen by the light that comes from there.
 struct EnvironmentSample {
   Vec3d direction;     ///< unit length
   double density = 0;  ///< per solid angle; 0 if there is no light
 };
 
-/// An environment image as a light: it chooses directions by how bright the image is there (Pharr,
+/// An environment image as a light: it chooses directions by the brightness of the image (Pharr,
 /// Jakob, Humphreys, "Physically based rendering", 12.5). First it chooses a row by the light of
 /// its pixels times their solid angle, then a pixel of the row by its light, then a point of the
 /// pixel evenly.

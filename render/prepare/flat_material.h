@@ -6,9 +6,9 @@
 namespace boule {
 
 /// Any material as the coefficients of one formula (Whitted 1980). A hit sends back
-///   constant + sum over lights of (diffuse (n.l) I + highlight (r.l)^shininess I)
-///   + mirror trace(reflected) + transmission trace(refracted).
-/// Coefficients that a material does not have are 0.
+///       constant + sum over lights of (diffuse (n.l) I + highlight (r.l)^shininess I)
+///       + mirror trace(reflected) + transmission trace(refracted).
+/// Coefficients that a material lacks are 0.
 struct FlatMaterial {
   Color constant;                 ///< emission + C (ka + ambient)
   Color diffuse;                  ///< C Kd
@@ -21,8 +21,8 @@ struct FlatMaterial {
   bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
 };
 
-/// A valid material under the scene's ambient light. Glass never sends on more light than arrives:
-/// if a component of its colour is above 1, all its weights are divided by that component.
+/// A valid material under the scene's ambient light. Glass conserves energy: if a component of its
+/// colour is above 1, all its weights are divided by that component.
 FlatMaterial flatten(const Material& material, const Color& ambient);
 
 /// A valid material for path tracing. Its constant is emission alone, because ambient light stands
@@ -37,7 +37,7 @@ inline FlatMaterial flatten(const Material& material, const Color& ambient, Meth
   return method == Method::path ? flatten_for_paths(material) : flatten(material, ambient);
 }
 
-/// The largest share of light that the highlight of such a material sends on: Ks.
+/// The largest fraction of light that the highlight of such a material sends on: Ks.
 inline double highlight_albedo(const FlatMaterial& m) {
   return m.highlight * 2 / (m.shininess + 2);
 }

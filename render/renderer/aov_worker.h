@@ -29,7 +29,7 @@ class AovWorker {
 
   const BlockSetup& setup_;
   AovTracer tracer_;
-  std::vector<Pixel> pixels_;  ///< whose rays the stream holds
+  std::vector<Pixel> pixels_;  ///< the pixels of the rays in the stream
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Aovs> aovs_;

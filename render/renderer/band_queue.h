@@ -14,9 +14,9 @@
 
 namespace boule {
 
-/// The bands of a picture that several threads render, while finished ones are taken in order. The
-/// thread that finishes a band hands it over, and the others go on with the next ones. Blocks must
-/// be begun in their order.
+/// The bands of a picture that several threads render, while finished ones are handed over in
+/// order. The thread that finishes a band hands it over, and the others continue with the next
+/// ones. Blocks must begin in their order.
 class BandQueue {
  public:
   using Take = std::function<Status(const Image& band)>;
@@ -31,17 +31,18 @@ class BandQueue {
   /// `bands` and `take` must outlive it. `take` is called by one thread at a time.
   BandQueue(const Bands& bands, Alpha alpha, bool has_lines, const Take& take);
 
-  /// The band of a block, where the block can be rendered. Waits while there is no room for it;
-  /// null once it was stopped.
+  /// The band of a block, once the block can be rendered. Waits until there is room for it; null
+  /// after stop().
   Band* begin(std::size_t block);
-  /// To be called when a block is done. Hands over the bands that are complete and next.
+  /// Call this when a block is done. Hands over the bands that are complete and next.
   void end(std::size_t block);
-  /// Some block will never be done: nobody shall wait for it. Also after `take` failed.
+  /// Ends all waiting, because some block will never be done. Also called after `take` failed.
   void stop();
 
-  /// Why `take` failed, or none.
+  /// The failure of `take`, or std::nullopt.
   [[nodiscard]] Status status() const { return status_; }
-  /// How long threads waited or handed over bands, all together. Precondition: no block is begun.
+  /// The time that threads waited or handed over bands, in seconds, summed over threads.
+  /// Precondition: no block is in work.
   [[nodiscard]] double seconds_taken() const { return seconds_taken_; }
 
  private:

@@ -9,22 +9,22 @@
 
 namespace boule {
 
-/// What one thread renders blocks of its own choice with (Renderer::work()). Preconditions: a block
-/// lies within the frame and within what it is rendered into; its sides are at most the renderer's
-/// options().tile.
+/// The tools of one thread that renders blocks of its own choice (Renderer::work()). Preconditions:
+/// a block lies within the frame and within the film or picture it is rendered into; its sides are
+/// at most the renderer's options().tile.
 class BlockTools {
  public:
-  /// All of them must outlive it.
+  /// All arguments must outlive it.
   BlockTools(const BlockSetup& setup, BlockWorker& worker, const OutlineWorker::Lines& lines)
       : setup_(setup), worker_(worker), lines_(lines) {}
 
-  /// Renders a block until every pixel has `until` samples. False if it was cancelled; then the
-  /// film has whole samples, but not all of them.
+  /// Renders a block until every pixel has `until` samples. Returns false after a cancellation;
+  /// then the film lacks some samples, but those it has are whole.
   bool render(const PixelRect& block, int until, Film& film) {
     return worker_.render(block, until, film);
   }
-  /// Renders a block until its noise is that of the options. False if it was cancelled; then pixels
-  /// without samples are to be rendered again. Precondition: the options ask for noise.
+  /// Renders a block until its noise is that of the options. Returns false after a cancellation;
+  /// then pixels without samples must be rendered again. Precondition: the options ask for noise.
   bool measure(const PixelRect& block, MeasuredPicture& picture) {
     return worker_.measure(block, picture);
   }
@@ -33,17 +33,17 @@ class BlockTools {
   /// Finds the outline's lines in a block.
   void find_lines(const PixelRect& block, Outline& outline);
 
-  /// How many samples per pixel of a block are worth a call of render(): fewer would leave its
-  /// streams of rays half empty.
+  /// The number of samples per pixel of a block that is worth a call of render(): fewer would leave
+  /// its streams of rays half empty.
   [[nodiscard]] int worthwhile_samples(const PixelRect& block) const {
     const std::size_t area = std::max<std::size_t>(static_cast<std::size_t>(block.area()), 1);
     return static_cast<int>(std::max<std::size_t>(4 * setup_.stream_size / area, 1));
   }
 
-  /// All rays that this thread traced, and those of them that are for AOVs and outlines.
+  /// All rays that this thread traced, and those among them for AOVs and outlines.
   [[nodiscard]] RayCounts counts() const;
   [[nodiscard]] RayCounts extra_counts() const;
-  /// What was wrong with this thread's samples before they entered a film.
+  /// The faults of this thread's samples before they entered a film.
   [[nodiscard]] SampleFaults faults() const { return worker_.faults(); }
 
  private:

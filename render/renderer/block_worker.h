@@ -19,28 +19,28 @@
 
 namespace boule {
 
-/// What all workers of a renderer share. It does not change.
+/// The immutable data that all workers of a renderer share.
 struct BlockSetup {
   const PreparedScene& scene;
   const KernelTable& kernels;
   Sampler sampler;
   std::vector<PixelOffset> block_pixels;  ///< of a whole block, in order
-  std::size_t stream_size;                ///< most camera rays in a stream, >= 1
-  Alpha alpha;                            ///< whether films learn which samples are covered
+  std::size_t stream_size;                ///< largest number of camera rays in a stream, >= 1
+  Alpha alpha;                            ///< whether films record which samples are covered
   PixelRect frame{};                      ///< of the picture, for noise
   NoiseTarget noise{};
-  LiveProgress* live = nullptr;  ///< learns of pixels whose noise was measured; null: nobody does
+  LiveProgress* live = nullptr;  ///< counts pixels whose noise was measured; null: off
 };
 
-/// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are not
-/// larger than `block_pixels`.
+/// Renders blocks on one thread. Preconditions: blocks lie in the film or picture, and are at most
+/// as large as `block_pixels`.
 class BlockWorker {
  public:
   /// `setup` must outlive it.
   BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator);
 
-  /// Renders a block until every pixel has `until` samples. False if it was cancelled; then the
-  /// film has whole samples, but not all of them.
+  /// Renders a block until every pixel has `until` samples. Returns false after a cancellation;
+  /// then the film lacks some samples, but those it has are whole.
   bool render(const PixelRect& block, int until, Film& film);
 
   /// The same for the pixels that a pass picks, and for the samples of that pass.
@@ -51,14 +51,14 @@ class BlockWorker {
   /// block alone, which stays in the cache.
   bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
 
-  /// Gives the pixels of a block samples until their noise is that of `setup.noise`. False if it
-  /// was cancelled; then pixels without samples are to be rendered again.
+  /// Gives the pixels of a block samples until their noise is that of `setup.noise`. Returns false
+  /// after a cancellation; then pixels without samples must be rendered again.
   bool measure(const PixelRect& block, MeasuredPicture& picture);
 
   /// All rays that this worker traced.
   [[nodiscard]] RayCounts counts() const { return integrator_->counts(); }
 
-  /// What was wrong with its samples before they entered a film.
+  /// The faults of its samples before they entered a film.
   [[nodiscard]] SampleFaults faults() const {
     SampleFaults all = integrator_->faults();
     return all += weighing_;
@@ -84,13 +84,13 @@ class BlockWorker {
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> pixels_;  ///< whose samples the stream holds
-  std::vector<SampleId> live_;    ///< those of them with a ray, where the camera weighs samples
+  std::vector<SampleId> live_;    ///< the samples with a ray, if the camera weighs samples
   RandomNumbers numbers_;
   SampleBuffer samples_;
   RayBuffer rays_;
   std::vector<Color> radiance_;
   std::vector<std::uint8_t> covered_;  ///< by ray; empty without alpha
-  SampleFaults weighing_;              ///< of samples that were finite before they were weighed
+  SampleFaults weighing_;              ///< of samples that were finite before their weighting
   Film block_film_{PixelRect{0, 0, 1, 1}};
   std::optional<NoiseBlock> noise_;
 };

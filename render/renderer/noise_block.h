@@ -15,20 +15,20 @@
 
 namespace boule {
 
-/// Decides how many samples the pixels of a block get. Each pixel has two halves of samples, which
-/// are independent. How many samples one half has, the other half decides, together with the first
-/// samples of the pixels around; so the mean of either half is that of a number of samples which
-/// does not depend on them, and it is unbiased, however rare the bright ones are. A pixel is the
-/// mean of its halves' means. A pixel depends on nothing beyond `rim` pixels around it: blocks are
-/// rendered with that rim, and the picture does not show where they end.
+/// Decides how many samples the pixels of a block get. Each pixel has two independent halves of
+/// samples. Each half decides the number of samples of the *other* half, together with the first
+/// samples of the pixels around. So the number of samples behind a half's mean is independent of
+/// those samples, and the mean is unbiased, however rare the bright ones are. A pixel is the mean
+/// of its halves' means. A pixel depends only on the `rim` pixels around it: blocks are rendered
+/// with that rim, so their edges are invisible in the picture.
 class NoiseBlock {
  public:
   static constexpr int largest = 64;  ///< side of a block, in pixels
   static constexpr int rim = 1;
 
-  /// The second half has the random numbers of pixels that far to the right, beyond any frame.
+  /// The second half has the random numbers of pixels this far to the right, beyond any frame.
   static constexpr int half_distance = 65536;
-  /// Of a sample's x: the column of its pixel, and which half it belongs to.
+  /// From a sample's x: the column of its pixel, and its half.
   static int column(int x) { return x & (half_distance - 1); }
   static std::size_t half_of(int x) { return x < half_distance ? 0 : 1; }
 
@@ -36,7 +36,7 @@ class NoiseBlock {
 
   /// Begins a block of the frame. Precondition: its sides are at most `largest`.
   void begin(const PixelRect& block, const PixelRect& frame);
-  /// The samples that are wanted next: those of the halves of pixels in `wanted()`, from first() up
+  /// The samples that are needed next: those of the halves of pixels in `wanted()`, from first() up
   /// to end().
   struct Half {
     std::int32_t x, y;  ///< the pixel; x has half_distance added for the second half
@@ -47,8 +47,8 @@ class NoiseBlock {
   void add(const SampleId& id, const Color& sample, std::uint8_t covered) {
     at(column(id.x), id.y).halves[half_of(id.x)].add(sample, covered);
   }
-  /// To be called when all wanted samples were added. Sets the pixels that have enough of them, and
-  /// wants more for the others. False if there are none: the block is done.
+  /// Call this once all wanted samples are added. Sets the pixels that have enough samples, and
+  /// requests more for the others. Returns false if all have enough: the block is done.
   bool look(MeasuredPicture& picture);
   /// The pixels that the last look() set.
   [[nodiscard]] const NoiseSoFar& settled() const { return settled_; }
@@ -57,15 +57,15 @@ class NoiseBlock {
   struct Pixel {
     std::uint16_t x, y;  ///< of the frame
   };
-  /// What is known of a half that has all its samples. It may get more, to decide for the other.
+  /// The results of a half that has all its samples. It may get more, to decide for the other half.
   struct Settled {
     PixelNumbers mean{}, variance{};
-    int count = 0;  ///< 0: it has not
+    int count = 0;  ///< 0: it still lacks samples
     int batches = 0;
   };
   struct State {
     std::array<SampleHalf, 2> halves;
-    std::array<int, 2> goals{};  ///< the halves' numbers of samples; 0: not decided yet
+    std::array<int, 2> goals{};  ///< the halves' numbers of samples; 0: undecided
     std::array<Settled, 2> settled;
     std::array<PixelNumbers, 2> variances;  ///< of the halves, at the last look
     PixelNumbers around{};  ///< mean variance of the first samples of the pixels around

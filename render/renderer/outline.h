@@ -13,31 +13,33 @@
 
 namespace boule {
 
-/// Dark lines where what the camera sees changes from one primitive to another, or to nothing. What
-/// it sees is told by the rays through a grid of points, outline_grid x outline_grid in each pixel.
+/// Dark lines where the camera's view changes from one primitive to another, or to a miss. The view
+/// is sampled by rays through a grid of points, outline_grid x outline_grid in each pixel.
 inline constexpr int outline_grid = 4;
 
-/// The lines of a picture: how many points of each pixel lie on one. Two threads may set different
-/// pixels at the same time.
+/// The lines of a picture: the number of points of each pixel that lie on a line. Two threads may
+/// set different pixels in parallel.
 class Outline {
  public:
-  /// No lines yet, for the frame's pixels in `rect`.
+  /// Without lines, for the frame's pixels in `rect`.
   explicit Outline(const PixelRect& rect)
       : rect_(rect), points_(static_cast<std::size_t>(rect.area())) {}
 
-  /// Preconditions: pixel (x, y) of the frame lies in `rect`; it has no more points than that.
+  /// Preconditions: pixel (x, y) of the frame lies in `rect`; `points` is at most the number of its
+  /// points.
   void set(int x, int y, int points) {
     points_[rect_.index(x, y)] = static_cast<std::uint8_t>(points);
   }
 
-  /// How many points of pixel (x, y) of the frame lie on a line. Precondition: it lies in `rect`.
+  /// The number of points of pixel (x, y) of the frame that lie on a line. Precondition: it lies in
+  /// `rect`.
   [[nodiscard]] int points(int x, int y) const { return points_[rect_.index(x, y)]; }
 
-  /// Draws the lines in black. Alpha becomes that of the picture and the lines over it.
-  /// Precondition: the picture is of the same pixels.
+  /// Draws the lines in black. Alpha becomes that of the picture with the lines over it.
+  /// Precondition: the picture has the same pixels.
   void draw(Image& image) const;
 
-  /// Bytes that the lines of the pixels in `rect` take.
+  /// The number of bytes of the lines of the pixels in `rect`.
   static std::uint64_t bytes(const PixelRect& rect) { return rect.area(); }
 
  private:
@@ -45,24 +47,24 @@ class Outline {
   std::vector<std::uint8_t> points_;
 };
 
-/// What a line is at most wide, as a share of the radius that the nearer sphere has in the picture:
-/// a crowd of specks must not become black.
+/// The largest width of a line as a fraction of the nearer sphere's radius in the picture, so that
+/// a crowd of specks stays visible.
 inline constexpr double outline_share = 0.1;
 
-/// Finds the lines of blocks on one thread. A pixel's lines depend on the scene, the camera and the
-/// size of the frame only; nothing beyond the frame is looked at. Rays go through the centre of a
-/// lens.
+/// Finds the lines of blocks on one thread. A pixel's lines depend only on the scene, the camera
+/// and the size of the frame, and on points within the frame. Rays go through the centre of a lens.
 class OutlineWorker {
  public:
-  /// What is drawn. A line is `width` pixels wide, 0..100, half of it on either side of the change;
-  /// it is drawn in steps of half a pixel. Around a small sphere it is narrower (outline_share).
+  /// The lines to draw. A line is `width` pixels wide, 0..100, half of it on either side of the
+  /// change; it is drawn in steps of half a pixel. Around a small sphere it is narrower
+  /// (outline_share).
   struct Lines {
     PixelRect frame;
     float width;
     Solver solver;
   };
 
-  /// The side of the blocks that it is best at, in pixels.
+  /// The side of the blocks for which it is fastest, in pixels.
   static constexpr int block_side = 64;
 
   /// `setup` must outlive it.
@@ -89,15 +91,15 @@ class OutlineWorker {
   Solver solver_;
   PixelRect frame_;  ///< here and below: in points of the grid
   float width_;      ///< in pixels
-  /// Lines of 0, 1, 2, ... half pixels, and at the end those of the full width: how far they reach
+  /// For lines of 0, 1, 2, ... half pixels, and at the end for those of the full width: their reach
   /// to either side of a change, by the distance from it, both in halves of the grid's spacing.
   std::vector<std::vector<int>> discs_;
   Vec3d step_org_, step_dir_;  ///< from one pixel to the next, in the middle of the frame
   std::vector<PixelOffset> order_;
   PixelRect marked_;        ///< the points of the block
-  PixelRect points_;        ///< those and the ones around them that can matter
+  PixelRect points_;        ///< those and the relevant ones around them
   std::vector<Hit> seen_;   ///< by `points_`; t in units of length
-  std::vector<int> steps_;  ///< of `marked_`: lines that begin less lines that have ended
+  std::vector<int> steps_;  ///< of `marked_`: number of lines that begin less number that end
   SampleBuffer samples_;
   RayBuffer rays_;
   HitBuffer hits_;

@@ -26,7 +26,7 @@ auto guard_preparation(const Prepare& prepare) -> decltype(prepare()) {
     return prepare();
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory while preparing the scene");
-  } catch (...) {  // an exception of a callback that is copied
+  } catch (...) {  // an exception from copying a callback
     return *diagnose([] { throw; });
   }
 }

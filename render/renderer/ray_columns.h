@@ -32,8 +32,8 @@ struct RayNumbers {
   }
 };
 
-/// Rays in columns, as numpy has them. Origins are taken in double; directions and the ends of the
-/// interval are rounded to float once, numbers that are too large for one to infinity.
+/// Rays in columns, in the layout of numpy. Origins are read as double; directions and the ends of
+/// the interval are rounded to float once, and numbers beyond the range of float become infinite.
 struct RayColumns {
   std::size_t size = 0;
   RayNumbers org, dir;    ///< three components each
@@ -41,7 +41,7 @@ struct RayColumns {
   Vec3d zero{};           ///< subtracted from the origins
 };
 
-/// Where hits go: `size` numbers each, three of each normal.
+/// The output columns for hits: `size` numbers each, three of each normal.
 struct HitColumns {
   double* t = nullptr;
   std::int32_t* id = nullptr;

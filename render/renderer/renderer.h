@@ -25,97 +25,96 @@ namespace boule {
 class BandQueue;
 class BlockTools;
 
-/// What rendering has cost, over all passes so far.
+/// The cost of rendering, over all passes so far.
 struct RenderStatistics : RunStatistics {
   RayCounts rays;
   SampleFaults faults;
   double render_seconds = 0;
 };
 
-/// Renders a scene. The bits of a picture do not depend on ISA, threads, order, tile size or crop.
-/// Every failure is a Diagnostic, also an exception of options.progress; only what options.update
-/// throws reaches the caller. Once a renderer was moved away, its rendering functions return an
-/// error, and scene(), notes() and statistics() must not be called.
+/// Renders a scene. The bits of a picture are the same for any ISA, threads, order, tile size and
+/// crop. Every failure is a Diagnostic, an exception of options.progress included; only exceptions
+/// of options.update propagate to the caller. After a renderer was moved from, its rendering
+/// functions return an error, and scene(), notes() and statistics() must not be called.
 class Renderer {
  public:
-  /// Prepares the scene, which is not needed any more afterwards. Takes any values; an error if the
-  /// scene or the options are invalid (validate()), if this computer does not have the ISA, or if
-  /// there is not enough memory.
+  /// Prepares the scene, which may be destroyed afterwards. Takes any values. An error if the scene
+  /// or the options are invalid (validate()), if this computer lacks the ISA, or if there is too
+  /// little memory.
   static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
   /// The same without a copy of the spheres and planes.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
-  /// Of a scene that was prepared for `options`: their size, method and transparency. Several
-  /// renderers can share it. Precondition, not checked: that it was.
+  /// A renderer of a scene that was prepared for `options`: their size, method and transparency.
+  /// Several renderers can share the scene. This precondition is unchecked.
   static Result<Renderer> create(std::shared_ptr<const PreparedScene> scene,
                                  const RenderOptions& options);
 
-  /// Renders the whole picture, or its crop, in one pass. The picture is the same as that of a film
-  /// after render_pass(), without the memory of a film.
+  /// Renders the whole picture, or its crop, in one pass. The picture equals that of a film after
+  /// render_pass(), and takes less memory than a film.
   Result<Image> render();
 
   /// The same with the noise and the number of samples of each pixel, and without the outline, into
-  /// a picture without samples. An error if it was cancelled; the picture keeps the pixels that
-  /// were finished. `preview`, if there is one, gets a sample of every pixel first, so that there
-  /// is something to be seen. Preconditions: options().noise > 0; both are of rect().
+  /// a picture without samples. An error after a cancellation; the picture keeps the finished
+  /// pixels. If there is a `preview`, it first gets a sample of every pixel, so that you can show
+  /// it early. Preconditions: options().noise > 0; both have the pixels of rect().
   Status render_measured(MeasuredPicture& picture, Film* preview = nullptr);
 
   /// Renders the same picture in bands of rows from the top, so that only some of them are in
   /// memory (Bands::most_bytes). Calls take(band) for each of them in order, on the threads that
-  /// render, one call at a time, while the others go on with the next ones. A Diagnostic of `take`
-  /// ends the rendering and is returned. statistics() leaves out the time that `take` cost.
+  /// render, one call at a time, while the other threads work on the next bands. A Diagnostic of
+  /// `take` ends the rendering and is returned. statistics() leaves out the time of `take`.
   Status render_bands(const std::function<Status(const Image& band)>& take);
 
-  /// Renders until every pixel of the film has at least `until` samples, 1 .. spp. Call it again
-  /// with the same film and a greater `until` to refine the picture; the result is the same as that
-  /// of a single pass. An error if it was cancelled or failed; the film keeps what was done, and
-  /// the next call goes on from there.
+  /// Renders until every pixel of the film has at least `until` samples, 1 .. spp. To refine the
+  /// picture, call it again with the same film and a greater `until`; the result equals that of a
+  /// single pass. An error after a cancellation or failure; the film keeps its samples, and the
+  /// next call continues from there.
   Status render_pass(Film& film, int until);
 
   /// Renders all samples in the passes of options.order (LivePasses), and calls options.update
-  /// after each of them, to show the picture as it grows. An error if it was cancelled; the film
-  /// can be shown all the same.
+  /// after each of them, so that you can show the picture as it grows. An error after a
+  /// cancellation; the film can still be shown.
   Status render_live(Film& film);
 
-  /// render_live() in steps: goes on with `position` and moves it on, and ends after about `limit`.
-  /// options.update is not called. An error if it was cancelled; then the film has whole samples,
-  /// but it can only begin anew.
+  /// render_live() in steps: continues from `position`, advances it, and ends after about `limit`.
+  /// options.update is not called. An error after a cancellation; then the film has whole samples,
+  /// but it must start again.
   Status render_step(Film& film, LivePosition& position, const StepLimit& limit);
   [[nodiscard]] bool done(const LivePosition& position) const;
-  /// Where to begin with an empty film, so that the pixels that have waited longest come first.
+  /// The position at which to begin with an empty film, so that the pixels that have waited longest
+  /// come first.
   [[nodiscard]] LivePosition restarted(const LivePosition& position) const;
-  /// The share of all samples that are done.
+  /// The fraction of all samples that are done.
   [[nodiscard]] double share_done(const LivePosition& position) const;
 
-  /// The AOVs that options.aovs selects and that need rays of their own (the others are
-  /// measured_channels()), as extra channels for write_image(). They are those of the
-  /// rays through the pixels' centres, without a filter. These rays count as primary rays. An error
-  /// if it was cancelled.
+  /// The AOVs that options.aovs selects and that need rays of their own, as extra channels for
+  /// write_image(). (The others are measured_channels().) Their rays go through the pixels'
+  /// centres, without a filter, and count as primary rays. An error after a cancellation.
   Result<std::vector<ImageChannel>> render_aovs();
 
   /// The rays of the recursion through the centre of pixel (x, y), and of the lens: Whitted's,
   /// whatever the method. Returns the weight that the camera gives the sample: the picture with one
-  /// sample has the record's total times it. 0: there is no ray, and nothing is recorded. An error
-  /// if there are too many rays. Preconditions: the pixel lies in the frame; the scene was prepared
-  /// for Method::whitted.
+  /// sample has the record's total times this weight. 0: there is no ray, and the record is empty.
+  /// An error if there are too many rays. Preconditions: the pixel lies in the frame; the scene was
+  /// prepared for Method::whitted.
   Result<float> record_pixel(int x, int y, RayRecord& record) const;
 
-  /// The lines that options.outline asks for. render() draws them itself; onto a picture of a film
-  /// they are drawn by Outline::draw(). Their rays count as primary rays. An error if it was
-  /// cancelled.
+  /// The lines that options.outline asks for. render() draws them itself; for a picture of a film,
+  /// call Outline::draw(). Their rays count as primary rays. An error after a cancellation.
   Result<Outline> render_outline();
 
-  /// For those who choose the blocks themselves: calls task(tools) once on each thread, at the same
-  /// time, and waits for all. What a thread renders with its tools has the bits of render(). An
-  /// error if a task throws; whether all was rendered, the tasks know. It adds to statistics().
+  /// Lets you choose the blocks yourself: calls task(tools) once on each thread, in parallel, and
+  /// waits for all. A thread's tools render the bits of render(). An error if a task throws; the
+  /// tasks themselves know whether all blocks are rendered. Adds to statistics().
   Status work(const std::function<void(BlockTools&)>& task);
 
   [[nodiscard]] const RenderOptions& options() const { return options_; }
-  /// The pixels that a film for this renderer has.
+  /// The pixels of a film for this renderer.
   [[nodiscard]] PixelRect rect() const { return rendered_rect(options_); }
   /// The prepared scene, with the default camera if it had none.
   [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
-  /// What was decided for the user, a sentence each.
+  /// Automatic choices, a sentence each.
   [[nodiscard]] const std::vector<std::string>& notes() const { return scene_->notes; }
   [[nodiscard]] RenderStatistics statistics() const;
 
@@ -128,7 +127,7 @@ class Renderer {
   [[nodiscard]] IntegratorSettings integrator_settings() const;
   [[nodiscard]] RayCounts count_rays() const;
   [[nodiscard]] SampleFaults count_faults() const;
-  /// Renders a block. False if it was cancelled.
+  /// Renders a block. Returns false after a cancellation.
   using BlockTask = std::function<bool(BlockWorker&, const PixelRect& block)>;
   BlockWorker& worker(unsigned index);
   Status check_film(const Film& film) const;
@@ -136,7 +135,7 @@ class Renderer {
   Status run_slice(Film& film, const LivePass& pass, LivePosition& position,
                    const BlockRange& range);
   Status run_blocks(const BlockTask& task, const LiveProgress::PassSpan& span);
-  /// The same for blocks that the task knows by their index, and for worker(index).
+  /// The same for blocks that the task identifies by their index, and for worker(index).
   using IndexedTask = std::function<bool(unsigned index, std::size_t block)>;
   Status run_indexed(std::size_t count, const IndexedTask& task,
                      const LiveProgress::PassSpan& span);

@@ -24,31 +24,31 @@
 
 namespace boule {
 
-/// How rays are traced. The hits depend on `solver` only, and only where that is fast.
+/// The options of tracing. The hits depend only on `solver`, and only if that is fast.
 struct TraceOptions {
   Solver solver = Solver::robust;
-  unsigned threads = 0;      ///< 1024 at most; 0: as many as the hardware runs at once
+  unsigned threads = 0;      ///< at most 1024; 0: as many as the hardware runs at once
   std::string isa = "auto";  ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;      ///< true stops tracing; must outlive the tracer
   std::function<void(const Progress&)> progress;  ///< called often, on the thread that traces
 };
 
-/// What tracing has cost, over all calls so far.
+/// The cost of tracing, over all calls so far.
 struct TraceStatistics : RunStatistics {
   std::uint64_t rays = 0;
   double trace_seconds = 0;
 };
 
-/// Traces a caller's own rays against the objects of a scene, which needs neither camera nor
-/// lights, but the materials that its objects name: scene.materials = {{"", Matte{}}}. The bits of
-/// a hit do not depend on ISA, threads or the other rays. Takes any rays. Every failure is a
-/// Diagnostic, also an exception of options.progress. Once a tracer was moved away, closest() and
-/// any() return an error.
+/// Traces a caller's own rays against the objects of a scene. The scene needs the materials that
+/// its objects name, scene.materials = {{"", Matte{}}}, but neither camera nor lights. The bits of
+/// a hit are the same for any ISA, threads and other rays. Takes any rays. Every failure is a
+/// Diagnostic, an exception of options.progress included. After a tracer was moved from, closest()
+/// and any() return an error.
 class Tracer {
  public:
-  /// Prepares the objects of the scene, which is not needed any more afterwards. Takes any values;
-  /// an error if the scene is invalid (validate()), if this computer does not have the ISA, or if
-  /// there is not enough memory.
+  /// Prepares the objects of the scene, which may be destroyed afterwards. Takes any values. An
+  /// error if the scene is invalid (validate()), if this computer lacks the ISA, or if there is too
+  /// little memory.
   static Result<Tracer> create(const Scene& scene, const TraceOptions& options = {});
   /// The same without a copy of the spheres and planes.
   static Result<Tracer> create(Scene&& scene, const TraceOptions& options = {});
@@ -56,18 +56,17 @@ class Tracer {
   Tracer& operator=(Tracer&& other) noexcept;
   ~Tracer();
 
-  /// Sets hits[k] to the nearest hit of rays[k] with tmin < t <= tmax, of equally near ones that
-  /// with the lowest id. The normal is that of the AOV `normal`. An error if there are not as many
-  /// hits as rays, if there is not enough memory, or if it was cancelled; then some hits may not be
-  /// set.
+  /// Sets hits[k] to the nearest hit of rays[k] with tmin < t <= tmax; at equal t, the one with the
+  /// lowest id. The normal is that of the AOV `normal`. An error if the numbers of rays and hits
+  /// differ, if there is too little memory, or after a cancellation; then some hits may be unset.
   Status closest(std::span<const Ray> rays, std::span<TracedHit> hits);
 
-  /// Sets met[k] to 1 if rays[k] meets anything with tmin < t <= tmax, else to 0. It agrees with
-  /// closest() and takes less time. Errors are as for closest().
+  /// Sets met[k] to 1 if rays[k] hits a primitive with tmin < t <= tmax, otherwise to 0. It agrees
+  /// with closest() and takes less time. Errors are as for closest().
   Status any(std::span<const Ray> rays, std::span<std::uint8_t> met);
 
-  /// The same for rays and hits in columns, which are read and written where they are. The numbers
-  /// of rays must not change meanwhile.
+  /// The same for rays and hits in columns, which are read and written in place. The numbers of
+  /// rays must stay unchanged in the meantime.
   Status closest_of_columns(const RayColumns& rays, const HitColumns& hits);
   Status any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met);
 

@@ -8,26 +8,27 @@
 
 namespace boule {
 
-/// Spheres in slots, in blocks of sixteen, in an order that suits the kernels. The first `scanned`
-/// slots are scanned and are also there as a structure of arrays, padded to max_width. The leaves
-/// of the tree follow: leaf k is block scanned / 16 + k. No ray hits a slot that holds no sphere;
-/// such slots have a negative id.
+/// Spheres in slots, in blocks of sixteen, in an order that suits the kernels. Kernels test the
+/// first `scanned` slots without the tree. Those slots also exist as a structure of arrays, padded
+/// to max_width. The leaves of the tree follow: leaf k is block scanned / 16 + k. Empty slots have
+/// a negative id, and rays always miss them.
 struct SphereView {
   const float* center_x;
   const float* center_y;
   const float* center_z;
   const float* radius;
-  /// r2p of filter_bounds.h; inf where the reject must not decide.
+  /// r2p of filter_bounds.h; inf where the reject must let the pair through.
   const float* reject_squared;
-  /// Its root, r (1 + slack u) + floor, rounded outward; inf where the reject must not decide.
+  /// The square root of reject_squared: r (1 + slack u) + floor, rounded outward; inf where the
+  /// reject must let the pair through.
   const float* reject_radius;
-  std::size_t scanned;        ///< slots that are in no leaf; with a tree whole blocks
-  const SphereBlock* blocks;  ///< block k: the slots from 16 k on
+  std::size_t scanned;        ///< number of slots outside the leaves; with a tree whole blocks
+  const SphereBlock* blocks;  ///< block k holds the slots from 16 k on
   std::size_t block_count;
-  const std::int32_t* id;  ///< of the sphere in each slot
+  const std::int32_t* id;  ///< id of the sphere in each slot
 };
 
-/// Infinite planes as a structure of arrays, padded likewise; plane k has the id first_id + k.
+/// Infinite planes as a structure of arrays, padded to max_width; plane k has the id first_id + k.
 struct PlaneView {
   const float* point_x;
   const float* point_y;
@@ -39,40 +40,41 @@ struct PlaneView {
   std::int32_t first_id;
 };
 
-/// Where the spheres of a part are: at p -> scale (R p) + shift of where the part has them
-/// (core/math/similarity.h). The radius is scaled. Every number is computed in double and rounded
-/// to float once, as transformed() of core/scene/group.h does it.
+/// The placement of a part's spheres: the point p of the part is at scale (R p) + shift in the
+/// scene (core/math/similarity.h). The radius is multiplied by `scale`. Every number is computed in
+/// double and rounded to float once, as transformed() in core/scene/group.h does it.
 struct PlacementView {
-  Vec3d row_x, row_y, row_z;  ///< of R
+  Vec3d row_x, row_y, row_z;  ///< the rows of the rotation R
   double scale;
   Vec3d shift;
-  bool moves;  ///< false: the spheres are where the part has them, bit for bit
+  bool moves;  ///< false: the spheres keep the part's coordinates, bit for bit
 };
 
-/// A tree over spheres, somewhere in the scene. Parts may share the tree. All spheres, moved or
-/// not, are within the range of the filters.
+/// A tree over spheres at some place in the scene. Several parts may share the tree. All spheres,
+/// placed or not, are within the range of the filters.
 struct PartView {
   PlacementView placement;
-  const BvhNode* nodes;           ///< null: all spheres are scanned
+  const BvhNode* nodes;           ///< null: kernels test all spheres
   const SphereBlock* blocks;      ///< as in SphereView
-  const std::int32_t* id;         ///< in the part, by its slots; in the scene more by first_id
-  std::uint32_t scanned;          ///< slots in no leaf, whole blocks
-  std::uint32_t scanned_spheres;  ///< of these, those in front that hold a sphere
-  std::uint32_t slots;            ///< of all blocks
-  std::uint32_t first_slot;       ///< a slot in the scene is more than one in the part by this
+  const std::int32_t* id;         ///< by slot; the id in the scene is first_id higher
+  std::uint32_t scanned;          ///< number of slots outside the leaves, in whole blocks
+  std::uint32_t scanned_spheres;  ///< number of spheres in those slots, which come first
+  std::uint32_t slots;            ///< number of slots in all blocks
+  std::uint32_t first_slot;       ///< the part's first slot in the scene
   std::int32_t first_id;
 };
 
-/// Spheres in several parts. Slots and ids count on from part to part. A tree of their boxes leads
-/// to them: BvhView, whose leaves, of size 1, are parts, in place of a tree over spheres.
+/// Spheres in several parts. Slots and ids count on from part to part. A tree over the boxes of the
+/// parts replaces the tree over spheres: it is GeometryView::bvh, and its leaves, of size 1, are
+/// parts.
 struct PartsView {
   const PartView* parts;
-  std::size_t size;  ///< 0: the spheres are those of GeometryView::spheres
+  std::size_t size;  ///< 0: the spheres are in GeometryView::spheres
 };
 
-/// All that rays can meet.
+/// All primitives that rays can hit.
 struct GeometryView {
-  SphereView spheres;  ///< none where there are parts
+  SphereView spheres;  ///< empty where there are parts
   PlaneView planes;
   BvhView bvh;
   PartsView parts;

@@ -7,8 +7,8 @@
 
 namespace boule {
 
-/// What the kernels of path tracing and of light read and write. All streams are views: they own
-/// nothing and check nothing. Arrays are as in RayStream unless something else is said.
+/// The inputs and outputs of the kernels of path tracing and of light. All streams are views: they
+/// own nothing and check nothing. Arrays are as in RayStream unless a comment says otherwise.
 
 /// Colours as a structure of arrays.
 struct ColorStream {
@@ -25,7 +25,8 @@ struct alignas(16) ColorSum {
   float rgb0[4];
 };
 
-/// The light that rays have found, and what of it counts in which sample. By ray.
+/// The light that rays have found, with the throughput by which it counts and the sample to which
+/// it belongs. By ray.
 struct WeightedLight {
   ColorStream throughput;
   ColorStream radiance;
@@ -33,8 +34,8 @@ struct WeightedLight {
   std::size_t size;
 };
 
-/// A material of flatten() or flatten_for_paths() (render/prepare/flat_material.h), whose meanings
-/// it has; the fourth number of a colour is 0.
+/// A material of flatten() or flatten_for_paths() (render/prepare/flat_material.h), with the same
+/// meanings. The fourth number of a colour is 0.
 struct LobeMaterial {
   float diffuse[4], mirror[4], transmission[4];
   double highlight, shininess, ior;
@@ -42,8 +43,8 @@ struct LobeMaterial {
   bool cosine_highlight;
 };
 
-/// A sphere that gives light, as AreaLight (render/prepare/area_lights.h). It is picked by a number
-/// from `before` on, below `before` + `share`.
+/// An emitting sphere, as AreaLight (render/prepare/area_lights.h). Light sampling picks it by
+/// random numbers in [before, before + share).
 struct LightSphere {
   double center[3];
   double radius;
@@ -52,69 +53,69 @@ struct LightSphere {
   float radiance[3];
 };
 
-/// The rays of a block, with what they have met, from which paths go on.
+/// The rays of a block and their hits, from which paths continue.
 struct PathRays {
   RayStream rays;
   HitStream hits;
-  const std::uint32_t* kind;  ///< LobeKind (core/optics/lobes.h); also those up to padded(size)
+  const std::uint32_t* kind;  ///< LobeKind (core/optics/lobes.h); valid up to padded(size)
   ColorStream throughput;
   const std::uint32_t* sample;
 };
 
-/// What LobePoints::side says.
+/// The bits of LobePoints::side.
 inline constexpr std::uint32_t side_inside =
     1;  ///< rays leave to the viewer's side within a sphere
-inline constexpr std::uint32_t side_beyond = 2;  ///< rays go through, into a sphere
+inline constexpr std::uint32_t side_beyond = 2;  ///< rays pass through, into a sphere
 inline constexpr std::uint32_t side_inner = 4;   ///< as Surface::inner
 
-/// Points of one LobeKind, one after the other, in the order of their rays. Arrays have room for
-/// padded(size) and max_width more. The first `size` are there; more may be written behind them.
+/// Points of one LobeKind, packed in the order of their rays. Arrays have room for padded(size) +
+/// max_width. The first `size` entries are valid; a kernel may write beyond them.
 struct LobePoints {
   VectorStream normal;
-  VectorStream org;    ///< where rays leave to the viewer's side
-  VectorStream point;  ///< not of matte points
-  double* reach;       ///< likewise, as Surface::reach
-  ColorStream dir;     ///< likewise: x, y and z of the ray's direction
+  VectorStream org;    ///< origin of rays that leave to the viewer's side
+  VectorStream point;  ///< unused for matte points
+  double* reach;       ///< unused for matte points; as Surface::reach
+  ColorStream dir;     ///< unused for matte points; x, y and z of the ray's direction
   std::uint32_t* side;
-  std::int32_t* id;    ///< of what was hit
-  std::uint32_t* ray;  ///< of the block
+  std::int32_t* id;    ///< id of the primitive that was hit
+  std::uint32_t* ray;  ///< index of the ray in the block
   ColorStream throughput;
   std::uint32_t* sample;
   std::size_t size;
 };
 
-/// Random numbers by point, in pairs.
+/// Pairs of random numbers in [0, 1), by point.
 struct UnitPairs {
   const double* u;
   const double* v;
 };
 
-/// Light that was sampled without a kernel, by point; all null where there is none.
+/// Light that was sampled outside the kernels, by point. All pointers are null where there is none.
 struct GivenLight {
-  const std::uint8_t* given;  ///< 1: the rest holds
+  const std::uint8_t* given;  ///< 1: the other arrays are valid
   VectorStream direction;
   const double* density;
   ColorStream radiance;
 };
 
-/// How the paths of a block go on; by ray of the block what is met.
+/// The way in which the paths of a block continue. Materials are by ray of the block.
 struct PathStep {
   const LobeMaterial* const* material;
-  std::uint32_t first_ray;  ///< of the block in its stream
+  std::uint32_t first_ray;  ///< index of the block's first ray in its stream
   bool samples_lights;
   bool goes_on;  ///< paths get another direction
   bool weighs;   ///< sampled light is weighted against the path's own directions
   const LightSphere* lights;
   std::size_t light_count;
-  double environment_share;  ///< probability of a GivenLight
+  double environment_share;  ///< probability of choosing a GivenLight
   UnitPairs light, bounce;
   const double* survival;  ///< by point, for Russian roulette; null: every path survives
   GivenLight given;
 };
 
-/// Shadow rays to sampled lights, one after the other: each with the ray of the stream to which
-/// it brings light unless it is blocked, and that light. Arrays have room for what is added and
-/// max_width more; rays.size is not read. The rays share nothing.
+/// Shadow rays to sampled lights, packed. Each has the index of the ray that receives the light if
+/// the shadow ray is unoccluded, and that light. Arrays have room for the added rays and max_width
+/// more; rays.size is ignored. The rays share no numbers.
 struct SampledLights {
   RayStream rays;
   std::uint32_t* ray;
@@ -122,7 +123,7 @@ struct SampledLights {
   std::size_t size;
 };
 
-/// Rays with which paths go on, likewise.
+/// Rays that continue paths, packed, with room as in SampledLights.
 struct GoingOn {
   RayStream rays;
   ColorStream throughput;
@@ -131,19 +132,19 @@ struct GoingOn {
   std::size_t size;
 };
 
-/// How light counts that a path found by its direction, and that light sampling could have found:
-/// by the power heuristic, in full, or not at all.
+/// The weight of light that a path found by its direction and that light sampling could have found
+/// as well: by the power heuristic, full, or zero.
 enum class HitWeight { heuristic, full, none };
 
-/// What rays see that meet nothing.
+/// The light of the background, for rays that miss everything.
 struct SeenBackground {
-  enum class Kind { constant, gradient, other } kind;  ///< other: they see nothing here
+  enum class Kind { constant, gradient, other } kind;  ///< other: black here
   float bottom[3], top[3];                             ///< constant: `bottom`
   double up[3];                                        ///< unit length
 };
 
-/// Light that rays find by their direction alone: of the background, and of sphere lights on their
-/// way, which are no objects.
+/// Light that rays find by their direction alone: that of the background, and that of sphere lights
+/// on their way, which are not primitives.
 struct SeenLight {
   SeenBackground background;
   const LightSphere* lights;
@@ -152,11 +153,11 @@ struct SeenLight {
   HitWeight weight;
 };
 
-/// Rays, and the light that they find.
+/// Rays and the light that they find.
 struct SeeingRays {
   RayStream rays;
   HitStream hits;
-  const float* density;  ///< of each ray's direction; 0: sphere lights do not count
+  const float* density;  ///< of each ray's direction; 0: sphere lights are left out
   ColorStream radiance;  ///< written
 };
 

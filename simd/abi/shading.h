@@ -7,7 +7,7 @@
 
 namespace boule {
 
-/// Vectors in memory as a structure of arrays, as in RayStream. This and the streams below are
+/// Vectors in memory as a structure of arrays, as in RayStream. This stream and those below are
 /// views: they own nothing and check nothing.
 struct VectorStream {
   double* x;
@@ -18,42 +18,41 @@ inline VectorStream part(const VectorStream& vectors, std::size_t first) {
   return {vectors.x + first, vectors.y + first, vectors.z + first};
 }
 
-/// Where rays met primitives, one per ray, arrays as in RayStream. Meanings as in Surface and, for
-/// rays that leave to the viewer's side, Departure (core/surface.h).
+/// The surfaces at the hits of rays, one per ray, with arrays as in RayStream. Meanings are as in
+/// Surface and, for rays that leave to the viewer's side, Departure (core/surface.h).
 struct SurfaceStream {
   VectorStream point;
   VectorStream normal;
   VectorStream view;
   VectorStream mirrored;
-  VectorStream org;  ///< where rays leave
+  VectorStream org;  ///< origin of rays that leave
   double* cosine;
   double* reach;
   std::uint8_t* inner;
   std::uint8_t* inside;  ///< 1: rays leave on the inside of a sphere
 };
 
-/// What shadow rays go to: one point, or one direction.
+/// The target of shadow rays: one point or one direction.
 struct ShadowTarget {
   bool directional;
-  double target[3];  ///< the point; where it is directional, the unit direction to the light
-  float dir[3];      ///< of the shadow rays, where it is directional
+  double target[3];  ///< the point; if directional, the unit direction to the light
+  float dir[3];      ///< direction of the shadow rays, if directional
 };
 
-/// Points of a SurfaceStream on which light may fall. The arrays are padded with points that are
-/// not lit.
+/// Points of a SurfaceStream that light may reach. The arrays are padded with unlit points.
 struct LitStream {
   VectorStream point;
   VectorStream normal;
   VectorStream org;
   const std::int32_t* id;
   const std::uint8_t* inside;
-  const std::uint8_t* lit;  ///< 1: light may fall on it
+  const std::uint8_t* lit;  ///< 1: light may reach the point
   std::size_t size;
 };
 
-/// Shadow rays to a light, one after the other, each with the index of its point, the unit
-/// direction to the light and n.l. Arrays have room for all points, padded; rays.size is
-/// not read. The rays share nothing.
+/// Shadow rays to a light, packed. Each has the index of its point, the unit direction to the light
+/// and the cosine n.l. Arrays have room for all points, padded; rays.size is ignored. The rays
+/// share no numbers.
 struct ShadowRayStream {
   RayStream rays;
   VectorStream to_light;
@@ -61,14 +60,14 @@ struct ShadowRayStream {
   std::uint32_t* point;
 };
 
-/// Points of Sobol's sequence by sample and seeds: sobol_point() of core/math/sobol.h. Arrays as in
-/// RayStream.
+/// Points of Sobol's sequence by sample and seeds: sobol_point() of core/math/sobol.h. Arrays are
+/// as in RayStream.
 struct SobolStream {
   const std::uint32_t* sample;
   const std::uint32_t* shuffle;
   const std::uint32_t* seed_u;
   const std::uint32_t* seed_v;
-  double* u;  ///< written, with v
+  double* u;  ///< output, with v
   double* v;
   std::size_t size;
 };

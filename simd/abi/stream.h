@@ -9,8 +9,8 @@
 
 namespace boule {
 
-/// The arrays that rays are kept in, one entry for each ray; meanings as in Ray. Array<T> is a
-/// pointer in a view and an owner of memory in a buffer.
+/// The arrays of rays, one entry per ray, with meanings as in Ray. Array<T> is a pointer in a view
+/// and owns memory in a buffer.
 template <template <class> class Array>
 struct RayArrays {
   Array<double> org_x, org_y, org_z;
@@ -20,15 +20,15 @@ struct RayArrays {
   Array<std::uint8_t> inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
 };
 
-/// The indices at which the arrays have the numbers of one ray.
+/// The indices of one ray in the arrays.
 struct RayPlaces {
   std::size_t org, dir;
   std::size_t start;  ///< for tmin, source and inside
   std::size_t tmax;
 };
 
-/// Calls visit(place, rays.org_x...), visit(place, rays.org_y...) and so on, once for each of the
-/// arrays, with its place. With more than one set of rays visit() gets the same array of each.
+/// Calls visit(place, rays.org_x...), visit(place, rays.org_y...) and so on, once per array, with
+/// the array's place. With several sets of rays, visit() gets the same array of each set.
 template <class Visit, class... Rays>
 BOULE_INLINE constexpr void each_array(const RayPlaces& places, const Visit& visit, Rays&... rays) {
   visit(places.org, rays.org_x...);
@@ -46,16 +46,16 @@ BOULE_INLINE constexpr void each_array(const RayPlaces& places, const Visit& vis
 template <class T>
 using Pointer = T*;
 
-/// What to promise of rays that have this in common.
+/// The coherence to promise for rays with this in common.
 constexpr Coherence coherence_of(CommonPart common) {
   return common == CommonPart::origin      ? Coherence::common_origin
          : common == CommonPart::direction ? Coherence::common_direction
                                            : Coherence::none;
 }
 
-/// Which numbers all rays of a stream share. Those stand in their arrays once, for the widest
-/// packet, and every ray is read from there: there is no ray that could differ. Kernels then read
-/// less, and need not compare what the rays are said to have in common.
+/// The numbers that all rays of a stream share. The arrays hold a shared number once, repeated for
+/// the widest packet, and every ray reads it there, so the rays cannot differ in it. Kernels then
+/// read less memory, and they need not compare the rays.
 class SharedNumbers {
  public:
   SharedNumbers() = default;
@@ -69,11 +69,11 @@ class SharedNumbers {
   [[nodiscard]] bool has_direction() const { return dir_ == one_packet; }
   /// Whether they share tmin, source and inside.
   [[nodiscard]] bool has_start() const { return start_ == one_packet; }
-  /// Where the numbers of ray i stand. Those of the next rays of its packet follow.
+  /// The places of the numbers of ray i. Those of the next rays in its packet follow.
   [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const {
     return {i & org_, i & dir_, i & start_, i};
   }
-  /// How long the arrays of `size` rays are.
+  /// The lengths of the arrays for `size` rays.
   [[nodiscard]] RayPlaces lengths(std::size_t size) const {
     const auto length = [size](std::size_t mask) { return mask == one_packet ? max_width : size; };
     return {length(org_), length(dir_), length(start_), size};
@@ -84,9 +84,9 @@ class SharedNumbers {
   std::size_t org_ = every_ray, dir_ = every_ray, start_ = every_ray;  ///< masks of indices
 };
 
-/// Rays in memory as a structure of arrays: `size` rays, every array `padded(size)` long, or
-/// max_width where the rays share its number, and aligned to stream_alignment. A view: owns
-/// nothing, checks nothing.
+/// Rays in memory as a structure of arrays: `size` rays. Every array is aligned to
+/// stream_alignment. It is padded(size) long, or max_width where the rays share its number. A view:
+/// owns nothing, checks nothing.
 struct RayStream : RayArrays<Pointer> {
   std::size_t size;
   SharedNumbers shared;
@@ -94,7 +94,8 @@ struct RayStream : RayArrays<Pointer> {
   [[nodiscard]] BOULE_INLINE RayPlaces places(std::size_t i) const { return shared.places(i); }
 };
 
-/// `size` rays from ray `first` on, a multiple of max_width. Precondition: the stream has them.
+/// `size` rays from ray `first` on, where `first` is a multiple of max_width. Precondition: the
+/// stream has them.
 inline RayStream part(const RayStream& rays, std::size_t first, std::size_t size) {
   RayStream some = rays;
   each_array(
@@ -103,8 +104,7 @@ inline RayStream part(const RayStream& rays, std::size_t first, std::size_t size
   return some;
 }
 
-/// The ray whose numbers stand in these places of a stream, or of other RayArrays. Precondition:
-/// there is one.
+/// The ray at these places of a stream or of other RayArrays. Precondition: the places are valid.
 template <class Rays>
 Ray get_ray(const Rays& rays, const RayPlaces& at) {
   Ray ray{{rays.org_x[at.org], rays.org_y[at.org], rays.org_z[at.org]},
@@ -118,8 +118,8 @@ Ray get_ray(const Rays& rays, const RayPlaces& at) {
 inline Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
-/// miss. Of a sphere also the slot where it lies in the geometry; of other hits `slot` is anything.
-/// Arrays as in RayStream.
+/// miss. For a sphere, `slot` is its slot in the geometry; for other hits it is undefined. Arrays
+/// are as in RayStream.
 struct HitStream {
   double* t;
   std::int32_t* id;
@@ -131,24 +131,23 @@ inline HitStream part(const HitStream& hits, std::size_t first, std::size_t size
   return {hits.t + first, hits.id + first, hits.slot + first, size};
 }
 
-/// Samples of the image plane to send primary rays through: raster coordinates, where (0, 0) is the
-/// top left corner and pixel (i, j) has its centre at (i + 0.5, j + 0.5). Arrays as in RayStream.
-/// Arrays that a camera does not use may be null: lens_x and lens_y without has_lens(), `weight`
-/// unless the camera `weighs`.
+/// Samples of the image plane through which primary rays go, in raster coordinates: (0, 0) is the
+/// top left corner, and pixel (i, j) has its centre at (i + 0.5, j + 0.5). Arrays are as in
+/// RayStream. Arrays that a camera leaves unused may be null: lens_x and lens_y without has_lens(),
+/// `weight` unless the camera `weighs`.
 struct SampleStream {
   double* raster_x;
   double* raster_y;
-  double* lens_x;  ///< with lens_y a point of the lens, 0 .. 1 each; (0.5, 0.5) is its centre
+  double* lens_x;  ///< with lens_y a point of the lens, each in 0 .. 1; (0.5, 0.5) is its centre
   double* lens_y;
-  float* weight;  ///< written: how much the ray's radiance counts; 0: there is no ray
+  float* weight;  ///< output: the weight of the ray's radiance; 0: there is no ray
   std::size_t size;
 };
 
-/// How many rays to hand over at once so that any_hit is fast in a scene of so many spheres. Of
-/// more rays to one light, neighbours are closer together, and bundles of them visit fewer leaves;
-/// that outweighs the caches, which more rays fill, once the spheres do not fit into them either.
-/// Set by trial. Again, with other numbers here: bench_peers --scenes u100000,u1000000 --rays
-/// shadow
+/// The number of rays per call that makes any_hit fast in a scene of so many spheres. With more
+/// rays to one light, neighbours are closer together and bundles of them visit fewer leaves. That
+/// outweighs the larger use of the caches once the spheres exceed the caches as well. Set by trial;
+/// to repeat it with other numbers here: bench_peers --scenes u100000,u1000000 --rays shadow
 constexpr std::size_t fitting_stream_size(std::size_t spheres) {
   return spheres > 262144 ? 65536 : 16384;
 }

@@ -8,23 +8,24 @@
 
 namespace boule {
 
-/// What the kernels of Whitted's method and of direct light read. All streams are views, as those
-/// of paths.h.
+/// The inputs of the kernels of Whitted's method and of direct light. All streams are views, as
+/// those of paths.h.
 
-/// The rays of a block, and the hits from which mirrored and refracted rays go on. By ray.
+/// The rays of a block and the hits from which mirrored and refracted rays continue. By ray.
 struct ScatteringHits {
-  const std::uint8_t* scatters;         ///< 1: from this one; else 0, also up to padded(size)
-  SurfaceStream surfaces;               ///< of those
-  const LobeMaterial* const* material;  ///< of those
-  const std::int32_t* id;               ///< what was hit
-  std::int32_t first_plane;             ///< ids below it are spheres'
+  const std::uint8_t* scatters;         ///< 1: rays continue from this hit; 0 otherwise, also up to
+                                        ///< padded(size)
+  SurfaceStream surfaces;               ///< of hits that scatter
+  const LobeMaterial* const* material;  ///< of hits that scatter
+  const std::int32_t* id;               ///< id of the primitive that was hit
+  std::int32_t first_plane;             ///< lower ids are those of spheres
   ColorStream throughput;
   const std::uint32_t* sample;
   std::size_t size;
 };
 
-/// What a light sends to points: everywhere the same or, if it falls off, that times `strength`
-/// over the squared distance of `position`.
+/// The intensity of a light at a point: constant or, if the light falls off, `intensity` times
+/// `strength` over the squared distance to `position`.
 struct LightIntensity {
   float intensity[3];
   bool falls_off;
@@ -32,14 +33,14 @@ struct LightIntensity {
   double strength;
 };
 
-/// Shadow rays to one light, with what blocks them, and the points that they leave.
+/// Shadow rays to one light, whether they are blocked, and the points that they leave.
 struct ShadowedPoints {
-  const std::uint8_t* blocked;  ///< by shadow ray: 0 if nothing does
+  const std::uint8_t* blocked;  ///< by shadow ray: 0 if it is unoccluded
   VectorStream to_light;        ///< by shadow ray, unit length
   const double* cosine;         ///< by shadow ray: n.l
-  const std::uint32_t* ray;  ///< by shadow ray: that to which its point belongs; none comes twice
+  const std::uint32_t* ray;     ///< by shadow ray: index of the ray of its point; each occurs once
   std::size_t size;
-  VectorStream point, mirrored;         ///< by ray, as Surface has them
+  VectorStream point, mirrored;         ///< by ray, as in Surface
   const LobeMaterial* const* material;  ///< by ray
 };
 

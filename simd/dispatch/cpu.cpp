@@ -21,7 +21,7 @@ CpuId cpuid(unsigned leaf) {
 
 bool has(unsigned word, unsigned bits) { return (word & bits) == bits; }
 
-/// Which register files the operating system saves (XCR0); 0 if it has not said so.
+/// The register files that the operating system saves (XCR0); 0 if it does not report them.
 unsigned saved_registers() {
   if (!has(cpuid(1).ecx, bit_OSXSAVE)) return 0;
   unsigned low = 0, high = 0;

@@ -97,7 +97,7 @@ std::vector<IsaInfo> list_isas() {
 Result<const KernelTable*> select_kernels(std::string_view name) {
   if (name != "auto") return select_named(name, "isa");
   const char* forced = std::getenv("BOULE_ISA");
-  // Scripts set a variable to nothing where they have no value for it.
+  // Scripts set a variable to the empty string where they have no value for it.
   if (forced != nullptr && *forced != '\0' && std::string_view(forced) != "auto") {
     return select_named(forced, "environment variable BOULE_ISA:");
   }

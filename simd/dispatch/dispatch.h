@@ -8,28 +8,28 @@
 
 namespace boule {
 
-/// One instruction set this build has kernels for.
+/// An instruction set for which this build has kernels.
 struct IsaInfo {
   Isa isa;
   std::string_view name;  ///< "scalar", "sse42", "avx2", "avx512", "neon"
   int width;              ///< float lanes
-  bool supported;         ///< the CPU and the operating system can run it
+  bool supported;         ///< whether the CPU and the operating system can run it
 };
 
 /// The instruction sets of this build, narrowest first. Throws std::bad_alloc.
 std::vector<IsaInfo> list_isas();
 
-/// The name of an ISA, as in IsaInfo; empty where the value is no ISA.
+/// The name of an ISA, as in IsaInfo; empty for other values.
 std::string_view isa_name(Isa isa);
 
-/// The kernels of the ISA `name`; never null. "auto" stands for the ISA that the environment
-/// variable BOULE_ISA names or, where that is not set, empty or "auto" itself, for the widest one
-/// that is supported. A name that is unknown, that this build lacks or that the CPU cannot run is
-/// an error, which lists the names that would do. Throws std::bad_alloc.
+/// The kernels of the ISA `name`; never null. "auto" stands for the ISA in the environment variable
+/// BOULE_ISA. If the variable is unset, empty or "auto" itself, "auto" stands for the widest
+/// supported ISA. A name that is unknown, missing from this build or unsupported by the CPU is an
+/// error, which lists the valid names. Throws std::bad_alloc.
 Result<const KernelTable*> select_kernels(std::string_view name);
 
-/// The reference path as a table: core/reference answers closest_hit and any_hit, which copy the
-/// geometry and throw std::bad_alloc. The rest are the kernels of ISA scalar.
+/// The reference path as a table: core/reference answers closest_hit and any_hit. Both copy the
+/// geometry and may throw std::bad_alloc. The other functions are the kernels of ISA scalar.
 const KernelTable& reference_kernels();
 
 }  // namespace boule

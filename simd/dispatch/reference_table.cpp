@@ -13,7 +13,7 @@ Plane get_plane(const PlaneView& p, std::size_t i) {
       {p.point_x[i], p.point_y[i], p.point_z[i]}, {p.normal_x[i], p.normal_y[i], p.normal_z[i]}, 0};
 }
 
-/// The sphere in a slot of a part, where the part shows it.
+/// The sphere in a slot of a part, as placed in the scene.
 Sphere get_sphere(const PartView& part, std::size_t slot) {
   const SphereBlock& block = part.blocks[slot / bvh_leaf_size];
   const std::size_t k = slot % bvh_leaf_size;
@@ -24,8 +24,8 @@ Sphere get_sphere(const PartView& part, std::size_t slot) {
   return transformed(own, {p.row_x, p.row_y, p.row_z, p.scale, p.shift}, std::nullopt);
 }
 
-/// The geometry back as plain primitives in the order of their ids: what the reference path reads.
-/// Copies of a sphere that the tree's builder left out have no radius: nothing hits them.
+/// The geometry as plain primitives in the order of their ids, for the reference path. Copies of a
+/// sphere that the builder of the tree left out get the radius NaN, so rays miss them.
 struct Primitives {
   std::vector<Sphere> spheres;
   std::vector<std::uint32_t> slots;  ///< by the sphere's id

@@ -10,26 +10,26 @@
 namespace boule {
 namespace {
 
-/// Part of a run: what one thread bins or moves at a time.
+/// Part of a run, which one thread bins or moves at a time.
 struct Chunk {
   std::size_t run, begin, end;
-  std::size_t lefts = 0;                         ///< of its spheres
-  BuildBox left_extent = {}, right_extent = {};  ///< of these, and of the others
+  std::size_t lefts = 0;                         ///< number of its spheres that go left
+  BuildBox left_extent = {}, right_extent = {};  ///< extent of those, and of the others
 };
 
-/// Some spheres that follow each other.
+/// Spheres that lie side by side.
 struct Piece {
   std::size_t begin, end;
 
   [[nodiscard]] std::size_t size() const { return begin < end ? end - begin : 0; }
 };
 
-/// As many spheres in two places that change places.
+/// Two equally long pieces of spheres that swap places.
 struct Exchange {
   std::size_t a, b, size;
 };
 
-/// Lists how the spheres of two lists of pieces, equally many, change places, in order.
+/// Lists, in order, how the spheres of two lists of pieces, equally many, swap places.
 void list_exchanges(const std::vector<Piece>& a, const std::vector<Piece>& b,
                     std::vector<Exchange>& exchanges) {
   std::size_t of_b = 0, done_of_b = 0;
@@ -62,7 +62,7 @@ BuildBox extent_of(std::span<const BuildSphere> spheres, const ParallelFor& para
 
 }  // namespace
 
-/// The runs of one level, and how each of them is to be divided.
+/// The runs of one level, and the division of each of them.
 struct BinaryForest::Level {
   Level(std::span<BuildSphere> all, const std::vector<Run>& all_runs, ScratchRooms& all_rooms)
       : spheres(all),
@@ -100,14 +100,14 @@ struct BinaryForest::Level {
         all.add(bins[i]);
       divisions[run].choose(all, grids[run]);
       if (divisions[run].cut.axis >= 0 || stride_of(run) == 1) return;
-      Bins whole;  // the sample had copies of one sphere only
+      Bins whole;  // the sample had only copies of one sphere
       whole.add(grids[run], spheres.subspan(runs[run].begin, runs[run].end - runs[run].begin));
       divisions[run].choose(whole, grids[run]);
     });
   }
 
-  /// Divides the runs that have a cut. First each chunk by itself; then the right spheres that lie
-  /// before the middle of their run and the left ones behind it change places.
+  /// Divides the runs that have a cut. First each chunk is divided by itself. Then the right
+  /// spheres before the middle of their run swap places with the left ones behind it.
   void divide(const ParallelFor& parallel_for) {
     parallel_for(chunks.size(), [&](std::size_t i) { divide(chunks[i]); });
     for (const Chunk& chunk : chunks) {
@@ -138,7 +138,7 @@ struct BinaryForest::Level {
 
   [[nodiscard]] std::vector<Exchange> find_exchanges() const {
     std::vector<Exchange> exchanges;
-    std::vector<Piece> rights, lefts;  // of one run, that lie on the wrong side
+    std::vector<Piece> rights, lefts;  // of one run: the pieces on the wrong side
     for (std::size_t i = 0; i < chunks.size(); ++i) {
       const Chunk& chunk = chunks[i];
       const Division& division = divisions[chunk.run];
@@ -157,12 +157,12 @@ struct BinaryForest::Level {
     return exchanges;
   }
 
-  /// How a run is divided.
+  /// The division of a run.
   struct Division {
     Cut cut = {};
-    std::size_t middle = 0;  ///< spheres that go left
+    std::size_t middle = 0;  ///< number of spheres that go left
     BuildBox left_extent = {}, right_extent = {};
-    BuildBox box = {};  ///< around all spheres of the bins, to weigh by
+    BuildBox box = {};  ///< box around all spheres of the bins, for weighing
 
     void choose(const Bins& bins, const BinGrid& grid) {
       for (const BuildBox& bin : bins.boxes[0]) box.add(bin);
@@ -255,7 +255,7 @@ std::vector<BinaryForest::Run> BinaryForest::divide(const std::vector<Run>& runs
   return next;
 }
 
-/// Makes an upper node of a run that is divided.
+/// Makes an upper node of a divided run.
 void BinaryForest::add_children(std::vector<Run>& next, const Level& level, std::size_t index) {
   const Run& run = level.runs[index];
   const Level::Division& division = level.divisions[index];
@@ -272,7 +272,7 @@ void BinaryForest::add_children(std::vector<Run>& next, const Level& level, std:
   }
 }
 
-/// Brings the subtrees into the order of their spheres.
+/// Sorts the subtrees into the order of their spheres.
 void BinaryForest::sort_subtrees() {
   std::vector<std::uint32_t> order(subtrees_.size()), places(subtrees_.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -296,8 +296,8 @@ void BinaryForest::sort_subtrees() {
   }
 }
 
-/// The last one first, because children come after their parents. Other subtrees than twigs count
-/// as leaves: each becomes a wide node of its own in any case.
+/// From the last to the first, because children come after their parents. Subtrees above the size
+/// of twigs count as leaves: each becomes a wide node of its own in any case.
 void BinaryForest::weigh() {
   std::vector<CollapseCosts> costs(upper_.size());
   const auto costs_of = [&](ForestNode node) {

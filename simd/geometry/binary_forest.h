@@ -22,24 +22,23 @@ struct ForestNode {
   friend bool operator==(const ForestNode&, const ForestNode&) = default;
 };
 
-/// A binary tree in parts that threads can build at once. The upper part is divided level by level,
-/// by all threads together; below it hang subtrees, each built by one thread. How a run is divided
-/// depends on the spheres alone, so that the tree is the same for any number of threads. Which
-/// nodes become wide ones is decided for the upper part and for each subtree by itself, so that
-/// not all subtrees need be in memory at the same time. Small subtrees, the twigs, count to the
-/// upper part: alone they would become wide nodes that are nearly empty.
+/// A binary tree in parts that threads can build in parallel. All threads together divide the upper
+/// part level by level; below it hang subtrees, each built by one thread. The division of a run
+/// depends on the spheres alone, so the tree is the same for any number of threads. The choice of
+/// wide nodes is made for the upper part and for each subtree by itself, so only some subtrees need
+/// be in memory at a time. Small subtrees, the twigs, count to the upper part: alone they would
+/// become wide nodes that are nearly empty.
 class BinaryForest {
  public:
-  /// Divides the spheres, at least one, into the runs of subtrees, and brings them into the order
-  /// of these, where they are. They must outlive the forest. `depth`
-  /// is that of the root.
+  /// Divides the spheres, at least one, into the runs of subtrees, and reorders them in place to
+  /// match. They must outlive the forest. `depth` is that of the root.
   BinaryForest(std::span<BuildSphere> spheres, const ParallelFor& parallel_for, int depth = 1);
 
   /// Spheres that become a tree of their own: run [begin, end).
   struct Subtree {
     std::size_t begin, end;
     int depth;
-    BinaryNode root = {};  ///< once it was built; of a leaf it is the whole tree
+    BinaryNode root = {};  ///< set by build(); of a leaf it is the whole tree
     BinaryTree tree = {};
   };
   /// In the order of their spheres, and so of their leaves.
@@ -48,23 +47,23 @@ class BinaryForest {
     return spheres_.subspan(subtree.begin, subtree.end - subtree.begin);
   }
 
-  /// Builds a subtree, and brings its spheres into the order of its leaves. With `ids`, these
-  /// become the ids of its spheres in the order they had before, and the spheres hold indices in
-  /// that. This and drop() threads may call for different ones at the same time.
+  /// Builds a subtree, and reorders its spheres to match its leaves. With `ids`, these become the
+  /// ids of its spheres in the order before, and the spheres hold indices into them. Threads may
+  /// call this and drop() for different subtrees in parallel.
   void build(std::size_t subtree, std::vector<std::int32_t>* ids = nullptr);
-  /// Whether a subtree is a twig, and so to be kept until finish().
+  /// Whether a subtree is a twig, which is kept until finish().
   [[nodiscard]] bool is_twig(std::size_t subtree) const;
-  /// Decides which nodes of the upper part become wide ones. Precondition: the twigs were built.
+  /// Chooses the wide nodes of the upper part. Precondition: the twigs are built.
   void weigh();
-  /// Forgets the nodes of a subtree but for its root, and leaves their memory to the next ones.
+  /// Forgets the nodes of a subtree except its root, and leaves their memory to later subtrees.
   void drop(std::size_t subtree);
-  /// Makes the boxes of the upper nodes exact: until then they are good enough to weigh only.
-  /// Precondition: all subtrees were built.
+  /// Makes the boxes of the upper nodes exact; until then they serve only for weighing.
+  /// Precondition: all subtrees are built.
   void finish();
 
   [[nodiscard]] ForestNode root() const { return root_; }
-  /// Whether a node, which is that of a twig or the root of a subtree if it is none of the upper
-  /// ones, can be asked for its children: it counts to the upper part and is no leaf.
+  /// Whether a node has children that can be asked for: it counts to the upper part and is not a
+  /// leaf. `node` is an upper node, a node of a twig, or the root of another subtree.
   [[nodiscard]] bool is_open(ForestNode node) const {
     return node.is_upper() || ((*this)[node].size == 0 && is_twig(node.tree));
   }

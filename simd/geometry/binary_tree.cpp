@@ -10,7 +10,7 @@
 namespace boule {
 namespace {
 
-/// Of copies of one sphere, brings the kept_copies of the lowest ids to the front.
+/// Brings the kept_copies with the lowest ids to the front of the copies of one sphere.
 void bring_first(std::span<BuildSphere> copies, std::span<const std::int32_t> ids) {
   const auto id_of = [ids](const BuildSphere& sphere) {
     return ids.empty() ? sphere.id : ids[static_cast<std::size_t>(sphere.id)];

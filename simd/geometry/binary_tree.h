@@ -10,16 +10,16 @@
 
 namespace boule {
 
-/// So many exact copies of one sphere are kept. Any ray's hit is then the one that it has with all
-/// copies: equal hits go to the lowest id, and a ray that leaves this one meets the next.
+/// The number of exact copies of one sphere that are kept. Two are enough for any ray's hit: equal
+/// hits go to the lowest id, and a ray that leaves that sphere hits the next.
 inline constexpr int kept_copies = 2;
 
-/// A node of the binary tree that becomes a wide one. It is small, because the whole binary tree is
-/// in memory together with the spheres.
+/// A node of the binary tree, for the collapse into wide nodes. It is small, because the whole
+/// binary tree is in memory together with the spheres.
 class BinaryNode {
  public:
   std::uint32_t right = 0;  ///< the second child; the first follows this node. Of a leaf: its index
-  std::uint32_t size = 0;   ///< spheres of a leaf; 0: no leaf
+  std::uint32_t size = 0;   ///< number of spheres of a leaf; 0 for inner nodes
 
   /// Rounded outward.
   [[nodiscard]] BuildBox box() const {
@@ -31,29 +31,31 @@ class BinaryNode {
       high_[k] = box.high[k];
     }
   }
-  /// If a node that is no leaf may become j children of a wide node, j = 1 .. 16, its first child
-  /// becomes so many of them and the second one the rest; 0: it stays whole, as one child.
+  /// The share of the first child if an inner node becomes j children of a wide node, j = 1 .. 16;
+  /// the second child becomes the rest. 0: the node stays whole, as one child.
   [[nodiscard]] int share(int j) const {
     return j < 2 ? 0 : static_cast<int>(numbers_ >> 4 * (j - 2) & 15);
   }
-  /// Precondition: none was set for this j before, and 2 <= j, 1 <= share < j.
+  /// Sets a share. Precondition: none was set for this j before, and 2 <= j, 1 <= share < j.
   void set_share(int j, int share) { numbers_ |= static_cast<std::uint64_t>(share) << 4 * (j - 2); }
-  /// Spheres that follow those of a leaf in the run and are in no leaf: exact copies of them.
+  /// The number of spheres behind those of a leaf in the run that were left out of the leaves:
+  /// exact copies of them.
   [[nodiscard]] std::uint64_t copies() const { return numbers_; }
   void set_copies(std::uint64_t copies) { numbers_ = copies; }
 
  private:
   float low_[3] = {}, high_[3] = {};
-  std::uint64_t numbers_ = 0;  ///< of a leaf its copies, else the shares, four bits each
+  std::uint64_t numbers_ = 0;  ///< of a leaf the number of copies, otherwise the shares, four bits
+                               ///< each
 };
 static_assert(sizeof(BinaryNode) == 40);
 
-/// What a binary node and those below it cost if it becomes at most j children of a wide node, j =
-/// 1 .. 16: the sum of the areas of all wide nodes. Leaves are not counted, because every tree of
+/// The cost of a binary node with its descendants if it becomes at most j children of a wide node,
+/// j = 1 .. 16: the sum of the areas of all wide nodes. Leaves are left out, because every tree of
 /// wide nodes has the same ones.
 using CollapseCosts = std::array<double, bvh_width + 1>;
 
-/// The least costs of a node, from those of its children; sets the node's shares to the choice
+/// The lowest costs of a node, from those of its children. Sets the node's shares to the choice
 /// that gives them and reads its box. Dynamic programming (Ylitie, Karras, Laine, "Efficient
 /// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017).
 CollapseCosts choose_shares(BinaryNode& node, const CollapseCosts& left,
@@ -67,12 +69,12 @@ struct BinaryTree {
   CollapseCosts costs{};  ///< of the root
 };
 
-/// Inner nodes between the root and a leaf where every node halves its spheres.
+/// The number of inner nodes between the root and a leaf if every node halves its spheres.
 int halving_levels(std::size_t spheres);
 
-/// Builds the tree whose root lies at `depth`: by split(), but by halve() where more splits might
-/// lead below bvh_max_depth. Reorders the spheres; `scratch` has room for as many. If there are
-/// `ids`, the spheres hold indices in these in place of their own.
+/// Builds the tree whose root lies at `depth`: by split(), and by halve() where more splits might
+/// exceed bvh_max_depth. Reorders the spheres; `scratch` has room for as many. If there are `ids`,
+/// the spheres hold indices into them in place of their own.
 BinaryTree build_binary_tree(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch,
                              int depth, std::span<const std::int32_t> ids = {});
 

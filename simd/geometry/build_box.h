@@ -33,7 +33,7 @@ struct BuildSphere {
 };
 
 /// A range in each of four coordinates. Boxes use the first three; the range of centres and radii
-/// has the radii as the fourth. The default one is empty.
+/// has the radii as the fourth. By default it is empty.
 struct BuildBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   Float4 low = {inf, inf, inf, inf}, high = {-inf, -inf, -inf, -inf};
@@ -42,8 +42,8 @@ struct BuildBox {
     low = min4(low, box.low);
     high = max4(high, box.high);
   }
-  /// Half of the surface, in double, because boxes of 1e18 are squared. An empty box gives any
-  /// number, but not NaN.
+  /// Half of the surface, in double, because boxes of 1e18 are squared. For an empty box the result
+  /// is any number except NaN.
   [[nodiscard]] double area() const {
     const double x = double{high[0]} - double{low[0]}, y = double{high[1]} - double{low[1]};
     const double z = double{high[2]} - double{low[2]};
@@ -60,8 +60,8 @@ inline bool in_filter_range(const Sphere& s) {
   return true;
 }
 
-/// The box of a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest: good
-/// enough to weigh splits by, not to test rays against.
+/// The box of a sphere of centre (at[0], at[1], at[2]) and radius at[3], rounded to nearest:
+/// accurate enough to weigh splits, too inaccurate to test rays.
 inline BuildBox rough_box(Float4 at) {
   const float size = std::fabs(at[3]);
   const Float4 r = {size, size, size, size};
@@ -69,7 +69,7 @@ inline BuildBox rough_box(Float4 at) {
 }
 inline BuildBox rough_box(const BuildSphere& sphere) { return rough_box(load4(sphere.at)); }
 
-/// The box that rays are tested against, a little larger than the sphere (filter::box_step).
+/// The box that rays are tested against, slightly larger than the sphere (filter::box_step).
 inline BuildBox outward_box(const BuildSphere& sphere) {
   const auto& at = sphere.at;
   BuildBox box;

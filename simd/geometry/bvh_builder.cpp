@@ -24,7 +24,7 @@ void set_sphere(SphereBlock& block, std::size_t k, const float (&at)[4]) {
   block.radius[k] = at[3];
 }
 
-/// Whether all spheres are made of the same.
+/// Whether all spheres have the same material.
 bool are_alike(const std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
   constexpr std::size_t chunk = 16 * tuning::chunk_size;
   std::atomic<bool> alike{true};
@@ -48,7 +48,7 @@ class Filler {
     set_leaves(0);
   }
 
-  /// Room for so many leaves in all, which are filled later.
+  /// Makes room for this many leaves in all, which are filled later.
   void set_leaves(std::size_t leaves) {
     const std::size_t slots = padded(bvh_.scanned) + leaves * bvh_leaf_size;
     bvh_.slots.resize(slots);
@@ -58,7 +58,7 @@ class Filler {
   void set_nodes(std::size_t nodes) { bvh_.nodes.resize(nodes); }
   BvhNode* nodes() { return bvh_.nodes.data(); }
 
-  /// Room for what a tree over so many spheres usually takes, so that little moves later.
+  /// Reserves the usual size of a tree over this many spheres, so that little moves later.
   void expect(std::size_t spheres) {
     constexpr std::size_t usual_leaf = 10, usual_node = 8;
     const std::size_t leaves = spheres / usual_leaf + 1;
@@ -67,8 +67,8 @@ class Filler {
     set_leaves(0);
   }
 
-  /// Fills the slots from the first one on, each with one of these spheres, and the rest of the
-  /// last block with none.
+  /// Fills the slots from the first one on, each with one of these spheres, and leaves the rest of
+  /// the last block empty.
   void fill_scanned(const std::vector<Sphere>& spheres, const std::vector<std::int32_t>& ids) {
     for (std::size_t first = 0; first < ids.size(); first += bvh_leaf_size) {
       BuildSphere some[bvh_leaf_size];
@@ -83,15 +83,16 @@ class Filler {
     }
   }
 
-  /// Where the leaves of a subtree go, and what is known of its spheres by their indices in it,
-  /// which they hold in place of their ids; `materials` is null where all are made of the same.
+  /// The place of a subtree's leaves, and the ids and materials of its spheres by their indices in
+  /// the subtree, which the spheres hold in place of their ids. `materials` is null if all are the
+  /// same.
   struct LeafSource {
     std::size_t first_leaf;
     const std::int32_t* ids;
     const MaterialRef* materials;
   };
 
-  /// Fills the leaves of one subtree. Threads may fill those of different ones.
+  /// Fills the leaves of one subtree. Threads may fill different subtrees in parallel.
   void fill_leaves(const BinaryForest& forest, const BinaryForest::Subtree& subtree,
                    const LeafSource& source) {
     std::span<const BuildSphere> from = forest.spheres_of(subtree);
@@ -105,7 +106,7 @@ class Filler {
     }
   }
 
-  /// `all`: what all spheres are made of, if they are made of the same.
+  /// `all`: the material of all spheres, if it is the same.
   Bvh finish(MaterialRef all) {
     bvh_.slots.shrink_to_fit();
     bvh_.blocks.shrink_to_fit();
@@ -129,7 +130,7 @@ class Filler {
       std::fill_n(materials_.data() + index * bvh_leaf_size, bvh_leaf_size, MaterialRef());
   }
 
-  /// Puts ids and materials in the place of indices.
+  /// Replaces indices by ids and materials.
   void name_spheres(std::size_t block, std::size_t size, const LeafSource& source) {
     std::int32_t* const ids = bvh_.slots.data() + block * bvh_leaf_size;
     MaterialRef* const materials = materials_.data() + block * bvh_leaf_size;
@@ -153,7 +154,7 @@ std::vector<Sphere> spheres_of(const std::vector<std::int32_t>& ids,
   return some;
 }
 
-/// The materials of spheres in the order of these.
+/// The materials of spheres in the order of the spheres.
 LargeArray<MaterialRef> by_place(const LargeArray<MaterialRef>& by_id,
                                  std::span<const BuildSphere> spheres,
                                  const ParallelFor& parallel_for) {
@@ -168,9 +169,9 @@ LargeArray<MaterialRef> by_place(const LargeArray<MaterialRef>& by_id,
   return materials;
 }
 
-/// Builds the subtrees, makes the nodes and fills the leaves, some subtrees at a time. What these
-/// were made of is given back at once: the spheres and their materials in order, and the binary
-/// nodes. `materials` are by the spheres' places; none: all are made of the same.
+/// Builds the subtrees, makes the nodes and fills the leaves, some subtrees at a time. Gives back
+/// at once the memory of their sources: the spheres, their materials in order, and the binary
+/// nodes. `materials` are by the spheres' places; empty if all are the same.
 class TreeFiller {
  public:
   TreeFiller(BinaryForest& forest, std::span<BuildSphere> spheres,
@@ -198,7 +199,7 @@ class TreeFiller {
   }
 
  private:
-  /// What is known of a subtree until its leaves are filled.
+  /// The data of a subtree until its leaves are filled.
   struct Part {
     std::size_t nodes = 0;
     std::vector<std::int32_t> ids{};
@@ -239,7 +240,7 @@ class TreeFiller {
   std::span<BuildSphere> spheres_;
   LargeArray<MaterialRef> materials_;
   Filler& filler_;
-  std::optional<Collapse> collapse_;  ///< once the twigs are built
+  std::optional<Collapse> collapse_;  ///< set once the twigs are built
   std::vector<Part> parts_;           ///< by subtree
   ConsumedPages used_spheres_, used_materials_;
 };

@@ -5,7 +5,7 @@
 namespace boule {
 namespace {
 
-/// A subtree, whose nodes are known by their index.
+/// A subtree, whose nodes are identified by their index.
 struct TreePart {
   using Node = std::uint32_t;
   const BinaryTree& tree;
@@ -18,7 +18,7 @@ struct TreePart {
   [[nodiscard]] Node right(Node node) const { return tree.nodes[node].right; }
 };
 
-/// The upper part, in which a subtree that is no twig is always one child.
+/// The upper part, in which a subtree larger than a twig is always one child.
 struct ForestPart {
   using Node = ForestNode;
   const BinaryForest& forest;
@@ -37,7 +37,7 @@ struct Children {
   std::size_t size = 0;
 };
 
-/// Collects the binary nodes that stand for one in `most` children of a wide node.
+/// Collects the binary nodes that become the children, at most `most`, of a wide node.
 template <class Part>
 void collect(const Part& part, typename Part::Node at, int most, Children<Part>& children) {
   const int left = part.share(at, most);
@@ -56,7 +56,7 @@ Children<Part> children_of(const Part& part, typename Part::Node at) {
   return children;
 }
 
-/// How many wide nodes one within a subtree and those below it are.
+/// The number of wide nodes in one node of a subtree and below it.
 std::size_t count_below(const TreePart& part, std::uint32_t at) {
   const auto children = children_of(part, at);
   std::size_t count = 1;
@@ -66,8 +66,8 @@ std::size_t count_below(const TreePart& part, std::uint32_t at) {
   return count;
 }
 
-/// Makes a wide node. leaf(child) is the index of a leaf; inner(child) makes the nodes below that
-/// are no leaves, one after the other, and returns their indices.
+/// Makes a wide node. leaf(child) is the index of a leaf; inner(child) makes the inner nodes below,
+/// one after the other, and returns their indices.
 template <class Part, class Leaf, class Inner>
 BvhNode make_node(const Part& part, typename Part::Node root, const Leaf& leaf,
                   const Inner& inner) {
@@ -85,13 +85,13 @@ BvhNode make_node(const Part& part, typename Part::Node root, const Leaf& leaf,
   return node;
 }
 
-/// Where the nodes and the leaves of a subtree go.
+/// The place of a subtree's nodes and leaves.
 struct Target {
   BvhNode* nodes;
   std::size_t next, first_leaf;
 };
 
-/// Makes the wide node of one within a subtree, and all below it.
+/// Makes the wide node of a node within a subtree, and all nodes below it.
 std::size_t make_below(const TreePart& part, std::uint32_t at, Target& target) {
   const std::size_t index = target.next++;
   target.nodes[index] = make_node(
@@ -107,7 +107,7 @@ Collapse::Collapse(const BinaryForest& forest) : forest_(forest) {
   if (forest.root().is_upper()) plan(forest.root(), next_subtree);
 }
 
-/// Lists the nodes of the upper part at and below one that become wide ones.
+/// Lists the nodes of the upper part, at and below this one, that become wide nodes.
 void Collapse::plan(ForestNode at, std::uint32_t& next_subtree) {
   upper_.push_back({at, next_subtree});
   const auto children = children_of(ForestPart{forest_}, at);
@@ -117,7 +117,7 @@ void Collapse::plan(ForestNode at, std::uint32_t& next_subtree) {
   }
 }
 
-/// Gives the upper nodes that come just before a subtree their places.
+/// Gives the upper nodes just before a subtree their places.
 void Collapse::place_upper(std::size_t next_subtree) {
   while (upper_places_.size() < upper_.size() &&
          upper_[upper_places_.size()].next_subtree <= next_subtree) {

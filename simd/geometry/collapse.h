@@ -10,32 +10,34 @@
 
 namespace boule {
 
-/// The nodes of a forest as nodes of sixteen children, as the shares of its nodes say: the root
-/// first, in depth-first order. The subtrees get their places one after the other, each once it was
-/// built. Then threads can make the nodes of those that have a place, and none is needed after
-/// that.
+/// The nodes of a forest as nodes of sixteen children, by the shares of the binary nodes: the root
+/// first, in depth-first order. The subtrees get their places one after the other, each once it is
+/// built. Then threads can make the nodes of a subtree that has a place, and the subtree itself is
+/// no longer needed.
 class Collapse {
  public:
-  /// Plans the upper part, twigs included, which was weighed. `forest` must outlive it.
+  /// Plans the upper part, twigs included, which has been weighed. `forest` must outlive the
+  /// object.
   explicit Collapse(const BinaryForest& forest);
 
-  /// How many wide nodes are within a subtree that was built: none in a twig, and in a single leaf.
-  /// (Where that is all, the root has one child and belongs to the upper part.)
+  /// The number of wide nodes in a subtree that is built: 0 in a twig and in a single leaf. (If
+  /// that is all, the root has one child and belongs to the upper part.)
   [[nodiscard]] std::size_t count_nodes(std::size_t subtree) const;
-  /// Gives the next subtree its place. To be called for each of them, in their order.
+  /// Gives the next subtree its place. Call it for each subtree, in order.
   void place_next(std::size_t nodes, std::size_t leaves);
-  /// The nodes and the leaves so far, and so all of them at the end.
+  /// The number of nodes and of leaves so far, and so of all at the end.
   [[nodiscard]] std::size_t node_count() const { return node_count_; }
   [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
-  /// Where the leaves of a subtree begin that has its place.
+  /// The index of the first leaf of a subtree that has its place.
   [[nodiscard]] std::size_t first_leaf(std::size_t subtree) const {
     return places_[subtree].first_leaf;
   }
 
-  /// Makes the nodes of a subtree that has its place. Threads may make those of different ones.
+  /// Makes the nodes of a subtree that has its place. Threads may make different subtrees in
+  /// parallel.
   void make_subtree(std::size_t subtree, BvhNode* nodes) const;
-  /// Makes the nodes that belong to no subtree, few. Precondition: all subtrees have their places,
-  /// and the forest is finished.
+  /// Makes the few nodes outside the subtrees. Precondition: all subtrees have their places, and
+  /// the forest is finished.
   void make_upper(BvhNode* nodes) const;
 
  private:

@@ -27,7 +27,7 @@ bool wants_tree(std::size_t spheres, Structure structure) {
          (structure == Structure::automatic && spheres > tuning::most_scanned);
 }
 
-/// The greatest coordinate of any box of a tree, without its sign.
+/// The largest absolute coordinate of any box of a tree.
 float extent_of(const LargeArray<BvhNode>& nodes) {
   float extent = 0;
   if (nodes.empty()) return extent;
@@ -40,8 +40,8 @@ float extent_of(const LargeArray<BvhNode>& nodes) {
   return extent;
 }
 
-/// The greatest coordinate of any sphere, without its sign, rounded up. NaN, which nothing meets,
-/// is left out.
+/// The largest absolute coordinate of any sphere, rounded up. NaN is left out, because rays miss
+/// it.
 float extent_of(const LargeArray<SphereBlock>& blocks) {
   float extent = 0;
   for (const SphereBlock& block : blocks) {
@@ -55,7 +55,7 @@ float extent_of(const LargeArray<SphereBlock>& blocks) {
   return extent;
 }
 
-/// A view of a tree, which must live longer.
+/// A view of a tree, which must outlive it.
 Bvh borrowed(const Bvh& tree) {
   const auto view = []<class T>(const LargeArray<T>& array) {
     return LargeArray<T>::borrowed(array.data(), array.size());
@@ -76,7 +76,7 @@ Geometry::Geometry(std::vector<Sphere>&& spheres, const std::vector<Plane>& plan
                    Structure structure, const ParallelFor& parallel_for)
     : Geometry(std::size_t{spheres.size()}, std::move(spheres), planes, structure, parallel_for) {}
 
-/// The number of spheres is asked for before they are gone.
+/// The number of spheres is read before they are consumed.
 Geometry::Geometry(std::size_t count, std::vector<Sphere>&& spheres,
                    const std::vector<Plane>& planes, Structure structure,
                    const ParallelFor& parallel_for)

@@ -13,9 +13,10 @@
 namespace boule {
 
 /// An array of plain values, which it owns unless it is borrowed(). It starts on a cache line and
-/// may take much of the memory. Its values are not set: whoever fills it touches its pages first,
-/// on as many threads as there are, and its pages can be given back while it is consumed. An index
-/// within it is a precondition. Throws std::bad_alloc; an array that was moved away is empty.
+/// may take much of the memory. New values are uninitialized, so the code that fills the array
+/// touches its pages first, on all its threads. The pages can be given back while the array is
+/// consumed. Precondition of indexing: the index is in range. Throws std::bad_alloc; an array that
+/// was moved from is empty.
 template <class T>
 class LargeArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -23,7 +24,7 @@ class LargeArray {
  public:
   LargeArray() = default;
   explicit LargeArray(std::size_t size) : data_(take(size)), size_(size), capacity_(size) {}
-  /// A view of others' memory, which must live longer and is only read. It has no room of its own.
+  /// A read-only view of foreign memory, which must outlive it. Its capacity is 0.
   static LargeArray borrowed(const T* data, std::size_t size) {
     LargeArray view;
     view.data_ = const_cast<T*>(data);
@@ -48,17 +49,17 @@ class LargeArray {
   const T* begin() const { return data_; }
   const T* end() const { return data_ + size_; }
 
-  /// Makes room for so many values, or more. Those that are there stay, though perhaps elsewhere.
-  /// Room that is not used is cheap: large arrays take memory only where they are written.
+  /// Makes room for at least this many values and keeps the present ones, possibly at another
+  /// address. Unused room is cheap: large arrays take memory only where they are written.
   void reserve(std::size_t capacity) {
     if (capacity > capacity_) set_capacity(std::max(capacity, capacity_ + capacity_ / 2));
   }
-  /// New values are not set.
+  /// New values are uninitialized.
   void resize(std::size_t size) {
     reserve(size);
     size_ = size;
   }
-  /// Gives back the room that is not used.
+  /// Gives back the unused room.
   void shrink_to_fit() {
     if (size_ < capacity_) set_capacity(size_);
   }
@@ -81,7 +82,7 @@ class LargeArray {
     return static_cast<T*>(memory);
   }
   static void give_back(T* data, std::size_t size) {
-    if (size == 0) return;  // no array, or a borrowed one
+    if (size == 0) return;  // empty, or a borrowed array
     if (is_large(size)) {
       give_back_pages(data, bytes_of(size));
     } else {
@@ -112,13 +113,13 @@ class LargeArray {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Gives the memory of an array back from its front on, as it is consumed: in steps that are whole
-/// huge pages, because part of one would stay. The array's values must be trivial.
+/// Gives the memory of an array back from its front on, as it is consumed: in steps of whole huge
+/// pages, because part of one would stay. The array's values must be trivial.
 class ConsumedPages {
  public:
   explicit ConsumedPages(void* array) : next_(static_cast<char*>(array)) {}
 
-  /// The values before `end`, of the same array, are not needed any more. Not two calls at once.
+  /// The values before `end`, in the same array, are consumed. One call at a time.
   void consume(void* end) {
     const auto step = reinterpret_cast<std::size_t>(end) / huge_page * huge_page;
     const auto from = reinterpret_cast<std::size_t>(next_);

@@ -7,7 +7,7 @@
 
 namespace boule {
 
-/// Of a node's child k.
+/// The box of a node's child k.
 inline BuildBox child_box(const BvhNode& node, std::size_t k) {
   return {Float4{node.min_x[k], node.min_y[k], node.min_z[k], 0},
           Float4{node.max_x[k], node.max_y[k], node.max_z[k], 0}};

@@ -12,7 +12,8 @@
 namespace boule {
 namespace {
 
-/// A node's child k, moved as kernels move it (simd/kernel/search/parts.h), but in double.
+/// The box of a node's child k, moved as the kernels move it (simd/kernel/search/parts.h), but in
+/// double.
 BuildBox moved_box(const BvhNode& node, std::size_t k, const PlacementView& placement) {
   const double low[3] = {node.min_x[k], node.min_y[k], node.min_z[k]};
   const double high[3] = {node.max_x[k], node.max_y[k], node.max_z[k]};
@@ -36,7 +37,7 @@ BuildBox moved_box(const BvhNode& node, std::size_t k, const PlacementView& plac
   return box;
 }
 
-/// Divides boxes in halves, the largest first, until there are as many as a node has children.
+/// Divides boxes in halves, the largest first, until their number is that of a node's children.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const BuildBox> boxes) : boxes_(boxes), order_(boxes.size()) {
@@ -85,7 +86,7 @@ class BoxTree {
     return children;
   }
 
-  /// Brings one half of a run before the other, along the longest axis. No half is larger than half
+  /// Moves one half of a run before the other, along the longest axis. Each half has at most half
   /// of the node's boxes, which bounds the depth by the logarithm of their number.
   std::size_t halve(const Run& run) {
     int axis = 0;

@@ -10,7 +10,7 @@
 
 namespace boule {
 
-/// A transformation as the kernels read it, and back.
+/// A transformation in the form of the kernels, and the reverse.
 inline PlacementView placement_of(const std::optional<Similarity>& transform) {
   const Similarity t = transform.value_or(Similarity{});
   return {t.row_x, t.row_y, t.row_z, t.scale, t.shift, transform.has_value()};
@@ -19,7 +19,7 @@ inline Similarity similarity_of(const PlacementView& p) {
   return {p.row_x, p.row_y, p.row_z, p.scale, p.shift};
 }
 
-/// The sphere in a slot of a part, where the part shows it, of any material.
+/// The sphere in a slot of a part, as placed in the scene, with an arbitrary material.
 inline Sphere sphere_of(const PartView& part, std::size_t slot) {
   const SphereBlock& block = part.blocks[slot / bvh_leaf_size];
   const std::size_t k = slot % bvh_leaf_size;

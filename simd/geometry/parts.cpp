@@ -12,7 +12,7 @@
 namespace boule {
 namespace {
 
-/// `slots` and `spheres`: those of the parts before.
+/// `slots` and `spheres`: the numbers in the parts before.
 PartView view_of(const GeometryPart& part, std::uint64_t slots, std::size_t spheres) {
   const GeometryView tree = part.tree->view();
   const std::size_t scanned = tree.spheres.scanned;

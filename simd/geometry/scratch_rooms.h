@@ -11,16 +11,16 @@
 
 namespace boule {
 
-/// Rooms for spheres that are being moved. Threads use the same ones again and again: pages that
-/// are fresh from the system for every chunk take longer than the moving.
+/// Buffers for spheres that are being moved. Threads reuse them, because fresh pages from the
+/// system for every chunk take longer than the moving.
 class ScratchRooms {
  public:
-  /// Calls use(room), with room for `size` spheres that nobody else uses meanwhile. Threads may
-  /// call it at the same time. Throws std::bad_alloc, and what `use` throws.
+  /// Calls use(room), with room for `size` spheres that is used by this call alone. Threads may
+  /// call it in parallel. Throws std::bad_alloc, and the exceptions of `use`.
   void lend(std::size_t size, const auto& use) {
     Room room = take();
     if (room.size < size) {
-      room = {};  // first, so that never both are there
+      room = {};  // first, so that only one of both exists at a time
       room = {std::make_unique_for_overwrite<BuildSphere[]>(size), size};
     }
     use(std::span<BuildSphere>(room.spheres.get(), size));

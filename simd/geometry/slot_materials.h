@@ -9,17 +9,17 @@
 
 namespace boule {
 
-/// What the spheres in the slots of a Geometry are made of. Where all are made of the same, that is
-/// kept once; else four bytes a slot. A view of others' memory, or the owner of its own.
+/// The materials of the spheres in the slots of a Geometry. If all are the same, one is kept;
+/// otherwise four bytes a slot. A view of foreign memory, or the owner of its own.
 class SlotMaterials {
  public:
-  /// All are made of this.
+  /// All spheres have this material.
   explicit SlotMaterials(MaterialRef all = {}) : all_(all) {}
-  /// One for each slot, those that hold no sphere among them.
+  /// One material for each slot, empty slots included.
   explicit SlotMaterials(LargeArray<MaterialRef> by_slot)
       : own_(std::move(by_slot)), by_slot_(own_.data()) {}
-  /// The same in memory of others, which must live longer and which nobody has checked: what is not
-  /// among the first `count` materials, at least one, counts as the first of them.
+  /// A view of unchecked foreign memory, which must outlive it. A material outside the first
+  /// `count` materials, at least one, counts as the first.
   SlotMaterials(const MaterialRef* by_slot, std::uint32_t count)
       : by_slot_(by_slot), count_(count) {}
 
@@ -29,9 +29,9 @@ class SlotMaterials {
     const MaterialRef ref = by_slot_[slot];
     return ref.index() < count_ ? ref : MaterialRef();
   }
-  /// One for each slot, or null where all are the same. Those of a view may be unknown materials.
+  /// One material for each slot, or null if all are the same. A view may hold unknown materials.
   [[nodiscard]] const MaterialRef* by_slot() const { return by_slot_; }
-  /// A view of the same, which must live longer.
+  /// A view of the same materials, which must outlive it.
   [[nodiscard]] SlotMaterials borrowed() const {
     return by_slot_ == nullptr ? SlotMaterials(all_) : SlotMaterials(by_slot_, count_);
   }

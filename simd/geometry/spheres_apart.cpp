@@ -15,7 +15,7 @@
 namespace boule {
 namespace {
 
-/// Calls body(chunk, first, end) for all chunks of `count` things.
+/// Calls body(chunk, first, end) for all chunks of `count` elements.
 void for_chunks(const ParallelFor& parallel_for, std::size_t count, const auto& body) {
   constexpr std::size_t size = tuning::chunk_size;
   parallel_for((count + size - 1) / size, [&](std::size_t chunk) {
@@ -23,10 +23,10 @@ void for_chunks(const ParallelFor& parallel_for, std::size_t count, const auto& 
   });
 }
 
-/// Spheres in three sorts.
+/// Spheres of three kinds.
 struct Sorted {
-  std::vector<std::int32_t> unfit;   ///< ids of those that no filter can judge, in order
-  std::vector<std::int32_t> giants;  ///< ids of those whose box is too large, in order
+  std::vector<std::int32_t> unfit;   ///< ids, in order, of spheres that no filter can judge
+  std::vector<std::int32_t> giants;  ///< ids, in order, of spheres whose box is too large
   BuildBox rest;                     ///< the box of all others
 };
 
@@ -39,7 +39,8 @@ void sort(const std::vector<Sphere>& spheres, std::size_t first, std::size_t end
       sorted.unfit.push_back(id);
       continue;
     }
-    // Not by way of a BuildSphere in memory: one load of what four stores have just written waits.
+    // Read directly, without a BuildSphere in memory: one load after the four stores would wait for
+    // them.
     const Sphere& s = spheres[i];
     const BuildBox box = rough_box(Float4{s.center.x, s.center.y, s.center.z, std::fabs(s.radius)});
     if (box.area() > giant_area) {
@@ -66,7 +67,7 @@ Sorted sort(const std::vector<Sphere>& spheres, double giant_area,
   return all;
 }
 
-/// Leaves the largest `most` of `ids`, in order; of equal ones the first.
+/// Keeps the largest `most` of `ids`, in order; among equal ones the first.
 void keep_largest(std::vector<std::int32_t>& ids, std::size_t most,
                   const std::vector<Sphere>& spheres) {
   if (ids.size() <= most) return;
@@ -80,7 +81,7 @@ void keep_largest(std::vector<std::int32_t>& ids, std::size_t most,
   std::sort(ids.begin(), ids.end());
 }
 
-/// The bits of a sphere's centre and radius: they can be sorted whatever the floats are.
+/// The bits of a sphere's centre and radius, which can be sorted for any floats.
 std::array<std::uint32_t, 4> bits_of(const Sphere& s) {
   return {std::bit_cast<std::uint32_t>(s.center.x), std::bit_cast<std::uint32_t>(s.center.y),
           std::bit_cast<std::uint32_t>(s.center.z), std::bit_cast<std::uint32_t>(s.radius)};
@@ -95,10 +96,10 @@ std::vector<std::int32_t> find_spheres_apart(const std::vector<Sphere>& spheres,
   // giants of the passes before again.
   while (sorted.giants.size() < tuning::most_giants) {
     Sorted next = sort(spheres, tuning::giant_share * sorted.rest.area(), parallel_for);
-    if (next.giants.size() <= sorted.giants.size()) break;  // fewer: nothing remained
+    if (next.giants.size() <= sorted.giants.size()) break;  // fewer: the rest was empty
     sorted = std::move(next);
   }
-  // Of too many the largest go: each is one box less that nearly every ray meets.
+  // Of too many the largest are kept: each saves a box that nearly every ray would meet.
   keep_largest(sorted.giants, tuning::most_giants, spheres);
   std::vector<std::int32_t> apart;
   std::merge(sorted.unfit.begin(), sorted.unfit.end(), sorted.giants.begin(), sorted.giants.end(),

@@ -18,8 +18,8 @@ struct Sweep {
   }
 };
 
-/// 1 if a sphere goes left, else 0: by the sign of a difference, because GCC makes a branch of a
-/// comparison.
+/// 1 if a sphere goes left, otherwise 0: by the sign of a difference, because GCC makes a branch of
+/// a comparison.
 std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphere) {
   return static_cast<std::uint32_t>(grid.bin_of(sphere, cut.axis) - cut.bin) >> 31U;
 }
@@ -27,7 +27,7 @@ std::size_t is_left(const BinGrid& grid, const Cut& cut, const BuildSphere& sphe
 }  // namespace
 
 BinGrid::BinGrid(const BuildBox& extent) {
-  // What bins_of() computes is rounded three times, and the farthest sphere must stay below `bins`.
+  // The result of bins_of() is rounded three times, and the farthest sphere must stay below `bins`.
   constexpr float all = static_cast<float>(bins) * (1 - 0x1p-20F);
   constexpr float least = 1e-30F;  // shorter axes would give an infinite scale
   for (int k = 0; k < 4; ++k) {
@@ -117,7 +117,7 @@ std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent) {
 std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                       std::span<BuildSphere> scratch) {
   std::size_t left = 0, right = 0;
-  for (const BuildSphere sphere : spheres) {  // no branch: no CPU could predict it
+  for (const BuildSphere sphere : spheres) {  // without a branch, because the side is unpredictable
     spheres[left] = sphere;
     scratch[right] = sphere;
     const std::size_t lefts = is_left(grid, cut, sphere);
@@ -138,7 +138,7 @@ std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch
     return best_cut(bins, grid.axes());
   };
   Cut cut = cut_by(stride);
-  if (cut.axis < 0 && stride > 1) cut = cut_by(1);  // the sample had copies of one sphere only
+  if (cut.axis < 0 && stride > 1) cut = cut_by(1);  // the sample had only copies of one sphere
   if (cut.axis < 0) return halve(spheres, extent);
   return partition(spheres, grid, cut, scratch);
 }

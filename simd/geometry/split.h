@@ -10,13 +10,13 @@
 
 namespace boule {
 
-/// Leaves that so many spheres need.
+/// The number of leaves for this many spheres.
 constexpr std::size_t leaves_of(std::size_t spheres) {
   return (spheres + bvh_leaf_size - 1) / bvh_leaf_size;
 }
 
-/// Which bin a sphere belongs to along each axis: by its centre along x, y and z, and by its radius
-/// along a fourth axis where the radii differ much (tuning::unlike_radii).
+/// The bin of a sphere along each axis: by its centre along x, y and z, and by its radius along a
+/// fourth axis if the radii differ much (tuning::unlike_radii).
 class BinGrid {
  public:
   static constexpr int bins = tuning::bins;
@@ -25,7 +25,7 @@ class BinGrid {
   /// `extent`: the range of the spheres' centres and radii.
   explicit BinGrid(const BuildBox& extent);
 
-  /// The bins along the four axes, 0 .. bins - 1; always 0 where an axis cannot be divided.
+  /// The bins along the four axes, 0 .. bins - 1; always 0 along an axis that cannot be divided.
   [[nodiscard]] Int4 bins_of(const BuildSphere& sphere) const {
     return truncate4((load4(sphere.at) - low_) * scale_);
   }
@@ -40,7 +40,7 @@ class BinGrid {
   Float4 low_ = {}, scale_ = {};
 };
 
-/// What lies in each bin: boxes and counts, which do not depend on the order of adding.
+/// The contents of each bin: boxes and counts, which are independent of the order of adding.
 struct Bins {
   BuildBox boxes[4][BinGrid::bins];
   std::size_t counts[4][BinGrid::bins] = {};
@@ -50,22 +50,22 @@ struct Bins {
   void add(const Bins& bins);
 };
 
-/// Where to cut: spheres whose bin along `axis` is below `bin` go left. Axis -1: nothing divides
-/// them.
+/// A cut: spheres whose bin along `axis` is below `bin` go left. Axis -1: all spheres share their
+/// bins.
 struct Cut {
   int axis = -1, bin = 0;
 };
 
-/// How far the spheres are from each other by which so many are cut: a power of two. 1 where radii
-/// differ, because few large spheres among many small ones must not be missed.
+/// The distance, a power of two, between the spheres of the sample that decides the cut. 1 where
+/// radii differ, because the sample could miss few large spheres among many small ones.
 std::size_t stride_of(std::size_t spheres, const BinGrid& grid);
 
 /// The cut of the least cost by the surface area heuristic: the sum over both sides of area times
 /// leaves.
 Cut best_cut(const Bins& bins, int axes);
 
-/// Brings the spheres on the left of a cut before the others. On each side they keep their order.
-/// `scratch` has as much room as there are spheres. Returns how many are on the left.
+/// Moves the spheres on the left of a cut before the others and keeps the order on each side.
+/// `scratch` has room for all spheres. Returns the number on the left.
 std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const Cut& cut,
                       std::span<BuildSphere> scratch);
 
@@ -73,13 +73,13 @@ std::size_t partition(std::span<BuildSphere> spheres, const BinGrid& grid, const
 BuildBox extent_of(std::span<const BuildSphere> spheres);
 
 /// Divides more spheres than fit into a leaf into two parts, by the surface area heuristic over
-/// binned centres (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007) and
-/// returns the size of the first: never all, and 0 only where all are copies of one sphere.
-/// `scratch` has as much room as there are spheres.
+/// binned centres (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
+/// Returns the size of the first part: always less than all, and 0 only if all are copies of one
+/// sphere. `scratch` has room for all spheres.
 std::size_t split(std::span<BuildSphere> spheres, std::span<BuildSphere> scratch);
 
 /// Divides the spheres in the middle of the longest axis, so that the first part fills whole
-/// leaves, and returns the size of that part; 0 where all are copies of one sphere.
+/// leaves. Returns the size of that part; 0 if all are copies of one sphere.
 std::size_t halve(std::span<BuildSphere> spheres, const BuildBox& extent);
 
 }  // namespace boule

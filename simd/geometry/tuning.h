@@ -2,12 +2,12 @@
 
 #include <cstddef>
 
-/// The numbers of the tree's builders that were chosen for speed. Change them as you like: the hits
-/// stay the same. Where no figure stands a number was set by trial and only the command is known
-/// that tells how good it is (the benchmarks: -DBOULE_BENCH=ON).
+/// The numbers of the tree's builders that were chosen for speed. You may change them: the hits
+/// stay the same. A number without figures was set by trial, and the command shows how good it is
+/// (the benchmarks: -DBOULE_BENCH=ON).
 namespace boule::tuning {
 
-/// Structure::automatic scans up to so many spheres and builds a tree over more. Random spheres
+/// Structure::automatic scans up to this many spheres and builds a tree over more. Random spheres
 /// that fill the view, the speed by a tree divided by that by a scan, avx512, 32, 48 and 64
 /// spheres: primary rays 0.99, 0.95, 1.02; shadow 0.99, 0.99, 0.95; mirrored 0.84, 0.97, 1.08;
 /// diffuse 1.09, 1.18, 1.26; light 0.83, 1.07, 1.28; ambient 0.90, 0.94, 0.96; chords 0.81, 0.85,
@@ -15,48 +15,46 @@ namespace boule::tuning {
 /// number here: bench_peers --size 512 --scenes u32,u48,u64 --isa avx512 avx2
 inline constexpr std::size_t most_scanned = 48;
 
-/// Bins that the surface area heuristic sorts centres into, along each axis. Set by trial.
-/// Again: bench_tree (areas and visits), bench_build (time).
+/// The number of bins, along each axis, into which the surface area heuristic sorts centres. Set by
+/// trial. Again: bench_tree (areas and visits), bench_build (time).
 inline constexpr int bins = 16;
 
-/// The cut of many spheres is chosen by a sample of at least so many, every most_stride-th at most,
-/// where their radii are alike. Set by trial: twice as many levels of the tree for the same time.
-/// Again: bench_tree (areas and visits), bench_build 10000000 (time)
+/// The cut of many spheres with similar radii is chosen by a sample of at least this many, and of
+/// at least every most_stride-th sphere. Set by trial: twice as many levels of the tree for the
+/// same time. Again: bench_tree (areas and visits), bench_build 10000000 (time)
 inline constexpr std::size_t cut_sample = 4096;
 inline constexpr std::size_t most_stride = 16;
 
-/// Radii are a fourth axis for the bins where the greatest is more than so many times the least:
-/// few large spheres are better off on their own. Set by trial.
-/// Again: bench_peers --scenes flake4,flake6 --rays primary,diffuse
+/// Radii are a fourth axis for the bins if the largest is more than this many times the smallest:
+/// few large spheres are better off on their own. Set by trial. Again: bench_peers --scenes
+/// flake4,flake6 --rays primary,diffuse
 inline constexpr float unlike_radii = 2;
 
-/// A sphere whose box has more than this share of the area of the box around all the others is a
-/// giant: it is kept out of the tree and tested against every ray, for nearly every ray would meet
-/// its box anyway. Up to most_giants of them, the largest. Set by trial.
-/// Again: bench_tree, with a ground sphere added to its scene
+/// A sphere is a giant if its box has more than this fraction of the area of the box around all the
+/// others. Giants, at most most_giants and the largest first, are kept out of the tree and tested
+/// against every ray, because nearly every ray would meet their boxes anyway. Set by trial. Again:
+/// bench_tree, with a ground sphere added to its scene
 inline constexpr double giant_share = 0.25;
 inline constexpr std::size_t most_giants = 16;
 
-/// Spheres that one thread reads, bins or moves at a time, and the number from which on it pays to
-/// start threads for that. Set by trial.
-/// Again: bench_build 10000 100000 1000000
+/// The number of spheres that one thread reads, bins or moves at a time, and the number from which
+/// on threads pay for that. Set by trial. Again: bench_build 10000 100000 1000000
 inline constexpr std::size_t chunk_size = 16'384;
 inline constexpr std::size_t parallel_size = 65'536;
 
-/// A thread builds a whole subtree of at most so many spheres: a 2048th of all, which leaves enough
-/// of them for many threads, but no fewer than 4096. The tree's shape does not depend on the number
-/// of threads, but on these. Set by trial.
-/// Again: bench_build 1000000 10000000
+/// A thread builds a whole subtree of at most this many spheres: a 2048th of all, which leaves
+/// enough subtrees for many threads, but at least 4096. The tree's shape depends on these numbers,
+/// and is the same for any number of threads. Set by trial. Again: bench_build 1000000 10000000
 inline constexpr std::size_t least_subtree = 4096;
 inline constexpr std::size_t most_subtrees = 2048;
 
-/// A subtree of less than so large a part of the largest is a twig: it counts to the upper part.
+/// A subtree below 1 / twigs of the largest size is a twig: it counts to the upper part.
 /// Again: BvhVisits.DoublingDistancesAreNotScanned, and bench_tree
 inline constexpr std::size_t twigs = 6;
 
-/// The subtrees are built and become leaves in so many portions, so that the binary nodes of one
-/// take half a percent of the memory; but in no smaller ones than threads can share. Set by trial.
-/// Again: bench_build 100000 1000000 10000000
+/// The subtrees are built and become leaves in this many portions, so that the binary nodes of one
+/// take half a percent of the memory. Portions are at least large enough for threads to share. Set
+/// by trial. Again: bench_build 100000 1000000 10000000
 inline constexpr std::size_t portions = 64;
 inline constexpr std::size_t least_portion = 64;
 

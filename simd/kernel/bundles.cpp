@@ -1,4 +1,4 @@
-// Rays that have something in common, as bundles.
+// Coherent rays, traced as bundles.
 #include "simd/kernel/search/bundle_stream.h"
 #include "simd/kernel/search/bundled.h"
 #include "simd/kernel/search/shadow_stream.h"

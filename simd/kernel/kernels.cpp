@@ -1,9 +1,9 @@
-// The kernels of one instruction set and the table that exports them. This file, and those beside
-// it, one for each way through search/, are compiled once per instruction set (simd/isa.cmake),
-// each time into a namespace of its own. Which rays go which way is decided here, but for the
+// The kernels of one instruction set and the table that exports them. This file and the files
+// beside it, one per way through search/, are compiled once per instruction set (simd/isa.cmake),
+// each time into a namespace of its own. This file decides the way of each stream, except for the
 // trials in scattered.cpp and shadow_stream.h:
 //   bundles    the caller promises a common origin, direction or end and leaves the form open
-//   scattered  nothing is promised, there is a tree, and the solver is robust: as sets, as
+//   scattered  without a promise, where there is a tree and the solver is robust: as sets, as
 //              packets or in flight, whichever a trial finds fastest
 //   packets    everything else: a scan, the fast solver, a form that was asked for, or several
 //   parts
@@ -39,7 +39,7 @@ bool may_scatter(const GeometryView& geometry, const Query& query) {
   return asked && query.solver == Solver::robust && geometry.bvh.size > 0;
 }
 
-/// Rays of which nothing is promised. Answers: HitStream, or std::uint8_t*.
+/// Traces rays without a promise of coherence. Answers: HitStream, or std::uint8_t*.
 template <class Answers>
 void trace_any(const GeometryView& geometry, const PaddedStream& stream, const Query& query,
                const Answers& answers) {
@@ -96,7 +96,7 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   }
 }
 
-// What the table points to. The functions that these call are always inlined and have no address.
+// The functions of the table. The functions that these call are always inlined and have no address.
 
 void camera_rays(const CameraView& camera, const SampleStream& samples, const RayStream& rays) {
   primary_rays(camera, samples, rays);

@@ -1,4 +1,4 @@
-// Packets and single rays through all primitives.
+// Packets and single rays against all primitives.
 #include "simd/kernel/search/packet_hits.h"
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/short_search.h"
@@ -7,15 +7,16 @@
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
 
-/// Whether the next ray goes alone. `remaining`: rays of the stream from it on.
+/// Whether the next ray is traced alone. `remaining`: the number of rays from it to the end of the
+/// stream.
 BOULE_INLINE bool goes_single(Form form, std::size_t remaining) {
   if (form == Form::automatic) return remaining <= tuning::most_single_rays;
   return form == Form::single;
 }
 
-/// Calls packet(rays, first, live) for packets, `live` of whose lanes are rays of the stream, and
-/// single(rays, index) for single rays, so that rays begin .. end - 1 are covered once. `begin` is
-/// a multiple of W.
+/// Calls packet(rays, first, live) for packets, in which `live` lanes are rays of the stream, and
+/// single(rays, index) for single rays. Together the calls cover rays begin .. end - 1 once.
+/// `begin` is a multiple of W.
 template <class Packet, class Single>
 BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, std::size_t end,
                                  Form form, const Packet& packet, const Single& single) {
@@ -34,7 +35,7 @@ BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, 
   }
 }
 
-/// One ray's hit is the nearest over the lanes; equal t: the lower id.
+/// Stores the hit of one ray: the nearest over the lanes; at equal t, the lower id.
 BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
   alignas(64) double t[width];
   alignas(64) std::int32_t id[width];
@@ -52,13 +53,13 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
   hits.slot[index] = slot[nearest];
 }
 
-/// One ray's lanes are the same ray.
+/// Stores the answer of one ray: all lanes hold the same ray.
 BOULE_INLINE void store_single(const AnyHit<true>& best, std::uint8_t* occluded,
                                std::size_t index) {
   occluded[index] = best.hit != 0 ? 1 : 0;
 }
 
-/// What packets and single rays look for.
+/// The searches of packets and of single rays for one kind of answer.
 template <class Answers>
 struct BestOf {
   using Packet = ClosestHit;
@@ -70,8 +71,8 @@ struct BestOf<std::uint8_t*> {
   using Single = AnyHit<true>;
 };
 
-/// Traces pairs of packets while there are any. Returns how many nodes and leaves were visited, and
-/// moves `begin` on.
+/// Traces pairs of packets while there are any. Returns the number of nodes and leaves visited, and
+/// advances `begin`.
 BOULE_INLINE std::size_t trace_pairs(const GeometryView& geometry, const PaddedStream& stream,
                                      std::size_t& begin, std::size_t end, Solver solver,
                                      std::uint8_t* occluded) {
@@ -86,7 +87,7 @@ BOULE_INLINE std::size_t trace_pairs(const GeometryView& geometry, const PaddedS
   }
   return visits;
 }
-/// Nearest hits, and parts, have no pairs.
+/// Nearest hits and parts are traced without pairs.
 template <class Geometry, class Answers>
 BOULE_INLINE std::size_t trace_pairs(const Geometry&, const PaddedStream&, std::size_t&,
                                      std::size_t, Solver, const Answers&) {

@@ -1,4 +1,4 @@
-// Rays of which nothing is promised: sets, flights, and the trials between these and packets.
+// Rays without a promise of coherence: sets, flights, and the trials between these and packets.
 #include "simd/kernel/search/scattered_stream.h"
 
 #include <type_traits>
@@ -11,12 +11,12 @@
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
 
-/// Tells the rays of a stream which way to go: now and then some go each way, one after the other,
-/// and from what that took follows which way the next ones go.
+/// Decides which way the rays of a stream go. From time to time it sends some rays each way, one
+/// way after the other, and their times decide the way of the next rays.
 template <bool any>
 class Choice {
  public:
-  static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit flights are sets
+  static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit, flights are sets
 
   explicit Choice(Experience& known) : known_(known) {}
 
@@ -24,14 +24,14 @@ class Choice {
   [[nodiscard]] Way way() const {
     return static_cast<Way>(is_trial() ? known_.next_way : known_.way);
   }
-  /// How many rays go that way now, if there are so many: a multiple of W.
+  /// The number of rays that go the current way, if the stream has that many: a multiple of W.
   [[nodiscard]] std::size_t rays() const {
     if (!is_trial()) return (known_.left + width - 1) / width * width;
     return tuning::rays_on_trial<any>[known_.next_way];
   }
 
-  /// Takes note of rays that went that way, and took so many ticks. `shared`: of a set, whether so
-  /// many of its rays visited the same that flights cannot gain.
+  /// Records rays that went the current way, and the ticks they took. `shared`: of a set, whether
+  /// its rays shared so many visits that flights cannot gain.
   void add(std::size_t rays, std::uint64_t ticks, bool shared) {
     if (!is_trial()) {
       known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
@@ -43,8 +43,8 @@ class Choice {
   }
 
  private:
-  /// Adds a trial to those before. It may have been interrupted, since the system gives the
-  /// processor to others as well, or the last one was.
+  /// Adds a trial to the earlier ones. Either may have been interrupted, because the system also
+  /// runs other programs on the processor.
   static void add_to(Experience::Cost& cost, float rays, float ticks) {
     const float before = cost.ticks / cost.rays * rays;  // NaN at first
     if (tuning::most_growth_of_cost * before < ticks) ticks = tuning::most_growth_of_cost * before;
@@ -53,7 +53,7 @@ class Choice {
     cost.ticks = cost.ticks * share + ticks;
     cost.rays = cost.rays * share + rays;
   }
-  /// Chooses among the first `tried` ways, of which each has been tried once more.
+  /// Chooses among the first `tried` ways, each of which has just been tried once more.
   void choose(std::size_t tried) {
     std::size_t best = 0;
     for (std::size_t way = 1; way < tried; ++way) best = of(way) < of(best) ? way : best;
@@ -64,18 +64,18 @@ class Choice {
     bool is_clear = !is_first;
     for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
-    // At first as if trials had preferred sets before.
+    // The first trial starts as if earlier trials had preferred sets.
     std::size_t rays = is_first || best != current ? tuning::rays_after_trial
                                                    : tuning::growth_while_agreed * known_.rays;
     if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
     known_.way = static_cast<std::uint32_t>(best);
     known_.rays = known_.left = static_cast<std::uint32_t>(rays);
     known_.next_way = 0;
-    if (is_first) {  // it met caches that held nothing of the tree yet
+    if (is_first) {  // it ran before the caches held any of the tree
       for (Experience::Cost& cost : known_.cost) cost = {};
     }
   }
-  /// Of a ray.
+  /// The cost of one ray.
   [[nodiscard]] float of(std::size_t way) const {
     return known_.cost[way].ticks / known_.cost[way].rays;
   }
@@ -96,8 +96,8 @@ class ScatteredStream {
         flights_(geometry, stream, answers),
         sets_(geometry, stream, answers) {}
 
-  /// Traces rays begin .. end - 1. For any hit there is no way `flight`. Returns whether they share
-  /// so many visits that flights cannot gain.
+  /// Traces rays begin .. end - 1. For any hit, the way `flight` does not exist. Returns whether
+  /// the rays share so many visits that flights cannot gain.
   bool run(Way way, std::size_t begin, std::size_t end) {
     if (way == Way::set) {
       const SetEffort effort = sets_.run(begin, end);
@@ -112,7 +112,7 @@ class ScatteredStream {
     trace_groups(geometry_, stream_, begin, end, Solver::robust, Form::automatic, answers_);
     return false;
   }
-  /// Traces rays begin .. end - 1 the way that trials among them, and before them, find fastest.
+  /// Traces rays begin .. end - 1 in the way that is fastest by trials among them and before them.
   void run_by_trial(std::size_t begin, std::size_t end, Experience& known) {
     Choice<any_hit> choice(known);
     while (begin < end) {

@@ -19,13 +19,13 @@ namespace boule::BOULE_KERNEL_ISA {
 /// The bits of a mask that is true in every lane.
 inline constexpr unsigned all_lanes = (1U << width) - 1;
 
-/// The bits of the first `count` lanes; of all where there are no more.
+/// The bits of the first `count` lanes, or of all if there are fewer.
 BOULE_INLINE unsigned first_lanes(std::size_t count) {
   return count < static_cast<std::size_t>(width) ? (1U << count) - 1 : all_lanes;
 }
 
-/// How many bits are set. Without an instruction for it, std::popcount() of a whole word would call
-/// a library function, which kernels must not do.
+/// The number of set bits. Without an instruction for it, std::popcount() of a whole word would
+/// call a library function, which is forbidden in kernels.
 BOULE_INLINE int count_bits(unsigned bits) {
 #ifdef __POPCNT__
   return __builtin_popcount(bits);
@@ -51,8 +51,8 @@ BOULE_INLINE RealMask select(const RealMask& m, const RealMask& a, const RealMas
   return (m & a) | (~m & b);
 }
 
-/// For the lanes whose bit is set in `chosen`, one after the other, 1 where `set` is, else 0. W
-/// bytes are written: what follows those of `chosen` is undefined.
+/// Packs the lanes whose bit is set in `chosen`: 1 where `set` is, otherwise 0. Writes W bytes, of
+/// which those after the chosen ones are undefined.
 BOULE_INLINE void store_chosen(std::uint8_t* p, const RealMask& set, unsigned chosen) {
   const unsigned ones = bits(set) & chosen;
   for (int lane = 0; lane < width; ++lane) p[lane] = 0;

@@ -8,12 +8,12 @@
 #include "simd/lanes/xsimd_integers.h"
 #include "simd/lanes/xsimd_types.h"
 
-/// Chosen lanes, stored one after the other, and the least of sixteen short numbers: what queues
-/// and lists of candidates are made of. xsimd 8.1 has neither.
+/// Packing of chosen lanes, and the smallest of sixteen short numbers: the operations of queues and
+/// lists of candidates. xsimd 8.1 has neither.
 namespace boule::BOULE_KERNEL_ISA::gaps {
 
-// store_chosen() writes the lanes of `chosen` one after the other, to any address, and behind them
-// anything: as many numbers as there are lanes, in all.
+// store_chosen() packs the lanes of `chosen` at any address, and writes as many numbers as there
+// are lanes: those after the chosen ones are undefined.
 #if defined(__AVX512F__)
 BOULE_INLINE void store_chosen(float* p, Floats a, unsigned chosen) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), a));
@@ -25,8 +25,8 @@ BOULE_INLINE void store_chosen(double* p, Doubles a, unsigned chosen) {
   _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(chosen), a));
 }
 #elif defined(__AVX2__)
-/// For every set of lanes, of eight, a byte for each lane: the numbers of those in the set come
-/// first, then those of the others.
+/// For every set among eight lanes, a byte for each lane: first the numbers of the lanes in the
+/// set, then those of the others.
 struct ChosenLanes {
   std::uint64_t of[256];
 };
@@ -72,11 +72,11 @@ BOULE_INLINE void store_chosen(T* p, const Lanes& a, unsigned chosen) {
 }
 #endif
 
-// Of numbers that are not negative the 16 bits behind the sign: eight of exponent and eight of
-// mantissa, in the order of the numbers. Those of `chosen` one after the other, behind them 0xffff.
+// Of numbers that are at least 0, the 16 bits behind the sign: eight of exponent and eight of
+// mantissa, in the order of the numbers. Those of `chosen` packed, then 0xffff.
 #if defined(__AVX512F__)
 BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chosen) {
-  // As floats: GCC 12 would take them to integers by way of memory.
+  // As floats: GCC 12 would move them to integers through memory.
   const __m512 rest = _mm512_castsi512_ps(_mm512_set1_epi32(-1));
   const __m512i whole = _mm512_castps_si512(_mm512_mask_compress_ps(rest, chosen, a));
   const __m512i half = _mm512_srli_epi32(whole, 15);
@@ -102,7 +102,7 @@ BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Floats a, FloatMask chos
 }
 #endif
 
-// The index of the least of 16 numbers; of equal ones any.
+// The index of the smallest of 16 numbers; of equal ones any.
 #if defined(__SSE4_2__)
 BOULE_INLINE std::size_t index_of_least(const std::uint16_t* p) {
   const auto* const eights = reinterpret_cast<const __m128i*>(p);

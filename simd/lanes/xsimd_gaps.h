@@ -4,10 +4,10 @@
 
 #include "simd/lanes/xsimd_types.h"
 
-/// What xsimd 8.1 lacks, or gets wrong, for floats and doubles, once per instruction set: masks as
-/// bits, conversions between one register of floats and two of doubles, a multiply-add that is
-/// fused wherever the instruction set has one, correctly rounded division and square root, min and
-/// max with a rule for NaN, rows of four floats.
+/// Operations on floats and doubles that xsimd 8.1 lacks or gets wrong, once per instruction set:
+/// masks as bits, conversions between one register of floats and two of doubles, a multiply-add
+/// that is fused wherever the instruction set has one, correctly rounded division and square root,
+/// min and max with a rule for NaN, rows of four floats.
 namespace boule::BOULE_KERNEL_ISA::gaps {
 
 #if defined(__AVX512F__)
@@ -123,8 +123,8 @@ BOULE_INLINE Floats square_root(Floats a) { return vsqrtq_f32(a); }
 
 #endif
 
-// a where it is smaller (greater) than b; b where not, and where either is NaN. These are what min
-// and max instructions of x86-64 do.
+// a if it is smaller (greater) than b; otherwise b, also if either is NaN. The min and max
+// instructions of x86-64 do this.
 #if defined(__AVX512F__)
 BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return _mm512_min_ps(a, b); }
 BOULE_INLINE Floats greater_or(Floats a, Floats b) { return _mm512_max_ps(a, b); }
@@ -139,7 +139,7 @@ BOULE_INLINE Floats lesser_or(Floats a, Floats b) { return vbslq_f32(vcltq_f32(a
 BOULE_INLINE Floats greater_or(Floats a, Floats b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
 #endif
 
-// The least and the greatest lane.
+// The smallest and the largest lane.
 #if defined(__SSE4_2__)
 BOULE_INLINE float least(__m128 a) {
   const __m128 b = _mm_min_ps(a, _mm_movehl_ps(a, a));

@@ -5,11 +5,12 @@
 
 #include "simd/lanes/xsimd_types.h"
 
-/// Integers of 32 bits in lanes, as far as xsimd 8.1 has no, or only slow, code for them: compared
-/// and selected by the masks of floats, counted, made doubles of; and bytes as masks.
+/// Operations on 32-bit integers in lanes that xsimd 8.1 lacks or has only slow code for:
+/// comparisons and selections by the masks of floats, counting, conversion to doubles; and bytes as
+/// masks.
 namespace boule::BOULE_KERNEL_ISA::gaps {
 
-// Lanes in which a == b, and in which a <= b, unsigned; and a where the mask is set, else b.
+// Lanes in which a == b, and in which a <= b, unsigned; and a where the mask is set, otherwise b.
 #if defined(__AVX512F__)
 BOULE_INLINE FloatMask equal(Integers a, Integers b) { return _mm512_cmpeq_epi32_mask(a, b); }
 BOULE_INLINE FloatMask at_most(Integers a, Integers b) { return _mm512_cmple_epu32_mask(a, b); }

@@ -63,7 +63,7 @@ struct Wide {
   BOULE_INLINE Wide(Doubles l, Doubles h) : lo(l), hi(h) {}
 };
 
-/// Unsigned integers of 32 bits, modulo 2^32. What compares them gives the masks of floats.
+/// Unsigned integers of 32 bits, modulo 2^32. Their comparisons give the masks of floats.
 struct Bits {
   Integers v;
   Bits() = default;
@@ -124,8 +124,8 @@ BOULE_INLINE Wide load_anywhere(const double* p) {
 }
 BOULE_INLINE void store_anywhere(float* p, Real a) { a.v.store_unaligned(p); }
 BOULE_INLINE void store_anywhere(std::uint32_t* p, Bits a) { a.v.store_unaligned(p); }
-/// The lanes whose bit is set in `chosen`, one after the other, to any address. W numbers are
-/// written: what follows those of `chosen` is undefined.
+/// Packs the lanes whose bit is set in `chosen`, at any address. Writes W numbers, of which those
+/// after the chosen ones are undefined.
 BOULE_INLINE void store_chosen(float* p, Real a, unsigned chosen) {
   gaps::store_chosen(p, a.v, chosen);
 }
@@ -140,12 +140,12 @@ BOULE_INLINE void store_chosen(double* p, Wide a, unsigned chosen) {
   gaps::store_chosen(p, a.lo, lo);
   gaps::store_chosen(p + __builtin_popcount(lo), a.hi, chosen >> (width / 2));
 }
-/// Of floats that are not negative the upper 16 bits behind the sign, which are in the floats'
-/// order: those of the lanes `chosen` one after the other, and then 0xffff up to W.
+/// Of floats that are at least 0, the upper 16 bits behind the sign, which are in the floats'
+/// order: those of the lanes `chosen` packed, and then 0xffff up to W.
 BOULE_INLINE void store_chosen_halves(std::uint16_t* p, Real a, RealMask chosen) {
   gaps::store_chosen_halves(p, a.v, chosen.m);
 }
-/// The index of the least of 16 numbers, of equal ones any. `p` is aligned to 32 bytes.
+/// The index of the smallest of 16 numbers, of equal ones any. `p` is aligned to 32 bytes.
 BOULE_INLINE std::size_t index_of_least(const std::uint16_t* p) { return gaps::index_of_least(p); }
 
 /// W rows of four floats as columns; row k is lane k.
@@ -229,19 +229,19 @@ BOULE_INLINE Wide power_of_two(Wide k) {
 }
 
 /// a b + c and c - a b, fused where the instruction set can. They are for filters and for the fast
-/// solver only, because their bits differ from one instruction set to the next.
+/// solver only, because their bits differ between instruction sets.
 BOULE_INLINE Real filter_fma(Real a, Real b, Real c) { return gaps::multiply_add(a.v, b.v, c.v); }
 BOULE_INLINE Real filter_fnma(Real a, Real b, Real c) {
   return gaps::negated_multiply_add(a.v, b.v, c.v);
 }
 
-/// The smaller and the greater of two numbers that are not NaN.
+/// The smaller and the greater of two numbers, neither of them NaN.
 BOULE_INLINE Real filter_min(Real a, Real b) { return xsimd::min(a.v, b.v); }
 BOULE_INLINE Real filter_max(Real a, Real b) { return xsimd::max(a.v, b.v); }
-/// a where it is smaller (greater) than b; b where not, and where either is NaN.
+/// a if it is smaller (greater) than b; otherwise b, also if either is NaN.
 BOULE_INLINE Real lesser_or(Real a, Real b) { return gaps::lesser_or(a.v, b.v); }
 BOULE_INLINE Real greater_or(Real a, Real b) { return gaps::greater_or(a.v, b.v); }
-/// The least and the greatest lane. None may be NaN.
+/// The smallest and the largest lane. Precondition: no lane is NaN.
 BOULE_INLINE float least_lane(Real a) { return gaps::least(a.v); }
 BOULE_INLINE float greatest_lane(Real a) { return gaps::greatest(a.v); }
 

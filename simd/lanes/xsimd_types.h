@@ -5,7 +5,7 @@
 
 #include "core/base/platform.h"
 
-/// The registers of the instruction set that this is compiled for, as xsimd has them.
+/// The xsimd registers of the instruction set that this is compiled for.
 namespace boule::BOULE_KERNEL_ISA {
 
 #if defined(__AVX512F__)

@@ -11,9 +11,9 @@
 
 namespace boule {
 
-/// An owning array of plain values that starts on a cache line, its length padded to the widest
-/// packet. An index within it is a precondition. Throws std::bad_alloc and is then as it was; an
-/// array that was moved away is empty.
+/// An owning array of plain values that starts on a cache line and is padded to the widest packet.
+/// Precondition of indexing: the index is in range. A resize that fails throws std::bad_alloc and
+/// leaves the array as it was. An array that was moved from is empty.
 template <class T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -29,8 +29,8 @@ class AlignedArray {
     return *this;
   }
 
-  /// Makes room for `size` values. Where that takes new memory all values are `fill`; where there
-  /// is room already nothing changes.
+  /// Makes room for `size` values. If that needs new memory, all values become `fill`; otherwise
+  /// they stay as they are.
   void resize(std::size_t size, T fill = T{}) {
     if (size > most) throw std::bad_alloc();
     const std::size_t wanted = padded(size);

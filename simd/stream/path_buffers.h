@@ -10,7 +10,7 @@
 
 namespace boule {
 
-/// Memory for the streams of simd/abi/paths.h, kept from use to use, as that of RayBuffer.
+/// Memory for the streams of simd/abi/paths.h, reused from call to call like that of RayBuffer.
 
 class ColorBuffer {
  public:
@@ -31,7 +31,7 @@ class ColorBuffer {
   AlignedArray<float> r_, g_, b_;
 };
 
-/// For LobePoints.
+/// Memory for LobePoints.
 class LobePointBuffer {
  public:
   explicit LobePointBuffer(std::size_t size) {
@@ -43,7 +43,7 @@ class LobePointBuffer {
     for (auto* numbers : {&side_, &ray_, &sample_}) numbers->resize(room);
     throughput_.resize(room);
   }
-  /// Room for points; there are none.
+  /// A view with room for points and a size of 0.
   LobePoints view() {
     return {normal_.view(),
             org_.view(),
@@ -66,7 +66,7 @@ class LobePointBuffer {
   ColorBuffer dir_, throughput_;
 };
 
-/// For SampledLights.
+/// Memory for SampledLights.
 class SampledLightBuffer {
  public:
   void resize(std::size_t size) {
@@ -76,7 +76,7 @@ class SampledLightBuffer {
   }
   [[nodiscard]] Ray shadow_ray(std::size_t k) const { return rays_.get(k); }
   void set_shadow_ray(std::size_t k, const Ray& ray) { rays_.set(k, ray); }
-  /// Room for shadow rays; there are none.
+  /// A view with room for shadow rays and a size of 0.
   SampledLights view() { return {rays_.view(), ray_.data(), radiance_.view(), 0}; }
 
  private:
@@ -85,7 +85,7 @@ class SampledLightBuffer {
   ColorBuffer radiance_;
 };
 
-/// For GoingOn.
+/// Memory for GoingOn.
 class GoingOnBuffer {
  public:
   void resize(std::size_t size) {
@@ -94,7 +94,7 @@ class GoingOnBuffer {
     sample_.resize(size + max_width);
     density_.resize(size + max_width);
   }
-  /// Ray i, whose direction is that of a mirror or of refraction.
+  /// Sets ray i, which continues in the direction of a mirror or of refraction.
   void set(std::size_t i, const Ray& ray, const Color& throughput, std::uint32_t sample) {
     rays_.set(i, ray);
     throughput_.set(i, throughput);
@@ -102,7 +102,7 @@ class GoingOnBuffer {
     density_[i] = 0;
   }
   RayBuffer& rays() { return rays_; }
-  /// Room for rays behind the first `size`.
+  /// A view that has room for rays behind the first `size`.
   GoingOn view(std::size_t size = 0) {
     return {rays_.view(), throughput_.view(), sample_.data(), density_.data(), size};
   }
@@ -114,7 +114,7 @@ class GoingOnBuffer {
   AlignedArray<float> density_;
 };
 
-/// For GivenLight.
+/// Memory for GivenLight.
 class GivenLightBuffer {
  public:
   void resize(std::size_t size) {

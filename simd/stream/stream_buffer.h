@@ -11,10 +11,10 @@
 
 namespace boule {
 
-/// Memory for a RayStream, kept from use to use. Growing loses the rays that were in it, and so
-/// does sharing something else. No buffer
-/// here checks indices: i < size() is a precondition. resize() throws std::bad_alloc, and the size
-/// stays what it was. A buffer that was moved away must be resized before it is used again.
+/// Memory for a RayStream, reused from call to call. Growing, or sharing other numbers, loses the
+/// rays in the buffer. Buffers in this file leave indices unchecked: i < size() is a precondition.
+/// If resize() throws std::bad_alloc, the size stays as it was. A buffer that was moved from must
+/// be resized before it is used again.
 class RayBuffer {
  public:
   RayBuffer() = default;
@@ -22,9 +22,8 @@ class RayBuffer {
     resize(size, common);
   }
 
-  /// Of rays that have an origin or a direction in common it is kept once, and likewise tmin,
-  /// source and inside: share() sets them. Kernels trace such rays faster, where the query's
-  /// coherence says the same.
+  /// Rays with a common origin or direction keep it once, and likewise tmin, source and inside:
+  /// share() sets them. Kernels trace such rays faster if the query's coherence promises the same.
   void resize(std::size_t size, CommonPart common = CommonPart::none) {
     const SharedNumbers shared(common);
     each_array(
@@ -32,11 +31,11 @@ class RayBuffer {
     shared_ = shared;
     size_ = size;
   }
-  /// Keeps the first `size` rays. Precondition: there are so many.
+  /// Keeps the first `size` rays. Precondition: the buffer holds at least that many.
   void shrink(std::size_t size) { size_ = size; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Gives all rays what they share of this one.
+  /// Gives all rays the shared numbers of this one.
   void share(const Ray& ray) {
     for (std::size_t lane = 0; lane < max_width; ++lane) {
       if (shared_.has_origin()) set_origin(lane, ray);
@@ -44,7 +43,7 @@ class RayBuffer {
       if (shared_.has_start()) set_start(lane, ray);
     }
   }
-  /// Sets what ray i does not share.
+  /// Sets the unshared numbers of ray i.
   void set(std::size_t i, const Ray& ray) {
     const RayPlaces at = shared_.places(i);
     if (!shared_.has_origin()) set_origin(at.org, ray);
@@ -56,7 +55,7 @@ class RayBuffer {
   [[nodiscard]] Vec3d org(std::size_t i) const { return get(i).org; }
   [[nodiscard]] Vec3f dir(std::size_t i) const { return get(i).dir; }
 
-  /// The rays as the kernels see them; valid until the next resize.
+  /// The view for the kernels; valid until the next resize.
   RayStream view() {
     RayStream rays{};
     each_array(
@@ -88,7 +87,7 @@ class RayBuffer {
   std::size_t size_ = 0;
 };
 
-/// Memory for a HitStream, likewise.
+/// Memory for a HitStream, as RayBuffer.
 class HitBuffer {
  public:
   HitBuffer() = default;
@@ -111,7 +110,7 @@ class HitBuffer {
   std::size_t size_ = 0;
 };
 
-/// Memory for a VectorStream, likewise.
+/// Memory for a VectorStream, as RayBuffer.
 class VectorBuffer {
  public:
   void resize(std::size_t size) {
@@ -131,7 +130,7 @@ class VectorBuffer {
   AlignedArray<double> x_, y_, z_;
 };
 
-/// Memory for a SampleStream, likewise.
+/// Memory for a SampleStream, as RayBuffer.
 class SampleBuffer {
  public:
   /// Room for samples without a lens and without weights.
@@ -140,7 +139,7 @@ class SampleBuffer {
     raster_y_.resize(size);
     size_ = size;
   }
-  /// Room for what a camera asks for; new lens samples are in the lens' centre.
+  /// Room for the arrays that a camera needs; new lens samples are at the lens' centre.
   void resize(std::size_t size, const CameraView& camera) {
     resize(size);
     if (has_lens(camera.kind)) {
@@ -158,7 +157,7 @@ class SampleBuffer {
     lens_x_[i] = x;
     lens_y_[i] = y;
   }
-  /// What the camera's ray counts; of a camera that weighs.
+  /// The weight of the ray through sample i; only for a camera that weighs.
   [[nodiscard]] float weight(std::size_t i) const { return weight_[i]; }
   SampleStream view() {
     return {raster_x_.data(), raster_y_.data(), lens_x_.data(),

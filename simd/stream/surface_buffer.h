@@ -9,7 +9,7 @@
 
 namespace boule {
 
-/// Memory for a SurfaceStream, kept from use to use. Growing loses what was in it.
+/// Memory for a SurfaceStream, reused from call to call. Growing loses the contents.
 struct SurfaceBuffer {
   VectorBuffer point, normal, view, mirrored, org;
   AlignedArray<double> cosine, reach;
@@ -25,7 +25,7 @@ struct SurfaceBuffer {
     inner.resize(size);
     inside.resize(size);
   }
-  /// The surfaces as the kernels see them; valid until the next resize.
+  /// The view for the kernels; valid until the next resize.
   SurfaceStream stream() {
     return {point.view(),  normal.view(), view.view(),  mirrored.view(), org.view(),
             cosine.data(), reach.data(),  inner.data(), inside.data()};

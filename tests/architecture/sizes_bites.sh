@@ -2,6 +2,7 @@
 # Proves that sizes.sh bites: one line too many in a file or a function is refused, whatever the
 # function looks like, and what is no function may be as long as a file.
 set -euo pipefail
+shopt -s lastpipe  # expect() counts in this shell
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT

@@ -48,7 +48,7 @@ TEST(BadInput, MathAnswersWithNaN) {
   EXPECT_EQ(normalize({1e200, 0, 0}), Vec3d{});
 }
 
-TEST(BadInput, WhatIsNoLensHasNoFocus) {
+TEST(BadInput, InvalidLensesHaveNoFocus) {
   const std::vector<LensSurface> none, flat = {{0, 1, 1, 1}}, spoilt = {{nan_f, 1, 1, 1}};
   EXPECT_TRUE(std::isnan(image_distance(none, 1)));
   EXPECT_TRUE(std::isnan(stop_diameter(none, 0, 8)));
@@ -81,7 +81,7 @@ const LensFault lens_faults[] = {
     {"NaN focus", [](LensCamera& c) { c.focus = nan_f; }},
 };
 
-TEST(BadInput, ALensThatIsNoneEndsAllRays) {
+TEST(BadInput, InvalidLensesStopAllRays) {
   ASSERT_FALSE(find_problem(Camera{lens()}));
   for (const LensFault& fault : lens_faults) {
     LensCamera camera = lens();
@@ -95,7 +95,7 @@ TEST(BadInput, ALensThatIsNoneEndsAllRays) {
   }
 }
 
-TEST(BadInput, ALensThatWasMovedAwayHasNoView) {
+TEST(BadInput, MovedFromLensesHaveNoView) {
   LensOptics first = make_optics(lens(), 64, 48, 2);
   const LensElement* const elements = first.view().elements;
   const LensOptics second = std::move(first);
@@ -125,7 +125,7 @@ std::vector<Camera> spoilt_cameras() {
   return cameras;
 }
 
-TEST(BadInput, RaysOfSpoiltCamerasMissOrAreRays) {
+TEST(BadInput, RaysOfInvalidCamerasAreHarmless) {
   const std::vector<Sphere> spheres = {{{0, 0, 0}, 1, 0}};
   int spoilt = 0;
   for (const Camera& camera : spoilt_cameras()) {
@@ -142,7 +142,7 @@ TEST(BadInput, RaysOfSpoiltCamerasMissOrAreRays) {
   EXPECT_GT(spoilt, 1000);
 }
 
-TEST(BadInput, EnumeratorsWithoutANameCountAsOthers) {
+TEST(BadInput, UnnamedEnumeratorsActAsNamedOnes) {
   Scene scene;
   scene.image.filter = static_cast<PixelFilter>(9);
   scene.render.method = static_cast<Method>(9);
@@ -154,7 +154,7 @@ TEST(BadInput, EnumeratorsWithoutANameCountAsOthers) {
   EXPECT_TRUE(is_finite(build_camera(camera, 4, 3).right));
 }
 
-TEST(BadInput, NothingIsSeenOfASphereThatIsNone) {
+TEST(BadInput, InvalidSpheresAreInvisible) {
   struct Case {
     Vec3d point, center;
     double radius;
@@ -177,7 +177,7 @@ TEST(BadInput, NothingIsSeenOfASphereThatIsNone) {
   EXPECT_EQ(negative.density(), plain.density());
 }
 
-TEST(BadInput, WhatIsPlacedBeyondFloatsRangeIsAProblem) {
+TEST(BadInput, PlacementsBeyondFloatRangeAreRefused) {
   const Instance huge{0, {}, {}, 3e38f, {}}, nowhere{0, {nan_f, 0, 0}, {}, 1, {}};
   for (const Instance& instance : {huge, nowhere}) {
     const Similarity transform = transform_of(instance);
@@ -187,7 +187,7 @@ TEST(BadInput, WhatIsPlacedBeyondFloatsRangeIsAProblem) {
   EXPECT_TRUE(find_problem(nowhere));
 }
 
-TEST(BadInput, SurfacesOfOddRaysAreNumbers) {
+TEST(BadInput, SurfacesOfOddRaysAreFinite) {
   for (const double odd : {nan, inf, 0.0, 1e300}) {
     const Ray ray{{odd, 0, 5}, {0, 0, -1}};
     for (const Surface& surface : {find_surface(Sphere{{}, 1, 0}, ray, {odd, 0}),
@@ -198,7 +198,7 @@ TEST(BadInput, SurfacesOfOddRaysAreNumbers) {
   }
 }
 
-TEST(BadInput, NothingThereIsAMiss) {
+TEST(BadInput, EmptyScenesAreMissed) {
   const Ray ray{{0, 0, 5}, {0, 0, -1}};
   EXPECT_EQ(reference::closest_hit(ray, {}, {}).id, no_primitive);
   EXPECT_FALSE(reference::any_hit(ray, {}, {}));
@@ -208,7 +208,7 @@ TEST(BadInput, NothingThereIsAMiss) {
   EXPECT_EQ(reference::closest_hit(foreign, {&sphere, 1}, {}).t, 4);
 }
 
-TEST(BadInput, SerialForPassesOnWhatIsThrownAndStops) {
+TEST(BadInput, SerialForStopsAtExceptions) {
   int calls = 0;
   EXPECT_THROW(serial_for(5,
                           [&](std::size_t i) {
@@ -222,7 +222,7 @@ TEST(BadInput, SerialForPassesOnWhatIsThrownAndStops) {
   EXPECT_THROW(ParallelFor{}(1, [](std::size_t) {}), std::bad_function_call);
 }
 
-TEST(BadInput, RangesSayWhatWouldDo) {
+TEST(BadInput, RangeErrorsNameTheAllowedRange) {
   EXPECT_FALSE(check_range("tile", 3, {.low = 1, .high = 3}));
   EXPECT_EQ(check_range("tile", 4, {.low = 1, .high = 3})->message, "must be 1 to 3, is 4");
   EXPECT_EQ(check_range("spp", -2147483647 - 1, {.low = 1, .high = max_count})->message,

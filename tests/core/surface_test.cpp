@@ -23,7 +23,7 @@ Surface hit_by(const Primitives& scene, const Ray& ray) {
   return find_surface(scene.spheres, scene.planes, ray, hit);
 }
 
-TEST(Surface, OfASphereSeenFromOutsideAndInside) {
+TEST(Surface, SphereSurfacesFaceTheViewer) {
   const Primitives scene{{{{0, 0, 0}, 2, 0}}, {}};
   const Surface outer = hit_by(scene, {{0, 0, 5}, {0, 0, -3}});
   EXPECT_EQ(outer.point, (Vec3d{0, 0, 2}));
@@ -39,7 +39,7 @@ TEST(Surface, OfASphereSeenFromOutsideAndInside) {
   EXPECT_TRUE(inner.inner);
 }
 
-TEST(Surface, OfAPlaneSeenFromBothSides) {
+TEST(Surface, PlaneSurfacesFaceTheViewer) {
   const Primitives scene{{}, {{{0, 1, 0}, {0, 4, 0}, 0}}};
   const Surface above = hit_by(scene, {{0, 3, 0}, {0, -1, 0}});
   EXPECT_EQ(above.point, (Vec3d{0, 1, 0}));
@@ -50,7 +50,7 @@ TEST(Surface, OfAPlaneSeenFromBothSides) {
   EXPECT_TRUE(below.inner);
 }
 
-TEST(Surface, RaysThatLeaveItKnowTheirSourceAndSide) {
+TEST(Surface, LeavingRaysKnowTheirSourceAndSide) {
   struct Case {
     bool sphere, from_inside;
     Side side;
@@ -90,7 +90,7 @@ TEST(Surface, ShadowRaysEndBeforeTheLight) {
   EXPECT_FALSE(ray.inside);
 }
 
-TEST(Surface, ASphereTooSmallForItsPlaceHasANormal) {
+TEST(Surface, SpheresBelowFloatPrecisionHaveNormals) {
   // p - c is exactly 0 here, and gives no direction.
   const Primitives scene{{{{1, 1, 1}, 1e-30f, 0}}, {}};
   const Ray ray{{1, 1, 5}, {0, 0, -1}};

@@ -70,7 +70,7 @@ TEST_P(Bounds, SpheresWhoseSquaresUnderflow) {
 /// box_step: a million units from the world's origin, where a float step is 1/8, rays pass spheres
 /// close to where they touch the sides of their boxes. They are a little oblique: along an axis an
 /// origin is rounded as the side is.
-TEST_P(Bounds, SidesOfBoxesFarFromTheWorldsOrigin) {
+TEST_P(Bounds, BoxSidesFarFromTheOrigin) {
   CaseRandom random(92);
   const std::array axes = {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   for (int trial = 0; trial < 40; ++trial) {

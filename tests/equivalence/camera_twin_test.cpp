@@ -244,7 +244,7 @@ TEST_P(CameraTwin, DistortedThinLens) {
   }
 }
 
-TEST_P(CameraTwin, AMapOfTheFilmItselfChangesNothing) {
+TEST_P(CameraTwin, TheIdentityMapChangesNothing) {
   const DistortionMap map{2, 2, {0.25F, 0.75F, 0.75F, 0.75F, 0.25F, 0.25F, 0.75F, 0.25F}};
   const PinholeCamera camera{pose, 60, FovAxis::x};
   const CameraView plain = build_camera(camera, 64, 36),
@@ -270,7 +270,7 @@ RayBuffer fan(const KernelTable& kernels, const CameraView& view, double x, doub
   return rays_of(kernels, view, samples);
 }
 
-TEST_P(CameraTwin, WhatIsInFocusIsSharp) {
+TEST_P(CameraTwin, PointsInFocusAreSharp) {
   const Frame frame{64, 36};
   const ThinLensCamera camera{pose, 70, FovAxis::x, 0.5F, 4.0F};
   const CameraView view = build_camera(camera, frame.width, frame.height);
@@ -290,7 +290,7 @@ TEST_P(CameraTwin, WhatIsInFocusIsSharp) {
   }
 }
 
-TEST_P(CameraTwin, TheLensIsADiscEvenlyCovered) {
+TEST_P(CameraTwin, LensSamplesCoverADiscEvenly) {
   const ThinLensCamera camera{{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}, 45, FovAxis::x, 1, 1.0F};
   const RayBuffer rays = fan(*kernels, build_camera(camera, 4, 4), 2, 2, 1000);
   double sum_x = 0, sum_y = 0, sum_squares = 0, inner = 0;
@@ -308,7 +308,7 @@ TEST_P(CameraTwin, TheLensIsADiscEvenlyCovered) {
   EXPECT_NEAR(inner / n, 1.0 / 16, 1e-3);
 }
 
-TEST_P(CameraTwin, ALensWithoutExtentIsAPinholeAndItsCentreToo) {
+TEST_P(CameraTwin, LensesOfRadiusZeroArePinholes) {
   const PinholeCamera pinhole{pose, 45, FovAxis::y};
   const CameraView view = build_camera(pinhole, 640, 361);
   SampleBuffer samples = random_samples(view, 1003, 640, 361, 14);
@@ -327,7 +327,7 @@ TEST_P(CameraTwin, ALensWithoutExtentIsAPinholeAndItsCentreToo) {
   }
 }
 
-TEST_P(CameraTwin, WithoutAFocusLookAtIsSharp) {
+TEST_P(CameraTwin, DefaultFocusIsLookAt) {
   const ThinLensCamera at_look_at{pose, 45, FovAxis::x, 0.5F, {}};
   const RayBuffer rays = fan(*kernels, build_camera(at_look_at, 4, 4), 2, 2, 8);
   const Vec3d target = vec_cast<double>(pose.look_at);

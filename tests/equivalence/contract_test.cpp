@@ -170,7 +170,7 @@ TEST(Contract, HoldsForTheScalarPath) {
 
 class ContractOf : public OnEachIsa {};
 
-TEST_P(ContractOf, HoldsInAnyCompany) {
+TEST_P(ContractOf, HoldsBesideOtherRays) {
   for (const Case& c : all_cases()) {
     const Primitives p(c.primitive);
     const Geometry geometry(p.spheres, p.planes);
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, ContractOf, each_isa(), isa_name);
 
 /// A tangent behind the eye, from a point on the sphere, with tmin < 0: the true root is at 0, and
 /// the other sphere's at -5.5 comes first.
-TEST_P(ContractOf, ATangentAtTheOriginHasNoPhantomRootBehind) {
+TEST_P(ContractOf, TangentsAtTheOriginHaveOneRoot) {
   const Ray ray = with({{-0x1.1d19c9902ff0cp-2, 0x1.855af0af86df4p-4, -0x1.e9575053d36c9p-1},
                         {0x1.f43226p-3F, 0x1.f05371p-1F, 0x1.9df39ep-6F}},
                        -10, inf);

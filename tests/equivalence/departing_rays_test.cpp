@@ -66,7 +66,7 @@ std::vector<Viewpoint> viewpoints() {
 }
 
 /// With the kernels of the best ISA and with the reference, no ray meets its source again.
-TEST(DepartingRays, ReflectedAndShadowRaysNeverMeetAConvexSourceAgain) {
+TEST(DepartingRays, OutwardRaysMissTheirConvexSource) {
   for (const Viewpoint& from : viewpoints()) {
     const Geometry geometry(from.spheres, from.planes);
     const Primitives scene{from.spheres, from.planes};
@@ -94,7 +94,7 @@ TEST(DepartingRays, ReflectedAndShadowRaysNeverMeetAConvexSourceAgain) {
 
 /// A ray on the inside crosses the sphere: it does not leak, and does not meet the sphere at its
 /// start.
-TEST(DepartingRays, RaysThatGoInsideMeetTheFarSide) {
+TEST(DepartingRays, InwardRaysMeetTheFarSide) {
   for (const Viewpoint& from : viewpoints()) {
     if (from.spheres.empty()) continue;
     const Geometry geometry(from.spheres, from.planes);
@@ -120,7 +120,7 @@ TEST(DepartingRays, RaysThatGoInsideMeetTheFarSide) {
 }
 
 /// Two surfaces that touch: what is right behind one of them is not seen through it.
-TEST(DepartingRays, ReflectedRaysDoNotPassThroughASphereInContact) {
+TEST(DepartingRays, ReflectedRaysHitSpheresInContact) {
   // Two spheres have the same points. A ray that leaves one of them to the outside has left both.
   const Primitives scene{{{{3, 2, 1}, 1, 0}, {{3, 2, 1}, 1, 0}}, {}};
   const Geometry geometry(scene.spheres, scene.planes);

@@ -37,7 +37,7 @@ bool has_band(const HardCaseSpec& spec) {
 
 class FastBand : public OnEachIsa {};
 
-TEST_P(FastBand, SphereDecisionsAreWrongOnlyNearTheRim) {
+TEST_P(FastBand, SphereErrorsLieNearTheRim) {
   double worst_decision = 0, worst_residual = 0;
   std::size_t hits_seen = 0;
   for (const HardCaseSpec& spec : hard_case_specs()) {
@@ -71,7 +71,7 @@ TEST_P(FastBand, SphereDecisionsAreWrongOnlyNearTheRim) {
   EXPECT_LE(worst_residual, 6);
 }
 
-TEST_P(FastBand, PlaneDecisionsAreWrongOnlyNearTheHorizon) {
+TEST_P(FastBand, PlaneErrorsLieNearTheHorizon) {
   double worst = 0;
   for (const HardCaseSpec& spec : hard_case_specs()) {
     if (spec.row[0] != 'P' || !has_band(spec)) continue;

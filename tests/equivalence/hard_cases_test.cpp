@@ -14,7 +14,7 @@ class Equivalence : public OnEachHardCase {
   HardCase hard_case;
 };
 
-TEST_P(Equivalence, RobustEqualsTheScalarPathBitForBit) {
+TEST_P(Equivalence, RobustEqualsTheScalarPath) {
   std::vector<Hit> expected;
   for (const Ray& ray : hard_case.rays)
     expected.push_back(reference::closest_hit(ray, hard_case.spheres, hard_case.planes));

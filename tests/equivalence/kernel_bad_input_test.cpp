@@ -60,7 +60,7 @@ std::vector<Ray> rays_from(const Vec3d& eye, int count) {
 constexpr Coherence promises[] = {Coherence::none, Coherence::common_origin,
                                   Coherence::common_direction, Coherence::common_end};
 
-TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
+TEST_P(KernelBadInput, EmptyStreamsMayHaveNullPointers) {
   const Geometry geometry(cloud(200), floors), nothing({}, {});
   const RayStream rays{};
   for (const GeometryView& view : {geometry.view(), nothing.view()}) {
@@ -88,7 +88,7 @@ TEST_P(KernelBadInput, NoneAtAllIsLegalAndNullWillDo) {
   EXPECT_EQ(points.size + shadows.size + going_on.size, 0U);
 }
 
-TEST_P(KernelBadInput, EnumeratorsWithoutANameAreRobustAndAutomatic) {
+TEST_P(KernelBadInput, UnnamedEnumeratorsMeanRobustAndAutomatic) {
   const Geometry geometry(cloud(200), floors);
   const std::vector<Ray> rays = rays_from({0, 0, 5}, 300);
   const Query odd{static_cast<Solver>(9), static_cast<Form>(9), static_cast<Coherence>(9)};
@@ -101,7 +101,7 @@ TEST_P(KernelBadInput, EnumeratorsWithoutANameAreRobustAndAutomatic) {
 
 /// A broken promise may lose hits, but every hit that is found is an intersection with the
 /// primitive it names.
-TEST_P(KernelBadInput, ABrokenPromiseMakesNoHitsUp) {
+TEST_P(KernelBadInput, BrokenPromisesInventNoHits) {
   const std::vector<Sphere> spheres = cloud(2000);
   const Geometry geometry(spheres, floors);
   std::vector<Ray> rays = rays_from({0, 0, 5}, 3000);
@@ -144,7 +144,7 @@ std::vector<Camera> odd_cameras() {
   return cameras;
 }
 
-TEST_P(KernelBadInput, RaysOfOddCamerasMissOrAreRays) {
+TEST_P(KernelBadInput, RaysOfOddCamerasAreHarmless) {
   const Geometry geometry(cloud(100), {});
   constexpr std::size_t count = 40;
   for (const Camera& camera : odd_cameras()) {
@@ -173,7 +173,7 @@ TEST_P(KernelBadInput, RaysOfOddCamerasMissOrAreRays) {
   }
 }
 
-TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
+TEST_P(KernelBadInput, InvalidLightsGiveNoLight) {
   constexpr std::size_t count = 20;
   const double odd[] = {double{nan}, double{inf}, 0};
   const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false, false};
@@ -205,7 +205,7 @@ TEST_P(KernelBadInput, LightsThatAreNoneGiveNothing) {
 }
 
 /// A FloatEnvironment is enough, whatever the caller has set, traps included.
-TEST_P(KernelBadInput, AFloatEnvironmentAroundItIsEnough) {
+TEST_P(KernelBadInput, OneFloatEnvironmentPerCallIsEnough) {
   const Geometry geometry(cloud(2000), floors);
   std::vector<Ray> rays = rays_from({0, 0.1, 5}, 2000);
   for (std::size_t i = 0; i < rays.size(); i += 7) rays[i].dir.x = i % 2 == 0 ? nan : 0;

@@ -118,7 +118,7 @@ std::vector<Ray> parting_rays(const std::vector<Sphere>& spheres, int pairs) {
 
 class PartingPackets : public OnEachIsa {};
 
-TEST_P(PartingPackets, MeetWhatTheScalarPathMeets) {
+TEST_P(PartingPackets, EqualTheScalarPath) {
   for (const PlacedGroups& scene : scenes()) {
     const std::vector<Sphere> all = scene.written_out();
     const std::vector<Ray> rays = parting_rays(all, 60);

@@ -206,7 +206,7 @@ class Parts : public OnEachIsa {
   std::size_t met = 0;
 };
 
-TEST_P(Parts, ScatteredRaysMeetWhatTheSceneWrittenOutShows) {
+TEST_P(Parts, ScatteredRaysMatchTheExpandedScene) {
   for (const PlacedGroups& scene : scenes()) {
     const std::vector<Sphere> all = scene.written_out();
     const std::vector<Ray> rays = scattered_rays(all, 700);
@@ -221,7 +221,7 @@ TEST_P(Parts, ScatteredRaysMeetWhatTheSceneWrittenOutShows) {
   }
 }
 
-TEST_P(Parts, BundlesMeetWhatTheSceneWrittenOutShows) {
+TEST_P(Parts, BundlesMatchTheExpandedScene) {
   for (const PlacedGroups& scene : scenes()) {
     CaseRandom random(92);
     const std::vector<Sphere> all = scene.written_out();
@@ -239,7 +239,7 @@ TEST_P(Parts, BundlesMeetWhatTheSceneWrittenOutShows) {
   }
 }
 
-TEST_P(Parts, SolverFastHasTheHitsOfTheSceneWrittenOut) {
+TEST_P(Parts, SolverFastMatchesTheExpandedScene) {
   const PlacedGroups scene = overlapping();
   const std::vector<Sphere> all = scene.written_out();
   const std::vector<Ray> rays = scattered_rays(all, 700);
@@ -275,7 +275,7 @@ TEST_P(Parts, ThousandsOfThemAreFound) {
   EXPECT_GT(met, 50U);
 }
 
-TEST_P(Parts, SurfacesAreThoseOfTheSceneWrittenOut) {
+TEST_P(Parts, SurfacesMatchTheExpandedScene) {
   const PlacedGroups scene = overlapping();
   const std::vector<Sphere> all = scene.written_out();
   const std::vector<Ray> rays = scattered_rays(all, 300);

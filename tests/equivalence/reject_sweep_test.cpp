@@ -72,7 +72,7 @@ float weakened(const Pair& pair, double slack) {
 
 class RejectSweep : public OnEachIsa {};
 
-TEST_P(RejectSweep, TheSlackIsEnoughAndNotForNothing) {
+TEST_P(RejectSweep, SlackIsSufficientAndNecessary) {
   const std::vector<Pair> pairs =
       hits_of_rows({"S0", "S1", "S2", "S3", "S4", "S4b", "S6", "S8", "S10"});
   ASSERT_GT(pairs.size(), 20 * rays_per_case());
@@ -100,7 +100,7 @@ TEST_P(RejectSweep, TheSlackIsEnoughAndNotForNothing) {
 }
 
 /// Origins that no float holds: the sphere grows by the rounding error of the origin.
-TEST_P(RejectSweep, TheSphereGrowsByTheOriginsError) {
+TEST_P(RejectSweep, SpheresGrowByTheOriginsError) {
   CaseRandom random(77);
   std::vector<Pair> pairs;
   while (pairs.size() < 10 * rays_per_case()) {

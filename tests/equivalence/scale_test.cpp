@@ -92,7 +92,7 @@ TEST_P(Scale, OfDirectionsDividesT) {
     for (const int k : exponents) expect_scaled(scene, scaled_directions(scene, k), -k);
 }
 
-TEST_P(Scale, OfNormalsIsNothing) {
+TEST_P(Scale, OfPlaneNormalsDoesNotMatter) {
   for (const HardCase& scene : cases())
     for (const int k : exponents) expect_scaled(scene, scaled_normals(scene, k), 0);
 }

@@ -61,7 +61,7 @@ std::vector<Ray> mixed_rays(std::size_t count) {
   return rays;
 }
 
-TEST_P(Sets, OfAnyLengthMeetWhatTheScalarPathMeets) {
+TEST_P(Sets, OfAnyLengthEqualTheScalarPath) {
   CaseRandom random(72);
   std::vector<Sphere> spheres = cube_of_spheres(random, 600, {}, 1, 0.08);
   spheres.push_back({{0.2F, 0.1F, 0}, 0.9F, 0});  // in no leaf
@@ -90,7 +90,7 @@ std::vector<Ray> rays_from(CaseRandom& random, std::size_t count, bool anywhere)
 
 /// So many that trials are made again and again: the first ones begin in one place, those in the
 /// middle anywhere, the last ones again in one place.
-TEST_P(Sets, ChangeTheirWayWithinAStream) {
+TEST_P(Sets, CanSwitchFormWithinAStream) {
   CaseRandom random(74);
   const std::vector<Sphere> spheres = cube_of_spheres(random, 900, {}, 1, 0.05);
   const Geometry geometry(spheres, {});
@@ -108,7 +108,7 @@ TEST_P(Sets, ChangeTheirWayWithinAStream) {
 
 /// Streams of all lengths, most of them too short for a whole trial, of which each knows what those
 /// before it found out.
-TEST_P(Sets, KnowWhatEarlierStreamsFoundOut) {
+TEST_P(Sets, UseTheExperienceOfEarlierStreams) {
   CaseRandom random(75);
   const std::vector<Sphere> spheres = cube_of_spheres(random, 900, {}, 1, 0.05);
   const Geometry geometry(spheres, {});
@@ -163,7 +163,7 @@ TEST_P(Sets, MakeFewTrialsInManyShortStreams) {
 
 /// What was found out belongs to one table and one function of it. Where a caller mixes them, in
 /// the midst of trials too, hits are the same.
-TEST(SetsOfAllTables, FindTheSameByWhatOthersFoundOut) {
+TEST(SetsOfAllTables, ForeignExperienceChangesNoHit) {
   CaseRandom random(77);
   const Geometry geometry(cube_of_spheres(random, 900, {}, 1, 0.05), {});
   ASSERT_GT(geometry.view().bvh.size, 0U);
@@ -188,7 +188,7 @@ TEST(SetsOfAllTables, FindTheSameByWhatOthersFoundOut) {
 
 /// From so far that float can tell of no speck whether a ray meets it: every ray has hundreds of
 /// candidates, more than a set has room for.
-TEST_P(Sets, SolveCandidatesForWhichThereIsNoRoom) {
+TEST_P(Sets, OverflowingCandidatesAreSolvedEarly) {
   CaseRandom random(73);
   std::vector<Sphere> specks;
   for (int i = 0; i < 500; ++i) {

@@ -60,7 +60,7 @@ class SharedNumbersOf : public OnEachIsa {
 
 constexpr CommonPart parts_in_common[] = {CommonPart::origin, CommonPart::direction};
 
-TEST_P(SharedNumbersOf, StreamsGiveTheSameAnswersInEveryForm) {
+TEST_P(SharedNumbersOf, StreamsAgreeInEveryForm) {
   const BundleScene scene = cloud("outside", {0, 0, 0}, 1, 0.1, 5);
   const Geometry tree(scene.spheres, {{{0, -0.5F, 0}, {0, 1, 0}, 0}});
   const Geometry few({scene.spheres.begin(), scene.spheres.begin() + 9}, {});

@@ -269,7 +269,7 @@ void expect_hits_in_all_forms(const KernelTable& kernels, const Geometry& geomet
 
 /// Rays enter nearly every box of a deep tree: more children wait than a ray in flight keeps in
 /// order.
-TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
+TEST_P(Tree, ManyOverlappingChildrenMayBePending) {
   CaseRandom random(59);
   std::vector<Sphere> spheres;
   for (int i = 0; i < 80'000; ++i) {
@@ -288,7 +288,7 @@ TEST_P(Tree, LargeSpheresThatOverlapAllWaitAtOnce) {
 
 /// Rays from 2^100 away: components of their directions that are too small for floats take them far
 /// away from the axis.
-TEST_P(Tree, RaysFromBeyondTheFilterEnterEveryBox) {
+TEST_P(Tree, RaysBeyondFilterRangeEnterEveryBox) {
   std::vector<Sphere> spheres;
   std::vector<Ray> rays;
   for (int i = 0; i < 100; ++i) {

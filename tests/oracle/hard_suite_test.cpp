@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, HardSuite, testing::ValuesIn(judged_specs()),
                          [](const auto& tested) { return name_of(tested.param); });
 
 /// S11: t ~ 0 is ill-posed, so secondary rays are judged by self-hits and by where they end.
-TEST(HardSecondary, LeaveTheGroundAndEndOnItsFarSide) {
+TEST(HardSecondary, RaysLeaveTheGroundAndCrossIt) {
   for (const HardCaseSpec& spec : hard_case_specs()) {
     if (std::string(spec.row) != "S11") continue;
     std::size_t self_hits = 0, lost = 0, ended = 0;
@@ -150,7 +150,7 @@ TEST(HardSecondary, LeaveTheGroundAndEndOnItsFarSide) {
 }
 
 /// The nearest of many, ties to the lower id.
-TEST(HardClosest, IsTheOracles) {
+TEST(HardClosest, EqualsTheOracle) {
   const std::size_t rays = rays_per_case() / 16;
   for (const HardCaseSpec& spec : judged_specs()) {
     const HardCase all = make_hard_case(spec, 16, rays);

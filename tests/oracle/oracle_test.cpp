@@ -22,7 +22,7 @@ TEST(Oracle, KnowsRationalRoots) {
   EXPECT_EQ(oracle_residual(ray, Plane{{7, 7, -8}, {0, 0, 3}, 0}, 3).to_double(), 2);
 }
 
-TEST(Oracle, SeesTheSmallestStepOverTheRim) {
+TEST(Oracle, ResolvesTheSmallestStepAtTheRim) {
   const Ray ray{{0, 0, 0}, {0, 0, -1}};
   const float beside = 0x1p100f, next = 0x1.000002p100f;
   EXPECT_TRUE(oracle_hit(ray, Sphere{{beside, 0, -0x1p120f}, beside, 0}));

@@ -29,7 +29,7 @@ constexpr std::size_t impossible[] = {most_rays,          most_rays - 1,     mos
                                       most_rays / 4 + 1,  most_rays / 8 - 2, most_rays / 8 - 16,
                                       most_rays / 8 - 17, most_rays / 64};
 
-TEST(BadInput, ArraysOfImpossibleSizesAreRefusedAndStay) {
+TEST(BadInput, ImpossibleSizesLeaveArraysUnchanged) {
   AlignedArray<double> array(20, 3);
   const double* const before = array.data();
   for (const std::size_t size : impossible) {
@@ -49,7 +49,7 @@ void refuse_and_stay() {
   EXPECT_EQ(buffer.view().size, 5U);
 }
 
-TEST(BadInput, SoAreBuffers) {
+TEST(BadInput, ImpossibleSizesLeaveBuffersUnchanged) {
   refuse_and_stay<RayBuffer>();
   refuse_and_stay<HitBuffer>();
   refuse_and_stay<SampleBuffer>();
@@ -57,7 +57,7 @@ TEST(BadInput, SoAreBuffers) {
 #endif
 
 /// One that forgot what it gave away would hand out null.
-TEST(BadInput, WhatWasMovedAwayCanBeResized) {
+TEST(BadInput, MovedFromArraysCanBeResized) {
   AlignedArray<int> first(40, 1);
   AlignedArray<int> second = std::move(first);
   EXPECT_EQ(first.data(), nullptr);  // NOLINT: that is the test
@@ -85,7 +85,7 @@ TEST(BadInput, NoSpheresAreNoBlocks) {
   EXPECT_EQ(nothing.view().planes.size, 0U);
 }
 
-TEST(BadInput, WhatParallelForThrowsCrosses) {
+TEST(BadInput, ExceptionsOfParallelForPropagate) {
   const std::vector<Sphere> spheres(100, Sphere{{nan, 0, 0}, 1, 0});
   const ParallelFor failing = [](std::size_t, const auto&) { throw std::runtime_error("no"); };
   EXPECT_THROW(Geometry(spheres, {}, Structure::bvh, failing), std::runtime_error);
@@ -94,7 +94,7 @@ TEST(BadInput, WhatParallelForThrowsCrosses) {
   EXPECT_NO_THROW(Geometry(spheres, {}, static_cast<Structure>(9)));
 }
 
-TEST(BadInput, NamesThatNoIsaHasAreRefused) {
+TEST(BadInput, UnknownIsaNamesAreRefused) {
   for (const std::string& name :
        {std::string(), std::string("AVX2"), std::string("avx2 "), std::string("avx2\0", 5),
         std::string("\xff\xfe"), std::string(100'000, 'a')}) {

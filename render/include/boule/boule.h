@@ -1,13 +1,13 @@
 #pragma once
 
-/// All of Boule that a program needs: scenes from files or from memory, pictures, rays and their
-/// hits. Each header can be included by itself as well, by the path below.
+/// The whole interface of Boule: scenes from files or from memory, pictures, rays and their hits.
+/// You can also include each header by itself, by the path below.
 
-#include "core/base/float_environment.h"  // FloatEnvironment: what kernels compute in
-#include "core/reference.h"        // closest_hit(): the hits that all others are held against
-#include "core/scene/instances.h"  // expand_instances(): a scene without groups
-#include "core/scene/scene.h"      // Scene: what there is to see
-#include "render/frame/partial_picture.h"  // partial_picture(): of a render that goes on
+#include "core/base/float_environment.h"   // FloatEnvironment: the float settings of kernels
+#include "core/reference.h"                // closest_hit(): the reference for all hits
+#include "core/scene/instances.h"          // expand_instances(): a scene without groups
+#include "core/scene/scene.h"              // Scene: camera, objects, materials, lights
+#include "render/frame/partial_picture.h"  // partial_picture(): of an unfinished render
 #include "render/image/read_image.h"       // read_image()
 #include "render/image/write_image.h"      // write_image()
 #include "render/renderer/renderer.h"      // Renderer: a scene to a picture

@@ -10,10 +10,10 @@
 #include "simd/kernel/camera/look_up.h"
 #include "simd/lanes/lanes.h"
 
-/// Camera rays, W at a time: in double, the direction rounded to float once.
+/// Camera rays, W at a time: computed in double, with the direction rounded to float once.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Stores W rays. What all rays of the stream share is stored by the first ones alone.
+/// Stores W rays. The first ones alone store the numbers that all rays of the stream share.
 BOULE_INLINE void store_rays(const RayStream& rays, std::size_t first, const Vec3<Wide>& org,
                              const Vec3<Wide>& dir) {
   const bool begins = first < max_width;

@@ -8,27 +8,28 @@
 #include "simd/kernel/search/sphere_boxes.h"
 #include "simd/kernel/tuning.h"
 
-/// All rays of a packet as one beam, by interval arithmetic: what the beam misses every ray misses.
-/// W boxes, or the boxes of W spheres, are tested at once; what remains is tested ray by ray.
-/// Chosen for packets whose rays go the same way along two axes at least. docs/numerics.md derives
-/// the slack (filter::beam).
+/// All rays of a packet as one beam, by interval arithmetic: a box that the beam misses is missed
+/// by every ray. Tests W boxes, or the boxes of W spheres, at once; the rays test the remaining
+/// ones one by one. Chosen for packets whose rays go the same way along at least two axes.
+/// docs/numerics.md derives the slack (filter::beam).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Whether all rays go up along an axis, or all down, and none nearly along its planes.
+/// Whether all rays go up along an axis, or all down, none of them nearly parallel to its planes.
 BOULE_INLINE bool goes_one_way(const Real& unit) {
   return bits(Real(tuning::least_beam_slope) <= unit) == all_lanes ||
          bits(unit <= Real(-tuning::least_beam_slope)) == all_lanes;
 }
 
-/// An axis along which all rays go up, or all go down. They meet its plane at x at t >= x
-/// near_inverse + near, where that is not behind them, and at t <= x far_inverse + far.
+/// An axis along which all rays go up, or all go down. They cross its plane at x at t >= x
+/// near_inverse + near, if the plane is in front of them, and at t <= x far_inverse + far.
 struct BeamSlab {
   float near_inverse, near, far_inverse, far;
-  float forth;              ///< 1, or -1 where they go down
-  std::uint32_t first_row;  ///< offset, in floats, of a node's planes that are met first
-  std::uint32_t last_row;   ///< and of the others
+  float forth;              ///< 1, or -1 if they go down
+  std::uint32_t first_row;  ///< offset, in floats, of the planes of a node that rays cross first
+  std::uint32_t last_row;   ///< the same for those that they cross last
 
-  /// Returns false where some rays go up and others down, or some nearly along the planes.
+  /// Returns false if some rays go up and others down, or if some are nearly parallel to the
+  /// planes.
   BOULE_INLINE bool set(std::uint32_t axis, const Slab& slab, const Real& org, const Real& unit) {
     const bool down = any(unit <= Real(-tuning::least_beam_slope));
     forth = down ? -1.0F : 1.0F;
@@ -46,7 +47,7 @@ struct BeamSlab {
     far = static_cast<float>((filter::floor - first) * double{fast});
     return true;
   }
-  /// Cuts [begin, end] to what lies between the plane that is met first and the other one.
+  /// Reduces [begin, end] to the part between the first plane and the last.
   BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
     begin = filter_max(filter_fma(first, Real(near_inverse), Real(near)), begin);
     end = filter_min(filter_fma(last, Real(far_inverse), Real(far)), end);
@@ -58,7 +59,7 @@ struct BeamSlab {
   }
 };
 
-/// Whether these rays form a beam: two axes are enough, if all rays are judged.
+/// Whether these rays form a beam: two axes are enough if all rays are judged.
 BOULE_INLINE bool forms_beam(const FilterRays& rays) {
   const int axes = (goes_one_way(rays.unit.x) ? 1 : 0) + (goes_one_way(rays.unit.y) ? 1 : 0) +
                    (goes_one_way(rays.unit.z) ? 1 : 0);
@@ -74,11 +75,12 @@ class Beam {
                z = z_.set(2, rays.slabs.z, filter.org.z, filter.unit.z);
     is_straight_ = is_beam_ && x && y && z;
   }
-  /// Whether these rays form a beam at all; else nothing else here may be used.
+  /// Whether these rays form a beam. Precondition of all other functions: they do.
   [[nodiscard]] BOULE_INLINE bool is_beam() const { return is_beam_; }
   /// Whether they go the same way along all three axes.
   [[nodiscard]] BOULE_INLINE bool is_straight() const { return is_straight_; }
-  /// The rows of a node's planes that a straight beam meets first, and of the others.
+  /// The rows of a node's planes that a straight beam crosses first, and those that it crosses
+  /// last.
   struct Rows {
     const float *first_x, *first_y, *first_z;
     const float *last_x, *last_y, *last_z;
@@ -90,8 +92,8 @@ class Beam {
             rows + x_.last_row,  rows + y_.last_row,  rows + z_.last_row};
   }
 
-  /// The children of a node that may be entered before `limit`, as bits. Writes to `near` a lower
-  /// bound of where each is entered.
+  /// The children of a node that the beam may enter before `limit`, as bits. Writes a lower bound
+  /// of each entry distance to `near`.
   BOULE_INLINE unsigned enter(const BvhNode& node, float limit, float* near) const {
     const Rows rows = rows_of(node);
     unsigned in = 0;
@@ -105,7 +107,7 @@ class Beam {
     }
     return in;
   }
-  /// The spheres of a leaf whose boxes may be entered before `limit`, as bits.
+  /// The spheres of a leaf whose boxes the beam may enter before `limit`, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf, float limit) const {
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_leaf_size; at += width) {

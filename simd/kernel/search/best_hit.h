@@ -9,21 +9,22 @@
 #include "simd/kernel/search/root_bounds.h"
 #include "simd/kernel/tuning.h"
 
-/// What packets and single rays have found so far: the nearest hit per lane, or whether there is
-/// one at all. A search offers spheres in two ways. consider() takes what float knows about a
-/// sphere and says whether double must decide; offer() takes what the double solver found.
+/// The results of packets and single rays so far: the nearest hit per lane, or whether a lane has
+/// hit anything. A search offers spheres in two ways. consider() takes the float bounds of a sphere
+/// and says whether double must decide; offer() takes the result of the double solver.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The nearest hit per lane. Most rays need only one double solve, at the end: as long as float is
-/// certain which sphere is the nearest, that sphere is only `pending`, and settle() solves it.
+/// certain which sphere is the nearest, that sphere stays `pending`, and settle() solves it.
 struct ClosestHit {
-  Wide t;        ///< of the nearest hit that is solved
-  Bits id;       ///< of that hit's primitive
-  Bits slot;     ///< where it lies, if it is a sphere
+  Wide t;        ///< of the nearest solved hit
+  Bits id;       ///< id of the primitive of that hit
+  Bits slot;     ///< its slot, if it is a sphere
   Bits pending;  ///< slot of a sphere that is certainly hit, and certainly nearer than t
   RealMask is_pending;
-  Real nearest;  ///< lower bound of t |dir|: of the pending hit, else of the solved one or of tmax
-  Real reach;    ///< upper bound of a live t |dir| that may still be nearer than what was found
+  Real nearest;  ///< lower bound of t |dir|: of the pending hit, otherwise of the solved one or of
+                 ///< tmax
+  Real reach;    ///< upper bound of the t |dir| at which a nearer hit is possible
 
   BOULE_INLINE explicit ClosestHit(const RayLanes& rays)
       : t(no_hit),
@@ -34,15 +35,14 @@ struct ClosestHit {
         nearest(rays.filter.live_to),
         reach(distance(rays.exact.tmax, rays)) {}
 
-  /// t |dir|, rounded. The bounds that it is compared with allow for that (filter_bounds.h).
+  /// t |dir|, rounded. The bounds it is compared with allow for that (filter_bounds.h).
   BOULE_INLINE static Real distance(const Wide& t, const RayLanes& rays) {
     return narrow(t * rays.filter.length);
   }
 
-  /// Takes what float knows about the sphere in `in_slot`. `low` is a lower bound of its hit; lanes
-  /// in `out` do not hit it. Returns whether the double solver must decide: it must unless every
-  /// lane is out, has found a nearer sphere, or certainly has its nearest hit here. Adds these to
-  /// `out`.
+  /// Takes the float bounds of the sphere in `in_slot`. `low` is a lower bound of its hit; lanes in
+  /// `out` miss it. Returns whether the double solver must decide. Float is enough if every lane is
+  /// out, has a nearer sphere, or certainly has its nearest hit here. Adds those lanes to `out`.
   BOULE_INLINE bool consider(const RootBounds& roots, const Real& low, unsigned& out,
                              const Bits& in_slot, const FilterRays& rays) {
     const Real high = highest(roots, rays);
@@ -54,15 +54,15 @@ struct ClosestHit {
     is_pending = is_pending | first;
     return out != all_lanes;
   }
-  /// Whether a sphere with the lower bound `low` may still be the nearest in a lane not in `out`.
+  /// Whether a sphere with the lower bound `low` may still be the nearest in a lane outside `out`.
   BOULE_INLINE bool wants(const Real& low, unsigned out) const {
     return (bits(reach < low) | out) != all_lanes;
   }
 
-  /// Nothing beyond this t |dir| is of interest.
+  /// The largest t |dir| at which a hit still counts.
   [[nodiscard]] BOULE_INLINE Real limit() const { return reach; }
 
-  /// `in_slot`: where the primitive lies, if it is a sphere.
+  /// `in_slot`: the slot of the primitive, if it is a sphere.
   BOULE_INLINE void offer(const Roots& roots, const Bits& primitive, const Bits& in_slot,
                           const RayLanes& rays) {
     const WideMask lower_id = widen(~(id <= primitive));
@@ -80,7 +80,7 @@ struct ClosestHit {
     is_pending = uniform(false);
   }
   static constexpr bool done() { return false; }
-  /// Those of `lanes` that may still have something to find.
+  /// The lanes among `lanes` whose search is still open.
   static constexpr unsigned open(unsigned lanes) { return lanes; }
   static constexpr bool ordered = true;  ///< visiting near children first saves work
   static constexpr std::size_t chunk = tuning::nearest_chunk;
@@ -97,11 +97,12 @@ struct ClosestHit {
   }
 };
 
-/// Whether anything is hit, per lane. With `one_ray` all lanes are the same ray: one hit will do.
+/// Whether each lane has a hit. With `one_ray` all lanes hold the same ray, and one hit is enough.
 template <bool one_ray>
 struct AnyHit {
   unsigned hit = 0;  ///< lanes as bits
-  Real far;          ///< upper bound of a live t |dir|; below everything in lanes that have a hit
+  Real far;          ///< upper bound of the t |dir| that counts; below everything in lanes with a
+                     ///< hit
 
   BOULE_INLINE explicit AnyHit(const RayLanes& rays)
       : far(ClosestHit::distance(rays.exact.tmax, rays)) {}

@@ -9,12 +9,12 @@
 #include "simd/kernel/search/bundle_lines.h"
 #include "simd/kernel/tuning.h"
 
-/// Whether the rays of a bundle hit anything. Float decides nearly always; the double solver does
-/// where a ray passes too close to a sphere's rim, or ends too close to it, for float to tell.
-/// Where few rays are near a leaf's spheres they are met one by one, W spheres at a time.
+/// Occlusion of the rays of a bundle. Float decides nearly always. The double solver decides where
+/// a ray passes a sphere's rim, or ends near the sphere, too closely for float. Where few rays are
+/// near a leaf's spheres, each ray is tested alone, W spheres at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where the packets of a bundle start, whatever its source is.
+/// The origins and starts of a bundle's packets, for any source.
 class BundleStarts {
  public:
   template <class Source>
@@ -25,7 +25,7 @@ class BundleStarts {
     for (int p = 0; p < packets; ++p) starts_[p] = source.start(p * width);
   }
   [[nodiscard]] BOULE_INLINE const PacketStart& of(int packet) const { return starts_[packet]; }
-  /// The rays of a packet that are named by the bits of `wanted`; valid until the next call.
+  /// The rays of a packet that the bits of `wanted` name; valid until the next call.
   [[nodiscard]] BOULE_INLINE PacketRef packet(int packet, unsigned wanted) const {
     return packet_(source_, packet * width, wanted);
   }
@@ -48,17 +48,17 @@ class BundleAny {
     update();
   }
 
-  /// For each group the v beyond which its open rays do not live; -inf if it has none. A ray is
-  /// open until it has hit something.
+  /// For each group the largest v at which its open rays still search; -inf without open rays. A
+  /// ray is open until it has a hit.
   [[nodiscard]] const float* limits() const { return limits_; }
   [[nodiscard]] float limit() const { return limit_; }
   [[nodiscard]] bool done() const { return limit_ == -static_cast<float>(no_hit); }
-  /// Whether float could not tell too often. That happens among spheres that are tiny for their
-  /// distance from the light, but not for their distance from the rays, which begin among them.
+  /// Whether float was undecided too often. That happens where the rays begin among spheres that
+  /// are tiny for their distance from the light.
   [[nodiscard]] bool too_close() const { return unclear_ > tuning::most_unclear * rays_.packets; }
 
-  /// A simple sphere against the rays of a group. Returns whether that may have changed their hits;
-  /// update() is then to be called before limit().
+  /// Tests a simple sphere against the rays of a group. Returns whether their hits may have
+  /// changed; if so, call update() before limit().
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
     const BundleRays& rays = rays_;
     const PacketRange packets = packets_of(rays, group);
@@ -77,8 +77,8 @@ class BundleAny {
     return changed;
   }
 
-  /// Discs against the rays that are near them, one by one. Returns false, and does nothing, if
-  /// those are not few.
+  /// Tests discs against the rays near them, one by one. Returns false, without effect, if those
+  /// rays are many.
   BOULE_INLINE bool meet_few(const Discs& discs, const BlockSpheres& spheres) {
     const unsigned groups = groups_near(rays_.groups, limits_, discs.all, discs.all_near);
     if (count_bits(groups) > few_.groups) return false;
@@ -89,7 +89,7 @@ class BundleAny {
         rays[count++] = first_ray + std::countr_zero(in);
       if (count > few_.rays) return false;
     }
-    // First those that miss all discs are dropped, without a branch for each.
+    // A first pass drops the rays that miss all discs, without a branch for each.
     int near = 0;
     for (int i = 0; i < count; ++i) {
       rays[near] = rays[i];
@@ -103,14 +103,13 @@ class BundleAny {
     return true;
   }
 
-  /// Fills the grid with the open rays. That is done for sparse bundles, in which more rays count
-  /// as few.
+  /// Enters the open rays into the grid. For sparse bundles, where more rays count as few.
   void fill(RayGrid& grid) {
     grid.fill(rays_, hit_, end_high_);
     few_ = tuning::few_if_sparse;
   }
 
-  /// A sphere that is not simple against all rays.
+  /// Tests a sphere that is not simple against all rays.
   BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
     for (int p = 0; p < rays_.packets; ++p) {
       if (hit_[p] != all_lanes) resolve(p, slot, all_lanes & ~hit_[p]);
@@ -119,10 +118,10 @@ class BundleAny {
     update();
   }
 
-  /// Finds limit() again.
+  /// Recomputes limit().
   BOULE_INLINE void update() { limit_ = greatest_of_groups(limits_); }
 
-  /// Adds the planes, and finds for each packet the rays that have hit something, as bits.
+  /// Adds the planes, and finds the rays of each packet that have a hit, as bits.
   void finish(const PlaneView& planes, unsigned* hit) {
     for (int p = 0; p < rays_.packets; ++p) {
       if (planes.size != 0 && hit_[p] != all_lanes) meet_planes(p, planes);
@@ -139,7 +138,7 @@ class BundleAny {
     limits_[group] = most;
   }
 
-  /// Finds between which v rays live. Seen from a common end they run from v = (1 - tmax) scale,
+  /// Finds the range of v of each ray. Seen from a common end, rays run from v = (1 - tmax) scale,
   /// where they end, to scale, where they begin.
   BOULE_INLINE void start(int p) {
     const int ray = p * width;
@@ -157,17 +156,17 @@ class BundleAny {
     store(end_low_ + ray, end_low);
     store(end_high_ + ray, end_high);
     const Real none(-static_cast<float>(no_hit));
-    last_[p] = greatest_lane(select(none <= end_high, end_high, none));  // NaN is left out
+    last_[p] = greatest_lane(select(none <= end_high, end_high, none));  // skips NaN
     hit_[p] = 0;
   }
 
-  /// Between which v rays live.
+  /// The ranges of v of rays.
   struct Lives {
     Real begin;              ///< upper bound of the begin
     Real end_low, end_high;  ///< bounds of the end
   };
-  /// What float knows, as bits: lanes that may hit, and lanes that certainly do unless they leave
-  /// that very sphere.
+  /// The decision of float, as bits: lanes that may hit, and lanes that certainly hit unless they
+  /// leave that very sphere.
   struct Verdict {
     unsigned open, certain;
   };
@@ -183,8 +182,8 @@ class BundleAny {
     return {bits(open), bits(certain)};
   }
 
-  /// Lets float decide about a sphere and W rays, and double what float cannot. Returns whether
-  /// that may have changed anything.
+  /// Lets float decide about a sphere and W rays, and double where float is undecided. Returns
+  /// whether anything may have changed.
   BOULE_INLINE bool consider(int p, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
     const int ray = p * width;
     const Verdict verdict =
@@ -202,8 +201,8 @@ class BundleAny {
     return true;
   }
 
-  /// The open rays of a group, as bits, that lie within the extent of the discs and do not end
-  /// before the first of them.
+  /// The open rays of a group, as bits, that lie within the extent of the discs and end behind the
+  /// first of them.
   BOULE_INLINE unsigned open_amid(int group, const Discs& discs) const {
     const Extent& e = discs.all;
     const Real near(discs.all_near);
@@ -219,7 +218,7 @@ class BundleAny {
     return result;
   }
 
-  /// Whether float cannot rule out that a ray hits one of the simple spheres.
+  /// Whether a ray may hit one of the simple spheres, as far as float can tell.
   BOULE_INLINE bool touches(int ray, const Discs& discs) const {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Real end(end_high_[ray]);
@@ -232,7 +231,7 @@ class BundleAny {
     return (in & discs.simple) != 0;
   }
 
-  /// The simple spheres against one ray. Returns whether it hits one.
+  /// Tests the simple spheres against one ray. Returns whether it hits one.
   BOULE_INLINE bool meet_ray(int ray, const Discs& discs, const BlockSpheres& spheres) {
     const LineLanes line = LineLanes::same<common>(rays_, ray);
     const Lives lives = {begin_[ray], end_low_[ray], end_high_[ray]};
@@ -248,8 +247,8 @@ class BundleAny {
     return false;
   }
 
-  /// Decides whether a ray hits one of W spheres, from index `at` of their block on. `open`: those
-  /// that it may hit, as bits, `certain`: those that it does unless it leaves them.
+  /// Decides whether a ray hits one of W spheres, from index `at` of their block on. `open`: the
+  /// spheres that it may hit, as bits; `certain`: those that it hits unless it leaves them.
   BOULE_INLINE bool decide(int ray, unsigned open, unsigned certain, const BlockSpheres& spheres,
                            int at) {
     const int p = ray / width, lane = ray % width;
@@ -259,7 +258,7 @@ class BundleAny {
       const int k = std::countr_zero(left);
       const std::uint32_t slot = spheres.slot(at + k);
       const bool own = id_of(spheres_, slot) == start.source[lane];
-      if (own && start.inside[lane] == 0) continue;  // never met again
+      if (own && start.inside[lane] == 0) continue;  // never hit again
       if (own || ((certain >> k) & 1U) == 0) {
         ++unclear_;
         resolve(p, slot, bit);
@@ -275,14 +274,14 @@ class BundleAny {
   BOULE_INLINE unsigned own_sphere(int p, std::int32_t id) const {
     return bits(load_integers(starts_.of(p).source) == Bits(id));
   }
-  /// Of the lanes in `own`, whose rays leave a sphere, those that leave it on its outside: they
-  /// never meet it again.
+  /// Among the lanes in `own`, whose rays leave a sphere, those that leave it on its outside: they
+  /// never hit it again.
   BOULE_INLINE unsigned leaves_outside(int p, unsigned own) const {
     if (own == 0) return 0;
     return own & ~bits(load_set(starts_.of(p).inside));
   }
 
-  /// Solves a sphere for those rays of packet p whose bits are set in `open`.
+  /// Solves a sphere for the rays of packet p whose bits are set in `open`.
   BOULE_NOINLINE void resolve(int p, std::uint32_t slot, unsigned open) {
     const PacketRef packet = starts_.packet(p, open);
     ExactRays rays;
@@ -306,11 +305,11 @@ class BundleAny {
   const Spheres& spheres_;
   const BundleRays& rays_;
   tuning::Few few_ = tuning::few_at_first;
-  int unclear_ = 0;  ///< how often float could not tell
+  int unclear_ = 0;  ///< how often float was undecided
   float limit_ = 0;
   alignas(64) float limits_[bundle_groups];
-  float last_[bundle_packets];            ///< the greatest v that a packet's rays live at
-  unsigned hit_[bundle_packets];          ///< by packet, the rays that have hit something, as bits
+  float last_[bundle_packets];            ///< the largest v in the range of a packet's rays
+  unsigned hit_[bundle_packets];          ///< by packet, the rays that have a hit, as bits
   alignas(64) float begin_[bundle_size];  ///< as in Lives
   alignas(64) float end_low_[bundle_size], end_high_[bundle_size];  ///< as in Lives
 };

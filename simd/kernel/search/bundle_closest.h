@@ -9,8 +9,8 @@
 
 /// The nearest hits of a bundle's rays. As long as float is certain which sphere is the nearest,
 /// only its slot is kept, with bounds of its v: most rays then need one double solve, at the end.
-/// Where float cannot tell which of two spheres is nearer, double decides at once; the smaller (t,
-/// id) wins, as everywhere.
+/// Where float cannot order two spheres, double decides at once; the smaller (t, id) wins, as
+/// everywhere.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The nearest hits of a bundle. Spheres: SphereView, or PartSpheres (parts.h).
@@ -26,11 +26,11 @@ class BundleClosest {
     update();
   }
 
-  /// For each group the v beyond which no hit is of interest.
+  /// For each group the largest v at which a hit still counts.
   [[nodiscard]] const float* limits() const { return limits_; }
-  /// The greatest of them, as of the last update().
+  /// The largest of limits(), as of the last update().
   [[nodiscard]] float limit() const { return limit_; }
-  /// The least of limits().
+  /// The smallest of limits().
   [[nodiscard]] BOULE_INLINE float least_limit() const {
     Real least = load(limits_);
     for (int at = width; at < bundle_groups; at += width)
@@ -40,8 +40,8 @@ class BundleClosest {
   [[nodiscard]] bool done() const { return false; }
   [[nodiscard]] bool too_close() const { return false; }
 
-  /// A simple sphere against the rays of a group. Returns whether that may have changed their hits;
-  /// update() is then to be called before limit().
+  /// Tests a simple sphere against the rays of a group. Returns whether their hits may have
+  /// changed; if so, call update() before limit().
   BOULE_INLINE bool meet(int group, const DiscLanes& disc, std::uint32_t slot) {
     const PacketRange packets = packets_of(rays_, group);
     bool changed = false;
@@ -63,17 +63,17 @@ class BundleClosest {
     return changed;
   }
 
-  /// Finds limit() again.
+  /// Recomputes limit().
   BOULE_INLINE void update() { limit_ = greatest_of_groups(limits_); }
 
-  /// A sphere that is not simple against all rays.
+  /// Tests a sphere that is not simple against all rays.
   BOULE_NOINLINE void meet_awkward(std::uint32_t slot) {
     for (int p = 0; p < rays_.packets; ++p) resolve(p * width, slot, all_lanes);
     for (int group = 0; group < bundle_groups; ++group) update(group);
     update();
   }
 
-  /// Solves what is hit, adds the planes and writes the hits.
+  /// Solves the pending hits, adds the planes and writes the hits.
   BOULE_INLINE void finish(const PlaneView& planes, const HitStream& hits) {
     for (int p = 0; p < rays_.packets; ++p) finish(p * width, planes, hits);
   }
@@ -84,14 +84,14 @@ class BundleClosest {
     Real most(-static_cast<float>(no_hit));
     for (int p = packets.begin; p < packets.end; ++p) {
       const Real high = load(high_ + p * width);
-      most = select(most < high, high, most);  // NaN is left out
+      most = select(most < high, high, most);  // skips NaN
     }
     limits_[group] = greatest_lane(most);
   }
 
   BOULE_INLINE void start(int ray) {
     const Real largest(std::numeric_limits<float>::max()), tmax = load(source_.start(ray).tmax);
-    // NaN stays, and nothing is nearer than NaN. Infinity stays, and every float is nearer.
+    // NaN stays, and no hit is nearer than NaN. Infinity stays, and every float is nearer.
     const Real end = select(largest < tmax, largest, tmax) * load(rays_.scale + ray);
     store(low_ + ray, end);
     store(high_ + ray, end);
@@ -100,8 +100,8 @@ class BundleClosest {
     solved_any_[ray / width] = uniform_[ray / width] = false;
   }
 
-  /// Lets float decide about a sphere and W rays, and double what float cannot. Returns whether
-  /// that may have changed anything.
+  /// Lets float decide about a sphere and W rays, and double where float is undecided. Returns
+  /// whether anything may have changed.
   BOULE_INLINE bool consider(int ray, const DiscLanes& disc, const Real& q, std::uint32_t slot) {
     const Real low = load(low_ + ray), high = load(high_ + ray);
     const Real from = first_root<common>(LineLanes::each<common>(rays_, ray), disc, q),
@@ -119,7 +119,7 @@ class BundleClosest {
     return true;
   }
 
-  /// Solves a sphere for W rays; those whose bits are set in `lanes` take it if it is the nearest.
+  /// Solves a sphere for W rays; rays whose bits are set in `lanes` take it if it is the nearest.
   BOULE_NOINLINE void resolve(int ray, std::uint32_t slot, unsigned lanes) {
     ExactRays rays;
     load_exact<common>(source_.packet(ray), rays_, rays);
@@ -147,7 +147,7 @@ class BundleClosest {
     }
   }
 
-  /// Solves those hits of W rays of which only float's bounds are known.
+  /// Solves the hits of W rays that are known only by their float bounds.
   void settle(int ray, const ExactRays& rays) {
     bool pending = false;
     for (int i = ray; i < ray + width; ++i) pending |= slot_[i] != solved_[i];
@@ -203,7 +203,7 @@ class BundleClosest {
     }
   }
 
-  /// Which of W rays hit a sphere.
+  /// The lanes, of W rays, that hit a sphere.
   BOULE_INLINE WideMask has_hit(int ray) const {
     return widen(~(load_integers(slot_ + ray) == Bits(no_slot)));
   }

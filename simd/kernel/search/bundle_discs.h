@@ -6,9 +6,9 @@
 #include "simd/kernel/search/primitive_access.h"
 
 /// Spheres as discs in a bundle's frame, a block of sixteen at a time: each around (X, Y) at the
-/// depth Z. Where a sphere is simple for the bundle, its disc and the bounds kept with it decide
-/// nearly everything in float. The names used here are those of simd/abi/filter_bounds.h;
-/// docs/numerics.md derives the bounds.
+/// depth Z. If a sphere is simple for the bundle, its disc and the bounds kept with it decide
+/// nearly everything in float. The names are those of simd/abi/filter_bounds.h; docs/numerics.md
+/// derives the bounds.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The first spheres of a block, up to sixteen.
@@ -24,13 +24,13 @@ class BlockSpheres {
   [[nodiscard]] BOULE_INLINE std::uint32_t slot(int index) const {
     return first_ + static_cast<std::uint32_t>(index);
   }
-  /// Those of the W spheres of a part: part p has the indices from p W on.
+  /// The centres of W spheres: part p has the indices from p W on.
   BOULE_INLINE Vec3<Real> centers(std::size_t part) const {
     const std::size_t at = part * width;
     return {load(block_.center_x + at), load(block_.center_y + at), load(block_.center_z + at)};
   }
   BOULE_INLINE Real radii(std::size_t part) const { return load(block_.radius + part * width); }
-  /// The number of parts that have a sphere.
+  /// The number of parts that hold a sphere.
   [[nodiscard]] BOULE_INLINE std::size_t parts() const { return (count_ + width - 1) / width; }
 
  private:
@@ -48,14 +48,14 @@ struct Discs {
   alignas(64) float sure[size];     ///< D2
   alignas(64) float depth[size];    ///< Z - E1
   alignas(64) float spread[size];   ///< upper less lower bound of v of a hit
-  alignas(64) float near[size];     ///< no point of the sphere has a smaller v; inf if not simple
+  alignas(64) float near[size];     ///< lower bound of v over the sphere; inf if it is not simple
   alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];  ///< its extent
 
-  Extent all;      ///< of all simple ones; only where any hit is sought
-  float all_near;  ///< the least of `near`; likewise
+  Extent all;      ///< of all simple ones; only for any hit
+  float all_near;  ///< the smallest of `near`; only for any hit
 
-  unsigned simple;   ///< as bits, spheres that may be hit and that these bounds hold for
-  unsigned awkward;  ///< as bits, spheres that may be hit and that they do not hold for
+  unsigned simple;   ///< as bits, spheres that may be hit and for which these bounds hold
+  unsigned awkward;  ///< as bits, other spheres that may be hit
 };
 
 /// The factors of the bounds, the same for all spheres of one bundle.
@@ -79,8 +79,8 @@ struct DiscFactors {
   }
 };
 
-/// Lanes of spheres that lie beyond one of the bundle's four sides, so that no ray hits them.
-/// `reach`: how near the centre a line that hits the sphere comes.
+/// Lanes of spheres beyond one of the bundle's four sides, which all rays miss. `reach`: the
+/// largest distance from the centre of a line that hits the sphere.
 template <Common common>
 BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, const Real& reach) {
   const Real zero(0.0F);
@@ -95,7 +95,7 @@ BOULE_INLINE RealMask outside(const Extent& extent, const Vec3<Real>& center, co
   }
 }
 
-/// Finds where the spheres of a part lie and whether the bundle may hit them before `limit`.
+/// Finds the places of the spheres of a part, and whether the bundle may hit them before `limit`.
 template <Common common, Sought sought>
 BOULE_INLINE void locate_part(const BundleRays& rays, const DiscFactors& factors,
                               const BlockSpheres& spheres, std::size_t part, const Real& limit,
@@ -114,14 +114,14 @@ BOULE_INLINE void locate_part(const BundleRays& rays, const DiscFactors& factors
   const RealMask judged = f1 < Real(filter::bundle_far);
   const RealMask missed = judged & outside<common>(rays.extent, center, reach);
   RealMask simple = judged & (r < Real(filter::bundle_far));
-  // Parallel rays begin anywhere among the spheres. Where any hit is sought, bounds of v tell
-  // whether a sphere lies behind the origin.
+  // Parallel rays begin anywhere among the spheres. For any hit, bounds of v tell whether a sphere
+  // lies behind the origin.
   if constexpr (common != Common::direction || sought == Sought::nearest)
     simple = simple & (r + r + Real(rays.c_high) <= center.z);
   if constexpr (common != Common::direction)
     simple = simple & (Real(static_cast<float>(filter::floor)) <= center.z);  // 1 / Z is finite
   const std::size_t at = part * width;
-  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // nothing hits NaN
+  discs.awkward |= bits(~simple & ~missed & (r <= r)) << at;  // rays miss NaN
   store(discs.x + at, center.x);
   store(discs.y + at, center.y);
   store(discs.z + at, center.z);
@@ -133,7 +133,7 @@ BOULE_INLINE void locate_part(const BundleRays& rays, const DiscFactors& factors
   discs.simple |= bits(simple) << at;
 }
 
-/// Finds which spheres of a block may be hit, and where they lie.
+/// Finds the spheres of a block that may be hit, and their places.
 template <Common common, Sought sought>
 BOULE_INLINE void locate_discs(const BundleRays& rays, const DiscFactors& factors,
                                const BlockSpheres& spheres, float limit, Discs& discs) {
@@ -185,7 +185,8 @@ BOULE_INLINE void bound_discs(const DiscFactors& factors, std::size_t parts, Dis
   }
 }
 
-/// The groups, as bits, with a ray that may lie in an extent and whose limit is not below `least`.
+/// The groups, as bits, that have a ray which may lie in an extent and whose limit is at least
+/// `least`.
 BOULE_INLINE unsigned groups_near(const GroupExtents& groups, const float* limits, const Extent& e,
                                   float least) {
   const Real a_low(e.a_low), a_high(e.a_high), b_low(e.b_low), b_high(e.b_high), near(least);

@@ -3,15 +3,15 @@
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Ranges of a and b, the two coordinates by which a bundle's rays differ (bundle_frame.h): of some
-/// of the rays, of all, or of the rays that a sphere may be hit by.
+/// Ranges of a and b, the two coordinates in which a bundle's rays differ (bundle_frame.h): of some
+/// of the rays, of all, or of the rays that may hit a sphere.
 namespace boule::BOULE_KERNEL_ISA {
 
 struct Extent {
   float a_low, a_high, b_low, b_high;
 };
 
-/// No ray's.
+/// The extent of zero rays.
 inline constexpr Extent no_extent = {static_cast<float>(no_hit), -static_cast<float>(no_hit),
                                      static_cast<float>(no_hit), -static_cast<float>(no_hit)};
 
@@ -20,11 +20,11 @@ BOULE_INLINE Extent extent_of_both(const Extent& a, const Extent& b) {
           a.b_low < b.b_low ? a.b_low : b.b_low, a.b_high > b.b_high ? a.b_high : b.b_high};
 }
 
-/// What a bundle sees of sixteen boxes: the a and b of the rays that may enter each.
+/// The view of a bundle on sixteen boxes: the a and b of the rays that may enter each.
 struct BoxViews {
   static constexpr int size = bvh_width;
   alignas(64) float a_low[size], a_high[size], b_low[size], b_high[size];
-  alignas(64) float area[size];  ///< of what lies within the extent of all rays
+  alignas(64) float area[size];  ///< area of the part within the extent of all rays
 };
 
 /// An extent that grows, W rays or spheres at a time.
@@ -38,7 +38,7 @@ struct ExtentLanes {
     b_low = filter_min(b_low, b);
     b_high = filter_max(b_high, b);
   }
-  /// Adds ranges, those of some lanes: the first of a, the second of b.
+  /// Adds the ranges of some lanes: the first is of a, the second of b.
   BOULE_INLINE void add(const RealMask& lanes, const Real (&low)[2], const Real (&high)[2]) {
     a_low = select(lanes, filter_min(a_low, low[0]), a_low);
     a_high = select(lanes, filter_max(a_high, high[0]), a_high);
@@ -50,8 +50,8 @@ struct ExtentLanes {
   }
 };
 
-/// The index, 0 .. last, of the cell that a coordinate counted in cells lies in or is nearest to; 0
-/// for NaN. It is still to be rounded down.
+/// The index, 0 .. last, of the cell that holds or is nearest to a coordinate counted in cells; 0
+/// for NaN. The caller rounds it down.
 BOULE_INLINE Real cut_to_cells(const Real& x, int last) {
   const Real zero(0.0F), end(static_cast<float>(last));
   const Real low = select(zero <= x, x, zero);

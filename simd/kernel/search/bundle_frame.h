@@ -3,24 +3,24 @@
 #include "core/math/geometry.h"
 #include "simd/kernel/search/bundle_source.h"
 
-/// The frame of a bundle, O and the axes U, V and W, and how its rays are brought into it. A ray is
-/// the line through O along (a, b, 1); with a common direction it is the line along W through (a,
-/// b). Lengths along rays are measured by v = t |d|^2 / d.W (with a common direction, v = t |d|).
-/// docs/numerics.md says what rounding does to these numbers.
+/// The frame of a bundle, O and the axes U, V and W, and the projection of its rays into it. A ray
+/// is the line through O along (a, b, 1); with a common direction it is the line along W through
+/// (a, b). Lengths along rays are measured by v = t |d|^2 / d.W (with a common direction, v = t
+/// |d|). docs/numerics.md bounds the rounding of these numbers.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// In world coordinates, the axes of unit length.
+/// In world coordinates; the axes have unit length.
 struct BundleFrame {
   Vec3d org, u, v, w;
 };
 
-/// The frame with W along `forward` and U as near to `side` as that allows. NaN where `forward` is
-/// 0 or NaN.
+/// The frame with W along `forward` and U as near to `side` as possible. NaN if `forward` is 0 or
+/// NaN.
 BOULE_INLINE BundleFrame make_frame(const Vec3d& org, const Vec3d& forward, const Vec3d& side) {
   const Vec3d w = normalize(forward);
   Vec3d across = side - w * dot(side, w);
   if (!(dot(across, across) > 1e-12 * dot(side, side))) {
-    // `side` lies along W, or is 0: an axis that does not lie along W will do.
+    // `side` lies along W or is 0: any axis off W will do.
     const Vec3d axis = __builtin_fabs(w.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
     across = axis - w * dot(axis, w);
   }
@@ -78,7 +78,7 @@ BOULE_INLINE bool in_bundle_range(const Vec3d& v) {
 /// The frame of a bundle, with W along the sight `middle`.
 template <Common common, class Source>
 BOULE_INLINE BundleFrame frame_of(const Source& source, const Vec3d& middle) {
-  // In Morton order the ray at a third is the corner of the tile that lies along x.
+  // In Morton order, the ray at a third is the corner of the tile that lies along x.
   const Vec3d side = source.one_sight((source.count() - 1) / 3) - source.one_sight(0);
   return make_frame(source.org(), common == Common::end ? -middle : middle, side);
 }

@@ -7,15 +7,15 @@
 #include "simd/kernel/search/bundle_rays.h"
 #include "simd/kernel/tuning.h"
 
-/// A coarse map of where a bundle's rays are. In a sparse bundle, one with many spheres for its
-/// rays, there are gaps between rays, and they grow as rays get their answers. Boxes that lie in a
-/// gap, or beyond the ends of all rays around them, need not be visited.
+/// A coarse map of the rays of a bundle. A sparse bundle, one with many spheres per ray, has gaps
+/// between its rays, and they grow as rays get their answers. Boxes in a gap, or beyond the ends of
+/// all rays around them, can be skipped.
 namespace boule::BOULE_KERNEL_ISA {
 
 class RayGrid {
  public:
-  /// Enters all rays but those whose bit is set in `done`, packet by packet. No ray lives beyond
-  /// its v in `ends`.
+  /// Enters all rays whose bit in `done` is clear, packet by packet. No ray searches beyond its v
+  /// in `ends`.
   BOULE_NOINLINE void fill(const BundleRays& rays, const unsigned* done, const float* ends) {
     a_ = axis(rays.extent.a_low, rays.extent.a_high);
     b_ = axis(rays.extent.b_low, rays.extent.b_high);
@@ -35,8 +35,8 @@ class RayGrid {
     }
   }
 
-  /// Of the boxes in `entered`, as bits, those that there are rays for. `near`: no ray enters the
-  /// box before that v.
+  /// The boxes among `entered`, as bits, that some ray may enter. `near`: lower bounds of the v at
+  /// which rays enter each box.
   BOULE_NOINLINE unsigned meet_boxes(const BoxViews& views, const float* near,
                                      unsigned entered) const {
     BoxViews cells;
@@ -60,8 +60,8 @@ class RayGrid {
   static constexpr int coarse = tuning::grid_coarse;
   static_assert(side < 64 && side % coarse == 0);  // a row is 64 bits, and `columns` needs one more
 
-  /// Whether there are rays in these cells, whose ends are still to be rounded down, and rays in
-  /// the coarse cells around that live at `near`.
+  /// Whether there are rays in these cells, whose ends the function rounds down, and rays in the
+  /// coarse cells around them that still search at `near`.
   [[nodiscard]] bool any_in(float a_low, float a_high, float b_low, float b_high,
                             float near) const {
     const int left = static_cast<int>(a_low), right = static_cast<int>(a_high);
@@ -93,7 +93,7 @@ class RayGrid {
   static Axis axis(float low, float high) {
     return {low, high > low ? static_cast<float>(side) / (high - low) : 0.0F};
   }
-  /// The cell of a coordinate; it never falls as x rises, because no rounding does. 0 for NaN.
+  /// The cell of a coordinate. It is monotone in x, because rounding is. 0 for NaN.
   BOULE_INLINE static Real cell(const Axis& axis, const Real& x) {
     return cut_to_cells((x - Real(axis.low)) * Real(axis.scale), side - 1);
   }
@@ -107,7 +107,7 @@ class RayGrid {
 
   Axis a_, b_;
   std::uint64_t rows_[side];                  ///< for each row the columns that have a ray, as bits
-  float ends_[side / coarse][side / coarse];  ///< the greatest end of the rays in a coarse cell
+  float ends_[side / coarse][side / coarse];  ///< the largest end of the rays in a coarse cell
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

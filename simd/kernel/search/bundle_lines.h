@@ -6,8 +6,8 @@
 #include "simd/kernel/search/bundle_discs.h"
 #include "simd/kernel/search/bundle_rays.h"
 
-/// Lines of a bundle's rays against discs of spheres, in lanes: the filters that turn a sphere away
-/// or bound its root, and what the double solver needs where they cannot decide.
+/// Lines of a bundle's rays against discs of spheres, in lanes: the filters that reject a sphere or
+/// bound its root, and the data of the double solver where they cannot decide.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Discs in lanes: the same one in all, or W.
@@ -72,11 +72,12 @@ BOULE_INLINE Real first_root(const LineLanes& line, const DiscLanes& disc, const
   }
 }
 
-/// Whose origin the solver takes: the bundle's, which is in registers, or the ray's own. They are
-/// equal, but a zero may differ in its sign, which shows where a sphere lies around the origin.
+/// The origin that the solver takes: the bundle's, which is in registers, or the ray's own. They
+/// are equal, but a zero may differ in its sign, which matters where a sphere lies around the
+/// origin.
 enum class Origins { bundle, own };
 
-/// Loads W rays of a bundle for the double solver. They leave no primitive.
+/// Loads W rays of a bundle for the double solver, without a source primitive.
 template <Common common, Origins origins = Origins::own>
 BOULE_INLINE void load_exact(const PacketRef& packet, const BundleRays& bundle, ExactRays& out) {
   const RayStream& rays = *packet.rays;
@@ -117,8 +118,8 @@ BOULE_INLINE SphereLanes broadcast_slot(const Spheres& s, std::uint32_t slot) {
   return {{sphere.x, sphere.y, sphere.z}, sphere.radius, Bits(id_of(s, slot))};
 }
 
-/// The first root of spheres that are simple for the bundle and certainly hit: what solve_robust()
-/// gives, without the questions whose answers are known.
+/// The first root of spheres that are simple for the bundle and certainly hit: the result of
+/// solve_robust() without the tests whose answers are known.
 BOULE_INLINE Wide solve_first(const ExactRays& rays, const SphereLanes& sphere) {
   const Vec3<Wide> f = widen(sphere.center) - rays.org;
   const Wide r = widen(sphere.radius);

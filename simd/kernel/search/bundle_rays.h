@@ -9,15 +9,15 @@
 #include "simd/kernel/search/bundle_source.h"
 #include "simd/kernel/tuning.h"
 
-/// The rays of a bundle, in its frame and ready for its filters: load_bundle() makes them of a
-/// source, or says that they are no bundle.
+/// The rays of a bundle, in its frame and ready for its filters. load_bundle() takes them from a
+/// source, or reports that they form no bundle.
 namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr int bundle_size = tuning::bundle_size;
 inline constexpr int bundle_packets = bundle_size / width;
 inline constexpr int bundle_groups = tuning::bundle_groups;
 
-/// The extents of all groups, one after the other; that of a group without rays meets nothing.
+/// The extents of all groups, one after the other; the extent of an empty group meets nothing.
 struct GroupExtents {
   alignas(64) float a_low[bundle_groups], a_high[bundle_groups];
   alignas(64) float b_low[bundle_groups], b_high[bundle_groups];
@@ -34,10 +34,10 @@ struct GroupExtents {
 struct BundleRays {
   BundleFrame frame;
   int packets;           ///< the last one may hold copies
-  int group_packets;     ///< packets of a group; the last groups may have fewer, or none
+  int group_packets;     ///< packets per group; the last groups may have fewer, or be empty
   float across;          ///< D of filter_bounds.h: how far rays differ from the one along W
   float shift;           ///< lines with a common end miss it by at most this
-  float squared_across;  ///< the greatest a^2 + b^2; 0 with a common direction
+  float squared_across;  ///< the largest a^2 + b^2; 0 with a common direction
   float c_low, c_high;   ///< the range of c; 0 without a common direction
   Extent extent;         ///< of all rays
   GroupExtents groups;
@@ -56,14 +56,14 @@ BOULE_INLINE PacketRange packets_of(const BundleRays& rays, int group) {
   return {begin, end < rays.packets ? end : rays.packets};
 }
 
-/// The greatest of the groups' numbers.
+/// The largest of the groups' numbers.
 BOULE_INLINE float greatest_of_groups(const float* numbers) {
   Real most = load(numbers);
   for (int at = width; at < bundle_groups; at += width) most = filter_max(most, load(numbers + at));
   return greatest_lane(most);
 }
 
-/// What load_bundle() finds out about all rays together, W at a time.
+/// The sums of load_bundle() over all rays, W at a time.
 struct BundleSums {
   RealMask belongs = uniform(true);
   Real across{0.0F}, squared{0.0F}, c_low{0.0F}, c_high{0.0F}, shift{0.0F}, scale{0.0F};
@@ -73,7 +73,7 @@ struct BundleSums {
     constexpr float widest = common == Common::origin ? filter::bundle_across
                              : common == Common::end  ? 2 * filter::bundle_across
                                                       : filter::bundle_far;
-    // NaN is in none of these ranges.
+    // NaN is outside these ranges.
     belongs = belongs & (ray.across <= Real(widest)) & (ray.scale < Real(filter::limit)) &
               (Real(1 / filter::limit) < ray.scale) &
               (ray.shift <= ray.scale * Real(tuning::farthest_end));
@@ -89,7 +89,7 @@ struct BundleSums {
   }
 };
 
-/// Brings the rays of these packets into their bundle's frame and returns their extent.
+/// Projects the rays of these packets into their bundle's frame and returns their extent.
 template <Common common, Sought sought, class Source>
 BOULE_INLINE Extent load_group(const Source& source, const Projection<common>& projection,
                                const PacketRange& packets, BundleRays& bundle, BundleSums& sums) {
@@ -110,7 +110,7 @@ BOULE_INLINE Extent load_group(const Source& source, const Projection<common>& p
   return extent.total();
 }
 
-/// What follows from the sums over all rays. Returns false if they spread too wide.
+/// Completes the bundle from the sums over all rays. Returns false if the rays spread too wide.
 template <Common common>
 BOULE_INLINE bool finish_bundle(const BundleSums& sums, BundleRays& bundle) {
   bundle.across = greatest_lane(sums.across);
@@ -130,12 +130,12 @@ BOULE_INLINE bool finish_bundle(const BundleSums& sums, BundleRays& bundle) {
   return -most <= e.a_low && e.a_high <= most && -most <= e.b_low && e.b_high <= most;
 }
 
-/// Makes a bundle of the rays of a source, at most bundle_size. Returns false if they are no
-/// bundle: they do not share what they must, spread too wide, or are not finite.
+/// Makes a bundle of the rays of a source, at most bundle_size. Returns false if they form no
+/// bundle, because the shared numbers differ, the spread is too wide, or numbers are not finite.
 template <Common common, Sought sought, class Source>
 BOULE_NOINLINE bool load_bundle(const Source& source, BundleRays& bundle) {
   const int count = source.count();
-  // In Morton order the ray at three quarters is in the middle of the tile.
+  // In Morton order, the ray at three quarters is in the middle of the tile.
   const Vec3d middle = common == Common::direction ? source.dir() : source.one_sight(count * 3 / 4);
   if (!in_bundle_range(source.org()) || !in_bundle_range(middle)) return false;
   bundle.frame = frame_of<common>(source, middle);

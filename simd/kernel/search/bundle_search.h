@@ -12,11 +12,11 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/search/visit_stack.h"
 
-/// One bundle through all spheres: those in no leaf, and the trees (bundle_walk.h). bundle_stream.h
-/// makes bundles of a stream.
+/// One bundle against all spheres: those outside the leaves, and the trees (bundle_walk.h).
+/// bundle_stream.h makes bundles of a stream.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Meets the spheres of a geometry without parts: first those that are in no leaf.
+/// Tests the spheres of a geometry without parts, those outside the leaves first.
 template <Common common, class Hits>
 BOULE_INLINE Outcome meet_all(const BundleRays& rays, const DiscFactors& factors,
                               const GeometryView& geometry, Effort& effort, Hits& hits) {
@@ -29,7 +29,7 @@ BOULE_INLINE Outcome meet_all(const BundleRays& rays, const DiscFactors& factors
   return geometry.bvh.size == 0 ? Outcome::traced : walk.meet_tree(WholeTree(geometry));
 }
 
-/// Meets the spheres of a part: first those that are in no leaf.
+/// Tests the spheres of a part, those outside the leaves first.
 template <Common common, class Hits>
 BOULE_INLINE Outcome meet_part(const PartTree& tree, BundleWalk<common, Hits>& walk, Hits& hits) {
   const std::uint32_t scanned = tree.part().scanned_spheres;
@@ -38,7 +38,7 @@ BOULE_INLINE Outcome meet_part(const PartTree& tree, BundleWalk<common, Hits>& w
   return tree.part().nodes == nullptr ? Outcome::traced : walk.meet_tree(tree);
 }
 
-/// Meets the spheres of all parts, near parts first.
+/// Tests the spheres of all parts, near parts first.
 template <Common common, class Hits>
 BOULE_INLINE Outcome meet_all(const BundleRays& rays, const DiscFactors& factors,
                               const PartsGeometry& geometry, Effort& effort, Hits& hits) {
@@ -72,7 +72,7 @@ BOULE_NOINLINE Outcome trace_bundle(const Geometry& geometry, const RaysInOrder<
   return outcome;
 }
 
-/// Finds which rays of a bundle hit anything: for each packet, as bits.
+/// Finds the rays of a bundle that hit anything: for each packet, as bits.
 template <Common common, class Geometry>
 BOULE_NOINLINE Outcome find_occluded(const Geometry& geometry, const BundleRays& rays,
                                      const BundleStarts& starts, Effort& effort, unsigned* hit) {

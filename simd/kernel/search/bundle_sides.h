@@ -8,8 +8,8 @@
 #include "simd/kernel/search/bundle_rays.h"
 
 /// A bundle against the boxes of a node: sixteen of them, W at a time, against the four planes that
-/// hold all rays. It only turns away boxes that no ray enters; docs/numerics.md derives the slack
-/// (filter::box).
+/// hold all rays. The test rejects only boxes that every ray misses; docs/numerics.md derives the
+/// slack (filter::box).
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The four sides of a bundle, and its depth, for boxes in world coordinates.
@@ -18,7 +18,7 @@ class BundleSides {
  public:
   explicit BundleSides(const BundleRays& rays) : org_(narrow_all(rays.frame.org)) {
     const BundleFrame& frame = rays.frame;
-    // a and b are off by no more than this.
+    // The error of a and b is at most this.
     const double off = double{filter::bundle_axis} * filter::u * double{rays.across};
     const Extent& e = rays.extent;
     if constexpr (common == Common::direction) {
@@ -37,11 +37,11 @@ class BundleSides {
     shift_ = rays.shift + static_cast<float>(filter::floor);
   }
 
-  /// Finds what the bundle sees of the boxes of a node. `extent`: that of all rays.
+  /// Computes the bundle's view of the boxes of a node. `extent`: that of all rays.
   BOULE_NOINLINE void view(const BvhNode& node, const Extent& extent, BoxViews& views) const {
     const Real none(static_cast<float>(no_hit)), zero(0.0F);
     const auto known = [](const Real& x, const Real& otherwise) {
-      return select(x <= x, x, otherwise);  // NaN is not known
+      return select(x <= x, x, otherwise);  // NaN means unknown
     };
     for (std::size_t part = 0; part * width < bvh_width; ++part) {
       const Boxes boxes = boxes_of(node, part);
@@ -60,7 +60,7 @@ class BundleSides {
     }
   }
 
-  /// The children of a node that no ray enters before `limit`, as bits. Writes to `near` a lower
+  /// The children of a node that every ray misses before `limit`, as bits. Writes to `near` a lower
   /// bound of the v at which each is entered.
   BOULE_INLINE unsigned find_missed(const BvhNode& node, float limit, float* near) const {
     unsigned out = 0;
@@ -70,8 +70,9 @@ class BundleSides {
   }
 
  private:
-  /// A plane; points with n.(p - O) >= offset are inside. `far` and `near` say which of a box's
-  /// rows (min x, y, z, max x, y, z) have the corner that lies farthest inside, and least.
+  /// A plane; points with n.(p - O) >= offset are inside. `far` and `near` give the rows of a box
+  /// (min x, y, z, max x, y, z) with the corner that lies farthest inside, and with the opposite
+  /// one.
   struct Side {
     float x, y, z, offset;
     int far[3], near[3];
@@ -134,7 +135,7 @@ class BundleSides {
     }
   }
 
-  /// The same for W boxes; filter_bounds.h says how they are rounded (box).
+  /// The same for W boxes; filter_bounds.h gives their rounding (box).
   BOULE_INLINE unsigned find_missed_part(const BvhNode& node, std::size_t part, float limit,
                                          float* near) const {
     const Boxes boxes = boxes_of(node, part);
@@ -163,7 +164,7 @@ class BundleSides {
   Real shift_{0.0F};
   Side sides_[4], depth_;
   Side across_[2];  ///< along U and V
-  Real off_;        ///< of a and b
+  Real off_;        ///< the error of a and b
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

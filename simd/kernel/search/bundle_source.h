@@ -8,15 +8,15 @@
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/tuning.h"
 
-/// Where a bundle's rays come from. Bundles ask a source, packet by packet: here rays that are
-/// neighbours in a stream (RaysInOrder), in ray_pool.h neighbours in a sorted pool (RaysOfPool).
+/// The sources of a bundle's rays. Bundles read a source packet by packet: here neighbours in a
+/// stream (RaysInOrder), in ray_pool.h neighbours in a sorted pool (RaysOfPool).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What a bundle's rays have in common: their origin, their direction, or their end, which is the
-/// point at t = 1. Rays with a common end are looked at from there, backwards.
+/// The part that a bundle's rays have in common: their origin, their direction, or their end, which
+/// is the point at t = 1. Rays with a common end are seen from that end, backwards.
 enum class Common { origin, direction, end };
 
-/// What is asked: the nearest hit, or whether there is any.
+/// The kind of hit that is sought: the nearest one, or any.
 enum class Sought { nearest, any };
 
 BOULE_INLINE Vec3d direction_of(const RayStream& rays, std::size_t i) {
@@ -36,7 +36,7 @@ BOULE_INLINE Vec3<Wide> wide_all(const Vec3d& v) { return {v.x, v.y, v.z}; }
 BOULE_INLINE void bytes_of(unsigned bits, std::uint8_t* bytes) {
   for (int at = 0; at < width; at += 8) {
     // Eight copies of the byte, each of which keeps one bit; adding 0x7f to each sets the top bit
-    // of those that are not 0.
+    // of the nonzero ones.
     const std::uint64_t one_each = (bits >> at & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
     const std::uint64_t ones = (one_each + 0x7f7f7f7f7f7f7f7fU) >> 7 & 0x0101010101010101U;
     __builtin_memcpy(bytes + at, &ones, 8);
@@ -61,14 +61,15 @@ BOULE_INLINE bool none_leaves(const std::int32_t* sources) {
   return both == ~std::uint64_t{0};
 }
 
-/// By what W rays differ: by their directions, or, with a common direction, by their origins less
-/// O. O is the common origin or end, or, with a common direction, the origin of one of the rays.
+/// The part in which W rays differ: their directions or, with a common direction, their origins
+/// less O. O is the common origin or end or, with a common direction, the origin of one of the
+/// rays.
 struct Sight {
   Vec3<Real> sight;
-  Real shift;  ///< with a common end: how far from O this ray ends
+  Real shift;  ///< with a common end: the distance from O at which this ray ends
 };
 
-/// What rays share, taken from one of them: O and, with a common direction, that.
+/// The shared part of rays, taken from one of them: O and, with a common direction, that direction.
 template <Common common>
 class SharedByRays {
  public:
@@ -95,8 +96,8 @@ class SharedByRays {
     }
   }
 
-  /// Lanes whose rays may be in a bundle. They share what they must, their tmin is 0 and, where the
-  /// nearest hit is sought, they leave no primitive.
+  /// Lanes whose rays may be in a bundle: their shared part is equal, their tmin is 0 and, for
+  /// nearest hits, they leave no primitive.
   template <Sought sought>
   BOULE_INLINE RealMask belongs(const PacketRef& packet) const {
     if (once_) return uniform(from_zero_ && (sought == Sought::any || leaves_none_));
@@ -107,8 +108,8 @@ class SharedByRays {
     if constexpr (sought == Sought::nearest)
       fresh = fresh & uniform(none_leaves(rays.source + start));
     if constexpr (common == Common::end) {
-      // Whether they share their end is judged later, by Sight::shift. Nothing beyond the end is
-      // seen from there: rays must not go on behind it.
+      // Sight::shift decides later whether they share their end. Primitives beyond the end are
+      // invisible from there: rays must stop at it.
       return fresh & (load(rays.tmax + first) <= Real(1.0F));
     } else if constexpr (common == Common::origin) {
       const Vec3<Wide> org = load_origins(rays, first), same_org = wide_all(org_);
@@ -128,23 +129,23 @@ class SharedByRays {
   }
 
   Vec3d dir_, org_;
-  bool once_;  ///< the stream has what they share once, and also how they start:
+  bool once_;  ///< the stream has their shared part once, and also their starts
   bool from_zero_, leaves_none_;
 };
 
-/// What W rays of a bundle bring besides their lines, in memory.
+/// The data of W rays of a bundle besides their lines, in memory.
 struct PacketStart {
   const float* tmax;
-  const std::int32_t* source;  ///< the ids of the primitives that they leave, or -1
-  const std::uint8_t* inside;  ///< 1 for those that leave it on its inside
+  const std::int32_t* source;  ///< ids of the primitives that they leave, or -1
+  const std::uint8_t* inside;  ///< 1 if a ray leaves that primitive on its inside
 };
 
-/// Neighbours in a stream, in its order.
+/// Neighbours in a stream, in the order of the stream.
 template <Common common>
 class RaysInOrder {
  public:
-  /// Rays first .. first + count - 1 of the stream, count at most tuning::bundle_size. What they
-  /// share is taken from the ray at three quarters, as load_bundle() does.
+  /// Rays first .. first + count - 1 of the stream, count at most tuning::bundle_size. Their shared
+  /// part is taken from the ray at three quarters, as in load_bundle().
   RaysInOrder(const PaddedStream& stream, std::size_t first, std::size_t count)
       : stream_(stream),
         first_(first),
@@ -162,7 +163,7 @@ class RaysInOrder {
     return common == Common::direction ? origin_of(stream_.rays(), at) - shared_.org()
                                        : direction_of(stream_.rays(), at);
   }
-  /// Those of W rays, from `ray` on; likewise below.
+  /// The sights of W rays, from `ray` on; likewise below.
   BOULE_INLINE Sight sight(int ray) const { return shared_.sight(packet(ray)); }
   template <Sought sought>
   BOULE_INLINE RealMask belongs(int ray) const {
@@ -173,12 +174,12 @@ class RaysInOrder {
     const std::size_t at = rays->places(first).start;
     return {rays->tmax + first, rays->source + at, rays->inside + at};
   }
-  /// Those named by the bits of `wanted`, in memory; valid until the next call.
+  /// The rays that the bits of `wanted` name, in memory; valid until the next call.
   BOULE_INLINE PacketRef packet(int ray, unsigned /*wanted*/ = all_lanes) const {
     return stream_.packet(first_ + static_cast<std::size_t>(ray));
   }
-  /// Writes which of them met something, as bits, to `answers`, which has a byte for each ray of
-  /// the stream.
+  /// Writes the rays with a hit, given as bits, to `answers`, which has a byte for each ray of the
+  /// stream.
   BOULE_INLINE void answer(int ray, unsigned met, std::uint8_t* answers) const {
     std::uint8_t bytes[max_width];
     bytes_of(met, bytes);
@@ -190,11 +191,11 @@ class RaysInOrder {
         answers[first + lane] = bytes[lane];
     }
   }
-  /// How many of them are not copies of the stream's last ray.
+  /// The number of rays that are not copies of the stream's last ray.
   BOULE_INLINE int live(int ray) const {
     return static_cast<int>(stream_.live(first_ + static_cast<std::size_t>(ray)));
   }
-  /// Fetches the packet of the next bundle that stands where `ray` does in this one.
+  /// Prefetches the packet of the next bundle at the position of `ray` in this one.
   BOULE_INLINE void prefetch_next(int ray) const {
     prefetch_packet(stream_.rays(), first_ + static_cast<std::size_t>(ray + tuning::bundle_size));
   }

@@ -7,11 +7,10 @@
 #include "simd/kernel/search/packet_stream.h"
 #include "simd/kernel/search/scattered_stream.h"
 
-/// Streams of rays with something in common, bundle by bundle. Chosen where the caller promises a
-/// common origin, direction or end (Coherence) and asks for no other form. Rays that are no bundle
-/// after all are halved until they are, few rays go as packets, and those of sparse bundles as
-/// sets. The hits do not depend on which rays make a bundle. What is particular to shadow rays is
-/// in shadow_stream.h.
+/// Streams of coherent rays, bundle by bundle. Chosen where the caller promises a common origin,
+/// direction or end (Coherence) and leaves the form open. Rays that form no bundle are halved until
+/// they do, few rays are traced as packets, and rays of sparse bundles as sets. The hits do not
+/// depend on the partition into bundles. shadow_stream.h handles shadow rays.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Traces rays that fit into no bundle, as packets. Geometry, here and below: GeometryView, or
@@ -42,9 +41,9 @@ BOULE_INLINE Outcome trace_in_order(const Geometry& geometry, const PaddedStream
   return trace_bundle<common>(geometry, RaysInOrder<common>(stream, first, count), effort, answers);
 }
 
-/// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they are one, or
-/// as packets where they are few or their bundle gave up. Returns the first ray that has no answer
-/// yet, because it and what follows would be in a sparse bundle; else `end`.
+/// Traces rays begin .. end - 1, at most bundle_size: as a bundle, or halved until they form one,
+/// or as packets if they are few or their bundle gave up. Returns `end`, or the first ray without
+/// an answer if that ray and those after it would be in a sparse bundle.
 template <Common common, class Geometry, class Answers>
 std::size_t trace_halved(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
                          std::size_t end, Answers answers) {

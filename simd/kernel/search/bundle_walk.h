@@ -15,12 +15,12 @@
 #include "simd/kernel/search/visit_stack.h"
 #include "simd/kernel/tuning.h"
 
-/// A bundle on its way through trees: up to 1024 rays walk together, front to back, by the four
-/// sides of their extent, and in each leaf meet the spheres as discs. The hits are exact: floats
-/// turn away or accept what they are certain of, and the double solver decides the rest.
+/// The traversal of trees by a bundle: up to 1024 rays go together, front to back. The four sides
+/// of their extent reject boxes, and in each leaf the rays meet the spheres as discs. The hits are
+/// exact: floats reject or accept where they are certain, and the double solver decides the rest.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Meets some spheres. Hits: BundleClosest or BundleAny.
+/// Tests some spheres. Hits: BundleClosest or BundleAny.
 template <Common common, class Hits>
 BOULE_NOINLINE void meet_spheres(const BundleRays& rays, const DiscFactors& factors,
                                  const BlockSpheres& spheres, Hits& hits) {
@@ -33,8 +33,8 @@ BOULE_NOINLINE void meet_spheres(const BundleRays& rays, const DiscFactors& fact
   if constexpr (Hits::sought == Sought::any) {
     if (hits.meet_few(discs, spheres)) return;
   }
-  // All discs are compared with the groups before any is met. A branch after each comparison, which
-  // no CPU could predict, would keep the comparisons from overlapping.
+  // All discs are compared with the groups before any is tested. A branch after each comparison
+  // would be unpredictable and would keep the comparisons from overlapping.
   unsigned groups_of[Discs::size], wanted = 0;
   for (unsigned left = discs.simple; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
@@ -52,22 +52,22 @@ BOULE_NOINLINE void meet_spheres(const BundleRays& rays, const DiscFactors& fact
   if (changed) hits.update();
 }
 
-/// How the search of a bundle ended: with an answer, because its rays are no bundle, because it
-/// took too much, or because its leaves are for too few of its rays.
+/// The outcome of a bundle's search: an answer; or an early end because its rays form no bundle,
+/// because it took too much work, or because its leaves serve too few of its rays.
 enum class Outcome { traced, no_bundle, gave_up, sparse };
 
-/// How many leaves a bundle has visited, and how many it may visit.
+/// The number of leaves a bundle has visited, and the number it may visit.
 struct Effort {
   std::size_t most_leaves = ~std::size_t{0};
   std::size_t leaves = 0;
 };
 
-/// What a bundle fetches of the tree over the parts: nothing.
+/// The prefetcher of a bundle in the tree over the parts: it fetches nothing.
 struct NoFetch {
   BOULE_INLINE void fetch(std::uint32_t /*child*/) const {}
 };
 
-/// A bundle on its way through trees. Hits: BundleClosest or BundleAny.
+/// A bundle during traversal. Hits: BundleClosest or BundleAny.
 template <Common common, class Hits>
 class BundleWalk {
  public:
@@ -81,8 +81,8 @@ class BundleWalk {
         look_at_(static_cast<std::size_t>(rays.packets * width) / tuning::rays_per_leaf_if_sparse),
         fill_at_(look_at_) {}
 
-  /// Adds the children of a node that rays may enter, and fetches what their visits will read. The
-  /// children of the tree over the parts are parts, where others are leaves.
+  /// Adds the children of a node that rays may enter, and prefetches the data of their visits. In
+  /// the tree over the parts, the leaves are parts.
   template <class Tree>
   BOULE_INLINE void visit_children(const BvhNode& node, const Tree& tree, VisitStack& stack) {
     alignas(64) float near[Discs::size];
@@ -97,8 +97,8 @@ class BundleWalk {
     }
   }
 
-  /// Meets the spheres of a tree, near nodes first. Gives up where that takes too many leaves, or
-  /// too many double solves, or where leaves are for too few rays.
+  /// Tests the spheres of a tree, near nodes first. Gives up where that takes too many leaves or
+  /// too many double solves, or where leaves serve too few rays.
   template <class Tree>
   BOULE_INLINE Outcome meet_tree(const Tree& tree) {
     VisitStack stack;
@@ -117,7 +117,7 @@ class BundleWalk {
     return Outcome::traced;
   }
 
-  /// Meets up to sixteen spheres.
+  /// Tests up to sixteen spheres.
   BOULE_INLINE void meet_block(const LeafRef& block, std::size_t spheres) {
     const std::size_t count = spheres < bvh_leaf_size ? spheres : bvh_leaf_size;
     meet_spheres<common>(rays_, factors_, BlockSpheres(block, static_cast<unsigned>(count)), hits_);
@@ -126,8 +126,8 @@ class BundleWalk {
  private:
   static constexpr float fewest_rays = tuning::fewest_rays_of_a_leaf<Hits::sought == Sought::any>;
 
-  /// Of the children in `entered`, as bits, those that a sparse bundle has rays for. `near`: as
-  /// find_missed() gave it.
+  /// The children among `entered`, as bits, that some ray of a sparse bundle may enter. `near`: the
+  /// result of find_missed().
   template <bool has_leaves>
   BOULE_NOINLINE unsigned look_closely(const BvhNode& node, const float* near, unsigned entered) {
     BoxViews views;
@@ -150,14 +150,15 @@ class BundleWalk {
     return in;
   }
 
-  /// The boxes, as bits, that are entered beyond `limit` only; not those whose `near` is NaN.
+  /// The boxes, as bits, that are entered only beyond `limit`; boxes whose `near` is NaN are left
+  /// out.
   BOULE_INLINE static unsigned beyond(float limit, const float* near) {
     unsigned result = 0;
     for (int at = 0; at < Discs::size; at += width)
       result |= bits(Real(limit) < load(near + at)) << at;
     return result;
   }
-  /// Of these boxes, as bits, those that some group of rays may enter before its limit.
+  /// The boxes, as bits, that some group of rays may enter before its limit.
   BOULE_NOINLINE unsigned before_limits(const BoxViews& views, const float* near,
                                         unsigned boxes) const {
     unsigned result = 0;

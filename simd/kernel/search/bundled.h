@@ -6,7 +6,7 @@
 #include "simd/abi/stream.h"
 #include "simd/kernel/search/padded_stream.h"
 
-/// Streams of rays that have something in common, as bundles. (bundles.cpp)
+/// Streams of coherent rays, as bundles. (bundles.cpp)
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Finds the nearest hits. `coherence`: common_origin or common_direction. Geometry, here and

@@ -10,9 +10,9 @@
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/slabs.h"
 
-/// Rays on their way into the tree one by one, as flights or sets: what is in no leaf they meet W
-/// at a time, and what their steps through the tree need is computed for W at a time too, and kept
-/// until it is wanted.
+/// The start of rays that traverse the tree one by one, as flights or sets. W rays at a time are
+/// tested against the spheres outside the leaves, and W at a time get the data for their steps
+/// through the tree, which are kept until the ray starts.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Answers: HitStream for nearest hits, std::uint8_t* for any.
@@ -24,8 +24,8 @@ class Departures {
   Departures(const GeometryView& geometry, const PaddedStream& stream, const Answers& answers)
       : geometry_(geometry), stream_(stream), answers_(answers) {}
 
-  /// Makes the rays of the packet at `first`, a multiple of W, ready, and answers for what is in no
-  /// leaf. Returns how many of them are rays of the stream.
+  /// Prepares the rays of the packet at `first`, a multiple of W, and answers for the spheres
+  /// outside the leaves. Returns how many of the lanes are rays of the stream.
   BOULE_NOINLINE std::size_t make_ready(std::size_t first) {
     const std::size_t count = stream_.live(first);
     RayLanes rays;
@@ -45,8 +45,8 @@ class Departures {
     }
     return count;
   }
-  /// Makes the ray of a lane. Returns false where it needs no tree: its answer is known, or is
-  /// found now, since float cannot judge it or it has hits behind its origin.
+  /// Prepares the ray of a lane. Returns false if the ray needs no traversal: its answer is known,
+  /// or it is traced alone at once, because float cannot judge it or it has hits behind its origin.
   BOULE_INLINE bool depart(std::size_t lane, TreeRay& to) {
     if ((open_ >> lane & 1U) == 0) return false;
     if ((judged_ >> lane & 1U) == 0) {
@@ -68,7 +68,7 @@ class Departures {
     to.inside = rays.inside[start] != 0;
     return true;
   }
-  /// What was visited for rays that were traced alone, since it was last asked.
+  /// The nodes and leaves visited by rays that were traced alone, since the last call.
   std::size_t take_visits() {
     const std::size_t visits = visits_;
     visits_ = 0;
@@ -82,7 +82,7 @@ class Departures {
     best.settle(geometry_.spheres, rays);
     scan_planes<OneForAll>(rays, Solver::robust, geometry_.planes, best);
   }
-  /// `reach`: nothing beyond this t |dir| is of interest.
+  /// `reach`: the largest t |dir| at which a hit still counts.
   BOULE_INLINE void set(const RayLanes& packet, const Real& reach) {
     const FilterRays& rays = packet.filter;
     const auto [x, y, z] = slabs_of(packet, geometry_.bvh.extent);
@@ -111,7 +111,7 @@ class Departures {
   const Answers answers_;
   std::size_t first_ = 0, visits_ = 0;
   unsigned judged_ = 0;
-  unsigned open_ = 0;  ///< lanes for which there may be something to be found in the tree
+  unsigned open_ = 0;  ///< lanes that may still find a hit in the tree
   alignas(64) float row_[FlightRay::rows][width][4];
 };
 

@@ -9,17 +9,17 @@
 #include "simd/kernel/search/slabs.h"
 #include "simd/kernel/tuning.h"
 
-/// One ray on its own way through the tree, in steps: each visits a node or a leaf, W children or W
-/// spheres at a time. Between two steps its state lies in memory, so that other rays can take
-/// theirs while what the next step reads is fetched (flight_stream.h). Rays of sets (ray_sets.h)
-/// take the same steps in another order.
+/// The traversal by one ray, in steps: each visits a node or a leaf, W children or W spheres at a
+/// time. Between two steps the state is in memory, so that other rays can take their steps while
+/// the data of the next one are fetched (flight_stream.h). Rays of sets (ray_sets.h) take the same
+/// steps in another order.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// What the steps of one ray need, as rows of four floats, which Departures copies whole. The ray
-/// has no hits behind its origin.
+/// The data for the steps of one ray, as rows of four floats, which Departures copies whole. The
+/// ray has no hits behind its origin.
 struct alignas(16) FlightRay {
   static constexpr std::size_t rows = 6;
-  float inverse[3], reach;  ///< reach: nothing beyond this t |dir| is of interest
+  float inverse[3], reach;  ///< reach: largest t |dir| that counts
   float near[3], live_from;
   float far[3], live_to;
   float org[3], origin_error;
@@ -27,7 +27,7 @@ struct alignas(16) FlightRay {
   float h[3], unused_too;  ///< h of FilterRays, for the reject
 
   BOULE_INLINE static Vec3<Real> all(const float* v) { return {v[0], v[1], v[2]}; }
-  /// In every lane, without what only a reject needs.
+  /// The ray in every lane, without the data that only a reject needs.
   [[nodiscard]] BOULE_INLINE FilterRays filter() const {
     FilterRays rays;
     rays.org = all(org);
@@ -40,12 +40,12 @@ struct alignas(16) FlightRay {
   }
 };
 
-/// Where in a node, in floats from its begin, are the planes of its boxes that a ray meets first
-/// along each axis, and the others.
+/// The offsets in a node, in floats, of the planes of its boxes that a ray crosses first along each
+/// axis, and of those that it crosses last.
 struct NodeRows {
   std::uint16_t near_at[3], far_at[3];
 
-  /// Finds them, by the signs of `inverse`.
+  /// Finds the offsets by the signs of `inverse`.
   BOULE_INLINE void choose(const FlightRay& ray) {
     choose(0, ray.inverse[0]);
     choose(1, ray.inverse[1]);
@@ -74,8 +74,8 @@ BOULE_INLINE Passage enter_children(const FlightRay& ray, const NodeRows& at, co
                     ray.reach);
 }
 
-/// What float knows about the hits of one ray, without hits behind its origin, with W spheres. The
-/// hit with a sphere is its first root, or its second where the origin may lie inside.
+/// Float bounds of the hits of one ray, without hits behind its origin, with W spheres. The hit
+/// with a sphere is its first root, or its second where the origin may lie inside.
 struct NextRoots {
   RealMask in;     ///< spheres that may be hit before `reach`
   RealMask sure;   ///< hits that are certain, unless `high` is NaN
@@ -107,9 +107,9 @@ struct NextRoots {
   }
 };
 
-/// Spheres that may be a flight's nearest hit: the double solver decides, once the flight is over.
+/// Spheres that may be a flight's nearest hit. The double solver decides at the end of the flight.
 struct FlightCandidates {
-  /// With more than `most` they are solved at once, but those of one more leaf find room.
+  /// Above `most` candidates they are solved at once; those of one more leaf still find room.
   static constexpr unsigned most = tuning::most_candidates;
   static constexpr unsigned capacity = 32;
   static_assert(most + bvh_leaf_size <= capacity);
@@ -124,13 +124,13 @@ struct FlightCandidates {
     store_chosen(slot + size, slots, chosen);
     size += static_cast<unsigned>(std::popcount(chosen));
   }
-  /// Of W of them, from `first` on, those that may be hit before `reach`, as bits.
+  /// Of W candidates from `first` on, those that may be hit before `reach`, as bits.
   [[nodiscard]] BOULE_INLINE unsigned before(float reach, unsigned first) const {
     const unsigned left = size - first;
     const unsigned there = left < width ? (1U << left) - 1 : all_lanes;
     return bits(load(low + first) <= Real(reach)) & there;
   }
-  /// Drops those that are hit beyond `reach`.
+  /// Drops the candidates that are hit beyond `reach`.
   BOULE_INLINE void drop_beyond(float reach) {
     const unsigned count = size;
     size = 0;
@@ -142,7 +142,7 @@ struct FlightCandidates {
   }
 };
 
-/// A ray on its way through the tree, of a flight or a set.
+/// A ray of a flight or a set, during traversal.
 struct TreeRay {
   FlightRay ray;
   NodeRows rows;
@@ -157,11 +157,12 @@ struct Flight : TreeRay {
   FlightCandidates candidates;
   PendingChildren pending;
 
-  /// A step: adds the children of a node that the ray enters to those pending.
+  /// A step: adds the children of a node that the ray enters to the pending ones.
   BOULE_INLINE void visit_node() {
     constexpr std::size_t parts = bvh_width / width;
     const BvhNode& node = *static_cast<const BvhNode*>(next);
-    if constexpr (parts == 2) {  // both are entered before either is added: that shares their loads
+    if constexpr (parts == 2) {  // both are entered before either is added, which shares their
+                                 // loads
       const auto [near, in] = enter_children(ray, rows, node, 0);
       const auto [other_near, other_in] = enter_children(ray, rows, node, width);
       pending.push(near, load_integers(node.child), in);

@@ -10,12 +10,12 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
 
-/// Nearest hits of streams of rays that have nothing in common, many of them in flight at a time.
-/// Chosen in scenes with a tree where Form says flight, and where a trial finds flights faster than
-/// packets and sets (scattered_stream.h). In every round up to twelve flights take a step of the
-/// same kind and fetch the memory of their next one; a ray that is done makes room for the next of
-/// the stream. The hits are exact: floats only turn spheres away or shorten a ray, and what remains
-/// is solved in double. The order of the steps changes nothing but the time.
+/// Nearest hits of streams of incoherent rays, many of them in flight at a time. Chosen in scenes
+/// with a tree if Form says flight, and if a trial finds flights faster than packets and sets
+/// (scattered_stream.h). In every round, up to twelve flights take a step of the same kind and
+/// prefetch the memory of their next one. A ray that is done makes room for the next ray of the
+/// stream. The hits are exact: floats only reject spheres or shorten a ray, and the remaining
+/// spheres are solved in double. The order of the steps affects only the time.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Many rays in flight at a time.
@@ -46,16 +46,16 @@ class Flights {
   static constexpr std::size_t most_flights = tuning::most_flights;
   static constexpr std::size_t most_together = tuning::steps_together;
 
-  /// What a flight waits for: to visit a node, to visit a leaf, or to be over.
+  /// The step that a flight waits for: to visit a node, to visit a leaf, or to end.
   enum Kind : std::size_t { node, leaf, departure, kinds };
 
-  /// The flights that wait for one kind of step, first in, first out: that gives what a step reads
-  /// the time to arrive.
+  /// The flights that wait for one kind of step, first in, first out. The wait gives the prefetched
+  /// data time to arrive.
   class Waiting {
    public:
     [[nodiscard]] BOULE_INLINE std::size_t size() const { return end_ - begin_; }
-    /// `count` is 1, or 0 if the flight does not wait here after all: there is no branch, because
-    /// no CPU could predict where it waits.
+    /// `count` is 1, or 0 if the flight waits elsewhere. The push has no branch, because the kind
+    /// of the next step is unpredictable.
     BOULE_INLINE void push(Flight& flight, std::size_t count = 1) {
       flights_[end_ % room] = &flight;
       end_ += count;
@@ -93,12 +93,12 @@ class Flights {
     } else {
       visit_leaves(together, count);
     }
-    // Only now, because go_on() loads at once what the steps have just stored in pieces, and a CPU
-    // must wait for such stores.
+    // This loop comes last: go_on() loads at once what the steps have just stored in pieces, and a
+    // CPU must wait for such stores.
     for (std::size_t k = 0; k < count; ++k) go_on(*together[k]);
   }
 
-  /// Finds what a flight waits for next, without a branch, which no CPU could predict.
+  /// Finds the next kind of step of a flight, without a branch, because it is unpredictable.
   BOULE_INLINE void go_on(Flight& flight) {
     std::uint32_t child = 0;
     const bool left = flight.pending.pop(flight.ray.reach, child);
@@ -110,7 +110,7 @@ class Flights {
     waiting_[leaf].push(flight, is_leaf);
     waiting_[departure].push(flight, 1 - goes_on);
   }
-  /// Ends a flight and lets the next ray, if there is one, take its room.
+  /// Ends a flight and gives its place to the next ray, if there is one.
   BOULE_INLINE void arrive(Flight& flight) {
     pairs_.add(flight.index, flight.candidates, flight.ray.reach);
     if (depart(flight)) waiting_[node].push(flight);
@@ -126,7 +126,7 @@ class Flights {
     flight.next = geometry_.bvh.nodes;
     return true;
   }
-  /// Makes W more rays ready. Returns false if there is none.
+  /// Prepares W more rays. Returns false if there are none.
   BOULE_INLINE bool make_more_ready() {
     first_ += ready_;
     departed_ = ready_ = 0;
@@ -138,8 +138,8 @@ class Flights {
   /// Parts of a leaf, of W spheres each.
   static constexpr std::size_t parts = bvh_leaf_size / width;
 
-  /// Visits leaves: their spheres that may be hit become candidates. Few parts have any, and no CPU
-  /// could predict which: all parts are compared before the first branch.
+  /// Visits leaves: their spheres that may be hit become candidates. Few parts have any, and which
+  /// ones is unpredictable, so all parts are compared before the first branch.
   BOULE_INLINE void visit_leaves(Flight* const* together, std::size_t count) {
     constexpr std::size_t at_once = 64 / parts;  // leaves whose parts have a bit each in 64 bits
     for (std::size_t first = 0; first < count; first += at_once)
@@ -155,7 +155,7 @@ class Flights {
       meet_leaf(*together[part / parts], part % parts * width, approaches[part]);
     }
   }
-  /// Returns the parts of its leaf in which a flight may hit something, as bits.
+  /// Returns the parts of its leaf in which a flight may have a hit, as bits.
   BOULE_INLINE unsigned approach_leaf(Flight& flight, Approach* approaches) {
     const auto& block = *static_cast<const SphereBlock*>(flight.next);
     const std::uint32_t slot = slot_of(geometry_.spheres, block);
@@ -174,7 +174,7 @@ class Flights {
     }
     return met;
   }
-  /// Makes candidates of W spheres of its leaf, from `first` on.
+  /// Makes W spheres of the flight's leaf, from `first` on, candidates.
   BOULE_INLINE void meet_leaf(Flight& flight, std::size_t first, const Approach& approach) {
     const std::uint32_t slot =
         slot_of(geometry_.spheres, *static_cast<const SphereBlock*>(flight.next)) +
@@ -188,9 +188,9 @@ class Flights {
         least_lane(lesser_or(select(roots.sure, roots.high, none), Real(flight.ray.reach)));
     if (flight.candidates.size > FlightCandidates::most) make_room(flight);
   }
-  /// The lane of the sphere that the ray leaves, if it is among W, from `slot` on. The ray meets it
-  /// again only if it leaves it on its inside; it is then a candidate, because only double can tell
-  /// where.
+  /// The lane of the sphere that the ray leaves, if it is among W, from `slot` on. The ray hits
+  /// that sphere again only if it leaves it on its inside. It is then a candidate, because only
+  /// double can find the hit.
   BOULE_INLINE RealMask source_in(Flight& flight, std::uint32_t slot) {
     const RealMask source = load_integers(geometry_.spheres.id + slot) == Bits(flight.source);
     if (flight.inside && any(source)) {
@@ -199,8 +199,8 @@ class Flights {
     return source;
   }
 
-  /// Solves the candidates of a flight before it is over. Where floats are certain of nothing, as
-  /// very far from a sphere, only solved hits bring its `reach` closer.
+  /// Solves the candidates of a flight before its end. Where float bounds are too loose, as very
+  /// far from a sphere, only solved hits shorten the `reach`.
   BOULE_NOINLINE void make_room(Flight& flight) {
     FlightCandidates& candidates = flight.candidates;
     candidates.drop_beyond(flight.ray.reach);
@@ -216,7 +216,7 @@ class Flights {
     }
     candidates.size = 0;
   }
-  /// Takes solved hits of one ray: nothing beyond them is of interest any more.
+  /// Takes solved hits of one ray and ends its reach at the nearest one.
   BOULE_INLINE void take(Flight& flight, const RayLanes& ray, const Roots& roots, const Bits& ids,
                          const std::uint32_t* slots) {
     alignas(64) double t[width];

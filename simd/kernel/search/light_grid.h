@@ -8,12 +8,12 @@
 #include "simd/kernel/search/bundle_frame.h"
 #include "simd/kernel/tuning.h"
 
-/// The order of sorted shadow rays. Neighbours in the picture may lie far apart for a light, and
-/// rays of distant pixels close together; sorted by where they lie for the light they make good
-/// bundles. Only the time depends on the order, so everything here is plain float.
+/// The order of sorted shadow rays. Neighbours in the picture may be far apart as seen from a
+/// light, and rays of distant pixels close together. Sorted by their place as the light sees it,
+/// rays make good bundles. The order affects only the time, so plain float is enough here.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Maps rays to a plane as a light sees them: by their directions from it, or, with a common
+/// Maps rays to a plane as a light sees them: by their directions from the light or, with a common
 /// direction, by their origins.
 template <Common common>
 class LightMap {
@@ -57,8 +57,8 @@ class LightMap {
 /// A square grid over a light's map; its cells are numbered along a Morton curve.
 class LightGrid {
  public:
-  /// A grid for `size` rays over the points of some of them. Others may lie beyond it and then
-  /// belong to the cells at its border.
+  /// A grid for `size` rays over the points of some of them. Points beyond it belong to the cells
+  /// at its border.
   LightGrid(const Extent& some, std::size_t size)
       : x_low_(some.a_low), y_low_(some.b_low), side_(tuning::light_grid_side(size)) {
     const float x_size = some.a_high - some.a_low, y_size = some.b_high - some.b_low;
@@ -80,7 +80,7 @@ class LightGrid {
   }
 
  private:
-  /// The six bits of x and those of y, one by one alternately.
+  /// Interleaves the six bits of x with those of y.
   BOULE_INLINE static Bits curve_position(const Bits& x, const Bits& y) {
     Bits both = x | y << 16;
     both = (both | both << 4) & Bits(0x030f030fU);
@@ -90,7 +90,7 @@ class LightGrid {
   }
 
   Real x_low_, y_low_, scale_{0.0F};
-  int side_;  ///< in cells
+  int side_;  ///< number of cells along a side
 };
 
 /// A counting sort of rays by their cells.
@@ -99,7 +99,7 @@ class CellSort {
   explicit CellSort(unsigned cells) : cells_(cells) {
     for (unsigned c = 0; c < cells; ++c) next_[c] = 0;
   }
-  /// Counts a ray: to be called once for every ray, with its cell.
+  /// Counts a ray. Call it once for every ray, with its cell.
   BOULE_INLINE void count(std::uint16_t cell) { ++next_[cell]; }
   /// Finds the order of the rays, once all are counted: `cell` has the cell of each.
   void find_order(const std::uint16_t* cell, std::size_t size, std::uint16_t* order) {

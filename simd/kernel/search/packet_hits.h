@@ -7,17 +7,17 @@
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/tuning.h"
 
-/// Packets of a stream: how they are loaded, and how what they have found is stored.
+/// Packets of a stream: loading them, and storing their results.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Loads a packet, and fetches one of the next into the cache.
+/// Loads a packet, and prefetches a later one into the cache.
 BOULE_INLINE void load_ahead(const PaddedStream& stream, std::size_t first, RayLanes& rays) {
   const PacketRef from = stream.packet(first);
   prefetch_packet(stream.rays(), first + tuning::prefetch_distance);
   load_packet(*from.rays, from.first, rays);
 }
 
-/// Stores what a packet has found, `live` of whose lanes are rays of the stream.
+/// Stores the results of a packet, in which `live` lanes are rays of the stream.
 BOULE_INLINE void store_packet(const ClosestHit& best, const HitStream& hits, std::size_t first,
                                std::size_t live) {
   if (live == width) {

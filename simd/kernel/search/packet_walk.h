@@ -8,12 +8,13 @@
 #include "simd/kernel/search/scan.h"
 #include "simd/kernel/search/visit_stack.h"
 
-/// How packets go through a tree: which children of a node they visit, with which of their rays,
-/// and which spheres of a leaf they may hit. Few rays are tested one by one (ray_by_ray.h), many
-/// box by box and sphere by sphere, whichever takes fewer steps.
+/// The traversal of a tree by packets: the children of a node that they visit, with which of their
+/// rays, and the spheres of a leaf that they may hit. Few rays are tested one by one
+/// (ray_by_ray.h), many rays box by box and sphere by sphere, whichever takes fewer steps.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where the first of the rays that are not out enters a box; -inf where that is not known.
+/// The distance at which the first of the rays outside `out` enters a box; -inf where that is
+/// unknown.
 BOULE_INLINE float first_entry(const Entry& entry) {
   const Real never(static_cast<float>(no_hit)), unknown(-static_cast<float>(no_hit));
   const Real near = select(entry.near <= entry.near, entry.near, unknown);
@@ -28,8 +29,8 @@ BOULE_INLINE Entry enter_child(const BoxRays& rays, const BvhNode& node, int k, 
                      limit);
 }
 
-/// Lists those of sixteen spheres, from step `begin` on and named by bits, that float does not rule
-/// out for every ray of `lanes`.
+/// Lists those of sixteen spheres, given as bits from step `begin` on, that float cannot rule out
+/// for every ray of `lanes`.
 template <class Spheres>
 BOULE_INLINE void list_among(const FilterRays& rays, const Spheres& spheres, std::size_t begin,
                              unsigned in, unsigned lanes, Survivors<bvh_leaf_size>& survivors) {
@@ -40,7 +41,7 @@ BOULE_INLINE void list_among(const FilterRays& rays, const Spheres& spheres, std
   }
 }
 
-/// A packet on its way through a tree. `ordered`: the nearest child is visited first. `extent`:
+/// A packet during traversal. `ordered`: the nearest child is visited first. `extent`:
 /// BvhView::extent.
 template <bool ordered>
 class PacketWalk {
@@ -52,7 +53,7 @@ class PacketWalk {
         one_by_one_(rays, extent) {}
 
   /// Adds the children of a node that some ray of `lanes` enters before its limit. `farthest`: the
-  /// greatest of the limits.
+  /// largest of the limits.
   BOULE_INLINE void visit_children(const BvhNode& node, unsigned lanes, const Real& limit,
                                    float farthest, VisitStack& stack) const {
     const int base = stack.count();
@@ -78,7 +79,7 @@ class PacketWalk {
     }
   }
 
-  /// Lists the spheres of a leaf that float does not rule out for every ray of `lanes`.
+  /// Lists the spheres of a leaf that float cannot rule out for every ray of `lanes`.
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes,
                                    const Real& limit, float farthest,
                                    Survivors<bvh_leaf_size>& survivors) const {
@@ -96,7 +97,8 @@ class PacketWalk {
   }
 
  private:
-  /// Adds child k, unless all of `lanes` are out. `near`: where the beam enters it, or null.
+  /// Adds child k, unless all of `lanes` are out. `near`: the distance at which the beam enters it,
+  /// or null.
   BOULE_INLINE static void push(const BvhNode& node, int k, const Entry& entry, unsigned lanes,
                                 const float* near, int base, VisitStack& stack) {
     const unsigned in = ~bits(entry.out) & lanes;

@@ -7,7 +7,8 @@
 #include "simd/abi/stream.h"
 #include "simd/lanes/lanes.h"
 
-/// A stream of any length as whole packets of W rays, and rays gathered from anywhere in a stream.
+/// A stream of any length as whole packets of W rays, and rays gathered from any places in a
+/// stream.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// W rays in memory: those from `first` on.
@@ -16,7 +17,7 @@ struct PacketRef {
   std::size_t first;
 };
 
-/// Fetches the packet at `first` into the cache, unless the stream ends before it.
+/// Prefetches the packet at `first` into the cache, unless the stream ends before it.
 BOULE_INLINE void prefetch_packet(const RayStream& rays, std::size_t first) {
   if (first >= rays.size) return;
   if (!rays.shared.has_origin()) {
@@ -48,7 +49,7 @@ class GatheredRays {
         rays.places(i), [k](std::size_t at, auto& to, auto& from) { to.values[k] = from[at]; },
         rays_, rays);
   }
-  /// The first `size` of them.
+  /// A view of the first `size` copies.
   [[nodiscard]] RayStream view(std::size_t size) {
     RayStream rays{};
     each_array(
@@ -65,8 +66,8 @@ class GatheredRays {
   RayArrays<Fixed> rays_;
 };
 
-/// A stream whose last packet is filled up with copies of the last ray. Copies neither change nor
-/// slow down the search of the others.
+/// A stream whose last packet is filled up with copies of the last ray. Copies leave the search of
+/// the other rays as it is, also in speed.
 class PaddedStream {
  public:
   explicit PaddedStream(const RayStream& rays)
@@ -84,7 +85,7 @@ class PaddedStream {
     if (first < tail_begin_) return {&rays_, first};
     return {&tail_, 0};
   }
-  /// How many rays of that packet are rays of the stream, not copies.
+  /// The number of rays of that packet that belong to the stream, without the copies.
   [[nodiscard]] std::size_t live(std::size_t first) const {
     return rays_.size - first < width ? rays_.size - first : width;
   }

@@ -8,7 +8,7 @@
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/search/primitive_access.h"
 
-/// The double solves of rays in flight and of sets. A ray has one or two candidates; those of
+/// The double solves of flights and of sets. A ray has one or two candidates; the candidates of
 /// several rays together fill the lanes.
 namespace boule::BOULE_KERNEL_ISA {
 
@@ -20,7 +20,7 @@ BOULE_INLINE void answer(const HitStream& hits, std::size_t ray, const Hit& hit)
   hits.id[ray] = hit.id;
   hits.slot[ray] = hit.slot;
 }
-/// Notes that a ray has a hit.
+/// Records that a ray has a hit.
 BOULE_INLINE void answer(std::uint8_t* occluded, std::size_t ray, const Hit&) { occluded[ray] = 1; }
 
 /// Pairs of a ray and a sphere that wait for the double solver, which takes W of them at a time.
@@ -31,7 +31,7 @@ class PairQueue {
   PairQueue(const RayStream& rays, const SphereView& spheres, const Answers& answers)
       : rays_(rays), spheres_(spheres), answers_(answers) {}
 
-  /// Adds a ray's candidates, but not those that are hit beyond `reach`.
+  /// Adds a ray's candidates, except those that are hit beyond `reach`.
   BOULE_INLINE void add(std::uint32_t ray, const FlightCandidates& candidates, float reach) {
     unsigned first = 0;
     do {  // once, for nearly every ray
@@ -42,27 +42,27 @@ class PairQueue {
       first += width;
     } while (first < candidates.size);
   }
-  /// Adds a ray with W spheres, those `chosen` of the slots from `slot` on.
+  /// Adds a ray with W spheres, those `chosen` among the slots from `slot` on.
   BOULE_INLINE void add(std::uint32_t ray, std::uint32_t slot, unsigned chosen) {
     store_chosen(slot_ + size_, count_from(slot), chosen);
     store_anywhere(ray_ + size_, Bits(ray));
     added(chosen);
   }
-  /// Adds a ray with one sphere, if `really`; without a branch, which no CPU could predict.
+  /// Adds a ray with one sphere, if `really`; without a branch, because it is unpredictable.
   BOULE_INLINE void add_if(bool really, std::uint32_t ray, std::uint32_t slot) {
     slot_[size_] = slot;
     ray_[size_] = ray;
     added(really ? 1 : 0);
   }
-  /// Solves what still waits.
+  /// Solves the pairs that still wait.
   BOULE_INLINE void finish() {
     if (size_ > 0) solve(size_);
     size_ = 0;
   }
 
  private:
-  /// Counts pairs that were stored behind the others, one for each bit of `chosen`, and solves W of
-  /// them if there are so many.
+  /// Counts pairs that were stored behind the others, one per bit of `chosen`, and solves W of them
+  /// if there are that many.
   BOULE_INLINE void added(unsigned chosen) {
     size_ += static_cast<std::size_t>(std::popcount(chosen));
     if (size_ < width) return;

@@ -9,14 +9,14 @@
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/tuning.h"
 
-/// Geometries of several parts, which may be one tree shown many times. The spheres are moved, not
-/// the rays: a leaf's spheres are brought to where the part shows them, with the roundings of
-/// transformed() (core/scene/group.h), and then meet rays as those of any leaf do. So every hit is,
-/// bit for bit, that of the scene written out. Boxes of nodes are moved outward
+/// Geometries of several parts, which may be one tree shown many times. The kernels move the
+/// spheres and leave the rays as they are: a leaf's spheres move to their place in the scene, with
+/// the roundings of transformed() (core/scene/group.h), and then meet rays like those of any leaf.
+/// So every hit equals, bit for bit, that of the expanded scene. Boxes of nodes are moved outward
 /// (filter::moved_box).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Spheres to where a part shows them.
+/// Moves spheres from a part's coordinates to their place in the scene.
 template <class Number>
 struct Placement {
   Vec3<Number> row_x, row_y, row_z;
@@ -40,7 +40,7 @@ struct Placement {
   }
 };
 
-/// The sphere in a slot of a part, where the part shows it.
+/// The sphere in a slot of a part, as placed in the scene.
 BOULE_INLINE SlotSphere get_slot(const PartView& part, std::size_t slot) {
   const SphereBlock& block = part.blocks[slot / bvh_leaf_size];
   const std::size_t k = slot % bvh_leaf_size;
@@ -52,15 +52,15 @@ BOULE_INLINE SlotSphere get_slot(const PartView& part, std::size_t slot) {
           static_cast<float>(placement.scale * double{own.radius})};
 }
 
-/// The spheres of all parts, by their slots in the scene. It remembers in which part the last one
-/// was, because the next is mostly there too: each search needs its own.
+/// The spheres of all parts, by their slots in the scene. The object remembers the part of the last
+/// sphere, because the next sphere is mostly in it too. Each search needs its own object.
 class PartSpheres {
  public:
   BOULE_INLINE explicit PartSpheres(const PartsView& parts)
       : parts_(parts.parts), size_(parts.size), last_(parts.parts) {}
 
   [[nodiscard]] BOULE_INLINE const PartView& part(std::size_t index) const { return parts_[index]; }
-  /// The part that has a slot. Precondition: one has.
+  /// The part that holds a slot. Precondition: there is one.
   [[nodiscard]] BOULE_INLINE const PartView& part_of(std::uint32_t slot) const {
     if (slot - last_->first_slot >= last_->slots) find(slot);
     return *last_;
@@ -93,21 +93,21 @@ BOULE_INLINE std::int32_t id_of(const PartSpheres& spheres, std::size_t slot) {
                                    static_cast<std::uint32_t>(part.id[slot - part.first_slot]));
 }
 
-/// All that rays can meet in a geometry of parts.
+/// All primitives in a geometry of parts.
 struct PartsGeometry {
   PartSpheres spheres;
   const PlaneView& planes;
-  const BvhView& bvh;  ///< over the parts
+  const BvhView& bvh;  ///< the tree over the parts
 
   BOULE_INLINE explicit PartsGeometry(const GeometryView& geometry)
       : spheres(geometry.parts), planes(geometry.planes), bvh(geometry.bvh) {}
 };
 
-/// What has the spheres of a geometry: SphereView, or PartSpheres.
+/// The type of a geometry's spheres: SphereView, or PartSpheres.
 template <class Geometry>
 using SpheresOf = std::remove_cvref_t<decltype(Geometry::spheres)>;
 
-/// The tree of one part, as it stands in the scene.
+/// The tree of one part, as placed in the scene.
 class PartTree {
  public:
   BOULE_INLINE explicit PartTree(const PartView& part) : part_(part), placement_(part.placement) {
@@ -121,14 +121,14 @@ class PartTree {
 
   [[nodiscard]] const PartView& part() const { return part_; }
 
-  /// A node with the boxes where the part shows them; valid until the next call.
+  /// A node with its boxes as placed in the scene; valid until the next call.
   [[nodiscard]] BOULE_INLINE const BvhNode& node(std::uint32_t child) const {
     const BvhNode& own = part_.nodes[child];
     if (!part_.placement.moves) return own;
     move(own);
     return node_;
   }
-  /// The leaf that a child is; valid until the next call of this or of block().
+  /// The leaf of a child; valid until the next call of this or of block().
   [[nodiscard]] BOULE_INLINE LeafRef leaf(std::uint32_t child) const {
     return block(part_.scanned + index_of(child) * static_cast<std::uint32_t>(bvh_leaf_size));
   }
@@ -141,7 +141,7 @@ class PartTree {
     move(own);
     return {block_, ids_, scene_slot};
   }
-  /// Fetches what a visit of the child will read.
+  /// Prefetches the data of a visit of the child.
   BOULE_INLINE void fetch(std::uint32_t child) const {
     if (part_.slots <= tuning::most_near_blocks * bvh_leaf_size) return;
     const std::size_t index = index_of(child);
@@ -166,7 +166,7 @@ class PartTree {
     for (int j = 0; j < 3; ++j) stretched_[i][j] = __builtin_fabsf(turned_[i][j]);
     shift_[i] = static_cast<float>(shift);
   }
-  /// Moves the ids of sixteen slots. Those without a sphere have radius NaN, whatever their id.
+  /// Moves the ids of sixteen slots. Empty slots have the radius NaN, whatever their id.
   BOULE_INLINE void move(const std::int32_t* own) const {
     for (std::size_t at = 0; at < bvh_leaf_size; at += width)
       store(ids_ + at, load_integers(own + at) + Bits(part_.first_id));
@@ -182,7 +182,8 @@ class PartTree {
       store(block_.radius + at, narrow(placement_.scale * widen(load(own.radius + at))));
     }
   }
-  /// Moves the boxes of a node: their centres, and half their sizes by what is rotated at most.
+  /// Moves the boxes of a node: their centres, and half their sizes by the largest extent after
+  /// rotation.
   BOULE_INLINE void move(const BvhNode& own) const {
     const float* const low[3] = {own.min_x, own.min_y, own.min_z};
     const float* const high[3] = {own.max_x, own.max_y, own.max_z};
@@ -215,7 +216,7 @@ class PartTree {
 
   const PartView& part_;
   Placement<Wide> placement_;
-  float turned_[3][3], stretched_[3][3];  ///< scale R, and the same without signs
+  float turned_[3][3], stretched_[3][3];  ///< scale R, and its absolute values
   float shift_[3];
   mutable BvhNode node_;
   mutable SphereBlock block_;

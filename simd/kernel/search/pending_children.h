@@ -8,12 +8,12 @@
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
-/// The nodes and leaves that a ray in flight is still to visit.
+/// The nodes and leaves that a ray in flight has yet to visit.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The child that is entered first comes first. The children are not sorted;
-/// pop() looks for the nearest. Of where a child is entered 16 bits are kept, rounded down: eight
-/// of exponent and eight of mantissa. Comparisons with them let a little more through.
+/// A queue in which the child that is entered first comes first. The children are unsorted; pop()
+/// looks for the nearest. Of each entry distance, 16 bits are kept, rounded down: eight of exponent
+/// and eight of mantissa. Comparisons with them let a little more through.
 class PendingChildren {
  public:
   PendingChildren() {
@@ -29,8 +29,8 @@ class PendingChildren {
     } while (at < size_);
     size_ = 0;
   }
-  /// Adds the children of the lanes `chosen`; `near`: lower bounds of where they are entered, not
-  /// negative.
+  /// Adds the children of the lanes `chosen`; `near`: lower bounds of their entry distances, at
+  /// least 0.
   BOULE_INLINE void push(const Real& near, const Bits& child, RealMask chosen) {
     const unsigned in = bits(chosen);
     store_chosen_halves(near_ + size_, near, chosen);
@@ -38,8 +38,8 @@ class PendingChildren {
     size_ += static_cast<std::size_t>(std::popcount(in));
   }
 
-  /// Takes the nearest one. Returns false if none is entered before `reach`; `child` is then
-  /// undefined. There is no branch on either, because no CPU could predict it.
+  /// Takes the nearest child. Returns false if every one is entered beyond `reach`; `child` is then
+  /// undefined. There is no branch on either, because both are unpredictable.
   BOULE_INLINE bool pop(float reach, std::uint32_t& child) {
     const unsigned end = half_of(reach);
     while (size_ > most_sorted && end < near_[size_ - 1]) --size_;
@@ -54,7 +54,7 @@ class PendingChildren {
   }
 
  private:
-  /// Children that are compared at once.
+  /// Number of children that are compared at once.
   static constexpr std::size_t step = 16;
   /// Greater than the 16 bits of infinity, 0xff00.
   static constexpr std::uint16_t none = 0xffff;
@@ -72,11 +72,11 @@ class PendingChildren {
     return index;
   }
 
-  /// Of more than these the last one is taken, whatever it is: the ray then goes down the tree
-  /// depth first, which bounds their number.
+  /// Above this number the last child is taken, whatever its distance. The ray then goes down the
+  /// tree depth first, which bounds the number of children.
   static constexpr std::size_t most_sorted = tuning::most_sorted_children;
   static constexpr std::size_t most = most_sorted + bvh_max_depth * (bvh_width - 1) + 1;
-  /// A push writes W, however few it adds.
+  /// A push writes W children, however few it adds.
   static constexpr std::size_t capacity = (most + width + step - 1) / step * step;
 
   alignas(64) std::uint16_t near_[capacity];  ///< behind the last one `none`, as far as pop() reads

@@ -3,7 +3,7 @@
 #include "simd/abi/geometry.h"
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Ray against plane, lane by lane: t = ((p0 - o).n) / (d.n). There is no reject for planes: scenes
+/// Ray against plane, lane by lane: t = ((p0 - o).n) / (d.n). Planes have no reject, because scenes
 /// have few of them.
 namespace boule::BOULE_KERNEL_ISA {
 
@@ -12,14 +12,14 @@ struct PlaneLanes {
   Bits id;
 };
 
-/// What rounding took from a + b, exactly; `sum` is the rounded sum.
+/// The rounding error of a + b, exactly; `sum` is the rounded sum.
 BOULE_INLINE Wide lost(const Wide& a, const Wide& b, const Wide& sum) {
   const Wide b_part = sum - a;
   return (a - (sum - b_part)) + (b - b_part);
 }
 
 /// d.n for vectors of floats, summed almost exactly: products of floats are exact in double, and
-/// the rounding errors of the two sums are added at the end. core/reference.cpp says why.
+/// the rounding errors of the two sums are added at the end. core/reference.cpp gives the reason.
 BOULE_INLINE Wide exact_dot(const Vec3<Wide>& d, const Vec3<Wide>& n) {
   const Wide x = d.x * n.x, y = d.y * n.y, z = d.z * n.z;
   const Wide xy = x + y, sum = xy + z;

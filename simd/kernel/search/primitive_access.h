@@ -7,9 +7,9 @@
 #include "simd/kernel/search/plane.h"
 #include "simd/kernel/search/sphere.h"
 
-/// How primitives come into lanes: the same one into all, for a packet of W rays (OneForAll), or W
-/// different ones, for a single ray (OnePerLane). Scans and traversal are written once over
-/// "steps": a step is what one pass of a loop tests.
+/// The loading of primitives into lanes: the same one into all, for a packet of W rays (OneForAll),
+/// or W different ones, for a single ray (OnePerLane). Scans and traversal are written once over
+/// "steps": a step is one pass of a loop.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// For packets: step i is primitive i, in every lane.
@@ -20,7 +20,8 @@ struct OneForAll {
   BOULE_INLINE static Bits get(const std::int32_t* values, std::size_t step) {
     return Bits(values[step]);
   }
-  /// The indices of the primitives of a step, where the array's first one has the index `first`.
+  /// The indices of the primitives of a step, where the array's first primitive has the index
+  /// `first`.
   BOULE_INLINE static Bits indices(std::size_t first, std::size_t step) {
     return Bits(static_cast<std::uint32_t>(first + step));
   }
@@ -42,7 +43,7 @@ struct OnePerLane {
   }
 };
 
-/// No sphere's slot.
+/// The slot that marks the absence of a sphere.
 inline constexpr std::uint32_t no_slot = 0xffffffffU;
 
 /// The sphere in a slot.
@@ -56,7 +57,8 @@ BOULE_INLINE SlotSphere get_slot(const SphereView& s, std::size_t slot) {
   return {block.center_x[k], block.center_y[k], block.center_z[k], block.radius[k]};
 }
 
-/// Whether an id comes before another: ids are 32 bits without a sign, no_primitive the last.
+/// Whether an id comes before another: ids are unsigned 32-bit numbers, with no_primitive as the
+/// last.
 BOULE_INLINE bool is_lower(std::int32_t a, std::int32_t b) {
   return static_cast<std::uint32_t>(a) < static_cast<std::uint32_t>(b);
 }
@@ -83,7 +85,7 @@ BOULE_INLINE SphereLanes gather_spheres(const Spheres& s, const Bits& slots) {
   return {{load(x), load(y), load(z)}, load(r), load_integers(id)};
 }
 
-/// The spheres that are in no leaf, step by step.
+/// The spheres outside the leaves, step by step.
 template <class Access>
 struct ScannedSpheres {
   const SphereView& spheres;
@@ -114,7 +116,7 @@ struct ScannedSpheres {
   }
 };
 
-/// Where the spheres of a leaf, or of another block, are.
+/// The places of the spheres of a leaf, or of another block.
 struct LeafRef {
   const SphereBlock& block;
   const std::int32_t* ids;
@@ -148,7 +150,7 @@ struct LeafSpheres {
     return rays.exact.source == id(step);
   }
 
-  /// Lanes that certainly miss, or hold no sphere.
+  /// Lanes that certainly miss, or whose slot is empty.
   [[nodiscard]] BOULE_INLINE RealMask out(const FilterRays& rays, std::size_t step) const {
     const RealMask misses = rejected(rays, center(step), grown_on_the_spot(radius(step)));
     if constexpr (Access::one_ray) {

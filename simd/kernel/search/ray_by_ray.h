@@ -12,9 +12,9 @@
 
 /// The rays of a packet one by one, each against W boxes or W spheres at a time. Chosen where few
 /// rays of a packet are left: that takes fewer steps than box after box and sphere after sphere.
-/// Every comparison with NaN turns away, as in flights (flight.h). Therefore only rays that float
-/// can judge, without hits behind their origins, and only trees within the range of the filters are
-/// tested here.
+/// Every comparison with NaN rejects, as in flights (flight.h). Therefore this file requires rays
+/// that float can judge, without hits behind their origins, and trees within the range of the
+/// filters.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The number in one lane.
@@ -40,9 +40,9 @@ class RayByRay {
   /// Boxes or spheres, up to sixteen, that some rays meet.
   struct Met {
     unsigned in = 0;  ///< as bits
-    Bits rows{0U};    ///< per ray those that it meets, as bits
+    Bits rows{0U};    ///< by ray, the boxes or spheres that it meets, as bits
 
-    /// Adds the ray of a lane, and what it meets.
+    /// Adds the ray of a lane, and the boxes or spheres that it meets.
     BOULE_INLINE void add(std::size_t lane, unsigned row) {
       in |= row;
       rows = select(count_from(0) == Bits(static_cast<std::uint32_t>(lane)), Bits(row), rows);
@@ -53,7 +53,7 @@ class RayByRay {
     }
   };
   struct Entered : Met {
-    /// Lower bounds of where the first ray enters each, if that was asked for.
+    /// Lower bounds of the distances at which the first ray enters each, if requested.
     alignas(64) float near[bvh_width];
   };
 
@@ -76,7 +76,7 @@ class RayByRay {
   /// Whether rays may be tested one by one at all.
   [[nodiscard]] BOULE_INLINE bool may() const { return may_; }
 
-  /// Adds those of the children `in` of a node that some ray of `lanes` enters before its limit.
+  /// Adds the children among `in` of a node that some ray of `lanes` enters before its limit.
   template <bool ordered>
   BOULE_INLINE void visit_children(const BoxRays& boxes, const BvhNode& node, unsigned lanes,
                                    unsigned in, const Real& limit, VisitStack& stack) const {
@@ -94,7 +94,7 @@ class RayByRay {
       }
     }
   }
-  /// Lists those of the spheres `in` of a leaf that some ray of `lanes` may hit before its limit.
+  /// Lists the spheres among `in` of a leaf that some ray of `lanes` may hit before its limit.
   BOULE_INLINE void list_survivors(const LeafSpheres<OneForAll>& leaf, unsigned lanes, unsigned in,
                                    const Real& limit, Survivors<bvh_leaf_size>& survivors) const {
     Met met;
@@ -105,8 +105,8 @@ class RayByRay {
     }
   }
 
-  /// Finds which of the children `in` of a node the rays `lanes` enter before their limits, and, if
-  /// `ordered`, where.
+  /// Finds the children among `in` of a node that the rays `lanes` enter before their limits, and,
+  /// if `ordered`, at which distance.
   template <bool ordered>
   BOULE_NOINLINE void enter(const BoxRays& boxes, const BvhNode& node, unsigned lanes, unsigned in,
                             const Real& limit, Entered& entered) const {
@@ -132,17 +132,17 @@ class RayByRay {
   static constexpr std::size_t parts = bvh_width / width;
   static_assert(bvh_width == bvh_leaf_size);
 
-  /// Whether some of the bits are of the part-th W boxes or spheres.
+  /// Whether some of the bits belong to the part-th W boxes or spheres.
   BOULE_INLINE static bool has_part(unsigned in, std::size_t part) {
     return parts == 1 || (in >> part * width & all_lanes) != 0;
   }
 
-  /// One ray against W children. Lowers `first` to where it enters them.
+  /// One ray against W children. Lowers `first` to the distances at which it enters them.
   BOULE_INLINE unsigned enter_part(const BoxRays& boxes, const BvhNode& node, std::size_t lane,
                                    float limit, std::size_t part, Real& first) const {
     static_assert(offsetof(BvhNode, max_z) == 5 * bvh_width * sizeof(float));
     const auto* const rows = reinterpret_cast<const float*>(&node) + part * width;
-    // The row of the planes that are met first is `axis`, or axis + 3 where the ray goes down.
+    // The row of the planes that are crossed first is `axis`, or axis + 3 where the ray goes down.
     const auto meet = [&](const Slab& slab, std::size_t row, const Real& moved) {
       return filter_fma(load(rows + row * bvh_width), Real(get_lane(slab.inverse, lane)),
                         Real(get_lane(moved, lane)));
@@ -160,7 +160,7 @@ class RayByRay {
     return bits(in);
   }
 
-  /// Finds which of a leaf's spheres the rays `lanes` may meet before their limits.
+  /// Finds the spheres of a leaf that the rays `lanes` may hit before their limits.
   BOULE_NOINLINE void meet(const LeafSpheres<OneForAll>& leaf, unsigned lanes, const Real& limit,
                            Met& met) const {
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -172,7 +172,8 @@ class RayByRay {
       met.add(lane, row);
     }
   }
-  /// One ray against W spheres. (Its own is among them: list_candidates() knows better.)
+  /// One ray against W spheres. The ray's own sphere may be among them; list_candidates() handles
+  /// it.
   BOULE_INLINE unsigned meet_part(std::size_t lane, const SphereBlock& leaf, std::size_t part,
                                   const Real& limit) const {
     const std::size_t at = part * width;

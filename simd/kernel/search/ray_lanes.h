@@ -10,9 +10,9 @@
 #include "simd/abi/stream.h"
 #include "simd/lanes/lanes.h"
 
-/// Rays in lanes, as every search has them: W different rays (a packet) or one ray in every lane. A
-/// ray has two faces: ExactRays in double for the solver that decides, and FilterRays in float for
-/// the filters that only turn away what certainly misses (simd/abi/filter_bounds.h).
+/// Rays in lanes, for every search: W different rays (a packet), or one ray in every lane. A ray
+/// exists twice: as ExactRays in double, for the solver that decides, and as FilterRays in float,
+/// for the filters, which only reject certain misses (simd/abi/filter_bounds.h).
 namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr double no_hit = std::numeric_limits<double>::infinity();
@@ -22,7 +22,7 @@ struct ExactRays {
   Vec3<Wide> org, dir;
   Wide a;           ///< dir.dir
   Wide inverse_a;   ///< 1 / a
-  Wide tmin, tmax;  ///< live: tmin < t <= tmax; tmax is at most FLT_MAX
+  Wide tmin, tmax;  ///< valid hits: tmin < t <= tmax; tmax is at most FLT_MAX
   Bits source;      ///< id of the primitive that the ray leaves, or no_primitive
   WideMask inside;  ///< it leaves `source` on its inside
   bool has_source;  ///< some lane's ray leaves a primitive
@@ -37,11 +37,11 @@ struct FilterRays {
   bool origins_exact;       ///< every origin is a float
   Wide length;              ///< |dir|
   Real inverse_length;      ///< 1 / |dir|
-  Real live_from, live_to;  ///< the live interval of t |dir|, rounded
-  Real dead_below;          ///< nothing is live below this t |dir|: 0, or -inf where tmin < 0
+  Real live_from, live_to;  ///< the interval of t |dir| of valid hits, rounded
+  Real dead_below;          ///< lower bound of t |dir| of valid hits: 0, or -inf where tmin < 0
 };
 
-/// Lanes that float can judge, and that have no hits behind their origins. (Where it cannot, the
+/// Lanes that float can judge, and that have no hits behind their origins. (In other lanes the
 /// direction is NaN.)
 BOULE_INLINE RealMask is_judged(const FilterRays& rays) {
   return (rays.unit.x <= rays.unit.x) & (Real(0.0F) <= rays.dead_below);
@@ -75,7 +75,7 @@ BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
   out.length = sqrt(rays.a);
   const Wide inverse_length = out.length * rays.inverse_a;
   out.inverse_length = narrow(inverse_length);
-  // NaN for dir 0 and for anything not finite.
+  // NaN for dir 0 and for all numbers that are not finite.
   out.unit = narrow(rays.dir * inverse_length);
   out.h = narrow(rays.dir * (inverse_length * Wide(1 + filter::slack / 2 * filter::u)));
   const Real limit(filter::limit);
@@ -86,14 +86,14 @@ BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
   out.unit.x = select(small, out.unit.x, nan);
   const Real largest(std::numeric_limits<float>::max());
   const Real from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
-  const Real to = select(largest < far, largest, far);  // NaN stays: nothing is live then
+  const Real to = select(largest < far, largest, far);  // NaN stays: the interval is then empty
   const Real zero(0.0F);
   out.live_from = from;
   out.live_to = to;
   out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
 }
 
-/// Finds what follows from dir, tmax and source.
+/// Computes the members that follow from dir, tmax and source.
 BOULE_INLINE void finish(ExactRays& rays) {
   rays.a = dot(rays.dir, rays.dir);
   rays.inverse_a = Wide(1.0) / rays.a;
@@ -154,7 +154,7 @@ BOULE_INLINE WideMask in_range(const Wide& t, const ExactRays& rays) {
   return (rays.tmin < t) & (t <= rays.tmax);
 }
 
-/// Of two ordered roots the first that is in range.
+/// The first of two ordered roots that is in range.
 BOULE_INLINE Roots first_in_range(const Wide& first, const Wide& second, const ExactRays& rays) {
   const WideMask first_ok = in_range(first, rays);
   return {select(first_ok, first, second), first_ok | in_range(second, rays)};

@@ -10,13 +10,12 @@
 #include "simd/kernel/search/light_grid.h"
 #include "simd/kernel/tuning.h"
 
-/// Pools of shadow rays, sorted by where they lie for their light, and the bundles that are made of
-/// them. Chosen for any hit where a stream's neighbours have too little in common
-/// (shadow_stream.h).
+/// Pools of shadow rays, sorted by their place as their light sees it, and the bundles made of
+/// them. Chosen for any hit where a stream's neighbours are too incoherent (shadow_stream.h).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Rays of a stream in an order of their own. What a bundle needs of a ray is kept together,
-/// because neighbours in this order are not neighbours in memory.
+/// Rays of a stream in an order of their own. The data of a ray for bundles are kept together,
+/// because neighbours in this order are scattered in memory.
 template <Common common>
 class RayPool {
  public:
@@ -31,17 +30,17 @@ class RayPool {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const RayStream& stream() const { return stream_.rays(); }
   [[nodiscard]] const SharedByRays<common>& shared() const { return shared_; }
-  /// Whether all rays share what they must.
+  /// Whether the shared part of all rays is equal.
   [[nodiscard]] bool all_belong() const { return all_belong_; }
-  /// Whether any leaves a sphere on its inside.
+  /// Whether any ray leaves a sphere on its inside.
   [[nodiscard]] bool any_inside() const { return any_inside_; }
-  /// The greatest Sight::shift.
+  /// The largest Sight::shift.
   [[nodiscard]] float shift() const { return shift_; }
   [[nodiscard]] std::size_t begin() const { return begin_; }
-  /// The order: indices of rays, counted from begin() on. The last one is repeated up to a whole
+  /// The order: indices of rays, counted from begin() on. The last index is repeated to fill the
   /// packet.
   [[nodiscard]] const std::uint16_t* order() const { return order_; }
-  /// The index in the stream of the ray that comes k-th.
+  /// The index in the stream of the k-th ray in this order.
   [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
   /// Four numbers of the ray begin() + i: x, y and z of its sight, and tmax.
   [[nodiscard]] const float* ray(std::size_t i) const { return rays_ + 4 * i; }
@@ -116,12 +115,12 @@ class RayPool {
   std::uint16_t cell_[room];
 };
 
-/// Neighbours in a sorted pool, all of which share what they must. A source of a bundle's rays:
-/// what its members mean is said at RaysInOrder (bundle_source.h).
+/// Neighbours in a sorted pool whose shared part is equal. A source of a bundle's rays: RaysInOrder
+/// (bundle_source.h) documents the members.
 template <Common common>
 class RaysOfPool {
  public:
-  /// `count` rays of the pool, at most bundle_size, from its first-th one on.
+  /// `count` rays of the pool, at most bundle_size, from its first-th ray on.
   RaysOfPool(const RayPool<common>& pool, std::size_t first, int count)
       : pool_(pool), first_(first), count_(count), packet_view_(packet_.view(width)) {
     const RayStream& rays = pool.stream();
@@ -186,7 +185,7 @@ class RaysOfPool {
   alignas(64) float x_[bundle_size], y_[bundle_size], z_[bundle_size], tmax_[bundle_size];
   alignas(64) std::int32_t source_[bundle_size];
   alignas(64) std::uint8_t inside_[bundle_size];
-  mutable GatheredRays<width> packet_{};  ///< of packet(); lanes that were not wanted are stale
+  mutable GatheredRays<width> packet_{};  ///< of packet(); lanes outside `wanted` are stale
   RayStream packet_view_;
 };
 

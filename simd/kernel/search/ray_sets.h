@@ -15,13 +15,13 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/tuning.h"
 
-/// Streams of rays whose neighbours visit much the same nodes, though they go all ways, a set of
-/// some hundreds at a time. A set goes down the tree together: a node is visited once, with a list
-/// of the rays that enter it, and each of them is tested against its sixteen boxes. What a visit
-/// costs, and the wait for its memory, is shared. Chosen in scenes with a tree where Form says set,
-/// where a trial finds sets faster (scattered_stream.h), and for the rays of sparse bundles.
-/// (Tsakok 2009, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing".) The order of the visits
-/// changes nothing but the time.
+/// Streams of rays whose neighbours visit much the same nodes in any directions, a set of some
+/// hundreds at a time. A set goes down the tree together: it visits a node once, with a list of the
+/// rays that enter it, and each of them is tested against the node's sixteen boxes. The rays share
+/// the cost of a visit and the wait for its memory. Chosen in scenes with a tree if Form says set,
+/// if a trial finds sets faster (scattered_stream.h), and for the rays of sparse bundles. (Tsakok
+/// 2009, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing".) The order of the visits affects
+/// only the time.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Sets of rays, one after the other. Answers: HitStream for nearest hits, std::uint8_t* for any.
@@ -58,15 +58,16 @@ class RaySets {
   struct alignas(64) SetRay : TreeRay {};
   static_assert(sizeof(SetRay) == 128);
 
-  /// A node or a leaf to visit, and which rays do: `count` numbers of lists_, from `begin` on.
+  /// A node or a leaf to visit, and the rays that visit it: `count` numbers of lists_, from `begin`
+  /// on.
   struct alignas(32) Waiting {
-    float near;  ///< for nearest hits: where the first of them enters it, or less
+    float near;  ///< for nearest hits: lower bound of the distance at which the first ray enters
     std::uint32_t child;
     std::uint32_t begin, count;
-    std::uint32_t top;  ///< beyond it lists_ holds nothing that is still wanted
+    std::uint32_t top;  ///< beyond it, lists_ holds only lists that are done
   };
 
-  /// Makes a set of those of rays begin .. end - 1 that need the tree.
+  /// Makes a set of the rays among begin .. end - 1 that need the tree.
   BOULE_NOINLINE void gather(std::size_t begin, std::size_t end) {
     size_ = 0;
     for (std::size_t first = begin; first < end; first += width) {
@@ -122,7 +123,7 @@ class RaySets {
     }
     for (std::size_t at = base; at < waiting_count_; ++at) waiting_[at].top = top;
   }
-  /// The children of a node that a ray enters, as bits. Lowers `least` to where it does.
+  /// The children of a node that a ray enters, as bits. Lowers `least` to the entry distances.
   BOULE_INLINE static unsigned enter(const SetRay& ray, const BvhNode& node, Real* least) {
     unsigned in = 0;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -135,7 +136,7 @@ class RaySets {
     }
     return in;
   }
-  /// Lists those of a list of rays that enter the k-th child. Returns how many do.
+  /// Lists the rays of a list that enter the k-th child. Returns their number.
   BOULE_INLINE std::uint32_t list_rays(unsigned k, const std::uint32_t* from, std::uint32_t count,
                                        std::uint32_t* to) const {
     const Bits child(1U << k), none(0U);
@@ -149,8 +150,8 @@ class RaySets {
     }
     return added;
   }
-  /// Adds a child of the node whose first child was added at `base`: for nearest hits the nearest
-  /// of them is visited first.
+  /// Adds a child of the node whose first child was added at `base`. For nearest hits, the nearest
+  /// child is visited first.
   BOULE_INLINE void wait(const Waiting& child, std::size_t base) {
     std::size_t at = waiting_count_++;
     if constexpr (!any_hit) {
@@ -159,8 +160,8 @@ class RaySets {
     waiting_[at] = child;
   }
 
-  /// Tests the rays of a list against the spheres of a leaf: first all by the reject, since few
-  /// meet any and no CPU could predict which, then those that it lets through.
+  /// Tests the rays of a list against the spheres of a leaf: first all by the reject, because few
+  /// hit any and which ones is unpredictable, then those that pass it.
   BOULE_INLINE void visit_leaf(const SphereBlock& leaf, const Waiting& now) {
     const std::uint32_t slot = slot_of(geometry_.spheres, leaf);
     const std::uint32_t* const list = lists_ + now.begin;
@@ -186,7 +187,7 @@ class RaySets {
       if (candidates_.is_full()) make_room();
     }
   }
-  /// What is to be decided about a ray and W spheres of a leaf, from `at` on.
+  /// Decides about a ray and W spheres of a leaf, from `at` on, as far as float can.
   BOULE_INLINE void meet(SetRay& ray, const SphereBlock& leaf, std::uint32_t slot,
                          std::uint32_t at) {
     const FilterRays rays = ray.ray.filter();
@@ -194,8 +195,8 @@ class RaySets {
                             load(leaf.center_z + at)};
     const Approach approach = find_approach(rays, center, load(leaf.radius + at));
     const std::uint32_t first = slot + at;
-    // The ray meets its own sphere again only if it leaves it on its inside; only double can tell
-    // where.
+    // The ray hits its own sphere again only if it leaves it on its inside; only double can find
+    // the hit.
     const RealMask own = load_integers(geometry_.spheres.id + first) == Bits(ray.source);
     const NextRoots roots(approach, rays, Real(ray.ray.reach), own);
     const RealMask again = own & uniform(ray.inside);
@@ -216,7 +217,7 @@ class RaySets {
     }
   }
 
-  /// Gives the candidates that may be nearest to the double solver.
+  /// Passes the candidates that may be nearest to the double solver.
   BOULE_INLINE void solve_candidates() {
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const SetRay& ray = rays_[candidates_.ray(k)];
@@ -224,8 +225,8 @@ class RaySets {
     }
     candidates_.clear();
   }
-  /// Solves them before the search is over. Where floats are certain of nothing, as very far from a
-  /// sphere, only solved hits bring the reach of a ray closer.
+  /// Solves the candidates before the search ends. Where float bounds are too loose, as very far
+  /// from a sphere, only solved hits shorten the reach of a ray.
   BOULE_NOINLINE void make_room() {
     solve_candidates();
     pairs_.finish();
@@ -240,7 +241,7 @@ class RaySets {
   struct Met {
     std::uint32_t ray, at;
   };
-  /// The root, and on the way to a leaf up to fifteen siblings of each node.
+  /// The root, and up to fifteen siblings of each node on the path to a leaf.
   static constexpr std::size_t most_waiting = bvh_max_depth * (bvh_width - 1) + 1;
 
   const GeometryView& geometry_;
@@ -256,7 +257,7 @@ class RaySets {
   alignas(
       64) std::uint32_t entered_[tuning::set_size];  ///< by the rays of a list: children, as bits
   Waiting waiting_[most_waiting];
-  /// The lists of sixteen children for each node on a way, and W that are written beyond the last.
+  /// The lists of sixteen children for each node on a path, and W that are written beyond the last.
   std::uint32_t lists_[(bvh_max_depth * bvh_width + 1) * tuning::set_size + width];
   std::conditional_t<any_hit, NoCandidates, SetCandidates> candidates_;
 };

@@ -5,16 +5,16 @@
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/search/sphere_boxes.h"
 
-/// The box around all that the rays of a packet can reach, from their origins to their ends. What
-/// lies outside is met by none of them. Sixteen boxes, or the boxes of sixteen spheres, are tested
-/// by six comparisons, whatever the rays' directions. Chosen for any hit where the rays are short
-/// (ambient occlusion): in trees where they form no beam, and in scans without a tree.
-/// docs/numerics.md derives the slack (filter::reach).
+/// The box around the reach of a packet's rays, from their origins to their ends. All rays miss the
+/// primitives outside it. Six comparisons test sixteen boxes, or the boxes of sixteen spheres,
+/// whatever the rays' directions. Chosen for any hit where the rays are short (ambient occlusion):
+/// in trees where they form no beam, and in scans without a tree. docs/numerics.md derives the
+/// slack (filter::reach).
 namespace boule::BOULE_KERNEL_ISA {
 
 class ReachBox {
  public:
-  /// `far`: nothing is of interest beyond this t |dir|. `extent`: BvhView::extent.
+  /// `far`: the largest t |dir| that counts. `extent`: BvhView::extent.
   BOULE_INLINE ReachBox(const FilterRays& rays, const Real& far, float extent) : boxes_(extent) {
     is_short_ = all(is_judged(rays) & (Real(0.0F) <= far) & (far < Real(extent)));
     if (!is_short_) return;
@@ -22,11 +22,11 @@ class ReachBox {
     set(1, rays.org.y, rays.unit.y, far);
     set(2, rays.org.z, rays.unit.z, far);
   }
-  /// Whether the rays are short; else nothing else here may be used.
+  /// Whether the rays are short. Precondition of all other functions: they are.
   [[nodiscard]] BOULE_INLINE bool is_short() const { return is_short_; }
 
-  /// Grows to hold `other` too, unless that would make its sides, added up, more than `most` times
-  /// those of the larger of both. Returns whether it did. Both are short.
+  /// Grows to hold `other` too, unless the sum of its sides would exceed `most` times that of the
+  /// larger box. Returns whether it grew. Precondition: both are short.
   BOULE_INLINE bool grow(const ReachBox& other, float most) {
     float low[3], high[3], sides = 0, first = 0, second = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +44,7 @@ class ReachBox {
     return true;
   }
 
-  /// The children of a node that may be reached, as bits.
+  /// The children of a node within reach, as bits.
   [[nodiscard]] BOULE_INLINE unsigned enter(const BvhNode& node) const {
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_width; at += width) {
@@ -58,7 +58,7 @@ class ReachBox {
     }
     return in;
   }
-  /// The spheres of a leaf, or another block, whose boxes may be reached, as bits.
+  /// The spheres of a leaf, or another block, whose boxes are within reach, as bits.
   [[nodiscard]] BOULE_INLINE unsigned meet(const SphereBlock& leaf) const {
     unsigned in = 0;
     for (std::size_t at = 0; at < bvh_leaf_size; at += width) {

@@ -4,17 +4,17 @@
 
 #include "simd/kernel/search/sphere.h"
 
-/// What float knows for certain about a sphere that the reject let through: bounds of its two
-/// roots. With them most spheres need no double solve, because another one is certainly nearer. The
-/// bounds (filter::spread) are derived in docs/numerics.md.
+/// The certain knowledge of float about a sphere that passed the reject: bounds of its two roots.
+/// With them most spheres need no double solve, because another one is certainly nearer.
+/// docs/numerics.md derives the bounds (filter::spread).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Bounds of both roots, as distances t |dir|. Where float cannot tell they are NaN: comparisons
-/// with NaN are false, so nothing is concluded from it.
+/// Bounds of both roots, as distances t |dir|. Where float is undecided they are NaN: comparisons
+/// with NaN are false, so they decide nothing.
 struct RootBounds {
   Real first_low, first_high, second_low, second_high;
-  RealMask certain;  ///< the line meets the sphere for certain, and all four bounds hold
-  RealMask misses;   ///< it misses for certain
+  RealMask certain;  ///< the line certainly meets the sphere, and all four bounds hold
+  RealMask misses;   ///< the line certainly misses it
 };
 
 /// Bound of the errors of b and l (filter_bounds.h) for a sphere that may be hit.
@@ -23,18 +23,18 @@ BOULE_INLINE Real root_spread(const FilterRays& rays, const Real& b, const Real&
   return filter_fma(abs(b) + (r + r), Real(unit_spread), rays.origin_error);
 }
 
-/// A number below both roots that needs no square root: sqrt(r^2 + doubt) is no more than r + 2
-/// spread, because spread is at least 14 u r.
+/// A number below both roots that needs no square root: sqrt(r^2 + doubt) is at most r + 2 spread,
+/// because spread is at least 14 u r.
 BOULE_INLINE Real before_roots(const FilterRays& rays, const Vec3<Real>& center,
                                const Real& signed_radius) {
   const Real b = filter_dot(center - rays.org, rays.unit), r = abs(signed_radius);
   return b - r - Real(4.0F) * root_spread(rays, b, r);
 }
 
-/// How a line and a sphere lie to each other; the roots follow from it.
+/// The position of a line relative to a sphere; the roots follow from it.
 struct Approach {
-  Real along;         ///< b, where the line is nearest to the centre
-  Real discriminant;  ///< of the roots; off by less than `doubt`
+  Real along;         ///< b, the point of the line nearest to the centre
+  Real discriminant;  ///< of the roots; its error is below `doubt`
   Real spread;        ///< bound of the error of b and l
   Real doubt;
 };
@@ -62,9 +62,9 @@ BOULE_INLINE RealMask may_meet(const Approach& approach, const Real& signed_radi
   return (Real(0.0F) <= discriminant + doubt) & (Real(0.0F) <= b + most) & (b - most <= reach);
 }
 
-/// The same with the reject in place of the discriminant: it lets a few more through, and takes
-/// three quarters of the steps. Its b is farther off than the other one's, by what docs/numerics.md
-/// says and 4 spread cover. Holds what depends on the spheres alone.
+/// The same with the reject in place of the discriminant: it lets a few more through, in three
+/// quarters of the steps. Its b has a larger error, which docs/numerics.md bounds and 4 spread
+/// cover. The object holds the part that depends on the spheres alone.
 class RejectSpheres {
  public:
   BOULE_INLINE RejectSpheres(const Vec3<Real>& center, const Real& signed_radius)
@@ -96,7 +96,7 @@ BOULE_INLINE RootBounds bound_roots(const Approach& approach) {
   RootBounds bounds;
   const Real largest(std::numeric_limits<float>::max());
   bounds.certain = doubt < discriminant;
-  // Beyond filter::limit l.l may overflow, and nothing follows from an infinite number.
+  // Beyond filter::limit l.l may overflow, and an infinite number decides nothing.
   bounds.misses = (Real(0.0F) - largest <= discriminant) & (discriminant + doubt < Real(0.0F));
   const Real least = sqrt(discriminant - doubt), most = sqrt(discriminant + doubt);
   bounds.first_low = b - spread - most;
@@ -111,12 +111,12 @@ BOULE_INLINE Real lowest(const RootBounds& roots, const FilterRays& rays) {
   return select(roots.first_high < rays.dead_below, roots.second_low, roots.first_low);
 }
 
-/// Lanes that certainly have no live root.
+/// Lanes that certainly have no valid root.
 BOULE_INLINE RealMask dead(const RootBounds& roots, const FilterRays& rays) {
   return roots.misses | (roots.second_high < rays.dead_below);
 }
 
-/// Upper bound of the first live root; inf where float is not certain that there is one.
+/// Upper bound of the first valid root; inf where float is uncertain that there is one.
 BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
   const Real none(static_cast<float>(no_hit));
   const Real second = select(rays.live_from < roots.second_low, roots.second_high, none);
@@ -124,7 +124,7 @@ BOULE_INLINE Real highest(const RootBounds& roots, const FilterRays& rays) {
   return select(roots.certain, first, none);
 }
 
-/// Lanes that certainly have a live root.
+/// Lanes that certainly have a valid root.
 BOULE_INLINE RealMask live(const RootBounds& roots, const FilterRays& rays) {
   const RealMask first = (rays.live_from < roots.first_low) & (roots.first_high <= rays.live_to);
   const RealMask second = (rays.live_from < roots.second_low) & (roots.second_high <= rays.live_to);

@@ -8,18 +8,18 @@
 #include "simd/kernel/search/primitive_access.h"
 #include "simd/kernel/search/root_bounds.h"
 
-/// Scans: rays against one primitive after the other. Chosen for the spheres of every leaf, for
-/// those that are in no leaf (all of them in small scenes), and for planes. A hot loop in float
-/// lists the steps that the reject lets through in some lane. What float cannot decide about those
-/// is solved in double, outside that loop: inside, the double code would take its registers, which
-/// cost 15 % of the speed. The hits are exact, whatever the order of the steps.
+/// Scans: rays against one primitive after the other. Chosen for the spheres of every leaf, for the
+/// spheres outside the leaves (all of them in small scenes), and for planes. A hot loop in float
+/// lists the steps that the reject lets through in some lane. The undecided ones are solved in
+/// double, outside that loop: inside it, the double code would take its registers, at a cost of 15
+/// % of the speed. The hits are exact, whatever the order of the steps.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Steps that the reject lets through.
 template <std::size_t capacity>
 struct Survivors {
   std::uint32_t offset[capacity + 4];  ///< from the chunk's first step
-  std::uint32_t out[capacity + 4];     ///< lanes that it turned away, as bits
+  std::uint32_t out[capacity + 4];     ///< lanes that the reject turned away, as bits
   std::size_t count = 0;
 
   BOULE_INLINE void append(std::uint32_t step, unsigned turned_away) {
@@ -29,8 +29,8 @@ struct Survivors {
   }
 };
 
-/// The hot loop. It takes four steps a branch, so that the common case, nothing survives, costs one
-/// test of four masks: 15 to 20 % faster than a branch for each. test(step): the lanes that
+/// The hot loop. It takes four steps per branch, so that the common case, without survivors, costs
+/// one test of four masks: 15 to 20 % faster than a branch per step. test(step): the lanes that
 /// certainly miss.
 template <class Test, std::size_t capacity>
 BOULE_INLINE void list_survivors(const Test& test, std::size_t begin, std::size_t end,
@@ -66,7 +66,7 @@ struct Candidates {
   }
 };
 
-/// Lets float decide what it can about the survivors and lists the others.
+/// Lets float decide about the survivors as far as it can, and lists the others.
 template <class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, std::size_t begin,
                                   const Survivors<capacity>& survivors,
@@ -76,7 +76,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     const RealMask own = spheres.own(rays, step);  // rays that leave this very sphere
     const unsigned leaving = bits(own);
     unsigned out = survivors.out[k] | leaving;
-    if ((leaving & rays.inside) != 0) {  // only the solver knows where they meet it again
+    if ((leaving & rays.inside) != 0) {  // only the solver can find where they hit it again
       candidates.append(survivors.offset[k], Real(-static_cast<float>(no_hit)), 0);
       continue;
     }
@@ -86,7 +86,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
     RootBounds roots =
         bound_roots(find_approach(rays.filter, spheres.center(step), spheres.radius(step)));
     Real low = lowest(roots, rays.filter);
-    // Those that leave it on its outside never meet it again.
+    // Rays that leave a sphere on its outside never hit it again.
     roots.certain = roots.certain & ~own;
     low = select(own, Real(static_cast<float>(no_hit)), low);
     out |= bits(dead(roots, rays.filter));
@@ -96,7 +96,7 @@ BOULE_INLINE void list_candidates(const RayLanes& rays, const Spheres& spheres, 
   }
 }
 
-/// Solver robust on survivors: first what float can decide, then the double solves that are left.
+/// Solver robust on survivors: first the decisions by float, then the remaining double solves.
 template <class All, class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void solve_survivors(const RayLanes& rays, const All& all, const Spheres& spheres,
                                   std::size_t begin, const Survivors<capacity>& survivors,
@@ -124,8 +124,8 @@ BOULE_NOINLINE void solve_survivors_fast(const RayLanes& rays, const Spheres& sp
   }
 }
 
-/// Meets the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: what
-/// has the spheres of all slots.
+/// Tests the survivors among `spheres`, listed from step `begin` on, by either solver. `all`: the
+/// spheres of all slots.
 template <class All, class Spheres, class Best, std::size_t capacity>
 BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver solver, const All& all,
                                  const Spheres& spheres, std::size_t begin,
@@ -137,7 +137,7 @@ BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver solver, const All&
   }
 }
 
-/// Scans the spheres that are in no leaf.
+/// Scans the spheres outside the leaves.
 template <class Access, class Best>
 BOULE_INLINE void scan_spheres(const RayLanes& rays, Solver solver, const SphereView& spheres,
                                Best& best) {

@@ -9,16 +9,16 @@
 #include "simd/kernel/search/padded_stream.h"
 #include "simd/kernel/search/parts.h"
 
-/// Streams of rays of which nothing is promised: they go as sets, as packets, or, for nearest hits,
-/// fly. Now and then some rays are traced each way, and what did best traces the next ones. Which
-/// way a ray goes changes nothing but the time. Answers: HitStream, or std::uint8_t*.
+/// Streams of rays without a promise of coherence, as sets, as packets or, for nearest hits, in
+/// flight. From time to time some rays are traced each way, and the fastest way traces the next
+/// ones. The way of a ray affects only the time. Answers: HitStream, or std::uint8_t*.
 /// (scattered.cpp)
 namespace boule::BOULE_KERNEL_ISA {
 
 enum class Way : std::size_t { set, packet, flight };
 
-/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic, or flight or set,
-/// which have no trials. `known`: Query::experience.
+/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic; or flight or set,
+/// which run without trials. `known`: Query::experience.
 template <class Answers>
 void trace_scattered(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
                      std::size_t end, Form form, Experience* known, const Answers& answers);
@@ -30,7 +30,7 @@ BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStr
   trace_groups(geometry, stream, begin, end, Solver::robust, form, answers);
 }
 
-/// What sets did: how often a ray was tested against a node or a leaf, and how often a node or a
+/// The work of sets: how often a ray was tested against a node or a leaf, and how often a node or a
 /// leaf was visited.
 struct SetEffort {
   std::size_t steps = 0, visits = 0;

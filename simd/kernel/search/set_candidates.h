@@ -7,21 +7,21 @@
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
-/// Spheres that may be the nearest hit of a ray of a set: the double solver decides, once the set
-/// has been through the tree and most of them are known to lie behind another hit.
+/// Spheres that may be the nearest hit of a ray of a set. The double solver decides after the
+/// traversal, when most of them are known to lie behind another hit.
 namespace boule::BOULE_KERNEL_ISA {
 
 class SetCandidates {
  public:
-  /// Adds a ray with W spheres: those `chosen` of the slots from `slot` on; `low` are lower bounds
-  /// of their hits.
+  /// Adds a ray with W spheres: those `chosen` among the slots from `slot` on; `low` are lower
+  /// bounds of their hits.
   BOULE_INLINE void add(std::uint32_t ray, std::uint32_t slot, const Real& low, unsigned chosen) {
     store_chosen(low_ + size_, low, chosen);
     store_chosen(slot_ + size_, count_from(slot), chosen);
     store_anywhere(ray_ + size_, Bits(ray));
     size_ += static_cast<std::size_t>(std::popcount(chosen));
   }
-  /// Whether they are to be solved at once: those of one more leaf still find room.
+  /// Whether the candidates must be solved now; those of one more leaf still find room.
   [[nodiscard]] BOULE_INLINE bool is_full() const { return size_ > most; }
   void clear() { size_ = 0; }
 
@@ -39,7 +39,7 @@ class SetCandidates {
   std::uint32_t slot_[capacity], ray_[capacity];
 };
 
-/// For any hit: what float cannot decide is solved soon.
+/// For any hit: undecided pairs are solved soon, without a list.
 struct NoCandidates {};
 
 }  // namespace boule::BOULE_KERNEL_ISA

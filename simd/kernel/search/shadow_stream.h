@@ -9,13 +9,13 @@
 #include "simd/kernel/search/scattered_stream.h"
 #include "simd/kernel/tuning.h"
 
-/// Streams of shadow rays (any hit) with something in common. They are taken in their order as long
-/// as bundles of neighbours do well, and from there on sorted for their light (ray_pool.h), unless
-/// they cost less one by one. Which way a ray goes changes nothing but the time.
+/// Streams of coherent shadow rays (any hit). Bundles take them in their order as long as
+/// neighbours are coherent. From there on the rays are sorted for their light (ray_pool.h), unless
+/// they cost less one by one. The way of a ray affects only the time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Finds whether rays begin .. end - 1 hit anything, in their order, as long as that goes well.
-/// Returns the first ray that has no answer yet. Geometry, here and below: GeometryView, or
+/// Finds whether rays begin .. end - 1 hit anything, in their order, as long as bundles do well.
+/// Returns the first ray without an answer. Geometry, here and below: GeometryView, or
 /// PartsGeometry.
 template <Common common, class Geometry>
 BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const PaddedStream& stream,
@@ -31,13 +31,13 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
   return begin;
 }
 
-/// Rays that show what others cost: so many at each of some places of a stream.
+/// Rays that show the cost of others: `rays` of them at each of `places` places of a stream.
 struct Samples {
   std::size_t places, rays;
 };
 
-/// Calls run(first, last + 1) for samples of rays begin .. end - 1, which returns their cost.
-/// Returns that of a ray.
+/// Calls run(first, last + 1), which returns the cost, for samples of rays begin .. end - 1.
+/// Returns the cost of a ray.
 template <class Run>
 BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Samples& samples,
                                    const Run& run) {
@@ -48,7 +48,7 @@ BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Sam
   return cost / static_cast<float>(samples.places * samples.rays);
 }
 
-/// What a ray costs as packets, by samples of rays begin .. end - 1, which are traced.
+/// The cost of a ray as packets, by samples of rays begin .. end - 1, which are traced.
 template <class Geometry>
 BOULE_NOINLINE float cost_as_packets(const Geometry& geometry, const PaddedStream& stream,
                                      std::size_t begin, std::size_t end, std::uint8_t* occluded) {
@@ -74,17 +74,17 @@ BOULE_NOINLINE float cost_as_sets(const Geometry& geometry, const PaddedStream& 
   return cost_of_samples(begin, end, {tuning::sets_on_trial, tuning::set_on_trial}, run);
 }
 
-/// What a ray costs where rays are not sorted, as some of them show, and what it costs where they
-/// are: in the unit of tuning::cost_of_ray.
+/// The cost of an unsorted ray, by samples, and that of a sorted one: in the unit of
+/// tuning::cost_of_ray.
 template <class Geometry>
 class UnsortedCost {
  public:
-  /// Traces some of the rays begin .. end - 1, at most a pool, the ways that may cost less than
+  /// Traces some of the rays begin .. end - 1, at most a pool, in the ways that may cost less than
   /// sorted bundles.
   UnsortedCost(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
                std::size_t end, std::uint8_t* occluded)
       : least_sorted_(least_of_sorted(geometry.bvh.size, end - begin)) {
-    // Few rays are not worth it; and without a tree there are no sets.
+    // Few rays are not worth the samples, and without a tree there are no sets.
     if (end - begin < tuning::fewest_rays_judged || geometry.bvh.size == 0) return;
     const auto consider = [&](Way way, float cost) {
       if (cost_ <= cost) return;
@@ -99,10 +99,10 @@ class UnsortedCost {
     }
   }
 
-  /// Whether that is less than what sorted rays cost at least. The more nodes for a ray, the more
-  /// leaves a bundle meets.
+  /// Whether unsorted rays cost less than the least possible cost of sorted rays. The more nodes
+  /// per ray, the more leaves a bundle visits.
   [[nodiscard]] bool is_less_than_sorted() const { return cost_ < least_sorted_; }
-  /// Whether that is less than what whole sorted bundles took, which visited so many leaves each.
+  /// Whether unsorted rays cost less than whole sorted bundles that visited this many leaves each.
   [[nodiscard]] bool is_less_than_bundle(std::size_t leaves) const {
     return cost_ < tuning::bundled_ray + tuning::bundled_leaf * static_cast<float>(leaves) /
                                              static_cast<float>(bundle_size);
@@ -123,9 +123,10 @@ class UnsortedCost {
   Way way_ = Way::packet;
 };
 
-/// Traces rays first .. first + count - 1 of a pool, whose bundle had this outcome: as packets if
-/// it gave up, else as trace_halved() does. Returns whether a bundle was sparse; they then have no
-/// answers: sets, whose lists take as much of the stack as a pool, are made when the pool is gone.
+/// Traces rays first .. first + count - 1 of a pool, after this outcome of their bundle: as packets
+/// if it gave up, otherwise as trace_halved() does. Returns whether a bundle was sparse. Its rays
+/// then have no answers: sets, whose lists take as much of the stack as a pool, are made after the
+/// pool is gone.
 template <Common common, class Geometry>
 BOULE_NOINLINE bool trace_gathered(const Geometry& geometry, const RayPool<common>& pool,
                                    std::size_t first, std::size_t count, Outcome outcome,
@@ -145,15 +146,15 @@ BOULE_NOINLINE bool trace_gathered(const Geometry& geometry, const RayPool<commo
   return false;
 }
 
-/// The bundles of a sorted pool, one by one: first, of four or more, four that lie far from each
-/// other, by which all are judged, then the others in their order.
+/// The bundles of a sorted pool, one by one. If there are four or more, four that lie far apart
+/// come first, by which all are judged; then the others in their order.
 class JudgedFirst {
  public:
   static constexpr std::size_t most = 4;
   explicit JudgedFirst(std::size_t bundles) : bundles_(bundles) {}
 
-  /// Calls trace(bundle), which returns whether to go on, and after each judged one goes_on(how
-  /// many there were). Returns whether it always was to go on.
+  /// Calls trace(bundle), which returns whether to go on, and after each judged bundle
+  /// goes_on(number of judged bundles). Returns whether every call said to go on.
   template <class Trace, class GoesOn>
   bool each(const Trace& trace, const GoesOn& goes_on) const {
     const std::size_t judged = bundles_ < most ? 0 : most;
@@ -178,7 +179,7 @@ class JudgedFirst {
   std::size_t bundles_;
 };
 
-/// How many leaves some bundles visited.
+/// The numbers of leaves that some bundles visited.
 class LeafCounts {
  public:
   void add(std::size_t leaves) {
@@ -186,8 +187,8 @@ class LeafCounts {
     for (; at > 0 && counts_[at - 1] > leaves; --at) counts_[at] = counts_[at - 1];
     counts_[at] = leaves;
   }
-  /// What they visit usually, rather less than more: of two the least, of four the second. One may
-  /// be of a kind of its own.
+  /// The usual number, rather too low: of two the smaller, of four the second. One bundle may be an
+  /// exception.
   [[nodiscard]] std::size_t usual() const { return counts_[(size_ - 1) / 2]; }
 
  private:
@@ -195,8 +196,8 @@ class LeafCounts {
   std::size_t counts_[JudgedFirst::most];
 };
 
-/// Sorts rays begin .. end - 1, at most a pool, by where they lie for their light, and finds
-/// whether they hit anything. With answers for some of them only, the outcome is `sparse`, or
+/// Sorts rays begin .. end - 1, at most a pool, by their place as their light sees it, and finds
+/// whether they hit anything. If some rays are left without an answer, the outcome is `sparse`, or
 /// `gave_up` where bundles seem to cost more than `unsorted`.
 template <Common common, class Geometry>
 BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
@@ -231,8 +232,8 @@ BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStre
   return sparse ? Outcome::sparse : Outcome::gave_up;
 }
 
-/// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays of which
-/// nothing is promised where that seems to cost less. `known`: Query::experience.
+/// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays without a
+/// promise where that seems to cost less. `known`: Query::experience.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, Experience* known,
@@ -249,8 +250,8 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
   }
 }
 
-/// Finds whether rays hit anything: in their order, and from where neighbours have too little in
-/// common in another way.
+/// Finds whether rays hit anything: in their order as long as neighbours are coherent, and then in
+/// another way.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& stream,
                                   Experience* known, std::uint8_t* occluded) {

@@ -9,9 +9,9 @@
 #include "simd/kernel/search/visit_stack.h"
 #include "simd/kernel/tuning.h"
 
-/// Two packets of short rays that look for any hit and share their visits of the tree. Chosen where
-/// neighbouring packets reach about the same, as in ambient occlusion: what a visit asks once, it
-/// asks for twice as many rays.
+/// Two packets of short any-hit rays that share their traversal of the tree. Chosen where
+/// neighbouring packets have about the same reach, as in ambient occlusion: one test of a visit
+/// then serves twice as many rays.
 namespace boule::BOULE_KERNEL_ISA {
 
 struct TwoPackets {
@@ -23,7 +23,7 @@ BOULE_INLINE unsigned open_rays(const AnyHit<false> (&best)[2]) {
   return best[0].open(all_lanes) | best[1].open(all_lanes) << width;
 }
 
-/// Searches the tree for both. Returns how many nodes and leaves each has visited, in all.
+/// Searches the tree for both. Returns the sum of the nodes and leaves that each has visited.
 BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, Solver solver,
                                            ShortWalk<2>& walk, const GeometryView& geometry,
                                            AnyHit<false> (&best)[2]) {
@@ -59,8 +59,8 @@ BOULE_INLINE std::size_t traverse_together(const TwoPackets& packets, Solver sol
   return visits;
 }
 
-/// Whether both are short, go all ways, and reach about the same. Grows `reach`, of the first, to
-/// hold both.
+/// Whether both are short, go all ways, and have about the same reach. Grows `reach`, of the first,
+/// to hold both.
 BOULE_INLINE bool reach_the_same(const TwoPackets& packets, const AnyHit<false> (&best)[2],
                                  float extent, ReachBox& reach) {
   if (!reach.is_short()) return false;
@@ -69,8 +69,8 @@ BOULE_INLINE bool reach_the_same(const TwoPackets& packets, const AnyHit<false> 
          !forms_beam(packets.rays[1].filter) && reach.grow(second, tuning::most_shared_growth);
 }
 
-/// Searches all primitives for two packets. Returns how many nodes and leaves each has visited, in
-/// all.
+/// Searches all primitives for two packets. Returns the sum of the nodes and leaves that each has
+/// visited.
 BOULE_NOINLINE inline std::size_t search_two(const TwoPackets& packets, Solver solver,
                                              const GeometryView& geometry,
                                              AnyHit<false> (&best)[2]) {

@@ -11,22 +11,21 @@
 #include "simd/kernel/search/visit_stack.h"
 #include "simd/kernel/tuning.h"
 
-/// How packets of short rays, of which any hit will do, go through a tree: one packet, or two that
-/// share their visits. (Nearest hits shorten rays again and again, which a box that is made once
-/// knows nothing of.)
+/// The traversal of a tree by packets of short any-hit rays: one packet, or two that share their
+/// visits. (Nearest hits shorten rays again and again, while a reach box is made once.)
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Which rays: the lanes of the first packet, then those of the second, as bits.
+/// The rays: the lanes of the first packet, then those of the second, as bits.
 template <int packets>
 class ShortWalk {
  public:
-  /// `rays`: of each packet. `reach`: of all of them; is_short(). `untested`: so many children, or
-  /// fewer, are visited without a test of their boxes by the rays. `extent`: BvhView::extent.
+  /// `rays`: of each packet. `reach`: of all of them; is_short(). `untested`: up to this many
+  /// children are visited without a test of their boxes by the rays. `extent`: BvhView::extent.
   BOULE_INLINE ShortWalk(const RayLanes* rays, const ReachBox& reach, int untested, float extent)
       : rays_(rays), reach_(reach), untested_(untested), extent_(extent) {
     for (int p = 0; p < packets; ++p) one_by_one_[p] = RayByRay(rays[p], extent);
   }
-  /// Those of the rays that are of packet p, as bits of its lanes.
+  /// The rays of packet p, as bits of its lanes.
   BOULE_INLINE static unsigned of_packet(unsigned lanes, int p) {
     return lanes >> p * width & all_lanes;
   }
@@ -50,14 +49,14 @@ class ShortWalk {
       visit_by_boxes(node, lanes, in, limits, stack);
     }
   }
-  /// The spheres of a leaf that the rays `lanes` may reach, as bits.
+  /// The spheres of a leaf within reach of the rays `lanes`, as bits.
   [[nodiscard]] BOULE_INLINE unsigned reach(const LeafSpheres<OneForAll>& leaf,
                                             unsigned lanes) const {
     const unsigned all_spheres = (1U << leaf.size) - 1;
     return is_for_few(lanes) ? all_spheres : reach_.meet(leaf.leaf) & all_spheres;
   }
-  /// Lists those of the spheres `in` of a leaf that float does not rule out for every ray of
-  /// packet p that is among its `lanes`.
+  /// Lists the spheres among `in` of a leaf that float cannot rule out for every ray of packet p
+  /// that is among its `lanes`.
   BOULE_INLINE void list_survivors(int p, const LeafSpheres<OneForAll>& leaf, unsigned lanes,
                                    unsigned in, const Real& limit,
                                    Survivors<bvh_leaf_size>& survivors) const {
@@ -121,7 +120,7 @@ class ShortWalk {
     for (int p = 0; p < packets; ++p) may = may && one_by_one_[p].may();
     return may;
   }
-  /// Whether the rays are so few that they are tested one by one before anything else is asked.
+  /// Whether the rays are few enough to be tested one by one before any other test.
   [[nodiscard]] BOULE_INLINE bool is_for_few(unsigned lanes) const {
     return count_bits(lanes) <= tuning::most_rays_alone && may_be_by_ray();
   }
@@ -131,7 +130,7 @@ class ShortWalk {
            may_be_by_ray();
   }
 
-  /// Only when a box is to be tested: many packets of short rays need none.
+  /// Called only when a box is to be tested: many packets of short rays need none.
   BOULE_INLINE void make_boxes() {
     if (has_boxes_) return;
     for (int p = 0; p < packets; ++p) box_rays_[p] = BoxRays(rays_[p], extent_);

@@ -3,14 +3,14 @@
 #include "simd/abi/bvh.h"
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Rays against boxes, W rays against one or one ray against W. A box is what three slabs have in
-/// common, a slab being the space between two parallel planes. The test only turns away boxes that
-/// are certainly missed; its slack (filter::box, slab_least) is derived in docs/numerics.md.
+/// Rays against boxes, W rays against one or one ray against W. A box is the intersection of three
+/// slabs, where a slab is the space between two parallel planes. The test rejects only certain
+/// misses; docs/numerics.md derives its slack (filter::box, slab_least).
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Where rays meet the planes of an axis. A plane at x is met at t = x inverse + near if it is the
-/// first of its slab, at x inverse + far if it is the second: `near` is rounded down and `far` up.
-/// `farthest`: the tree ends before this distance.
+/// The distances at which rays cross the planes of an axis. A plane at x is crossed at t = x
+/// inverse + near if it is the first of its slab, at x inverse + far if it is the second: `near` is
+/// rounded down and `far` up. `farthest`: the tree ends before this distance.
 struct Slab {
   Real inverse, near, far;
 
@@ -27,8 +27,8 @@ struct Slab {
     far = narrow(slack - at);
   }
 
-  /// Cuts [begin, end] to what lies between the plane that is met first and the other one. Rays
-  /// that float cannot judge have NaN, which cuts nothing.
+  /// Reduces [begin, end] to the part between the first plane and the last. Rays that float cannot
+  /// judge have NaN, which reduces nothing.
   BOULE_INLINE void cut(const Real& first, const Real& last, Real& begin, Real& end) const {
     begin = greater_or(filter_fma(first, inverse, near), begin);
     end = lesser_or(filter_fma(last, inverse, far), end);
@@ -48,7 +48,7 @@ BOULE_INLINE Vec3<Slab> slabs_of(const RayLanes& rays, float extent) {
 /// Rays for box tests.
 struct BoxRays {
   Vec3<Slab> slabs;
-  Real from;  ///< nothing is live below this t |dir|; NaN: every box is entered
+  Real from;  ///< lower bound of t |dir| of valid hits; NaN: every box is entered
 
   BoxRays() = default;
   BOULE_INLINE BoxRays(const RayLanes& rays, float extent)
@@ -62,21 +62,20 @@ struct Boxes {
   Vec3<Real> min, max;
 };
 
-/// Where rays enter boxes, and the lanes in which they certainly do not do so before a limit.
+/// The distances at which rays enter boxes, and the lanes that certainly miss before a limit.
 struct Entry {
   Real near;
   RealMask out;
 };
 
-/// Lanes in which an interval is certainly empty, whatever was rounded at its ends: it is by more
-/// than 2 filter::box u of its begin. Where the begin is NaN it is not.
+/// Lanes in which an interval is certainly empty, whatever the rounding of its ends: empty by more
+/// than 2 filter::box u of its begin. An interval whose begin is NaN counts as filled.
 BOULE_INLINE RealMask is_empty(const Real& begin, const Real& end) {
   const Real slack(static_cast<float>(2 * filter::box * filter::u));
   return end < filter_fnma(abs(begin), slack, begin);
 }
 
-/// Enters boxes whose planes are sorted: `first` are those that the rays meet first, `last` the
-/// others.
+/// Enters boxes whose planes are sorted: rays cross `first` before `last`.
 BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
                                  const Vec3<Real>& last, const Real& limit) {
   Real near = rays.from, far = limit;
@@ -86,15 +85,15 @@ BOULE_INLINE Entry enter_ordered(const BoxRays& rays, const Vec3<Real>& first,
   return {near, is_empty(near, far)};
 }
 
-/// One ray's way through W boxes: lower bounds of where it enters them, and those that it may
-/// enter.
+/// One ray's passage through W boxes: lower bounds of the entry distances, and the boxes that it
+/// may enter.
 struct Passage {
   Real near;
   RealMask in;
 };
 
-/// From where the ray meets the planes that it meets first, and the others. It has no hits behind
-/// its origin, and float can judge it: comparisons with NaN turn away.
+/// From the distances of the first and of the last planes. The ray has no hits behind its origin,
+/// and float can judge it: comparisons with NaN reject.
 BOULE_INLINE Passage pass_boxes(const Vec3<Real>& first, const Vec3<Real>& last,
                                 const Real& reach) {
   const Real less(static_cast<float>(1 - 2 * filter::box * filter::u));

@@ -2,9 +2,9 @@
 
 #include "simd/kernel/search/ray_lanes.h"
 
-/// Ray against sphere, lane by lane: a conservative reject in float, and the two solvers for what
-/// it lets through. The robust solver decides in double, exactly as core/reference.cpp does, bit
-/// for bit; the fast one answers in float. docs/numerics.md derives the bound of the reject.
+/// Ray against sphere, lane by lane: a conservative reject in float, and the two solvers for the
+/// spheres that pass it. The robust solver decides in double, exactly as core/reference.cpp does,
+/// bit for bit; the fast one answers in float. docs/numerics.md derives the bound of the reject.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Spheres in lanes: the same one in all, for a packet, or W, for a single ray.
@@ -34,7 +34,7 @@ BOULE_INLINE RealMask rejected(const FilterRays& rays, const Vec3<Real>& center,
   return rejected_exact(rays, center, grown * grown);
 }
 
-/// The radius that rejected() wants where it was not computed in advance.
+/// The radius for rejected() where it was not computed in advance.
 BOULE_INLINE Real grown_on_the_spot(const Real& radius) {
   return filter_fma(abs(radius),
                     Real(static_cast<float>(1 + filter::slack_on_the_spot * filter::u)),
@@ -62,7 +62,7 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
   roots.hit = roots.hit & (Wide(0.0) <= discriminant);
 
   if (rays.has_source) {
-    // The origin lies on the ray's own sphere, where cc = 0: from outside the ray does not meet it
+    // The origin lies on the ray's own sphere, where cc = 0: from outside the ray does not hit it
     // again, from inside it does at 2b / a.
     const WideMask leaves = widen(rays.source == sphere.id);
     const Wide across = (b + b) * rays.inverse_a;
@@ -75,8 +75,8 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
 }
 
 /// Solver fast: closest approach in float along the unit direction. For sizes from 1e-18 to
-/// filter::limit it is wrong about hit or miss only within 3u max(F, r) of the rim, F being the
-/// distance of origin and centre; larger spheres are missed.
+/// filter::limit it is wrong about hit or miss only within 3u max(F, r) of the rim, where F is the
+/// distance of origin and centre. It misses larger spheres.
 BOULE_INLINE Roots solve_fast(const RayLanes& rays, const SphereLanes& sphere) {
   const FilterRays& filter = rays.filter;
   const Vec3<Real> f = sphere.center - filter.org;

@@ -2,8 +2,8 @@
 
 #include "simd/kernel/search/ray_lanes.h"
 
-/// The boxes around a block's spheres, as beams and reach boxes see them: wider than the spheres,
-/// by what float rounds. docs/numerics.md derives by how much (filter::beam).
+/// The boxes around a block's spheres, for beams and reach boxes: wider than the spheres, by the
+/// rounding error of float. docs/numerics.md derives the margin (filter::beam).
 namespace boule::BOULE_KERNEL_ISA {
 
 class SphereBoxes {

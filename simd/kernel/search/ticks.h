@@ -7,8 +7,8 @@
 /// Time, for the choice between ways that give the same answers.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// A clock that goes on by itself, in ticks of its own, most often some in 0.1 us. Another core may
-/// be behind. On other processors it stands still: then all ways seem alike.
+/// A clock that the CPU advances, in ticks of its own, mostly some per 0.1 us. Another core may be
+/// behind. On other processors it stands still: then all ways seem alike.
 BOULE_INLINE std::uint64_t ticks() {
 #if defined(__x86_64__)
   return __builtin_ia32_rdtsc();

@@ -12,13 +12,13 @@
 #include "simd/kernel/search/tree_blocks.h"
 #include "simd/kernel/search/visit_stack.h"
 
-/// Packets and single rays on their way through the tree: depth first, near children first. Chosen
+/// Packets and single rays during traversal of the tree: depth first, near children first. Chosen
 /// where rays have no promised coherence and Form or a trial (scattered_stream.h) says packet or
-/// single. Boxes are filters as the reject is: what they turn away is missed for certain. The hits
-/// are therefore the scan's, whatever the order of visits.
+/// single. Boxes are filters like the reject: they turn away only certain misses. The hits are
+/// therefore those of a scan, whatever the order of visits.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// One ray, the same in every lane, on its way through a tree: W children at a time.
+/// One ray, the same in every lane, during traversal: W children at a time.
 class SingleWalk {
  public:
   BOULE_INLINE SingleWalk(const RayLanes& rays, float extent)
@@ -53,20 +53,20 @@ class SingleWalk {
   BoxRays box_rays_;
 };
 
-/// Nothing beyond this is of interest: the greatest limit of W rays; for one ray, which all lanes
-/// search for, the least. inf if a lane's limit is NaN.
+/// The limit of the search: for W rays the largest of their limits; for one ray, for which all
+/// lanes search, the smallest. inf if a lane's limit is NaN.
 template <class Access>
 BOULE_INLINE float limit_of_all(const Real& limit) {
   if (bits(limit <= limit) != all_lanes) return static_cast<float>(no_hit);
   return Access::one_ray ? least_lane(limit) : greatest_lane(limit);
 }
 
-/// How many children of a node short rays visit untested.
+/// The number of children of a node that short rays visit untested.
 BOULE_INLINE int untested_of(const BvhView& bvh) {
   return bvh.size == 1 ? static_cast<int>(bvh_width) : tuning::most_untested;
 }
 
-/// Calls search(walk) with the way that these rays go through a tree. Returns what it returns.
+/// Calls search(walk) with the walk that suits these rays. Returns the result of search().
 template <class Access, class Best, class Search>
 BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, const BvhView& bvh,
                                    const Search& search) {
@@ -86,14 +86,14 @@ BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const Best& best, const
   }
 }
 
-/// Whether all of `visit` lies certainly beyond `limit`.
+/// Whether the child of `visit` certainly lies beyond `limit`.
 BOULE_INLINE bool is_beyond(const Visit& visit, float limit) {
   const float slack = static_cast<float>(filter::box * filter::u);
   const float size = visit.near < 0 ? -visit.near : visit.near;
   return limit < visit.near - size * slack;
 }
 
-/// Meets up to sixteen spheres. `all`: what has the spheres of all slots.
+/// Tests up to sixteen spheres. `all`: the spheres of all slots.
 template <class Access, class Walk, class All, class Best>
 BOULE_INLINE void meet_leaf(const RayLanes& rays, Solver solver, Walk& walk, const All& all,
                             const LeafRef& at, std::uint32_t size, unsigned lanes, float& limit,
@@ -106,7 +106,7 @@ BOULE_INLINE void meet_leaf(const RayLanes& rays, Solver solver, Walk& walk, con
   limit = limit_of_all<Access>(best.limit());
 }
 
-/// Searches a tree. Returns how many nodes and leaves were visited.
+/// Searches a tree. Returns the number of visited nodes and leaves.
 template <class Access, class Walk, class Tree, class All, class Best>
 BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Solver solver, Walk& walk,
                                        const Tree& tree, const All& all, Best& best) {
@@ -140,9 +140,9 @@ BOULE_INLINE std::size_t traverse_spheres(const RayLanes& rays, Solver solver,
   });
 }
 
-/// Scans the spheres of a geometry without a tree for short rays of which any hit will do: those
-/// that their reach box holds. Returns false where there is a tree, where the spheres are few, or
-/// the rays not short.
+/// Scans the spheres of a geometry without a tree for short any-hit rays: the spheres within their
+/// reach box. Returns false if there is a tree, if the spheres are few, or if the rays are not
+/// short.
 template <class Best>
 BOULE_INLINE bool scan_reached(const RayLanes& rays, Solver solver, const GeometryView& geometry,
                                Best& best) {
@@ -162,7 +162,7 @@ BOULE_INLINE bool scan_reached(const RayLanes& rays, Solver solver, const Geomet
   return true;
 }
 
-/// Searches all spheres: those in no leaf first, then the tree.
+/// Searches all spheres: those outside the leaves first, then the tree.
 template <class Access, class Best>
 BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, Solver solver,
                                         const GeometryView& geometry, Best& best) {
@@ -173,7 +173,7 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, Solver solver,
   return traverse_spheres<Access>(rays, solver, geometry, best);
 }
 
-/// Meets up to sixteen spheres that are in no leaf, and may be beyond the range of most filters.
+/// Tests up to sixteen spheres outside the leaves, which may be beyond the range of most filters.
 template <class Access, class All, class Best>
 BOULE_INLINE void meet_scanned(const RayLanes& rays, Solver solver, const All& all,
                                const LeafRef& at, std::uint32_t size, Best& best) {
@@ -184,7 +184,7 @@ BOULE_INLINE void meet_scanned(const RayLanes& rays, Solver solver, const All& a
   meet_survivors(rays, solver, all, spheres, 0, survivors, best);
 }
 
-/// Searches a part: its spheres that are in no leaf first, then its tree.
+/// Searches a part: its spheres outside the leaves first, then its tree.
 template <class Access, class Walk, class Best>
 BOULE_INLINE std::size_t search_part(const RayLanes& rays, Solver solver, Walk& walk,
                                      const PartTree& tree, const PartSpheres& all, Best& best) {
@@ -228,7 +228,7 @@ BOULE_INLINE std::size_t search_spheres(const RayLanes& rays, Solver solver,
   });
 }
 
-/// Searches all primitives. Returns how many nodes and leaves were visited. Geometry: GeometryView,
+/// Searches all primitives. Returns the number of visited nodes and leaves. Geometry: GeometryView,
 /// or PartsGeometry.
 template <class Access, class Geometry, class Best>
 BOULE_NOINLINE std::size_t search(const RayLanes& rays, Solver solver, const Geometry& geometry,

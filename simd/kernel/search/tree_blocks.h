@@ -8,8 +8,8 @@
 #include "simd/kernel/tuning.h"
 #include "simd/lanes/lanes.h"
 
-/// Where the nodes and leaves of a tree are in memory, for bundles, sets and flights, which fetch
-/// what they will visit into the cache.
+/// The addresses of a tree's nodes and leaves in memory, for bundles, sets and flights, which
+/// prefetch them into the cache.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The slot of a leaf's first sphere.
@@ -18,8 +18,8 @@ BOULE_INLINE std::uint32_t slot_of(const SphereView& spheres, const SphereBlock&
          static_cast<std::uint32_t>(bvh_leaf_size);
 }
 
-/// Finds the node or the leaf that a child is, without a branch: no CPU could predict which of the
-/// two it is.
+/// Finds the node or the leaf of a child, without a branch: which of the two it is, is
+/// unpredictable.
 class TreeBlocks {
  public:
   BOULE_INLINE explicit TreeBlocks(const GeometryView& geometry)
@@ -28,15 +28,15 @@ class TreeBlocks {
         ids_{first_[0], as_bytes(geometry.spheres.id + geometry.spheres.scanned)},
         is_far_(geometry.spheres.block_count > tuning::most_near_blocks) {}
 
-  /// Whether the tree is too large for a cache near by.
+  /// Whether the tree exceeds the near caches.
   [[nodiscard]] BOULE_INLINE bool is_far() const { return is_far_; }
-  /// The node or the leaf that a child is.
+  /// The node or the leaf of a child.
   BOULE_INLINE const void* at(std::uint32_t child) const {
     const std::size_t leaf = child >> 31;
     static_assert(leaf_bit == 1U << 31 && sizeof(BvhNode) == 512 && sizeof(SphereBlock) == 256);
     return first_[leaf] + (std::size_t{index_of(child)} << (9 - leaf));
   }
-  /// The node or the leaf that a child is. In a far tree, also fetches what its visit will read.
+  /// The node or the leaf of a child. In a far tree, also prefetches the data of its visit.
   BOULE_INLINE const void* fetch(std::uint32_t child) const {
     const std::size_t leaf = child >> 31, index = index_of(child);
     const auto* const block = static_cast<const char*>(at(child));
@@ -53,7 +53,7 @@ class TreeBlocks {
   BOULE_INLINE static const char* as_bytes(const T* p) {
     return reinterpret_cast<const char*>(p);
   }
-  /// Fetches 256 bytes.
+  /// Prefetches 256 bytes.
   BOULE_INLINE static void prefetch(const char* begin) {
     __builtin_prefetch(begin);
     __builtin_prefetch(begin + 64);
@@ -79,7 +79,7 @@ class WholeTree {
     const std::size_t index = index_of(child), slot = spheres_.scanned + index * bvh_leaf_size;
     return {spheres_.blocks[spheres_.scanned / bvh_leaf_size + index], spheres_.id + slot, slot};
   }
-  /// Fetches what a visit of the child will read, where the tree is far.
+  /// Prefetches the data of a visit of the child, if the tree is far.
   BOULE_INLINE void fetch(std::uint32_t child) const { blocks_.fetch(child); }
 
  private:

@@ -5,19 +5,19 @@
 #include "simd/abi/bvh.h"
 #include "simd/lanes/lanes.h"
 
-/// The nodes and leaves that a packet, a single ray or a bundle is still to visit.
+/// The nodes and leaves that a packet, a single ray or a bundle has yet to visit.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// A child to visit.
 struct Visit {
-  float near;  ///< where the first ray enters it, or less
+  float near;  ///< lower bound of the distance at which the first ray enters it
   std::uint32_t child;
   std::uint32_t leaf_size;
   unsigned lanes = all_lanes;  ///< of packets, the rays that may enter it
 };
 
-/// Children to visit, the nearest of those of one node on top. Its size follows from the depth of
-/// the tree.
+/// Children to visit; among the children of one node, the nearest is on top. The size follows from
+/// the depth of the tree.
 class VisitStack {
  public:
   [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -37,13 +37,13 @@ class VisitStack {
     }
     set(at, visit);
   }
-  /// Adds a child in no order, if `really`; without a branch, which no CPU could predict.
+  /// Adds a child in no order, if `really`; without a branch, because it is unpredictable.
   BOULE_INLINE void push_if(bool really, const Visit& visit) {
     set(count_, visit);
     count_ += really ? 1 : 0;
   }
   [[nodiscard]] int count() const { return count_; }
-  /// The child that was added as the at-th.
+  /// The at-th child that was added.
   [[nodiscard]] std::uint32_t child(int at) const { return child_[at]; }
 
  private:

@@ -8,7 +8,7 @@
 #include "simd/kernel/shading/lane_materials.h"
 #include "simd/kernel/vectors.h"
 
-/// The light of one lamp on many points, W at a time.
+/// The direct light of one lamp on many points, W at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The coefficients that direct light needs.
@@ -34,8 +34,8 @@ BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const LobeMaterial* const* 
   return loaded;
 }
 
-/// Of W shadow rays, what is known by the ray whose point they leave. Lanes that are not live have
-/// a ray that exists.
+/// The data of W shadow rays that are found by the ray of their point. Lanes beyond the live ones
+/// hold a ray that exists.
 class LitLanes {
  public:
   BOULE_INLINE LitLanes(const ShadowedPoints& shadows, std::size_t first, unsigned live)
@@ -85,7 +85,7 @@ class LitLanes {
   }
 
  private:
-  /// Where all are in a row.
+  /// Precondition: all lanes are in a row.
   [[nodiscard]] BOULE_INLINE std::size_t ray_in_lane_0() const {
     const auto live = static_cast<std::size_t>(__builtin_ctz(live_));
     return ray_[live] - live;
@@ -104,7 +104,7 @@ class LitLanes {
   std::uint32_t ray_[width];
 };
 
-/// Those whose highlight is multiplied by n.l.
+/// The lanes whose highlight is multiplied by n.l.
 BOULE_INLINE WideMask cosine_highlights(const LobeMaterial* const* of_lane) {
   std::uint8_t set[width];
   for (std::size_t lane = 0; lane < width; ++lane)

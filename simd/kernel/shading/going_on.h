@@ -9,8 +9,7 @@
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
-/// Rays that leave surfaces, W at a time: those of them that are chosen are stored one after the
-/// other.
+/// Rays that leave surfaces, W at a time. The chosen ones are stored packed.
 namespace boule::BOULE_KERNEL_ISA {
 
 BOULE_INLINE Vec3<Real> load(const ColorStream& colors, std::size_t first) {
@@ -23,7 +22,7 @@ BOULE_INLINE void store_chosen(const ColorStream& colors, std::size_t first, con
   store_chosen(colors.b + first, c.z, chosen);
 }
 
-/// a b, but 0 where one of them is 0: light_product() of render/integrators/sample_faults.h.
+/// a b, but 0 if a factor is 0: light_product() of render/integrators/sample_faults.h.
 BOULE_INLINE Real light_product(const Real& a, const Real& b) {
   const Real zero(0.0F);
   return select((a == zero) | (b == zero), zero, a * b);
@@ -37,11 +36,11 @@ struct LeavingRays {
   Vec3<Wide> org, direction;
   Bits source;
   RealMask inside;
-  unsigned chosen;  ///< the lanes that have one
+  unsigned chosen;  ///< the lanes with such a ray
 };
 
-/// Stores the chosen rays from `at` on, where there is room for W. Returns where they end. `tmax`
-/// is left to the caller.
+/// Stores the chosen rays from `at` on, where there is room for W. Returns the index after the last
+/// one. The caller sets `tmax`.
 BOULE_INLINE std::size_t store_leaving(const RayStream& rays, std::size_t at,
                                        const LeavingRays& leaving) {
   const unsigned chosen = leaving.chosen;
@@ -54,7 +53,7 @@ BOULE_INLINE std::size_t store_leaving(const RayStream& rays, std::size_t at,
   return at + static_cast<std::size_t>(count_bits(chosen));
 }
 
-/// Adds those of W rays that are chosen to the rays with which paths go on.
+/// Appends the chosen ones of W rays to the rays that continue paths.
 BOULE_INLINE void add_going_on(const LeavingRays& leaving, const Vec3<Real>& throughput,
                                const Bits& sample, const Real& density, GoingOn& spawned) {
   const std::size_t at = spawned.size;

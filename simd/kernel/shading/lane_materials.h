@@ -7,11 +7,11 @@
 #include "simd/abi/paths.h"
 #include "simd/lanes/lanes.h"
 
-/// What W points read by an index: their materials.
+/// The materials of W points, found by an index.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// An entry for each lane: picked[lane] = of_packet[lane]. Lanes that are not live have that of one
-/// that is. Precondition: a lane is live.
+/// One entry per lane: picked[lane] = of_packet[lane]. Lanes beyond the live ones get the entry of
+/// a live lane. Precondition: a lane is live.
 template <class T>
 BOULE_INLINE void pick_live(const T* of_packet, unsigned live, T* picked) {
   const auto any = static_cast<std::size_t>(__builtin_ctz(live));
@@ -19,7 +19,7 @@ BOULE_INLINE void pick_live(const T* of_packet, unsigned live, T* picked) {
     picked[lane] = of_packet[(live >> lane & 1U) != 0 ? lane : any];
 }
 
-/// Whether all lanes have the same material, as neighbours mostly do.
+/// Whether all lanes have the same material, as is usual for neighbours.
 BOULE_INLINE bool are_one(const LobeMaterial* const* of_lane) {
   bool one = true;
   for (std::size_t lane = 1; lane < width; ++lane) one &= of_lane[lane] == of_lane[0];

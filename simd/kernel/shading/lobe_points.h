@@ -10,8 +10,8 @@
 #include "simd/kernel/shading/surfaces.h"
 #include "simd/kernel/vectors.h"
 
-/// The points where paths go on, sorted by what their materials do: each kind of them side by side,
-/// so that packets need no formula that few of their lanes do.
+/// The points from which paths continue, sorted by the kind of their material. Points of a kind lie
+/// side by side, so that packets compute only formulas that most of their lanes need.
 namespace boule::BOULE_KERNEL_ISA {
 
 BOULE_INLINE Bits side_of(const MetSurfaces& met) {
@@ -23,14 +23,14 @@ BOULE_INLINE Bits side_of(const MetSurfaces& met) {
          bit(inner, side_inner);
 }
 
-/// facing_normal() in these lanes. The view takes a root and a quotient, and is hardly ever needed.
+/// facing_normal() in these lanes. The view takes a root and a quotient and is rarely needed.
 BOULE_INLINE Vec3<Wide> normal_of(const MetSurfaces& met, unsigned lanes) {
   Vec3<Wide> turned = turned_normal(met.met);
   if ((lanes & ~bits(all_finite(turned))) == 0) return turned;
   return facing_normal(met.met, normalize(met.arrived.dir));
 }
 
-/// Adds the chosen points of a packet.
+/// Appends the chosen points of a packet.
 template <LobeKind kind>
 BOULE_INLINE void add_points(const PathRays& paths, std::size_t first, const MetSurfaces& met,
                              const Vec3<Wide>& normal, unsigned chosen, LobePoints& points) {

@@ -14,8 +14,8 @@
 #include "simd/kernel/tuning.h"
 #include "simd/kernel/vectors.h"
 
-/// How paths go on, W points at a time: a shadow ray to a sampled light, and a ray in a random
-/// direction.
+/// The continuation of paths, W points at a time: a shadow ray to a sampled light, and a ray in a
+/// random direction.
 namespace boule::BOULE_KERNEL_ISA {
 
 template <LobeKind kind>
@@ -31,7 +31,8 @@ BOULE_INLINE IncidenceOf<Wide> load_incidence(const LobePoints& points, std::siz
   }
 }
 
-/// Lights that were picked for W points, and new numbers in place of those that picked them.
+/// The lights that were picked for W points, and new random numbers in place of those that picked
+/// them.
 struct PickedSpheres {
   Vec3<Wide> center;
   Wide radius, share;
@@ -39,7 +40,8 @@ struct PickedSpheres {
   Wide u;
 };
 
-/// For look_up(): a sphere of many, found by its number. Found are the 9 numbers of LightSphere.
+/// For look_up(): finds a sphere among many by its random number, and gives the 9 numbers of
+/// LightSphere.
 struct FindSphere {
   const LightSphere* lights;
   std::size_t count;
@@ -63,7 +65,7 @@ struct FindSphere {
   }
 };
 
-/// Few lights are compared one after the other; of many each lane looks up its own.
+/// With few lights, compares one after the other; with many, each lane looks up its own.
 BOULE_INLINE PickedSpheres pick_spheres(const PathStep& step, const Wide& u) {
   const LightSphere* light = step.lights;
   PickedSpheres picked{{light->center[0], light->center[1], light->center[2]},
@@ -98,7 +100,7 @@ BOULE_INLINE PickedSpheres pick_spheres(const PathStep& step, const Wide& u) {
   return picked;
 }
 
-/// Light from directions that were chosen with a density.
+/// Light from directions that were chosen with a known density.
 struct LightSamples {
   Vec3<Wide> direction;
   Wide density;
@@ -132,7 +134,7 @@ BOULE_INLINE LightSamples sample_lights(const PathStep& step, const Vec3<Wide>& 
           select(narrow_given, Real(std::numeric_limits<float>::infinity()), samples.tmax)};
 }
 
-/// a b scale, in double: a product of two of them could overflow or underflow in float.
+/// a b scale, in double, because a product of two of them could overflow or underflow in float.
 BOULE_INLINE Vec3<Real> multiply(const Vec3<Real>& a, const Vec3<Real>& b, const Wide& scale) {
   const auto product = [&scale](const Real& x, const Real& y) {
     return narrow(widen(x) * widen(y) * scale);
@@ -140,12 +142,12 @@ BOULE_INLINE Vec3<Real> multiply(const Vec3<Real>& a, const Vec3<Real>& b, const
   return {product(a.x, b.x), product(a.y, b.y), product(a.z, b.z)};
 }
 
-/// Whether rays leave within a sphere; `side`: LobePoints::side.
+/// Whether rays leave on the inside of a sphere. `side`: LobePoints::side.
 BOULE_INLINE RealMask is_inside(const Bits& side) {
   return (side & Bits(side_inside)) == Bits(side_inside);
 }
 
-/// Adds the shadow rays that decide whether sampled light arrives, unless its weight is 0.
+/// Appends the shadow rays that decide whether sampled light arrives, except those of weight 0.
 template <LobeKind kind>
 BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, unsigned live,
                                   const LobesOf<Wide, kind>& lobes, const Vec3<Wide>& normal,
@@ -169,7 +171,7 @@ BOULE_INLINE void add_shadow_rays(const LobePoints& points, std::size_t first, u
   store_chosen(shadows.ray + at, load_integers(points.ray + first) + Bits(step.first_ray), chosen);
 }
 
-/// Russian roulette: a path survives with some probability, by which its weight is divided.
+/// Russian roulette: a path survives with some probability, and its weight is divided by it.
 BOULE_INLINE RealMask play_roulette(const Vec3<Real>& throughput, const Wide& u,
                                     Vec3<Real>& weight) {
   const Vec3<Real> left = product(throughput, weight);
@@ -180,7 +182,7 @@ BOULE_INLINE RealMask play_roulette(const Vec3<Real>& throughput, const Wide& u,
   return narrow(u < widen(survival));
 }
 
-/// Adds the rays with which paths go on, unless the roulette ends them.
+/// Appends the rays that continue paths, except those that the roulette ends.
 template <LobeKind kind>
 BOULE_INLINE void add_rays(const LobePoints& points, std::size_t first, unsigned live,
                            const LobesOf<Wide, kind>& lobes, const Vec3<Wide>& normal,

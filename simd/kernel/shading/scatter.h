@@ -14,7 +14,7 @@
 /// The mirrored and refracted rays of Whitted's method, W hits at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Rays that go on to one side of W surfaces.
+/// Rays that leave to one side of W surfaces.
 struct ScatteredRays {
   LeavingRays rays;
   Vec3<Real> throughput;
@@ -63,8 +63,8 @@ struct StoredRays {
   }
 };
 
-/// Adds the rays of both sides, hit by hit the mirrored one first: sums of samples depend on that
-/// order, which must not depend on W.
+/// Appends the rays of both sides, hit by hit, the mirrored one first. Sums of samples depend on
+/// that order, so it is the same for every W.
 BOULE_INLINE void add_both_sides(const ScatteringHits& hits, std::size_t first,
                                  const ScatteredRays& mirrored, const ScatteredRays& refracted,
                                  GoingOn& spawned) {

@@ -11,8 +11,8 @@
 /// Light that paths find by their direction alone, W rays at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The weight of light that a path found by its direction, which was chosen with `density`; light
-/// sampling would have chosen it with `light_density`.
+/// The weight of light that a path found by its direction, where the direction was chosen with
+/// `density` and light sampling would have chosen it with `light_density`.
 BOULE_INLINE Wide weight_of_hit(HitWeight weight, const Wide& density, const Wide& light_density) {
   if (weight == HitWeight::full) return 1.0;
   const WideMask found_twice = (Wide(0.0) < density) & (Wide(0.0) < light_density);

@@ -10,10 +10,11 @@
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
-/// Shadow rays from many points to one light, W at a time: those that face it, side by side.
+/// Shadow rays from many points to one light, W at a time. The rays of points that face the light
+/// are stored packed.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// The unit directions to a light, and the shadow rays' own.
+/// The unit directions to a light, and the directions of the shadow rays.
 struct ToLight {
   Vec3<Wide> unit;
   Vec3<Real> dir;

@@ -9,7 +9,7 @@
 /// Random numbers, W pairs at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// As that of core/math/random.h.
+/// As unit_interval() of core/math/random.h.
 BOULE_INLINE Wide unit_interval(Bits x) { return to_wide(x) * Wide(0x1p-32); }
 
 BOULE_INLINE void sobol_points(const SobolStream& points) {

@@ -12,7 +12,7 @@
 #include "simd/kernel/search/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
-/// Hit points, normals and where rays leave, W at a time.
+/// Hit points, normals and origins of leaving rays, W at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
 BOULE_INLINE void store(std::uint8_t* p, const WideMask& m) {
@@ -23,7 +23,7 @@ BOULE_INLINE void store(std::uint8_t* p, const WideMask& m) {
 using Arrivals = ArrivalOf<Wide>;
 using Contacts = ContactOf<Wide>;
 
-/// What each lane of a packet met.
+/// The primitives that the lanes of a packet hit.
 class MetPrimitives {
  public:
   /// The first `live` hits, up to W, from `first` on. Geometry: GeometryView, or PartsGeometry.
@@ -33,7 +33,8 @@ class MetPrimitives {
       : planes_(geometry.planes), id_(hits.id + first) {
     const Bits ids = load_integers(id_);
     const unsigned hit = first_lanes(live) & ~bits(ids == Bits(no_primitive));
-    // Of what a file says of its slots, ids may be wrong: what is no plane is the slot's sphere.
+    // Ids may be wrong where a file supplies the slots: every id that is not a plane's counts as
+    // the slot's sphere.
     if (planes_.size > 0) planes_met_ = hit & bits(is_plane(ids));
     spheres_ = hit & ~planes_met_;
     for (float* const numbers : {x_, y_, z_}) store(numbers, Real(0.0F));
@@ -50,7 +51,7 @@ class MetPrimitives {
 
   [[nodiscard]] bool none() const { return (spheres_ | planes_met_) == 0; }
 
-  /// `ids`: those of the primitives.
+  /// `ids`: the ids of the primitives.
   [[nodiscard]] BOULE_INLINE Contacts meet(const Arrivals& rays, const Bits& ids) const {
     const Vec3<Wide> center = widen(Vec3<Real>{load(x_), load(y_), load(z_)});
     const Wide radius = widen(load(radius_));
@@ -77,7 +78,7 @@ class MetPrimitives {
     return ids + Bits(0U - first) <= Bits(static_cast<std::uint32_t>(planes_.size - 1));
   }
 
-  /// Plane k in these lanes. What is the same in all of them is calculated once, as one number.
+  /// Plane k in these lanes. Numbers that are the same in all lanes are computed once.
   BOULE_INLINE void add_plane(std::size_t k, const WideMask& lanes, PrimitiveOf<Wide>& met) const {
     const auto broadcast = [](const Vec3d& v) { return Vec3<Wide>{v.x, v.y, v.z}; };
     const Vec3d point{planes_.point_x[k], planes_.point_y[k], planes_.point_z[k]};
@@ -94,7 +95,7 @@ class MetPrimitives {
   unsigned spheres_ = 0, planes_met_ = 0;
 };
 
-/// Rays of a packet that arrived at surfaces.
+/// The surfaces at which the rays of a packet arrived.
 struct MetSurfaces {
   Arrivals arrived;
   Contacts met;

@@ -6,10 +6,10 @@
 #include "simd/kernel/shading/going_on.h"
 #include "simd/kernel/vectors.h"
 
-/// Light that rays bring to samples, W of them at a time.
+/// The light that rays add to samples, W rays at a time.
 namespace boule::BOULE_KERNEL_ISA {
 
-/// Several rays can belong to one sample, so that sums are made one after the other, four numbers
+/// Several rays can belong to one sample, so the sums are formed one after the other, four numbers
 /// at a time.
 BOULE_INLINE void add_weighted_light(const WeightedLight& light, ColorSum* sums) {
   alignas(64) float rows[4 * width];

@@ -12,7 +12,7 @@ struct FormatCase {
   const char* text;
 };
 
-TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
+TEST(FormatDiagnostic, OmitsUnknownFields) {
   const FormatCase cases[] = {
       {Diagnostic::of("is wrong"), "error: is wrong"},
       {Diagnostic::about("camera.fov", "is wrong"), "error: is wrong (key 'camera.fov')"},
@@ -25,7 +25,7 @@ TEST(FormatDiagnostic, LeavesOutWhatIsNotKnown) {
   for (const FormatCase& c : cases) EXPECT_EQ(format_diagnostic(c.diagnostic), c.text);
 }
 
-TEST(FormatDiagnostic, IsOneLineThatIsSafeToPrint) {
+TEST(FormatDiagnostic, IsOnePrintableLine) {
   const Diagnostic hostile{.message = "saw 'f\x03\n\x1b[31m'",
                            .key = "k\x7f",
                            .file = "a\nb.toml",
@@ -77,7 +77,7 @@ TEST(Result, HoldsAValueOrADiagnostic) {
   EXPECT_EQ(bad.error().key, "size");
 }
 
-TEST(Result, GivesUpWhatCannotBeCopied) {
+TEST(Result, MovesOutMoveOnlyValues) {
   Result<std::unique_ptr<int>> result = std::make_unique<int>(3);
   *result.value() = 4;
   const std::unique_ptr<int> taken = std::move(result).value();

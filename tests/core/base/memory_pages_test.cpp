@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t size = std::size_t{1} << 20;
 
-TEST(MemoryPages, ReleasingKeepsWhatLiesAround) {
+TEST(MemoryPages, ReleasingKeepsNeighbouringBytes) {
   std::vector<unsigned char> bytes(size, 7);
   constexpr std::size_t first = 12'345, end = size - 54'321;
   release_pages(bytes.data() + first, end - first);
@@ -25,21 +25,21 @@ TEST(MemoryPages, ReleasedMemoryCanBeWrittenAgain) {
   for (const unsigned char byte : bytes) ASSERT_EQ(byte, 8);
 }
 
-TEST(MemoryPages, LessThanAPageIsKept) {
+TEST(MemoryPages, PartialPagesAreKept) {
   std::vector<unsigned char> bytes(100, 7);
   release_pages(bytes.data(), bytes.size());
   prefer_huge_pages(bytes.data(), bytes.size());
   for (const unsigned char byte : bytes) ASSERT_EQ(byte, 7);
 }
 
-TEST(MemoryPages, TouchedMemoryIsClearedAndNothingElse) {
+TEST(MemoryPages, TouchingClearsOnlyItsRange) {
   std::vector<unsigned char> bytes(3 * size, 7);
   touch_pages(bytes.data() + size, size, serial_for);
   for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(bytes[i], 7) << i;
   for (std::size_t i = 2 * size; i < bytes.size(); ++i) ASSERT_EQ(bytes[i], 7) << i;
 }
 
-TEST(MemoryPages, TakenPagesKeepWhatTheyHoldWhenTheyGrowAndShrink) {
+TEST(MemoryPages, ResizedPagesKeepTheirContent) {
   std::size_t bytes = 3 * size;
   auto* memory = static_cast<unsigned char*>(take_pages(bytes));
   ASSERT_NE(memory, nullptr);
@@ -55,7 +55,7 @@ TEST(MemoryPages, TakenPagesKeepWhatTheyHoldWhenTheyGrowAndShrink) {
   give_back_pages(memory, bytes);
 }
 
-TEST(MemoryPages, WhereThereIsNoRoomPagesStayAsTheyWere) {
+TEST(MemoryPages, FailedGrowthLeavesPagesUnchanged) {
   auto* const memory = static_cast<unsigned char*>(take_pages(size));
   ASSERT_NE(memory, nullptr);
   memory[5] = 9;

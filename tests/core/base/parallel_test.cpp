@@ -14,7 +14,7 @@ TEST(SerialFor, CallsEveryIndexOnceInOrder) {
   EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
 }
 
-TEST(SerialFor, OfNothingCallsNothing) {
+TEST(SerialFor, OfZeroCallsNothing) {
   serial_for(0, [](std::size_t) { FAIL(); });
 }
 

@@ -232,7 +232,7 @@ struct PowCase {
   double x, y, expected;
 };
 
-TEST(Elementary, PowIsExactWhereItSaysSo) {
+TEST(Elementary, PowIsExactWhereDocumented) {
   constexpr double least = 0x1p-1074, most = std::numeric_limits<double>::max();
   const PowCase cases[] = {
       {0, 0, 1},         {inf, 0, 1},        {5, 0, 1},           {5, -0.0, 1},
@@ -250,7 +250,7 @@ TEST(Elementary, PowIsExactWhereItSaysSo) {
   }
 }
 
-TEST(Elementary, PowOfWhatHasNoPowerIsNaN) {
+TEST(Elementary, PowOutsideItsDomainIsNaN) {
   EXPECT_TRUE(std::isnan(elementary::pow(-1.0, 2.0)));
   EXPECT_TRUE(std::isnan(elementary::pow(-inf, 1.0)));
   EXPECT_TRUE(std::isnan(elementary::pow(nan, 0.0)));
@@ -269,7 +269,7 @@ TEST(Elementary, TanAtTheEdges) {
 
 /// What a later reader of a curve relies on: a greater argument never gives a smaller value beyond
 /// the error; here on steps much wider than the error, so strictly.
-TEST(Elementary, Rises) {
+TEST(Elementary, FunctionsAreStrictlyMonotone) {
   for (double x = -700; x < 700; x += 0.37) {
     ASSERT_LT(elementary::exp(x), elementary::exp(x + 1e-10)) << x;
   }

@@ -23,7 +23,7 @@ TEST(LightCone, HasTheSolidAngleOfTheSphere) {
   EXPECT_NEAR(far.density() * 3.141592653589793 / 1e18, 1, 1e-12);
 }
 
-TEST(LightCone, IsNoneFromWithinOrOnTheSphere) {
+TEST(LightCone, IsAbsentInsideOrOnTheSphere) {
   EXPECT_EQ(LightCone({0, 0, 1}, {0, 0, 0}, 2).density(), 0);
   EXPECT_EQ(LightCone({0, 0, 2}, {0, 0, 0}, 2).density(), 0);
   EXPECT_EQ(LightCone({0, 0, 0}, {0, 0, 0}, 2).density(), 0);
@@ -53,7 +53,7 @@ TEST(LightCone, EqualsLongDouble) {
 
 /// Rays to a sphere must not be blocked by the sphere, as near its edge as they may pass, but by
 /// anything a little nearer.
-TEST(LightCone, WaysEndJustBeforeTheSphere) {
+TEST(LightCone, DistancesEndJustBeforeTheSphere) {
   CaseRandom random(3);
   for (int i = 0; i < 200000; ++i) {
     const auto radius = static_cast<float>(std::pow(10, random.uniform(-4, 4)));

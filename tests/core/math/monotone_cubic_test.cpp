@@ -9,7 +9,7 @@ namespace {
 
 const std::vector<TimedValue> bumps = {{0, 1}, {3, 4}, {4, 4}, {10, -2}, {11, -1.9}, {20, 7}};
 
-TEST(MonotoneCubic, IsExactAtItsValuesAndStaysOutside) {
+TEST(MonotoneCubic, KeepsItsValuesAndIsConstantOutside) {
   for (const auto& [time, value] : bumps) EXPECT_EQ(monotone_cubic(bumps, time), value);
   EXPECT_EQ(monotone_cubic(bumps, -5), 1);
   EXPECT_EQ(monotone_cubic(bumps, 20.5), 7);
@@ -39,7 +39,7 @@ TEST(MonotoneCubic, NeverOvershootsAndHasNoCorners) {
   }
 }
 
-TEST(MonotoneCubic, IsStraightBetweenTwoAndReproducesALine) {
+TEST(MonotoneCubic, ReproducesLines) {
   const std::vector<TimedValue> line = {{1, 3}, {2, 5}, {5, 11}, {9, 19}};
   const std::vector<TimedValue> two = {{1, 3}, {9, 19}};
   for (double time = 1; time <= 9; time += 0.25) {

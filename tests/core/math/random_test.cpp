@@ -39,7 +39,7 @@ TEST(UnitInterval, CoversZeroToBelowOne) {
   EXPECT_EQ(unit_interval(0xffffffff), 1 - 0x1p-32);
 }
 
-TEST(Philox, EveryWordMatters) {
+TEST(Philox, EveryInputWordChangesTheOutput) {
   const Counter counter{1, 2, 3, 4};
   const Key key{5, 6};
   const auto base = philox(counter, key);

@@ -5,7 +5,7 @@
 namespace boule {
 namespace {
 
-TEST(Ray, IsUnboundedAheadAndLeavesNothingByDefault) {
+TEST(Ray, DefaultsToUnboundedWithoutSource) {
   const Ray ray{};
   EXPECT_EQ(ray.tmin, 0);
   EXPECT_EQ(ray.tmax, std::numeric_limits<float>::infinity());
@@ -28,7 +28,7 @@ TEST(Segment, RunsFromOnePointToTheOther) {
   EXPECT_EQ(ray.source, no_primitive);
 }
 
-TEST(Segment, KeepsItsDoubleOriginAndRoundsTheDirectionOnce) {
+TEST(Segment, RoundsOnlyItsDirection) {
   const Vec3d from{0.1, 1e6, -1.0 / 3}, to{0.7, 1e6 + 1e-7, 2};
   const Ray ray = segment(from, to);
   EXPECT_EQ(ray.org, from);

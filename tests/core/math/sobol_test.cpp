@@ -22,7 +22,7 @@ std::uint32_t sobol_by_direction_numbers(std::uint32_t index) {
   return sum;
 }
 
-TEST(Sobol, SecondDimensionIsTheSequencesOwn) {
+TEST(Sobol, SecondDimensionIsTheSobolSequences) {
   for (std::uint32_t i = 0; i < 5000; ++i) {
     for (const std::uint32_t index : {i, i * 2654435761U}) {
       EXPECT_EQ(detail::reverse_bits(detail::pascal(index)), sobol_by_direction_numbers(index));
@@ -37,7 +37,7 @@ TEST(Sobol, ReversesBits) {
 
 /// Owen's scrambling: two fractions that agree in their first k digits, and no more, do so
 /// afterwards. Digits run from bit 0 on.
-TEST(Scramble, KeepsHowManyDigitsAgree) {
+TEST(Scramble, PreservesCommonPrefixes) {
   for (std::uint32_t i = 0; i < 2000; ++i) {
     const auto a = static_cast<std::uint32_t>(mix64(i)), seed = static_cast<std::uint32_t>(i * 77);
     for (int k = 0; k < 32; ++k) {
@@ -59,7 +59,7 @@ std::vector<int> count_cells(const std::vector<UnitPair>& points, int a, int b) 
   return counts;
 }
 
-TEST(Sobol, AnyNumberOfPointsIsSpreadEvenlyOverEveryDyadicGrid) {
+TEST(Sobol, PointsFillEveryDyadicGridEvenly) {
   for (const std::uint64_t key : {0U, 1U, 99U}) {
     std::vector<UnitPair> points;
     for (std::uint32_t sample = 0; sample < 300; ++sample) {

@@ -7,7 +7,7 @@
 namespace boule {
 namespace {
 
-TEST(Srgb, EveryCodeComesBackFromItsLinearValue) {
+TEST(Srgb, EveryCodeSurvivesARoundTrip) {
   const SrgbTable& table = SrgbTable::get();
   for (int code = 0; code < 256; ++code) {
     const auto byte = static_cast<std::uint8_t>(code);
@@ -29,7 +29,7 @@ TEST(Srgb, ALinearValueHasTheNearestCode) {
   }
 }
 
-TEST(Srgb, NumbersOutsideHaveTheCodesAtTheEnds) {
+TEST(Srgb, ClampsNumbersOutsideZeroToOne) {
   const SrgbTable& table = SrgbTable::get();
   for (const float low : {-1.0F, -0.0F, 0.0F, std::nanf("")}) EXPECT_EQ(table.code(low), 0);
   for (const float high : {1.0F, 1.5F, HUGE_VALF}) EXPECT_EQ(table.code(high), 255);
@@ -45,7 +45,7 @@ TEST(Srgb, HexColorsAreReadAndWritten) {
   EXPECT_EQ(srgb_of(color), (SrgbColor{255, 188, 0}));
 }
 
-TEST(Srgb, WhatIsNoHexColorIsNone) {
+TEST(Srgb, RefusesInvalidHexColors) {
   for (const char* text : {"", "#", "c04040", "#c0404", "#c040400", "#c0404g", "# 04040", "#-14040",
                            "#+14040", "#0x4040", "#c0 040"}) {
     EXPECT_FALSE(parse_hex_color(text)) << text;

@@ -28,7 +28,7 @@ TEST(Vec3, Arithmetic) {
   return vec_cast<double>(vec_cast<float>(v));
 }
 
-TEST(Vec3, CastsToFloatAndBackRoundEveryComponent) {
+TEST(Vec3, CastsRoundEveryComponent) {
   const double third = 1.0 / 3, rounded = 0x1.555556p-2;
   EXPECT_EQ(there_and_back({third, 2 * third, 4 * third}),
             (Vec3d{rounded, 2 * rounded, 4 * rounded}));

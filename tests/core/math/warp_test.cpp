@@ -34,7 +34,7 @@ TEST(Warp, DirectionsEqualLongDouble) {
   }
 }
 
-TEST(Warp, AnglesAreThoseOfTheirPoints) {
+TEST(Warp, Atan2EqualsTheStandardLibrarys) {
   EXPECT_EQ(elementary::atan2(0, 0), 0);
   EXPECT_EQ(elementary::atan2(0, -2), elementary::pi);
   for (int i = -4096; i <= 4096; ++i) {
@@ -46,7 +46,7 @@ TEST(Warp, AnglesAreThoseOfTheirPoints) {
   }
 }
 
-TEST(Warp, DirectionsLieAsFarFromTheAxisAsAsked) {
+TEST(Warp, DirectionsHaveTheRequestedAngle) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const auto [a, b] = sobol_pair(1, RandomSet::film, i);
     const Vec3d axis = direction_about({0, 0, i % 2 == 0 ? 1.0 : -1.0}, warp_to_cone(a, 1.5), b);

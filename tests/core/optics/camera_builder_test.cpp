@@ -31,7 +31,7 @@ Films films(int width, int height) {
 }
 
 // Lecture "Pixel centres": those of a 4x4 image.
-TEST(RasterToFilm, HasTheSlidesPixelCentres) {
+TEST(RasterToFilm, HasTheLecturesPixelCentres) {
   const auto [x, y] = films(4, 4);
   EXPECT_EQ(film(x, 0.5), -0.75);  // first column, last row
   EXPECT_EQ(film(y, 3.5), -0.75);
@@ -84,7 +84,7 @@ TEST(CameraView, IsOrthogonalForAnyPose) {
   EXPECT_NEAR(dot(view.forward, to_target), length(to_target), 1e-14);
 }
 
-TEST(CameraView, HasNoUseForTheLengthsOfItsVectors) {
+TEST(CameraView, LengthsOfPoseVectorsDoNotMatter) {
   PinholeCamera near = pinhole(45, FovAxis::x), far = near;
   far.pose.look_at = {0, 0, -4096};
   far.pose.up = {0, 64, 0};

@@ -92,7 +92,7 @@ TEST(Incidence, OnPlanesEqualsLongDouble) {
 }
 
 /// A ray whose interval begins behind its origin may meet the near side from an origin inside.
-TEST(Incidence, BehindTheOriginTheAngleTellsTheSide) {
+TEST(Incidence, AngleDecidesTheSideBehindTheOrigin) {
   const Sphere sphere{{0, 0, 0}, 2, 0};
   Ray ray{{0, 0, 1}, {0, 0, -1}};
   ray.tmin = -10;

@@ -21,7 +21,7 @@ TEST(LensDisc, EqualsLongDouble) {
   }
 }
 
-TEST(LensDisc, KeepsTheMiddle) {
+TEST(LensDisc, KeepsTheCentre) {
   const DiscPointOf<double> middle = disc_point(0.5, 0.5);
   EXPECT_EQ(middle.x, 0);
   EXPECT_EQ(middle.y, 0);

@@ -21,7 +21,7 @@ const std::vector<Sphere> spheres{{{5, 0, 0}, 1, 0},  {{4.5F, 0, 0}, 2, 0}, {{-5
                                   {{0, 6, 0}, 1, 0},  {{0, -6, 0}, 1, 0},   {{0, 0, 7}, 1, 0},
                                   {{0, 0, -7}, 1, 0}, {{0, 0, 0}, 3, 0},    {{1, 1, 1}, 0.5F, 0}};
 
-TEST(AxisExtremes, HaveTheOutermostCentersAndSurfacesAndTheLargestRadius) {
+TEST(AxisExtremes, HoldOutermostSpheresAndTheLargestRadius) {
   AxisExtremes extremes;
   EXPECT_TRUE(extremes.spheres().empty());
   for (const Sphere& sphere : spheres) extremes.add(sphere);
@@ -42,7 +42,7 @@ std::vector<Sphere> lattice() {
   return all;
 }
 
-TEST(AxisExtremes, KeepTheFirstOfSeveralHoweverTheSpheresAreCut) {
+TEST(AxisExtremes, TiesKeepTheFirstInAnyPartition) {
   const std::vector<Sphere> all = lattice();
   const auto materials_of = [](const AxisExtremes& extremes) {
     std::vector<std::uint32_t> materials;

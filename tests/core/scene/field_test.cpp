@@ -83,7 +83,7 @@ void each_struct(const Function& function) {
                             Instance, ImageSettings, RenderSettings>>::each(function);
 }
 
-TEST(Fields, KeysStandOnceInAStruct) {
+TEST(Fields, KeysAreUniqueWithinAStruct) {
   int structs = 0;
   each_struct([&](const auto& value) {
     using Struct = std::remove_cvref_t<decltype(value)>;
@@ -97,7 +97,7 @@ TEST(Fields, KeysStandOnceInAStruct) {
   EXPECT_EQ(structs, 26);
 }
 
-TEST(Fields, AreVisitedInOrderAndCanBeSet) {
+TEST(Fields, AreVisitedInOrderAndWritable) {
   Glass glass;
   std::string keys;
   each_field(glass, [&](const auto& field, auto& member) {

@@ -26,7 +26,7 @@ bool same(const std::vector<Primitive>& a, const std::vector<Primitive>& b) {
          std::equal(a.begin(), a.end(), b.begin(), [](auto& p, auto& q) { return same(p, q); });
 }
 
-TEST(Instances, AreWhatIsWrittenOutByHandInThisOrder) {
+TEST(Instances, ExpandInTheDocumentedOrder) {
   Scene scene;
   add_material(scene, Matte{});
   add_material(scene, Metal{});
@@ -134,7 +134,7 @@ TEST(Similarity, QuarterTurnsAreExact) {
   }
 }
 
-TEST(Instances, BadOnesAreNamed) {
+TEST(Instances, ErrorsNameTheInstance) {
   struct Case {
     const char* key;
     const char* words;
@@ -203,7 +203,7 @@ Scene inner_first(Scene scene) {
   return scene;
 }
 
-TEST(Instances, TooManyAreRefusedBeforeMemoryIsTaken) {
+TEST(Instances, TooManyAreRefusedBeforeAllocation) {
   EXPECT_EQ(count_primitives(tower(7, true)).spheres, 1'000'000u);
   for (const int levels : {11, 30, 250}) {
     const Status bad = validate(tower(levels, true));
@@ -218,7 +218,7 @@ TEST(Instances, TooManyAreRefusedBeforeMemoryIsTaken) {
   EXPECT_TRUE(empty.spheres.empty());
 }
 
-TEST(Instances, TooDeepANestingIsRefusedWhateverComesFirst) {
+TEST(Instances, TooDeepNestingIsAlwaysRefused) {
   EXPECT_FALSE(validate(tower(256, false)));
   EXPECT_FALSE(validate(inner_first(tower(256, false))));
   for (const int levels : {257, 300, 20'000}) {
@@ -230,7 +230,7 @@ TEST(Instances, TooDeepANestingIsRefusedWhateverComesFirst) {
   }
 }
 
-TEST(Instances, SharedOnesShowWhatIsWrittenOutInTheSameOrder) {
+TEST(Instances, SharedOnesExpandToTheSameList) {
   Scene shared = shared_scene(), flat = shared;
   const auto groups = share_or_expand(shared);
   ASSERT_TRUE(groups);
@@ -249,7 +249,7 @@ TEST(Instances, SharedOnesShowWhatIsWrittenOutInTheSameOrder) {
   EXPECT_EQ(at, flat.spheres.size());
 }
 
-TEST(Instances, AreWrittenOutWhereSharingSavesLittleOrFloatsCannotJudge) {
+TEST(Instances, ExpandWhereSharingIsUselessOrInexact) {
   const auto is_shared = [](const std::function<void(Scene&)>& change) {
     Scene scene = shared_scene();
     change(scene);

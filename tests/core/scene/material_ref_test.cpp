@@ -8,7 +8,7 @@
 namespace boule {
 namespace {
 
-TEST(MaterialRef, IsAnIndexAsLongAsItHasNoColor) {
+TEST(MaterialRef, WithoutAColorIsAPlainIndex) {
   for (const std::uint32_t index : {0U, 1U, 127U, 128U, 0x7fffffffU}) {
     const MaterialRef ref = index;
     EXPECT_EQ(ref.index(), index);

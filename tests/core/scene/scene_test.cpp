@@ -35,7 +35,7 @@ DirectionalLight& directional_light(Scene& scene) {
 TEST(Validate, AcceptsAFullScene) { EXPECT_FALSE(validate(full_scene())); }
 TEST(Validate, AcceptsAnEmptyScene) { EXPECT_FALSE(validate(Scene{})); }
 
-TEST_P(ValidateRefuses, AndNamesTheKey) {
+TEST_P(ValidateRefuses, NamingTheKey) {
   Scene scene = full_scene();
   GetParam().apply(scene);
   const Status status = validate(scene);
@@ -210,7 +210,7 @@ const Breakage limits[] = {
 
 class ValidateAccepts : public testing::TestWithParam<Breakage> {};
 
-TEST_P(ValidateAccepts, TheLimitItself) {
+TEST_P(ValidateAccepts, TheLimitsThemselves) {
   Scene scene = full_scene();
   GetParam().apply(scene);
   const Status status = validate(scene);
@@ -218,7 +218,7 @@ TEST_P(ValidateAccepts, TheLimitItself) {
 }
 INSTANTIATE_TEST_SUITE_P(Limits, ValidateAccepts, testing::ValuesIn(limits), name_of);
 
-TEST(Validate, NamesTheFirstOfSeveral) {
+TEST(Validate, NamesTheFirstOfSeveralProblems) {
   Scene scene = full_scene();
   scene.spheres[1].radius = 0;
   scene.spheres[0].radius = 0;
@@ -227,7 +227,7 @@ TEST(Validate, NamesTheFirstOfSeveral) {
 }
 
 /// The short cut for millions of spheres is true for the same ones as what it stands for.
-TEST(FindProblem, ValidSpheresAreThoseWithFiniteNumbersAndARadius) {
+TEST(FindProblem, ValidSpheresAreFiniteWithPositiveRadius) {
   constexpr float max = std::numeric_limits<float>::max();
   const float numbers[] = {0, -0.0f, 1, -1, 0x1p-149f, max, -max, inf, -inf, nan, -nan};
   for (const float x : numbers) {
@@ -244,7 +244,7 @@ TEST(FindProblem, ValidSpheresAreThoseWithFiniteNumbersAndARadius) {
   }
 }
 
-TEST(Validate, LeavesPrimitivesToReadersThatHaveCheckedThem) {
+TEST(Validate, CanSkipCheckedPrimitives) {
   Scene scene = full_scene();
   scene.spheres[1].radius = 0;
   scene.planes[0].normal = {0, 0, 0};
@@ -253,7 +253,7 @@ TEST(Validate, LeavesPrimitivesToReadersThatHaveCheckedThem) {
   EXPECT_EQ(validate_all_but_primitives(scene)->key, "image.spp");
 }
 
-TEST(FindProblem, SpeaksOfOneThingByItself) {
+TEST(FindProblem, ChecksOneObject) {
   EXPECT_FALSE(find_problem(Sphere{}));
   EXPECT_FALSE(find_problem(Plane{}));
   const auto problem = find_problem(Sphere{{0, 0, 0}, -1, 0});

@@ -35,7 +35,7 @@ void backward_for(std::size_t count, const std::function<void(std::size_t)>& fun
   while (count-- > 0) function(count);
 }
 
-TEST(SphereDigest, IsTheSameHoweverTheSpheresAreCut) {
+TEST(SphereDigest, IsIndependentOfThePartition) {
   const std::vector<Sphere> spheres = row();
   const std::uint64_t whole = digest_of(spheres);
   for (const std::size_t size : {1U, 1000U, 16'383U, 16'384U, 16'385U, 32'768U}) {
@@ -48,12 +48,12 @@ TEST(SphereDigest, IsTheSameHoweverTheSpheresAreCut) {
   }
 }
 
-TEST(SphereDigest, IsTheSameInAnyOrderOfItsLoops) {
+TEST(SphereDigest, IsIndependentOfLoopOrder) {
   const std::vector<Sphere> spheres = row();
   EXPECT_EQ(digest_of(spheres, backward_for), digest_of(spheres));
 }
 
-TEST(SphereDigest, DependsOnEveryNumberAndOnTheOrder) {
+TEST(SphereDigest, DependsOnEveryNumberAndItsPlace) {
   const std::vector<Sphere> spheres = row();
   std::vector<std::uint64_t> digests{digest_of(spheres)};
   for (const std::size_t at : {std::size_t{0}, std::size_t{16'384}, spheres.size() - 1}) {

@@ -19,7 +19,7 @@ const Case cases[] = {{{0, 0, 1, 1}, 16, 1},        {{0, 0, 640, 480}, 128, 2},
                       {{7, 3, 1006, 778}, 64, 5},   {{0, 0, 33, 4000}, 16, 64},
                       {{5, 0, 4101, 2048}, 256, 2}, {{0, 60'000, 16'000, 60'250}, 1024, 3}};
 
-TEST(Bands, PutEveryPixelIntoOneBlockOfItsBand) {
+TEST(Bands, EveryPixelIsInOneBlock) {
   for (const Case& c : cases) {
     const Bands bands(c.rect, c.tile, c.workers, 12);
     const auto width = static_cast<std::size_t>(c.rect.width());

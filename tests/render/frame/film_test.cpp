@@ -7,7 +7,7 @@
 namespace boule {
 namespace {
 
-TEST(Film, HoldsTheMeanOfASamplesInFrameCoordinates) {
+TEST(Film, HoldsSampleMeansInFrameCoordinates) {
   Film film({10, 20, 13, 22});
   film.add(12, 21, {1, 2, 3});
   film.add(12, 21, {0, 1, 5});
@@ -20,7 +20,7 @@ TEST(Film, HoldsTheMeanOfASamplesInFrameCoordinates) {
   EXPECT_EQ(film.samples(10, 20), 0);
 }
 
-TEST(Film, CopiesItsPixelsToTheirPlaceInAPicture) {
+TEST(Film, CopiesPixelsToTheirPlace) {
   Film film({0, 0, 9, 9});
   film.add(3, 3, gray(7));
   film.restart({11, 21, 13, 22});
@@ -45,7 +45,7 @@ TEST(Film, SumsOfTheLargestFloatsStayFinite) {
   EXPECT_EQ(film.to_image().at(0, 0), gray(largest));
 }
 
-TEST(Film, SmallSamplesBesideALargeOneAreKept) {
+TEST(Film, SmallSamplesSurviveALargeOne) {
   Film film({0, 0, 1, 1});
   film.add(0, 0, gray(16777216));
   for (int i = 0; i < 7; ++i) film.add(0, 0, gray(1));  // a float sum would not change

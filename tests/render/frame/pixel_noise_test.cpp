@@ -37,7 +37,7 @@ TEST(PixelNoise, AHalfHasEightToSixteenBatches) {
   EXPECT_EQ(half.variance(), (PixelNumbers{}));
 }
 
-TEST(PixelNoise, TheVarianceIsThatOfTheMeansOfBatches) {
+TEST(PixelNoise, VarianceEqualsTheBatchMeans) {
   constexpr int length = 8, batches = 12;
   const std::vector<float> numbers = random_numbers(length * batches);
   SampleHalf half;
@@ -60,7 +60,7 @@ TEST(PixelNoise, TheVarianceIsThatOfTheMeansOfBatches) {
   EXPECT_NEAR(half.mean()[0], mean, 1e-13 * mean);
 }
 
-TEST(PixelNoise, TheVarianceIsInfiniteWhereFloatsEnd) {
+TEST(PixelNoise, VarianceOverflowsToInfinity) {
   SampleHalf half;
   for (int i = 0; i < 32; ++i) half.add(gray(std::numeric_limits<float>::max()), 1);
   EXPECT_EQ(half.variance()[0], std::numeric_limits<double>::infinity());
@@ -76,7 +76,7 @@ TEST(PixelNoise, StudentsQuantilesFallToTheNormalOne) {
   EXPECT_NEAR(student_quantile(60), 2.0003, 1e-3);  // of tables; the series is that good
 }
 
-TEST(PixelNoise, AHalfWidthIsSeenThroughTheCurve) {
+TEST(PixelNoise, DisplayedHalfWidthFollowsTheToneCurve) {
   EXPECT_EQ(displayed_half_width(0.5, 0), 0);
   EXPECT_EQ(displayed_half_width(2, 0.5), 0);  // white whatever it is
   EXPECT_EQ(displayed_half_width(0, 0.002), srgb_from_linear(0.002));
@@ -85,7 +85,7 @@ TEST(PixelNoise, AHalfWidthIsSeenThroughTheCurve) {
   EXPECT_EQ(displayed_half_width(0.001, 0.5), srgb_from_linear(0.501) - srgb_from_linear(0.001));
 }
 
-TEST(PixelNoise, TheInverseOfTheCurveIsItsInverse) {
+TEST(PixelNoise, ToneCurveInverseIsExact) {
   for (int code = 0; code <= 1000; ++code) {
     const double s = code / 1000.0;
     // The standard's two pieces of the curve meet to about 1e-8 only.
@@ -93,7 +93,7 @@ TEST(PixelNoise, TheInverseOfTheCurveIsItsInverse) {
   }
 }
 
-TEST(PixelNoise, TheBoundOfADisplayedHalfWidthHolds) {
+TEST(PixelNoise, DisplayedHalfWidthBoundHolds) {
   for (int step = -4000; step <= 100; ++step) {
     const double value = std::exp2(step / 200.0);
     for (const double share : {0.0, 1e-9, 1e-4, 0.01, 0.3, 0.9, 1.0, 1.5, 100.0}) {
@@ -107,7 +107,7 @@ TEST(PixelNoise, TheBoundOfADisplayedHalfWidthHolds) {
   }
 }
 
-TEST(PixelNoise, LooksComeAtPowersOfTwo) {
+TEST(PixelNoise, DecisionsComeAtPowersOfTwo) {
   int count = 16;
   for (const int next : {32, 64, 128, 256}) {
     count = next_look(count);

@@ -45,7 +45,7 @@ TEST(PixelOrder, VisitsEveryPixelOnce) {
   }
 }
 
-TEST(PixelOrder, FourPixelsAreTwoByTwoEightFourByTwoSixteenFourByFour) {
+TEST(PixelOrder, PacketsCoverCompactRectangles) {
   const std::vector<PixelOffset> pixels = block_pixels(16);
   struct Packet {
     std::size_t size;

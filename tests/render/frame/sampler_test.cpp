@@ -24,7 +24,7 @@ TEST(Sampler, OneSampleIsThePixelCentre) {
 
 /// Any number n of samples is stratified: every cell of every dyadic grid has its share of them,
 /// rounded up or down.
-TEST(Sampler, EveryStratumHasItsShareForAnyNumber) {
+TEST(Sampler, StrataGetEqualSharesOfSamples) {
   for (int n = 2; n <= 70; ++n) {
     const Sampler sampler(n, 5);
     for (const auto& [columns, rows] : {std::pair{2, 1},
@@ -90,7 +90,7 @@ double jittered_error(int n) {
   });
 }
 
-TEST(Sampler, EdgesAreAtLeastAsSmoothAsWithJitteredStrataForAnyNumber) {
+TEST(Sampler, EdgesAreAsSmoothAsJittered) {
   for (int n = 2; n <= 40; ++n) {
     const Sampler sampler(n, 5);
     const double error = edge_error(n, [&](int x, int y, int s) {
@@ -112,7 +112,7 @@ TEST(Sampler, DependsOnPixelSampleAndSeedOnly) {
   EXPECT_NE(p.x, a.position({3, 5, 5}).x);
 }
 
-TEST(Sampler, AnEarlyStopHasSamplesAllOverThePixel) {
+TEST(Sampler, PrefixesCoverTheWholePixel) {
   for (const int n : {16, 64, 100, 256}) {
     const Sampler sampler(n, 3);
     int upper = 0;

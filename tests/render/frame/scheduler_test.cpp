@@ -14,7 +14,7 @@
 namespace boule {
 namespace {
 
-TEST(Scheduler, CallsEveryIndexOnceWithWorkersInRange) {
+TEST(Scheduler, CallsEveryIndexOnce) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     for (const std::size_t count : {0, 1, 3, 1000}) {
       Scheduler scheduler(threads);
@@ -32,7 +32,7 @@ TEST(Scheduler, CallsEveryIndexOnceWithWorkersInRange) {
   }
 }
 
-TEST(Scheduler, OneWorkerDoesOneIndexAtATime) {
+TEST(Scheduler, WorkersDoOneIndexAtATime) {
   Scheduler scheduler(4);
   std::vector<std::atomic<int>> inside(4);
   std::atomic<int> collisions{0};
@@ -53,7 +53,7 @@ TEST(Scheduler, WorkerZeroIsTheCaller) {
   EXPECT_EQ(strangers, 0);
 }
 
-TEST(Scheduler, ZeroThreadsIsTheHardwaresNumberAndThereIsALimit) {
+TEST(Scheduler, ZeroThreadsMeansHardwareThreads) {
   EXPECT_GE(Scheduler(0).workers(), 1u);
   EXPECT_EQ(Scheduler(4000000000u).workers(), Scheduler::max_workers);
 }
@@ -63,7 +63,7 @@ TEST(Scheduler, ZeroThreadsIsTheHardwaresNumberAndThereIsALimit) {
 constexpr std::size_t endless = std::numeric_limits<std::size_t>::max() / 2;
 constexpr std::size_t far_too_many = 10'000'000'000;
 
-TEST(Scheduler, AnExceptionStopsTheLoopAndBecomesADiagnostic) {
+TEST(Scheduler, ExceptionsBecomeDiagnostics) {
   for (const unsigned threads : {1u, 3u}) {
     Scheduler scheduler(threads);
     std::atomic<std::size_t> calls{0};
@@ -107,7 +107,7 @@ TEST(Scheduler, ParallelForPassesExceptionsOn) {
   EXPECT_THROW(parallel_for(10, [](std::size_t) { throw std::bad_alloc(); }), std::bad_alloc);
 }
 
-TEST(Scheduler, ParallelForThatIsCancelledStopsAndThrows) {
+TEST(Scheduler, CancelledParallelForThrows) {
   Scheduler scheduler(2);
   std::atomic<bool> cancel{false};
   const ParallelFor parallel_for = scheduler.parallel_for(&cancel);
@@ -122,7 +122,7 @@ TEST(Scheduler, ParallelForThatIsCancelledStopsAndThrows) {
   EXPECT_THROW(parallel_for(1, [](std::size_t) {}), std::runtime_error);
 }
 
-TEST(Scheduler, EveryWorkerHasTheDefaultFloatEnvironmentAndTheCallersReturns) {
+TEST(Scheduler, WorkersUseTheDefaultFloatEnvironment) {
   Scheduler scheduler(3);
   std::atomic<int> wrong{0};
   std::fesetround(FE_UPWARD);
@@ -155,7 +155,7 @@ class NoMoreThreads {
   bool set_ = false;
 };
 
-TEST(Scheduler, AThreadThatCannotBeHadMeansFewerThreads) {
+TEST(Scheduler, RunsWithFewerThreadsWhereRefused) {
   Scheduler scheduler(8);
   std::vector<std::atomic<int>> calls(100);
   const auto body = [&](unsigned, std::size_t i) { ++calls[i]; };

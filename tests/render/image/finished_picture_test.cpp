@@ -67,7 +67,7 @@ long most_mebibytes() {
 }
 
 /// A BMP file whose header declares 728 million by 3 pixels, and which ends there.
-TEST_F(FinishedPicture, IsNotReadIfItsHeaderSaysAnotherSize) {
+TEST_F(FinishedPicture, IsRefusedByAnotherSize) {
   ASSERT_FALSE(write_image(test::noise(4, 3), at("small.bmp")));
   ASSERT_TRUE(is_finished_picture(at("small.bmp"), {4, 3, {}}));
   std::string bytes = test::read_bytes(at("small.bmp")).substr(0, 54);

@@ -157,7 +157,7 @@ TEST_F(ImageContent, LossyFormatsAreClose) {
   }
 }
 
-TEST_F(ImageContent, RadianceKeepsEightBitsOfTheBrightestChannel) {
+TEST_F(ImageContent, HdrKeepsEightBitsOfTheBrightest) {
   Image image = test::noise(50, 20);
   image.at(3, 3) = {1000, 1, 0};
   for (const char* name : {"a.hdr", "a.rgbe"}) {
@@ -195,7 +195,7 @@ TEST_F(ImageContent, ExtraChannelsOfTwoTypes) {
   }
 }
 
-TEST_F(ImageContent, CropIsTheDataWindowOfItsFrame) {
+TEST_F(ImageContent, CropsBecomeExrDataWindows) {
   const Image image = test::noise(20, 10);
   ImageFileOptions options;
   options.crop = {640, 480, 100, 470};

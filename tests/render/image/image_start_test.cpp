@@ -52,7 +52,7 @@ class ImageStartTest : public testing::TestWithParam<std::string> {
 };
 
 /// A thread that cannot be had later would end the program after the work.
-TEST_P(ImageStartTest, AllThreadsThatThereWillBeAreThere) {
+TEST_P(ImageStartTest, StartsAllThreadsThatWritingUses) {
   const int code = run_in_child([&] {
     for (const int threads : {1, 3, 2}) {
       ImageStart start(picture(), threads);
@@ -72,7 +72,7 @@ TEST_P(ImageStartTest, AllThreadsThatThereWillBeAreThere) {
 }
 
 /// A child does not have its parent's thread pools: it does without, or refuses.
-TEST_P(ImageStartTest, AChildWritesByItselfOrSaysWhyNot) {
+TEST_P(ImageStartTest, ForkedChildrenWriteOrReportWhyNot) {
   const bool needs_pool = GetParam() == "exr" || GetParam() == "tif";
   const int code = run_in_child([&] {
     if (write_image(noise(200, 300), picture(), with_threads(3))) return 1;
@@ -96,7 +96,7 @@ TEST_P(ImageStartTest, AChildWritesByItselfOrSaysWhyNot) {
   EXPECT_EQ(code, 0);
 }
 
-TEST_P(ImageStartTest, AChildOfOneWithoutPoolsWritesAll) {
+TEST_P(ImageStartTest, ChildrenWriteIfParentsHaveNoPools) {
   const int code = run_in_child([&] {
     if (write_image(noise(20, 30), at("a.png"), with_threads(1))) return 1;
     return run_in_child(
@@ -128,7 +128,7 @@ TEST(ImageStart, SomeFormatsNeedNothing) {
   }
 }
 
-TEST(ImageStart, WhatIsNoPictureIsAnError) {
+TEST(ImageStart, UnknownExtensionsAreErrors) {
   ImageStart start("a.xyz", 7);
   EXPECT_THAT(message(start.wait()), testing::HasSubstr("cannot write 'a.xyz': unknown image"));
   EXPECT_THAT(message(start.wait()), testing::HasSubstr("cannot write 'a.xyz': unknown image"));

@@ -67,7 +67,7 @@ std::string write_with(std::FILE* log, const std::string& path, const std::strin
 }
 
 /// Writes every text under every name in every format. What is refused is refused by its name.
-TEST(Metadata, NoTextEndsTheCaller) {
+TEST(Metadata, NoTextEndsTheProcess) {
   const TempDir folder;
   const std::string texts[] = {"",
                                "x",
@@ -99,7 +99,7 @@ TEST(Metadata, NoTextEndsTheCaller) {
   EXPECT_THAT(log, testing::Not(testing::HasSubstr("unexpected")));
 }
 
-TEST(Metadata, NorDoManyOrHugeOnesOrOddNames) {
+TEST(Metadata, ManyHugeOrOddEntriesAreHarmless) {
   const TempDir folder;
   const std::string log = run_in_child(folder, [&](std::FILE* out) {
     for (const std::string extension : extensions) {

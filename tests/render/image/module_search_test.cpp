@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The folders do not depend on where this was built, or on what is there now.
-TEST(ModuleSearch, AnInstalledOrCopiedProgramLooksAroundItselfOnly) {
+TEST(ModuleSearch, InstalledProgramsSearchAroundThemselvesOnly) {
   const std::vector<fs::path> folders = module_folders("/opt/boule/bin");
   ASSERT_EQ(folders.size(), 2U);
   EXPECT_EQ(folders[0], "/opt/boule/bin");
@@ -20,16 +20,16 @@ TEST(ModuleSearch, AnInstalledOrCopiedProgramLooksAroundItselfOnly) {
   EXPECT_EQ(folders[1].filename(), "boule");
 }
 
-TEST(ModuleSearch, AnInstalledLibraryLooksInItsOwnFolders) {
+TEST(ModuleSearch, InstalledLibrariesSearchTheirOwnFolders) {
   const fs::path library = module_folders("/opt/boule/bin").at(1).parent_path();
   EXPECT_EQ(module_folders(library), (std::vector<fs::path>{library, library / "boule"}));
 }
 
-TEST(ModuleSearch, ABareCopyLooksBesideItselfOnly) {
+TEST(ModuleSearch, BareCopiesSearchBesideThemselvesOnly) {
   EXPECT_EQ(module_folders("/tmp/mine"), std::vector<fs::path>{"/tmp/mine"});
 }
 
-TEST(ModuleSearch, AProgramOfTheBuildTreeLooksInThatTreeOnly) {
+TEST(ModuleSearch, BuiltProgramsSearchTheBuildTreeOnly) {
   const fs::path tree = fs::canonical(BOULE_BUILD_TREE);
   for (const fs::path& own : {tree, tree / "bin", tree / "tests" / "image"}) {
     const std::vector<fs::path> folders = module_folders(own);

@@ -71,7 +71,7 @@ TEST_F(OutputFileTest, LeavesNothingWithoutCommit) {
   EXPECT_EQ(test::read_bytes(at("a.npy")), "old");
 }
 
-TEST_F(OutputFileTest, TwoAtOnceDoNotMeet) {
+TEST_F(OutputFileTest, TwoAtOnceDoNotInterfere) {
   Result<OutputFile> one = OutputFile::create(at("a.json"));
   Result<OutputFile> two = OutputFile::create(at("a.json"));
   ASSERT_TRUE(one.ok() && two.ok());
@@ -112,7 +112,7 @@ TEST_F(OutputFileTest, LinksAreFollowed) {
 }
 
 /// Independent of the setting fs.protected_symlinks of this system.
-TEST_F(OutputFileTest, LinksOfOthersInOpenFoldersAreRefused) {
+TEST_F(OutputFileTest, ForeignLinksInOpenFoldersAreRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can make links of others";
   constexpr uid_t somebody = 65534, another = 65533;
   fs::create_directory(at("open"));
@@ -178,13 +178,13 @@ TEST_F(OutputFileTest, RefusalsCarryTheSystemsReason) {
   EXPECT_EQ(names(), (Names{"dir.png", "file", "loop"}));
 }
 
-TEST_F(OutputFileTest, NulBytesAreNoPartOfAName) {
+TEST_F(OutputFileTest, NamesWithNulBytesAreRefused) {
   const std::string name = at("a") + std::string("\0.png", 5);
   EXPECT_THAT(create_error(name), testing::EndsWith("a\\x00.png': its name holds a NUL byte"));
   EXPECT_EQ(names(), Names{});
 }
 
-TEST_F(OutputFileTest, WhatIsDoneOrMovedAwayRefuses) {
+TEST_F(OutputFileTest, FinishedOrMovedFromFilesRefuse) {
   Result<OutputFile> file = OutputFile::create(at("a.npy"));
   OutputFile moved = std::move(file).value();
   for (OutputFile* gone : {&file.value(), &moved}) {
@@ -200,7 +200,7 @@ TEST_F(OutputFileTest, WhatIsDoneOrMovedAwayRefuses) {
 }
 
 /// In the test above the file is moved from; here it is assigned to, and must drop what it had.
-TEST_F(OutputFileTest, WhatIsAssignedToAnotherRefusesAndDropsTheOthers) {
+TEST_F(OutputFileTest, MoveAssignmentDropsTheTargetsFile) {
   Result<OutputFile> one = OutputFile::create(at("one.npy"));
   Result<OutputFile> two = OutputFile::create(at("two.npy"));
   ASSERT_TRUE(one.ok() && two.ok());
@@ -222,7 +222,7 @@ TEST_F(OutputFileTest, WhatIsAssignedToAnotherRefusesAndDropsTheOthers) {
   EXPECT_EQ(test::read_bytes(at("two.npy")), "2");
 }
 
-TEST_F(OutputFileTest, AssignedToItselfItStays) {
+TEST_F(OutputFileTest, SelfAssignmentKeepsTheFile) {
   Result<OutputFile> file = OutputFile::create(at("a.npy"));
   ASSERT_TRUE(file.ok());
   OutputFile& same = file.value();
@@ -232,7 +232,7 @@ TEST_F(OutputFileTest, AssignedToItselfItStays) {
   EXPECT_EQ(test::read_bytes(at("a.npy")), "1");
 }
 
-TEST_F(OutputFileTest, AStreamThatIsDoneRefuses) {
+TEST_F(OutputFileTest, FinishedStreamsRefuse) {
   Result<OutputFile> file = OutputFile::create("/dev/null");
   ASSERT_TRUE(file.ok());
   EXPECT_FALSE(file.value().write("1", 1));
@@ -263,7 +263,7 @@ TEST_F(OutputFileTest, DevicesAreWrittenNotReplaced) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST_F(OutputFileTest, PipesGetAllAtOnce) {
+TEST_F(OutputFileTest, PipesGetTheWholeFileAtOnce) {
   ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
   const int reader = open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK);
   ASSERT_GE(reader, 0);

@@ -97,7 +97,7 @@ TEST_F(ReadImage, OneGrayChannelIsThree) {
   EXPECT_EQ(found.pixels[1], gray(1));
 }
 
-TEST_F(ReadImage, WhatIsNoPictureIsRefused) {
+TEST_F(ReadImage, OtherFilesAreRefused) {
   expect_refused("missing.exr", "cannot read it: ");
   expect_refused("picture.gif", "unknown extension, expected one of exr, hdr");
   expect_refused("noextension", "unknown extension");
@@ -129,7 +129,7 @@ TEST_F(ReadImage, AFileCutShortIsRefused) {
 }
 
 /// libpng and libjpeg would complain on standard error, or make up the rest.
-TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
+TEST_F(ReadImage, TruncatedPngAndJpegAreRefused) {
   for (const char* name : {"cut.png", "cut.jpg"}) {
     const std::string bytes = read_bytes(written(noise(20, 20), name));
     for (std::size_t left = 8; left < bytes.size(); left += 11) {
@@ -142,7 +142,7 @@ TEST_F(ReadImage, OurselvesWeSeeThatAPngOrJpegIsCutShort) {
 }
 
 /// libpng would complain on standard error. Damage in an optional chunk is no reason to refuse.
-TEST_F(ReadImage, OurselvesWeSeeThatAPngIsDamagedInside) {
+TEST_F(ReadImage, DamagedPngChunksAreRefused) {
   ImageFileOptions options;
   options.date_time = "1970:01:01 00:00:00";
   const std::string file = written(noise(200, 100), "bad.png", options), bytes = read_bytes(file);

@@ -88,7 +88,7 @@ TEST(Tone, ExposureMultipliesByAPowerOfTwo) {
   }
 }
 
-TEST(Tone, ExposureBeyondReasonIsBounded) {
+TEST(Tone, ExcessiveExposureIsBounded) {
   Image image(3, 1);
   image.pixels = {{0, 0, 0}, {1, 1, 1}, {inf, inf, inf}};
   const std::vector<std::uint8_t> bright = {0, 0, 0, 255, 255, 255, 255, 255, 255};

@@ -83,7 +83,7 @@ std::size_t count_threads() {
   return count;
 }
 
-TEST_F(WriteImage, ThreadsDoNotShowInTheFile) {
+TEST_F(WriteImage, ThreadsDoNotChangeTheFile) {
   const Image image = test::noise(100, 300);
   ImageFileOptions options;
   // Loading brings in log4cplus (a dependency's dependency), which starts four threads of its own.
@@ -97,7 +97,7 @@ TEST_F(WriteImage, ThreadsDoNotShowInTheFile) {
 }
 
 /// A TIFF has strips of 32 rows, which several threads pack: each must come in one piece.
-TEST_F(WriteImage, ThreadsDoNotShowInATallTiff) {
+TEST_F(WriteImage, ThreadsDoNotChangeTallTiffs) {
   const Image image = test::noise(3000, 300);
   ImageFileOptions options;
   ASSERT_EQ(reason(image, at("one.tif"), options), "");
@@ -144,7 +144,7 @@ TEST_F(WriteImage, StopLeavesNothing) {
   EXPECT_EQ(test::read_bytes(at("a.exr")), "old");
 }
 
-TEST_F(WriteImage, TargetsItCannotWrite) {
+TEST_F(WriteImage, UnwritableTargetsAreRefused) {
   const Image image(4, 4);
   fs::create_directory(at("dir.png"));
   EXPECT_EQ(reason(image, at("dir.png")), "Is a directory");
@@ -157,7 +157,7 @@ TEST_F(WriteImage, TargetsItCannotWrite) {
   EXPECT_EQ(names(), Names{"dir.png"});
 }
 
-TEST_F(WriteImage, PicturesThatAreNone) {
+TEST_F(WriteImage, InvalidPicturesAreRefused) {
   Image torn(4, 4);
   torn.pixels.pop_back();
   for (const Image& image : {Image(), Image(0, 4), torn}) {
@@ -230,7 +230,7 @@ class Silence {
   ~Silence() { EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); }
 };
 
-TEST_F(WriteImage, StoppedItIsSilent) {
+TEST_F(WriteImage, StoppingIsSilent) {
   const Silence silence;
   for (const std::string extension : extensions) {
     for (const int side : {1, 700}) {
@@ -245,7 +245,7 @@ TEST_F(WriteImage, StoppedItIsSilent) {
   }
 }
 
-TEST_F(WriteImage, WhatCallbacksThrowIsTheReason) {
+TEST_F(WriteImage, ExceptionsOfCallbacksAreTheReason) {
   const Silence silence;
   for (const std::string extension : {"png", "exr"}) {
     ImageFileOptions options;
@@ -261,7 +261,7 @@ TEST_F(WriteImage, WhatCallbacksThrowIsTheReason) {
   }
 }
 
-TEST_F(WriteImage, NumbersBeyondReasonAreBounded) {
+TEST_F(WriteImage, ExcessiveNumbersAreBounded) {
   constexpr auto nan = std::numeric_limits<float>::quiet_NaN();
   constexpr auto inf = std::numeric_limits<float>::infinity();
   const Silence silence;
@@ -282,7 +282,7 @@ TEST_F(WriteImage, NumbersBeyondReasonAreBounded) {
   }
 }
 
-TEST_F(WriteImage, NamesOfAnyAlphabet) {
+TEST_F(WriteImage, AcceptsNamesOfAnyAlphabet) {
   EXPECT_EQ(reason(Image(4, 4), at("b\xc3\xa4ll # 0001.png")), "");
   EXPECT_EQ(names(), Names{"b\xc3\xa4ll # 0001.png"});
 }

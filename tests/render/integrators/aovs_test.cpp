@@ -88,7 +88,7 @@ TEST_P(WideAovs, HaveTheReferencesBits) {
 
 INSTANTIATE_TEST_SUITE_P(Isa, WideAovs, each_isa(), isa_name);
 
-TEST(Aovs, DoNotDependOnThreadsTilesOrderOrSamples) {
+TEST(Aovs, AreIndependentOfThreadsTilesOrderSamples) {
   const Scene scene = mixed_scene(45, 31);
   const auto expected = render_aovs(scene, options_for(scene));
   ASSERT_EQ(expected.size(), 11u);
@@ -106,7 +106,7 @@ TEST(Aovs, DoNotDependOnThreadsTilesOrderOrSamples) {
   }
 }
 
-TEST(Aovs, OfACropAreThatPartOfTheFrames) {
+TEST(Aovs, OfACropEqualTheFramesPart) {
   const Scene scene = mixed_scene(45, 31);
   RenderOptions options = options_for(scene);
   const auto frame = render_aovs(scene, options);
@@ -123,7 +123,7 @@ TEST(Aovs, OfACropAreThatPartOfTheFrames) {
   }
 }
 
-TEST(Aovs, OnlyTheSelectedOnesAreMade) {
+TEST(Aovs, OnlySelectedOnesAreMade) {
   const Scene scene = mixed_scene(5, 4);
   const auto names = [&](const AovSelection& aovs) {
     RenderOptions options = options_of(scene);
@@ -141,7 +141,7 @@ TEST(Aovs, OnlyTheSelectedOnesAreMade) {
   EXPECT_EQ(names(everything), "Z N.X N.Y N.Z P.X P.Y P.Z id albedo.R albedo.G albedo.B ");
 }
 
-TEST(Aovs, TheirRaysAreCountedAndTheirMemoryIsAskedFor) {
+TEST(Aovs, CountTheirRaysAndMemory) {
   const Scene scene = mixed_scene(5, 4);
   auto renderer = Renderer::create(scene, options_for(scene));
   ASSERT_TRUE(renderer);
@@ -153,7 +153,7 @@ TEST(Aovs, TheirRaysAreCountedAndTheirMemoryIsAskedFor) {
   EXPECT_EQ(AovChannels::bytes({}, rect), 0u);
 }
 
-TEST(Aovs, CancelledTheyAreAnError) {
+TEST(Aovs, CancellingIsAnError) {
   const Scene scene = mixed_scene(45, 31);
   const std::atomic<bool> cancel{true};
   RenderOptions options = options_for(scene);
@@ -226,7 +226,7 @@ TEST(Aovs, ADistanceBeyondFloatStaysFinite) {
   EXPECT_EQ(aov.position.z, -3e38f);
 }
 
-TEST(Aovs, AlbedoIsTheShareOfLightThatGoesOn) {
+TEST(Aovs, AlbedoIsTheReflectedShareOfLight) {
   struct Case {
     Material material;
     Color albedo;

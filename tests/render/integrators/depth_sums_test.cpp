@@ -14,7 +14,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 ColorSum sum_of(float grey) { return {{grey, grey, grey, 0}}; }
 
-TEST(Settled, LeavesWhatIsFinite) {
+TEST(Settled, LeavesFiniteSamplesUnchanged) {
   SampleFaults faults;
   for (const Color& good : {Color{}, Color{1.5f, 0, 1e-45f}, gray(largest)}) {
     EXPECT_EQ(settled(good, faults), good);
@@ -22,7 +22,7 @@ TEST(Settled, LeavesWhatIsFinite) {
   EXPECT_FALSE(faults.any());
 }
 
-TEST(Settled, CountsWhatIsNotAndWhatItIsShownAs) {
+TEST(Settled, ReplacesAndCountsNonFiniteSamples) {
   SampleFaults faults;
   EXPECT_EQ(settled({1, nan, 1}, faults), Color{});
   EXPECT_EQ(settled({inf, 2, nan}, faults), Color{});
@@ -31,12 +31,12 @@ TEST(Settled, CountsWhatIsNotAndWhatItIsShownAs) {
   EXPECT_EQ(faults.too_bright, 1u);
 }
 
-TEST(LightProduct, IsNothingWhereNothingCounts) {
+TEST(LightProduct, ZeroTimesInfinityIsZero) {
   EXPECT_EQ(light_product({0, 2, inf}, {inf, 3, 0}), (Color{0, 6, 0}));
   EXPECT_EQ(light_product({1, inf, 2}, {inf, 2, largest}), (Color{inf, inf, inf}));
 }
 
-TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
+TEST(DepthSums, CountsNaNSamples) {
   DepthSums sums;
   for (int run = 0; run < 2; ++run) {
     sums.start(3);
@@ -54,7 +54,7 @@ TEST(DepthSums, CountsSamplesThatAreNoNumbers) {
   EXPECT_EQ(sums.faults().too_bright, 0u);
 }
 
-TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
+TEST(DepthSums, SumDoesNotDependOnCallOrder) {
   // 2^24 + 1 rounds to 2^24, but 2^24 + 2 does not: the sum depends on its order.
   constexpr float big = 16777216;
   DepthSums sums;
@@ -74,7 +74,7 @@ TEST(DepthSums, AddsDepthByDepthWhateverTheOrderOfCalls) {
   EXPECT_EQ(result, gray(big + 2));
 }
 
-TEST(DepthSums, OfOneRayPerDepthAreThoseOfMany) {
+TEST(DepthSums, OneRayPerDepthSumsAsMany) {
   constexpr float big = 16777216;
   const float found[][4] = {{1, big, 1, 0}, {0, -0.0F, 0, 3}, {inf, 1, 0, 0}, {inf, -inf, 1, 2}};
   Color results[2][4];
@@ -95,7 +95,7 @@ TEST(DepthSums, OfOneRayPerDepthAreThoseOfMany) {
   for (int k = 0; k < 4; ++k) EXPECT_EQ(results[0][k], results[1][k]);
 }
 
-TEST(DepthSums, ForgetsWhatWasBeforeStart) {
+TEST(DepthSums, StartForgetsEarlierSums) {
   DepthSums sums;
   sums.start(3);
   sums.at_depth(4)[2] = sum_of(9);

@@ -105,12 +105,10 @@ Scene scene_of_large_lights() {
   return scene;
 }
 
-TEST(PathStatistics, TheWaysOfSeekingLightAgree) {
-  expect_ways_agree(scene_of_large_lights(), 16, 16);
-}
+TEST(PathStatistics, LightStrategiesAgree) { expect_ways_agree(scene_of_large_lights(), 16, 16); }
 
 /// An environment with another colour in every pixel, a sphere light, a lamp and every material.
-TEST(PathStatistics, TheWaysOfSeekingLightAgreeInAnEnvironment) {
+TEST(PathStatistics, LightStrategiesAgreeInAnEnvironment) {
   Scene scene = scene_of_large_lights();
   EnvironmentBackground image{16, 8, {}, 40};
   for (std::uint64_t i = 0; i < 128; ++i) {
@@ -126,7 +124,7 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgreeInAnEnvironment) {
 
 /// An image in which one bright pixel gives most of the light. No material mirrors it: caustics of
 /// such a small light are found by directions of paths only, too rarely for statistics.
-TEST(PathStatistics, TheWaysOfSeekingLightAgreeUnderASmallSun) {
+TEST(PathStatistics, LightStrategiesAgreeUnderASmallSun) {
   Scene scene = scene_of_large_lights();
   const auto paint = add_material(scene, Plastic{{0.2f, 0.3f, 0.6f}, 0.3f, 20, 0});
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
@@ -140,7 +138,7 @@ TEST(PathStatistics, TheWaysOfSeekingLightAgreeUnderASmallSun) {
 }
 
 /// RMS error over the pixels against the mean of many samples of another seed.
-TEST(PathStatistics, TheErrorFallsAtLeastAsTheRootOfTheSamples) {
+TEST(PathStatistics, ErrorFallsWithTheSampleCount) {
   Scene scene = path_scene(16, 12);
   const int most = static_cast<int>(test_size("BOULE_PATH_SAMPLES", 4096));
   const std::vector<Color> reference = path_means(scene, LightSampling::both, 77, most);

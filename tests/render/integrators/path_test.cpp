@@ -25,7 +25,7 @@ Scene furnace(const Material& material) {
   return scene;
 }
 
-TEST(PathFurnace, OneSphereIsAsWhiteAsItsSurroundings) {
+TEST(PathFurnace, OneSphereEqualsItsSurroundings) {
   for (const Material& material :
        {Material{Matte{gray(1)}}, Material{Metal{gray(1)}}, Material{Plastic{gray(1), 0, 0, 0}},
         Material{Plastic{gray(0.6f), 0, 0, 0.4f}}, Material{Phong{gray(1), 0.5f, 1}}}) {
@@ -48,7 +48,7 @@ void expect_white(Scene scene, int spp, double most) {
 
 TEST(PathFurnace, GlassIsWhiteInTheMean) { expect_white(furnace(Glass{}), 64, 0.002); }
 
-TEST(PathFurnace, ThirtyTwoTouchingSpheresWithoutALimitAreWhiteInTheMean) {
+TEST(PathFurnace, TouchingSpheresAreWhiteInTheMean) {
   Scene scene = furnace(Matte{gray(1)});
   scene.image = {64, 64, 1};
   const MaterialRef material = scene.spheres[0].material;
@@ -119,7 +119,7 @@ double mean_luminance(const Scene& scene) {
   return moments.mean;
 }
 
-TEST(PathLight, IrradianceOfASphereLightIsTheAnalyticOne) {
+TEST(PathLight, SphereLightIrradianceIsAnalytic) {
   for (const float x : {0.0f, 1.0f, 4.0f}) {
     Scene scene = lit_plane(x, 0);
     const double d2 = light_height * light_height + double{x} * double{x};
@@ -138,7 +138,7 @@ TEST(PathLight, IrradianceOfASphereLightIsTheAnalyticOne) {
   }
 }
 
-TEST(PathLight, ALightBehindTheHorizonCountsAsFarAsItIsSeen) {
+TEST(PathLight, LightsBelowTheHorizonCountInPart) {
   for (const float tilt : {1.0f, 2.5f, -3.0f}) {
     Scene scene = lit_plane(2, tilt);
     scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)}};
@@ -148,7 +148,7 @@ TEST(PathLight, ALightBehindTheHorizonCountsAsFarAsItIsSeen) {
 }
 
 /// Both methods agree on what both compute: the direct light of point lights on matte objects.
-TEST(PathLight, PointLightsOnMatteAreWhittedsAtDepthZero) {
+TEST(PathLight, PointLightsEqualWhittedAtDepthZero) {
   Scene scene = mixed_scene(32, 24);
   scene.ambient = {};
   for (NamedMaterial& named : scene.materials) {
@@ -169,13 +169,13 @@ EnvironmentBackground spotted_image(float rotation) {
   return image;
 }
 
-TEST(PathLight, AnEnvironmentOfOneColourIsAConstantBackground) {
+TEST(PathLight, UniformEnvironmentEqualsConstantBackground) {
   Scene scene = furnace(Matte{gray(1)});
   scene.background = EnvironmentBackground{3, 2, std::vector<Color>(6, gray(1)), 20};
   expect_white(scene, 16, 0.01);
 }
 
-TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
+TEST(PathLight, EnvironmentSamplesFollowTheImage) {
   const EnvironmentBackground image = spotted_image(77);
   const EnvironmentLight light(image);
   Vec3d by_chance, integral;
@@ -198,7 +198,7 @@ TEST(PathLight, EnvironmentSamplesFollowTheirDensityAndTheImage) {
 
 /// A pixel's light spreads to its neighbours, even if these are black, and samples go to all of it.
 /// The irradiance is compared with a fine grid over all directions.
-TEST(PathLight, ASpotInTheDarkIsFoundWhole) {
+TEST(PathLight, EnvironmentSamplesCoverIsolatedBrightPixels) {
   for (const int at : {4, 3 * 16 + 15, 7 * 16}) {
     EnvironmentBackground image{16, 8, std::vector<Color>(128), 0};
     image.pixels[static_cast<std::size_t>(at)] = gray(100);
@@ -227,7 +227,7 @@ TEST(PathLight, ASpotInTheDarkIsFoundWhole) {
 }
 
 /// A lamp beside a far stronger one that is far away and below the horizon.
-TEST(PathLight, NoLampStarvesTheOthers) {
+TEST(PathLight, EveryLampIsPicked) {
   Scene scene = lit_plane(0, 0);
   scene.lights = {SphereLight{{0, light_height, 0}, light_radius, gray(1)},
                   SphereLight{{0, -1.5e11f, 0}, 7e8f, gray(1e4f)}};
@@ -237,7 +237,7 @@ TEST(PathLight, NoLampStarvesTheOthers) {
 
 /// From far away a point is known with a larger error; the shadow rays to a lamp still end before
 /// it.
-TEST(PathLight, ALampShinesHoweverFarTheEyeIs) {
+TEST(PathLight, LampsLightViewsFromAnyDistance) {
   Scene scene = lit_plane(2, 0);
   scene.spheres = {{{0, -light_height, 0}, 0.5f, add_material(scene, Emissive{gray(1)})}};
   const double d2 = light_height * light_height + 4;
@@ -256,7 +256,7 @@ TEST(PathFurnace, TheSharpestHighlightIsAMirror) {
   EXPECT_NEAR(sharp, mean_luminance(scene), 0.01);
 }
 
-TEST(PathLight, NoRayMeetsASphereLight) {
+TEST(PathLight, SphereLightsAreInvisibleToRays) {
   Scene scene = empty_scene(16, 16);
   scene.background = ConstantBackground{gray(0.25f)};
   scene.lights = {SphereLight{{0, 0, 0}, 1, gray(100)}};
@@ -304,18 +304,16 @@ void expect_same_however_rendered(Scene scene) {
   EXPECT_GT(differing_pixels(render(scene, usual), expected), 40 * 30 / 2);
 }
 
-TEST(Path, NeitherIsaNorThreadsNorOrderNorTileNorCropShow) {
-  expect_same_however_rendered(path_scene(40, 30));
-}
+TEST(Path, PictureDependsOnSceneAndSeedOnly) { expect_same_however_rendered(path_scene(40, 30)); }
 
-TEST(Path, NorDoTheyInAnEnvironment) {
+TEST(Path, EnvironmentPictureDependsOnSceneAndSeed) {
   Scene scene = path_scene(40, 30);
   scene.planes.pop_back();
   scene.background = spotted_image(200);
   expect_same_however_rendered(scene);
 }
 
-TEST(Path, StreamSizeNeverShows) {
+TEST(Path, StreamSizeDoesNotMatter) {
   const Scene scene = path_scene(24, 18);
   const PreparedScene prepared = prepare(scene, 24, 18, serial_for, Method::path).value();
   const CameraView view = build_camera(*scene.camera, 24, 18);

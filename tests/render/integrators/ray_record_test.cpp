@@ -85,7 +85,7 @@ TEST(RayRecord, IsATree) {
   EXPECT_GT(refracted, 0);
 }
 
-TEST(RayRecord, WhatRaysReturnIsTheirOwnAndThatOfTheirChildren) {
+TEST(RayRecord, RaysReturnTheirOwnAndChildrensLight) {
   const Scene scene = mixed_scene(48, 36);
   auto renderer = Renderer::create(scene, options_of(scene));
   RayRecord record;
@@ -104,7 +104,7 @@ TEST(RayRecord, WhatRaysReturnIsTheirOwnAndThatOfTheirChildren) {
   EXPECT_NEAR(static_cast<double>(returned[0].r), static_cast<double>(record.total().r), 1e-5);
 }
 
-TEST(RayRecord, DirectLightIsThatOfTheShadowRays) {
+TEST(RayRecord, DirectLightSumsTheShadowRays) {
   Scene scene = empty_scene(8, 8);
   scene.spheres = {{{0, 0, 0}, 1, add_material(scene, Matte{{1, 1, 1}})}};
   scene.lights = {PointLight{{3, 3, 5}, {1, 1, 1}}, PointLight{{-3, 1, 5}, {0.5f, 0.5f, 0.5f}}};

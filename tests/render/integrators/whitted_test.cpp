@@ -22,7 +22,7 @@ namespace {
 /// errors add up over eight bounces and over lights of very different strength.
 constexpr double float_noise = 2e-5;
 
-TEST(Whitted, EqualsTheOracleOnEveryFeatureAtOnce) {
+TEST(Whitted, EqualsTheOracleOnMixedFeatures) {
   const Scene scene = mixed_scene(64, 48);
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
 }
@@ -46,19 +46,19 @@ TEST(Whitted, EqualsTheOracleFarFromTheOrigin) {
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
 }
 
-TEST(Whitted, EqualsTheOracleInACloudOfGlass) {
+TEST(Whitted, EqualsTheOracleInGlassClouds) {
   const Scene scene = glass_cloud(32, 32);
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
 }
 
-TEST(Whitted, EqualsTheOracleOnAGroundOfAMillionUnits) {
+TEST(Whitted, EqualsTheOracleOnHugeGrounds) {
   Scene scene = mixed_scene(48, 36);
   scene.planes.clear();
   scene.spheres.push_back({{0, -1e6f, 0}, 1e6f, 6});
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
 }
 
-TEST(Whitted, EqualsTheOracleSeenFromInsideOfASphere) {
+TEST(Whitted, EqualsTheOracleInsideASphere) {
   Scene scene = mixed_scene(32, 32);
   scene.spheres.push_back({{0, 1, 0}, 30, 1});
   EXPECT_LT(distance_to_oracle(scene, render(scene)), float_noise);
@@ -84,7 +84,7 @@ TEST(Whitted, EqualsTheOracleInAnEnvironment) {
   }
 }
 
-TEST(Whitted, AGlassFloorRefractsByTheSideItIsEnteredFrom) {
+TEST(Whitted, GlassPlanesRefractByEntrySide) {
   for (const float y : {1.0f, -1.0f}) {
     Scene scene = empty_scene(24, 24);
     scene.camera = pinhole({0, y, 3}, {0, 0, 0}, 60);
@@ -108,7 +108,7 @@ Scene one_sphere(const Material& material) {
   return scene;
 }
 
-TEST(Whitted, KnownColours) {
+TEST(Whitted, GivesKnownColours) {
   Scene scene = one_sphere(Matte{{0.5f, 0.25f, 1}});
   scene.lights = {DirectionalLight{{0, 0, -1}, {1, 1, 0.5f}}};
   EXPECT_EQ(pixel_of(scene), (Color{0.5f, 0.25f, 0.5f}));  // n.l = 1
@@ -126,7 +126,7 @@ TEST(Whitted, KnownColours) {
   EXPECT_NEAR(pixel_of(scene).g, 1, 1e-6);
 }
 
-TEST(Whitted, DepthZeroIsDirectLightWithShadowsOnly) {
+TEST(Whitted, DepthZeroIsDirectLightOnly) {
   Scene scene = one_sphere(Phong{gray(1), 0, 1, 0.5f, 0, 0.5f, 1.5f});
   scene.render.max_depth = 0;
   scene.background = ConstantBackground{gray(100)};
@@ -136,7 +136,7 @@ TEST(Whitted, DepthZeroIsDirectLightWithShadowsOnly) {
   EXPECT_EQ(pixel_of(scene), gray(0));
 }
 
-TEST(Whitted, EveryObjectCastsAShadowTransparentOnesToo) {
+TEST(Whitted, TransparentObjectsCastShadows) {
   for (const Material& blocker :
        {Material{Glass{}}, Material{Emissive{gray(0)}}, Material{Matte{}}}) {
     Scene scene = one_sphere(Matte{gray(1)});
@@ -150,7 +150,7 @@ TEST(Whitted, EveryObjectCastsAShadowTransparentOnesToo) {
   }
 }
 
-TEST(Whitted, ALightThatLiesOnASurfaceIsNotItsOwnShadow) {
+TEST(Whitted, SurfacesNeverShadowLightsOnThem) {
   // The light's position is rounded to float: just inside or outside of the small sphere on which
   // it is.
   int lit = 0;
@@ -170,7 +170,7 @@ TEST(Whitted, ALightThatLiesOnASurfaceIsNotItsOwnShadow) {
   EXPECT_EQ(lit, 50);
 }
 
-TEST(Whitted, ALightInsideOfAWallOrInThePointItselfIsHarmless) {
+TEST(Whitted, LightsInsideObjectsAreHarmless) {
   for (const Falloff falloff : {Falloff::none, Falloff::inverse_square}) {
     Scene scene = one_sphere(Plastic{});
     for (const Vec3f& p : {Vec3f{0, 0, 1}, Vec3f{0, 0, 0}, Vec3f{0, 0, 1.0000001f}}) {
@@ -181,7 +181,7 @@ TEST(Whitted, ALightInsideOfAWallOrInThePointItselfIsHarmless) {
   }
 }
 
-TEST(Whitted, WhatOverflowsIsTheLargestFloatAndNeverNan) {
+TEST(Whitted, OverflowGivesTheLargestFloat) {
   constexpr float largest = std::numeric_limits<float>::max();
   Scene scene = mixed_scene(24, 18);
   scene.ambient = gray(3e38f);
@@ -228,7 +228,7 @@ int differing(const std::vector<Color>& a, const std::vector<Color>& b) {
   return count;
 }
 
-TEST(Whitted, StreamSizeNeverShows) {
+TEST(Whitted, StreamSizeDoesNotMatter) {
   for (const Scene& scene : {mixed_scene(32, 24), glass_cloud(24, 24)}) {
     const PreparedScene prepared = prepare(scene, scene.image.width, scene.image.height).value();
     const std::vector<Ray> rays = camera_rays(scene);
@@ -242,7 +242,7 @@ TEST(Whitted, StreamSizeNeverShows) {
   }
 }
 
-TEST(Whitted, ARayIsWorthTheSameAloneAndInCompany) {
+TEST(Whitted, RadianceDoesNotDependOnTheStream) {
   const Scene scene = glass_cloud(16, 16);
   const PreparedScene prepared = prepare(scene, 16, 16).value();
   const std::vector<Ray> rays = camera_rays(scene);
@@ -273,7 +273,7 @@ TEST(Whitted, CountsItsRays) {
   EXPECT_EQ(counts.total(), 5u);
 }
 
-TEST(Whitted, NoRaysAreNoWork) {
+TEST(Whitted, ZeroRaysAreNoWork) {
   const Scene scene = mixed_scene(4, 4);
   const PreparedScene prepared = prepare(scene, 4, 4).value();
   Whitted whitted(prepared, *select_kernels("auto").value(), {});

@@ -21,7 +21,7 @@
 namespace boule::test {
 namespace {
 
-TEST(Memory, IsKnownAndNotAbsurd) {
+TEST(Memory, AvailableMemoryIsPlausible) {
   EXPECT_GT(available_memory(), std::uint64_t{1} << 20);
   EXPECT_LT(available_memory(), std::uint64_t{1} << 50);
 }
@@ -99,7 +99,7 @@ class MemoryFiles : public testing::Test {
   TempDir folder_;
 };
 
-TEST_F(MemoryFiles, AControlGroupLeavesItsLimitLessWhatCannotBeGivenUp) {
+TEST_F(MemoryFiles, ControlGroupLimitsCount) {
   constexpr auto unlimited = std::numeric_limits<std::uint64_t>::max();
   EXPECT_EQ(control_group_memory(folder()), unlimited);
   write("memory.max", "max\n");
@@ -136,7 +136,7 @@ class Limit {
   std::clock_t begin_ = std::clock();
 };
 
-TEST(Memory, IsCountedBeforeAnInstanceIsLookedAt) {
+TEST(Memory, RefusesInstancesBeforeExpandingThem) {
   if (available_memory() > bytes_of_tree(1000000000)) GTEST_SKIP() << "it fits into this machine";
   const Scene scene = tenfold(9);
   const Limit second;
@@ -152,7 +152,7 @@ TEST(Memory, IsCountedBeforeAnInstanceIsLookedAt) {
   EXPECT_EQ(tracer.error().key, "instance");
 }
 
-TEST(Memory, CountsThatNoNumberHoldsAreRefused) {
+TEST(Memory, OverflowingCountsAreRefused) {
   for (const int levels : {10, 19, 20, 39, 200}) {
     const Scene scene = tenfold(levels);
     const Limit second;
@@ -165,7 +165,7 @@ TEST(Memory, CountsThatNoNumberHoldsAreRefused) {
   }
 }
 
-TEST_F(MemoryFiles, AFileOfInstancesIsRefusedAtOnce) {
+TEST_F(MemoryFiles, InstanceFilesAreRefusedAtOnce) {
   if (available_memory() > bytes_of_tree(1000000000)) GTEST_SKIP() << "it fits into this machine";
   std::string text = "schema = 1\n[group.g0]\n[[group.g0.sphere]]\ncenter = [0, 0, 0]\n";
   for (int i = 1; i < 9; ++i) {
@@ -186,7 +186,7 @@ TEST_F(MemoryFiles, AFileOfInstancesIsRefusedAtOnce) {
 }
 
 /// A file with this header and a hole instead of data.
-TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
+TEST_F(MemoryFiles, TooManySpheresAreRefusedBeforeReading) {
   const std::string header = npy_file(npy_dict("'<f4'", "(2000000000, 4)"), "");
   const std::string cloud = write("cloud.npy", header);
   std::filesystem::resize_file(cloud, header.size() + 32000000000);
@@ -199,7 +199,7 @@ TEST_F(MemoryFiles, SpheresThatDoNotFitAreRefusedBeforeTheyAreRead) {
   EXPECT_NE(loaded.error().message.find("2000000000 spheres need "), std::string::npos);
 }
 
-TEST_F(MemoryFiles, ATextThatDoesNotFitIsRefusedBeforeItIsRead) {
+TEST_F(MemoryFiles, TooLargeTextsAreRefusedBeforeReading) {
   for (const char* const name : {"scene.toml", "scene.nff"}) {
     const std::string path = write(name, std::string(1 << 20, '\n'));  // it begins like a text
     std::filesystem::resize_file(path, std::uintmax_t{1} << 42);

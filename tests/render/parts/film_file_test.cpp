@@ -92,7 +92,7 @@ TEST_F(FilmFile, HoldsMeasuredPixelsToo) {
   EXPECT_TRUE(film_file::Reader::open(path_).value().read(found));
 }
 
-TEST_F(FilmFile, WhatIsReadIsWhatWasWritten) {
+TEST_F(FilmFile, ReadsWhatItWrote) {
   const std::string bytes = written();
   const auto reader = film_file::Reader::open(path_);
   ASSERT_TRUE(reader) << reader.error().message;
@@ -134,13 +134,13 @@ TEST_F(FilmFile, EveryChangedByteIsRefused) {
   EXPECT_THAT(refusal(bytes + "x"), HasSubstr("was changed"));
 }
 
-TEST_F(FilmFile, AnotherVersionIsToldAsSuch) {
+TEST_F(FilmFile, OtherVersionsAreNamed) {
   std::string bytes = written();
   bytes[8] = 2;
   EXPECT_EQ(refusal(bytes), "is a film file of version 2, expected 1");
 }
 
-TEST_F(FilmFile, SamplesThatCannotBeAreRefused) {
+TEST_F(FilmFile, ImpossibleSamplesAreRefused) {
   PartSheet sheet(head_.rect, head_.kinds);
   const PixelRect pixel{3, 4, 4, 5};
   for (const FilmPixel& bad : {FilmPixel{-1, 0, 0, 1, 0}, FilmPixel{1, 1, 1, -1, 0},

@@ -27,7 +27,7 @@ TEST(PartBlocks, ShardsTogetherCoverEveryPixelOnce) {
   }
 }
 
-TEST(PartBlocks, TheFirstGapIsNamedAsARectangle) {
+TEST(PartBlocks, FirstGapIsNamedAsARectangle) {
   EXPECT_EQ(find_gap(frame, {}), "pixels 0,0,100,70 are missing");
   EXPECT_EQ(find_gap(frame, {{0, 0, 100, 20}, {0, 20, 30, 70}, {60, 20, 100, 70}}),
             "pixels 30,20,60,70 are missing");
@@ -35,7 +35,7 @@ TEST(PartBlocks, TheFirstGapIsNamedAsARectangle) {
   EXPECT_EQ(find_gap(frame, {frame, frame, frame}), "pixels 0,0,100,70 are there twice");
 }
 
-TEST(PartBlocks, TilesDoNotDependOnMoreThanPictureAndShares) {
+TEST(PartBlocks, TilesDependOnPictureAndSharesOnly) {
   EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 4), 128);
   EXPECT_EQ(shared_tile({0, 0, 1920, 1080}, 64), 32);
   EXPECT_EQ(shared_tile({0, 0, 64, 64}, 1), 16);

@@ -27,7 +27,7 @@ const std::function<void(RenderOptions&)> changes[] = {
     [](RenderOptions& o) { o.aovs.id = true; },
 };
 
-TEST(RunFacts, EveryOptionOfThePixelsIsToldByItsName) {
+TEST(RunFacts, ChangedPixelOptionsAreNamed) {
   const RunFacts base = facts_of({}, 1, "0.1.0");
   std::set<std::string> told;
   for (const auto& change : changes) {
@@ -41,7 +41,7 @@ TEST(RunFacts, EveryOptionOfThePixelsIsToldByItsName) {
   EXPECT_TRUE(told.count("has --spp 17, not 1") == 1);
 }
 
-TEST(RunFacts, WhatThePixelsDoNotDependOnIsNotInThem) {
+TEST(RunFacts, LeaveOutOptionsWithoutInfluence) {
   RenderOptions other;
   other.order = PixelOrder::frameless;
   other.tile = 17;

@@ -87,7 +87,7 @@ const CameraFit fits[] = {
     {.type = FittedCamera::orthographic, .direction = Vec3f{-1, 1, 0}, .margin = 0.2F},
 };
 
-TEST(CameraFitter, LeavesTheMarginOnTheNarrowerAxisAndNoMore) {
+TEST(CameraFitter, LeavesTheMarginOnTheTighterAxis) {
   for (const CameraFit& fit : fits) {
     for (const Size size : sizes) {
       for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -108,7 +108,7 @@ TEST(CameraFitter, LeavesTheMarginOnTheNarrowerAxisAndNoMore) {
   }
 }
 
-TEST(CameraFitter, HoldsWhatLiesFarOffOrIsHugeOrAlone) {
+TEST(CameraFitter, FitsDistantHugeAndSingleSpheres) {
   const std::vector<Sphere> one{{{0, 0, 0}, 1, 0}};
   const std::vector<Sphere> far_off{{{1e5f, -3e4f, 20}, 3, 0}, {{1e5f + 9, -3e4f, 20}, 1, 0}};
   const std::vector<Sphere> large{{{0, 0, 0}, 1e9f, 0}, {{3e9f, 0, 0}, 1, 0}};
@@ -121,7 +121,7 @@ TEST(CameraFitter, HoldsWhatLiesFarOffOrIsHugeOrAlone) {
   }
 }
 
-TEST(CameraFitter, HoldsAllThatItWasGivenInAnyOrder) {
+TEST(CameraFitter, FitsAllSpheresInAnyOrder) {
   const auto first = cloud(4, 20), second = cloud(5, 20);
   const CameraFit fit;
   const View view = default_view(fit, first, {});
@@ -152,7 +152,7 @@ std::vector<Sphere> row(const Vec3f& step) {
   return spheres;
 }
 
-TEST(DefaultView, LooksAcrossARowWhereverItLies) {
+TEST(DefaultView, LooksAcrossRowsAnywhere) {
   for (const Vec3f& step : {Vec3f{2, 0, 0}, Vec3f{0, 2, 0}, Vec3f{0, 0, 2}}) {
     const double along = dot(looked_along(row(step)), normalize(vec_cast<double>(step)));
     EXPECT_LT(std::fabs(along), 0.4) << step.x << step.y << step.z;
@@ -196,7 +196,7 @@ TEST(DefaultView, OfASheetIsFaceOn) {
   EXPECT_EQ(default_view(z_up, sheet(x, none, none), {}).up, (Vec3d{0, 0, 1}));
 }
 
-TEST(DefaultView, HasTheUpThatItIsGivenOrThatOfTheFloor) {
+TEST(DefaultView, UpIsGivenOrTheFloorsNormal) {
   const auto spheres = cloud(6, 20);
   EXPECT_EQ(default_view({}, spheres, {}).up, (Vec3d{0, 1, 0}));
   EXPECT_EQ(default_view({}, spheres, {{{0, 0, 0}, {0, 0, 2}, 0}}).up, (Vec3d{0, 0, 1}));
@@ -208,12 +208,12 @@ TEST(DefaultView, HasTheUpThatItIsGivenOrThatOfTheFloor) {
   EXPECT_GT(looked_along(spheres, z_up).y, 0.5);   // from the front, which is -y where z is up
 }
 
-TEST(DefaultView, SeenFromAboveWhatIsBehindIsUpward) {
+TEST(DefaultView, SeenFromAboveFartherIsHigher) {
   const View map = default_view({.direction = Vec3f{0, -1, 0}}, cloud(7, 20), {});
   EXPECT_EQ(map.up, (Vec3d{0, 0, -1}));
 }
 
-TEST(CameraFit, IsCheckedFieldByFieldAndAsAWhole) {
+TEST(CameraFit, ErrorsCoverFieldsAndTheWhole) {
   EXPECT_FALSE(find_problem(CameraFit{}));
   EXPECT_EQ(find_problem(CameraFit{.direction = Vec3f{}})->field, "direction");
   EXPECT_EQ(find_problem(CameraFit{.up = Vec3f{}})->field, "up");

@@ -28,7 +28,7 @@ float seen(double right, double up) {
 
 /// Within half a row of a pole, a direction sees the colour of the first or last row, which depends
 /// on the direction.
-TEST(Environment, AtThePolesItIsItsOutermostRow) {
+TEST(Environment, PolesHaveTheOutermostRow) {
   const float top[] = {1, 2, 4, 8}, bottom[] = {16, 32, 64, 128};
   for (int i = 0; i < 4; ++i) {
     const double right = -135 + 90 * i;
@@ -40,7 +40,7 @@ TEST(Environment, AtThePolesItIsItsOutermostRow) {
 }
 
 /// The right edge continues at the left one. Halfway between the rows the colour is their mean.
-TEST(Environment, HasNoEdgeBehind) {
+TEST(Environment, HasNoSeamBehind) {
   EXPECT_NEAR(seen(180, 60), (8 + 1) / 2.0, 1e-4);
   EXPECT_NEAR(seen(-180, 60), (8 + 1) / 2.0, 1e-4);
   EXPECT_NEAR(seen(-135, 0), (1 + 16) / 2.0, 1e-4);

@@ -13,7 +13,7 @@
 namespace boule::test {
 namespace {
 
-TEST(DefaultView, IsValidWithoutSpheresAndWithTinyOnesFarOff) {
+TEST(DefaultView, IsValidForEmptyAndExtremeScenes) {
   Scene nothing, plane, tiny;
   plane.planes = {{{1e6f, 0, 0}, {0, 0, 3}, 0}};
   tiny.spheres = {{{1e8f, 1e8f, 0}, 1e-6f, 0}};
@@ -37,7 +37,7 @@ TEST(Prepare, RefusesObjectsThatCannotBeFramed) {
   EXPECT_EQ(prepared.error().key, "camera");
 }
 
-TEST(Prepare, LightsASceneFromTheUpperLeftOnlyWhereNothingShines) {
+TEST(Prepare, DefaultLightOnlyWhereNothingShines) {
   Scene scene = empty_scene(10, 10);
   const auto lit = [&] { return prepare(scene, 10, 10).value().lights; };
   ASSERT_EQ(lit().size(), 2u);
@@ -80,7 +80,7 @@ TEST(Prepare, LightsASceneFromTheUpperLeftOnlyWhereNothingShines) {
   EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());
 }
 
-TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
+TEST(Prepare, NonBlackBackgroundsLightPathTracing) {
   Scene scene;
   const auto lights = [&] {
     return prepare(scene, 10, 10, serial_for, Method::path).value().lights.size();
@@ -96,7 +96,7 @@ TEST(Prepare, ForPathTracingABackgroundIsLightUnlessItIsBlack) {
 
 /// By method whitted an environment is seen in mirrors only; without a light matte objects would be
 /// black.
-TEST(Prepare, ByWhittedAnEnvironmentIsNoLight) {
+TEST(Prepare, EnvironmentIsNoLightInWhitted) {
   Scene scene = empty_scene(10, 10);
   scene.background = EnvironmentBackground{2, 1, {gray(1), gray(1)}};
   const auto prepared = prepare(scene, 10, 10);
@@ -105,7 +105,7 @@ TEST(Prepare, ByWhittedAnEnvironmentIsNoLight) {
   EXPECT_NE(prepared.value().notes[0].find("environment"), std::string::npos);
 }
 
-TEST(FlatMaterial, GlassBrighterThanWhiteIsTheSameByBothMethods) {
+TEST(FlatMaterial, GlassAboveWhiteAgreesInBothMethods) {
   for (const Color& color : {Color{2, 1, 0.5f}, Color{1, 1, 1}, Color{0.25f, 0.5f, 1}}) {
     const FlatMaterial whitted = flatten(Glass{color, 1.5f}, gray(1));
     const FlatMaterial path = flatten_for_paths(Glass{color, 1.5f});
@@ -118,7 +118,7 @@ TEST(FlatMaterial, GlassBrighterThanWhiteIsTheSameByBothMethods) {
   EXPECT_EQ(flatten(Phong{{1, 1, 1}, 0, 1, 0.5f, 0, 0, 1}, gray(1)).highlight, 0);  // shininess 0
 }
 
-TEST(Prepare, SphereLightsAndEmissiveSpheresArePickedByTheirPowerOrEvenly) {
+TEST(Prepare, PicksAreaLightsByPowerOrEvenly) {
   Scene scene;
   scene.lights = {PointLight{}, SphereLight{{1, 2, 3}, 2, {1, 0, 0}},
                   SphereLight{{0, 0, 0}, 9, {0, 0, 0}}};
@@ -154,14 +154,14 @@ TEST(Prepare, SaysThatItMadeACamera) {
   EXPECT_NE(prepared.value().notes[0].find("camera"), std::string::npos);
 }
 
-TEST(Prepare, TellsWhatPrimaryRaysHaveInCommon) {
+TEST(Prepare, KnowsTheCoherenceOfPrimaryRays) {
   Scene scene = empty_scene(10, 10);
   EXPECT_EQ(prepare(scene, 10, 10).value().coherence, Coherence::common_origin);
   scene.camera = OrthographicCamera{};
   EXPECT_EQ(prepare(scene, 10, 10).value().coherence, Coherence::common_direction);
 }
 
-TEST(Prepare, FindsMaterialsOfSpheresBySlotAndOfPlanesById) {
+TEST(Prepare, FindsMaterialsBySlotOrId) {
   Scene scene = empty_scene(10, 10);
   const auto red = add_material(scene, Matte{{1, 0, 0}});
   const auto blue = add_material(scene, Matte{{0, 0, 1}});

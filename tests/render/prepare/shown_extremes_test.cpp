@@ -76,7 +76,7 @@ void expect_the_same(const Scene& scene) {
               seen.right == right.right);
 }
 
-TEST(ShownExtremes, TheFittedCameraIsThatOfTheSceneWrittenOut) {
+TEST(ShownExtremes, FittedCameraMatchesTheExpandedScene) {
   CaseRandom random(4);
   std::vector<Scene> scenes{images_of(cloud(random, 300), 3), images_of(grid(8), 3),
                             images_of(grid(1), 2)};

@@ -49,7 +49,7 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std
 namespace boule::test {
 namespace {
 
-TEST(Allocation, NothingIsAllocatedInTheSteadyState) {
+TEST(Allocation, WhittedAllocatesNothingWhenWarm) {
   for (const Scene& scene : {mixed_scene(32, 32), glass_cloud(32, 32)}) {
     const PreparedScene prepared = prepare(scene, 32, 32).value();
     IntegratorSettings settings;
@@ -70,7 +70,7 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyState) {
   }
 }
 
-TEST(Allocation, NothingIsAllocatedInTheSteadyStateOfPathTracing) {
+TEST(Allocation, PathTracingAllocatesNothingWhenWarm) {
   const Scene scene = path_scene(32, 32);
   const PreparedScene prepared = prepare(scene, 32, 32, serial_for, Method::path).value();
   IntegratorSettings settings;
@@ -91,7 +91,7 @@ TEST(Allocation, NothingIsAllocatedInTheSteadyStateOfPathTracing) {
 }
 
 /// Two parallel mirrors, between which a ray goes on for ever.
-TEST(Allocation, DoesNotGrowWithTheDepthWhereOneRayGoesOn) {
+TEST(Allocation, SameForOneRayAtAnyDepth) {
   Scene scene = empty_scene(1, 1);
   const auto mirror = add_material(scene, Metal{gray(1)});
   scene.planes = {{{0, 0, -1}, {0, 0, 1}, mirror}, {{0, 0, 6}, {0, 0, -1}, mirror}};
@@ -144,7 +144,7 @@ RenderOptions small_blocks(int width, int height, int spp, unsigned threads) {
 constexpr long most_per_worker = 400;
 
 /// A second picture allocates the picture itself and what starting threads takes.
-TEST(Allocation, DoesNotGrowWithTheBlocksOfAPicture) {
+TEST(Allocation, DoesNotGrowWithTheBlockCount) {
   for (const Scene& scene : {mixed_scene(32, 32), glass_cloud(32, 32)}) {
     for (const int side : {32, 128, 512}) {  // 16, 256, 4096 blocks
       for (const int spp : {1, 5}) {
@@ -216,7 +216,7 @@ int failures_of(const Make& make) {
   return failures;
 }
 
-TEST(Allocation, WithoutMemoryThereIsAnErrorAndNoEnd) {
+TEST(Allocation, OutOfMemoryIsAnError) {
   const Scene scene = mixed_scene(32, 32);
   RenderOptions options = options_of(scene);
   options.threads = 2;

@@ -51,7 +51,7 @@ TEST_P(Behind, TheCameraAloneSeesTheBackdrop) {
   EXPECT_EQ(differing_pixels(picture, plain), behind);
 }
 
-TEST_P(Behind, AlphaIsTheShareOfSamplesThatHit) {
+TEST_P(Behind, AlphaIsTheShareOfHits) {
   const Image plain = render(scene_);
   EXPECT_TRUE(plain.alpha.empty());
   scene_.image.transparent = true;
@@ -72,7 +72,7 @@ TEST_P(Behind, AlphaIsTheShareOfSamplesThatHit) {
   EXPECT_GT(partly, 30);
 }
 
-TEST_P(Behind, NothingDependsOnThreadsTilesOrInstructionSets) {
+TEST_P(Behind, AlphaIgnoresThreadsTilesAndIsa) {
   scene_.image.transparent = true;
   RenderOptions options = options_of(scene_);
   const Image picture = render(scene_, options);
@@ -87,7 +87,7 @@ TEST_P(Behind, NothingDependsOnThreadsTilesOrInstructionSets) {
   }
 }
 
-TEST_P(Behind, FilmsOfEveryOrderHaveTheSameAlpha) {
+TEST_P(Behind, AlphaIgnoresThePixelOrder) {
   scene_.image.transparent = true;
   RenderOptions options = options_of(scene_);
   const Image picture = render(scene_, options);
@@ -111,7 +111,7 @@ TEST_P(Behind, APixelWithoutSamplesTakesAnothersAlpha) {
 }
 
 /// Samples that no ray of the lens reaches are covered by nothing.
-TEST_P(Behind, WhereACameraSeesNothingAlphaIsZero) {
+TEST_P(Behind, AlphaIsZeroWhereCamerasSeeNothing) {
   FisheyeCamera fisheye;
   fisheye.pose = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
   fisheye.fov = 360;
@@ -127,7 +127,7 @@ TEST_P(Behind, WhereACameraSeesNothingAlphaIsZero) {
 INSTANTIATE_TEST_SUITE_P(Methods, Behind, testing::Values(Method::whitted, Method::path),
                          [](const auto& method) { return std::string(name_of(method.param)); });
 
-TEST(Backdrop, IsInTheHashOnlyWhereThereIsOne) {
+TEST(Backdrop, PresenceAndColorChangeTheHash) {
   Scene scene = mixed_scene(8, 8);
   const std::uint64_t none = scene_hash(scene);
   scene.backdrop = Color{};

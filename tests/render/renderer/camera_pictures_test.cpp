@@ -42,7 +42,7 @@ TEST_P(Cameras, SameBitsOnEveryIsa) {
   EXPECT_EQ(differing_pixels(render(scene(), options), expected), 0);
 }
 
-TEST_P(Cameras, SameBitsHoweverTheWorkIsCut) {
+TEST_P(Cameras, BitsIgnoreThePartitionOfWork) {
   const Image expected = render(scene());
   for (const int tile : {1, 7, 64}) {
     for (const PixelOrder order : {PixelOrder::rows, PixelOrder::frameless}) {
@@ -63,7 +63,7 @@ TEST_P(Cameras, SameBitsHoweverTheWorkIsCut) {
   }
 }
 
-TEST_P(Cameras, PathsAreTheSameHoweverTheWorkIsCut) {
+TEST_P(Cameras, PathsIgnoreThePartitionOfWork) {
   Scene traced = scene();
   traced.render.method = Method::path;
   const Image expected = render(traced);
@@ -94,7 +94,7 @@ const CameraCase cameras[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Every, Cameras, testing::ValuesIn(cameras), name_of);
 
-TEST(Fisheye, BeyondHalfATurnIsBlackAndCostsNoRay) {
+TEST(Fisheye, OutsideTheCircleIsBlackWithoutRays) {
   Scene scene = empty_scene(60, 30);
   scene.background = ConstantBackground{gray(1)};
   scene.camera = FisheyeCamera{pose, 360, FovAxis::y};

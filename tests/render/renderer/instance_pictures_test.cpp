@@ -12,7 +12,7 @@
 namespace boule::test {
 namespace {
 
-TEST(Instances, PictureHashAndTracesAreThoseOfTheSceneWrittenOut) {
+TEST(Instances, MatchTheExpandedScene) {
   const Scene grouped = grouped_scene();
   EXPECT_FALSE(validate(grouped));
   Scene flat = grouped;
@@ -41,7 +41,7 @@ TEST(Instances, PictureHashAndTracesAreThoseOfTheSceneWrittenOut) {
   }
 }
 
-TEST(Instances, EveryIsaThreadsAndTilesGiveThePictureWrittenOut) {
+TEST(Instances, MatchForAnyIsaThreadsAndTiles) {
   Scene flat = grouped_scene();
   expand_instances(flat);
   const Image expected = render(flat);
@@ -83,7 +83,7 @@ void expect_the_same_pictures(const Scene& grouped, const Scene& flat) {
     EXPECT_TRUE(found[i].samples == expected[i].samples) << found[i].name;
 }
 
-TEST(Instances, SharedGroupsHaveThePicturesAndAovsWrittenOut) {
+TEST(Instances, SharedGroupsMatchInPicturesAndAovs) {
   Scene grouped = shared_scene();
   ASSERT_TRUE(groups_to_share(grouped));
   Scene flat = grouped;
@@ -96,7 +96,7 @@ TEST(Instances, SharedGroupsHaveThePicturesAndAovsWrittenOut) {
   expect_the_same_pictures(grouped, flat);
 }
 
-TEST(Instances, SharedGroupsAreFramedAndLitAsThoseWrittenOut) {
+TEST(Instances, SharedGroupsMatchInFramingAndLight) {
   Scene grouped = shared_scene();
   grouped.camera.reset();
   grouped.lights.clear();
@@ -107,7 +107,7 @@ TEST(Instances, SharedGroupsAreFramedAndLitAsThoseWrittenOut) {
   expect_the_same_pictures(grouped, flat);
 }
 
-TEST(Instances, RaysMeetSharedGroupsAsThoseWrittenOut) {
+TEST(Instances, SharedGroupsMatchInTracedRays) {
   const Scene grouped = shared_scene();
   Scene flat = grouped;
   expand_instances(flat);
@@ -155,7 +155,7 @@ ManyCopies::ManyCopies() {
   }
 }
 
-TEST(Instances, OfThreeThousandMillionSpheresHaveThePicturesAndIdsOfOne) {
+TEST(Instances, ThreeBillionSpheresMatchOneCopy) {
   constexpr std::uint32_t copies = ManyCopies::copies, spheres = ManyCopies::spheres;
   auto [one, many] = ManyCopies();
   EXPECT_EQ(count_primitives(many).total(), 3'000'000'000U);
@@ -183,7 +183,7 @@ TEST(Instances, OfThreeThousandMillionSpheresHaveThePicturesAndIdsOfOne) {
   }
 }
 
-TEST(Instances, OfMoreThan31BitsAreRefusedWhereIdsHaveASign) {
+TEST(Instances, IdsBeyond31BitsNeedUnsignedOutput) {
   const Scene many = ManyCopies().many;
   const auto refused = Tracer::create(many);
   ASSERT_FALSE(refused);
@@ -199,7 +199,7 @@ TEST(Instances, OfMoreThan31BitsAreRefusedWhereIdsHaveASign) {
 }
 
 /// Images of particles in their cell.
-TEST(Instances, ReplicatedParticlesHaveThePictureWrittenOut) {
+TEST(Instances, ReplicatedParticlesMatchTheExpandedScene) {
   SceneFolder files;
   std::string text = "5000\nLattice=\"9 0 0 1 8 0 0 0 7\" Properties=species:S:1:pos:R:3\n";
   CaseRandom random(15);
@@ -239,7 +239,7 @@ TEST(Instances, ReplicatedParticlesHaveThePictureWrittenOut) {
 }
 
 /// What is shared is hashed as it is: everything that a picture depends on counts.
-TEST(Instances, HashesOfSharedGroupsDependOnThemAndWhereTheyAre) {
+TEST(Instances, HashesCoverSharedGroupsAndTheirPlaces) {
   const Scene scene = shared_scene();
   Scene moved = scene, resized = scene, fewer = scene;
   moved.instances.back().translate.x += 1;

@@ -34,7 +34,7 @@ int finish(Renderer& renderer, Film& film, LivePosition& position, const StepLim
   return steps;
 }
 
-TEST(LiveSteps, EndAsThePictureWhereverTheyBegin) {
+TEST(LiveSteps, EndAsThePictureFromAnyStart) {
   const Scene scene = small_scene();
   const Image expected = render(scene);
   for (const PixelOrder order : all_orders) {
@@ -56,7 +56,7 @@ TEST(LiveSteps, EndAsThePictureWhereverTheyBegin) {
   }
 }
 
-TEST(LiveSteps, DoAboutAsManyPixelsAsTheyMay) {
+TEST(LiveSteps, StayNearTheirPixelBudget) {
   Scene scene = mixed_scene(128, 64);
   for (const PixelOrder order : all_orders) {
     RenderOptions options = options_of(scene);
@@ -73,7 +73,7 @@ TEST(LiveSteps, DoAboutAsManyPixelsAsTheyMay) {
   }
 }
 
-TEST(LiveSteps, ANewBeginningTakesTheOldestPixelsFirst) {
+TEST(LiveSteps, RestartsTakeTheOldestPixelsFirst) {
   const Scene scene = mixed_scene(64, 64);
   for (const PixelOrder order : {PixelOrder::rows, PixelOrder::tiles, PixelOrder::frameless}) {
     RenderOptions options = options_of(scene);
@@ -97,7 +97,7 @@ TEST(LiveSteps, ANewBeginningTakesTheOldestPixelsFirst) {
   }
 }
 
-TEST(LiveSteps, AreCancelled) {
+TEST(LiveSteps, CanBeCancelled) {
   const Scene scene = small_scene();
   std::atomic<bool> cancel{true};
   RenderOptions options = options_of(scene);
@@ -133,7 +133,7 @@ std::vector<Scene> scenes_that_follow() {
   return {mixed_scene(40, 30), placed, dark};
 }
 
-TEST(Reframe, IsAsIfTheSceneHadBeenPreparedSo) {
+TEST(Reframe, EqualsANewPreparation) {
   const std::vector<Camera> cameras = {
       pinhole({2, 1, 5}, {0, 0.5f, 0}, 35),
       OrthographicCamera{{{1, 2, 6}, {0, 1, 0}, {0, 1, 0}}, 4},
@@ -156,7 +156,7 @@ TEST(Reframe, IsAsIfTheSceneHadBeenPreparedSo) {
   }
 }
 
-TEST(Reframe, RefusesWhatIsNoCamera) {
+TEST(Reframe, RefusesInvalidCameras) {
   const Scene scene = mixed_scene(20, 15);
   const auto shared = prepared_for(scene, 20, 15, Method::whitted);
   const Camera blind = pinhole({1, 1, 1}, {1, 1, 1}, 45);

@@ -21,7 +21,7 @@ namespace {
 constexpr PixelOrder all_orders[] = {PixelOrder::rows, PixelOrder::tiles, PixelOrder::progressive,
                                      PixelOrder::frameless};
 
-TEST(LivePasses, GiveEveryPixelItsSamplesAndTheirShareGrowsToOne) {
+TEST(LivePasses, GiveEveryPixelItsSamples) {
   const PixelRect rects[] = {{0, 0, 1, 1}, {0, 0, 37, 23}, {5, 7, 38, 60}, {0, 0, 64, 64}};
   for (const PixelRect& rect : rects) {
     for (const PixelOrder order : all_orders) {
@@ -92,7 +92,7 @@ Color expected_pixel(const Film& film, const Image& done, PixelOrder order, int 
   return nearest;
 }
 
-TEST(PartialPicture, FillsWhatIsMissingAsItSays) {
+TEST(PartialPicture, FillsMissingPixelsAsDocumented) {
   const PixelRect rects[] = {{0, 0, 40, 33}, {3, 9, 50, 31}, {0, 0, 1, 30}, {0, 0, 30, 1}};
   CaseRandom random(3);
   for (const PixelRect& rect : rects) {
@@ -155,7 +155,7 @@ class Live : public testing::Test {
   std::vector<Image> by_samples_;  ///< with 1, 2, 3 samples
 };
 
-TEST_F(Live, EveryStepIsRightAndTheLastIsThePicture) {
+TEST_F(Live, LastStepEqualsThePicture) {
   for (const PixelOrder order : all_orders) {
     for (const unsigned threads : {1u, 3u}) {
       for (const int tile : {0, 7, 16, 64}) {
@@ -200,7 +200,7 @@ TEST_F(Live, EveryIsaMakesTheSameSteps) {
   }
 }
 
-TEST_F(Live, StoppedAnywhereItKeepsWhatIsDoneAndGoesOn) {
+TEST_F(Live, CanStopAndResumeAnywhere) {
   for (const PixelOrder order : all_orders) {
     for (const double stop_at : {0.001, 0.2, 0.5, 0.9}) {
       std::atomic<bool> cancel{false};
@@ -225,7 +225,7 @@ TEST_F(Live, StoppedAnywhereItKeepsWhatIsDoneAndGoesOn) {
   }
 }
 
-TEST(LivePaths, EndAsThePictureWhateverTheOrder) {
+TEST(LivePaths, EndAsThePictureInAnyOrder) {
   Scene scene = mixed_scene(40, 30);
   scene.image.spp = 5;
   scene.render.method = Method::path;
@@ -241,7 +241,7 @@ TEST(LivePaths, EndAsThePictureWhateverTheOrder) {
   }
 }
 
-TEST_F(Live, ACropIsThatPartOfTheFrame) {
+TEST_F(Live, CropsEqualTheFramesPart) {
   RenderOptions options = options_of(scene_);
   options.order = PixelOrder::progressive;
   options.crop = PixelRect{11, 6, 52, 41};

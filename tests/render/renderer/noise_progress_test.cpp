@@ -41,7 +41,7 @@ TEST(LiveProgress, CountsMeasuredPixels) {
 }
 
 /// What is told while noise is measured adds up to what the picture says.
-TEST(Renderer, TellsOfNoiseAsItGoesDown) {
+TEST(Renderer, ReportsFallingNoise) {
   const Scene scene = mixed_scene(96, 80);
   RenderOptions options = options_of(scene);
   options.noise = 0.05F;
@@ -64,7 +64,7 @@ TEST(Renderer, TellsOfNoiseAsItGoesDown) {
 }
 
 /// A preview does not bring the progress to its end, and counts no pixel as measured.
-TEST(Renderer, TellsOfNoiseAfterAPreview) {
+TEST(Renderer, ReportsNoiseAfterAPreview) {
   const Scene scene = mixed_scene(96, 80);
   RenderOptions options = options_of(scene);
   options.noise = 0.05F;

@@ -49,7 +49,7 @@ std::uint64_t hash_of(const MeasuredPicture& picture, const PixelRect& rect) {
 
 std::uint64_t hash_of(const MeasuredPicture& picture) { return hash_of(picture, picture.rect()); }
 
-TEST(Noise, APictureHasTheSameBitsForAnyThreadsTilesAndOrders) {
+TEST(Noise, IgnoresThreadsTilesAndOrders) {
   const Scene scene = path_scene(width, height);
   const RenderOptions options = noisy_options(scene);
   const std::uint64_t expected = hash_of(measured(scene, options));
@@ -62,7 +62,7 @@ TEST(Noise, APictureHasTheSameBitsForAnyThreadsTilesAndOrders) {
   }
 }
 
-TEST(Noise, ACropIsThatPartOfThePicture) {
+TEST(Noise, CropsEqualThePicturesPart) {
   const Scene scene = path_scene(width, height);
   RenderOptions options = noisy_options(scene);
   const MeasuredPicture whole = measured(scene, options);
@@ -72,7 +72,7 @@ TEST(Noise, ACropIsThatPartOfThePicture) {
   }
 }
 
-TEST(Noise, OtherWaysToRenderGiveTheSamePicture) {
+TEST(Noise, AllWaysToRenderAgree) {
   const Scene scene = path_scene(width, height);
   RenderOptions options = noisy_options(scene);
   options.tile = 8;
@@ -89,7 +89,7 @@ TEST(Noise, OtherWaysToRenderGiveTheSamePicture) {
   EXPECT_EQ(rows, expected.pixels);
 }
 
-TEST(Noise, SamplesStayWithinTheirBoundsAndNoisyPixelsGetMore) {
+TEST(Noise, NoisyPixelsGetMoreSamples) {
   const Scene scene = path_scene(width, height);
   RenderOptions options = noisy_options(scene);
   const MeasuredPicture picture = measured(scene, options);
@@ -108,7 +108,7 @@ TEST(Noise, SamplesStayWithinTheirBoundsAndNoisyPixelsGetMore) {
   for (const MeasuredPixel& pixel : coarse.pixels()) EXPECT_EQ(pixel.samples, 16U);
 }
 
-TEST(Noise, HalvesHaveAPowerOfTwoOfSamplesOrTheMost) {
+TEST(Noise, HalvesStopAtPowersOfTwo) {
   const Scene scene = path_scene(width, height);
   const MeasuredPicture picture = measured(scene, noisy_options(scene));  // 16 to 200 samples
   std::set<std::uint32_t> possible, found;
@@ -120,7 +120,7 @@ TEST(Noise, HalvesHaveAPowerOfTwoOfSamplesOrTheMost) {
   EXPECT_GE(found.size(), 6U);  // halves of one pixel differ as well
 }
 
-TEST(Noise, ABrighterExposureNeedsMoreSamplesOfWhatIsDark) {
+TEST(Noise, BrighterExposureNeedsMoreDarkSamples) {
   Scene scene = path_scene(width, height);
   RenderOptions options = noisy_options(scene);
   options.spp = 1000;
@@ -131,7 +131,7 @@ TEST(Noise, ABrighterExposureNeedsMoreSamplesOfWhatIsDark) {
   EXPECT_LT(dark, bright);
 }
 
-TEST(Noise, OptionsOutOfRangeAreRefusedByName) {
+TEST(Noise, RefusesOptionsOutOfRangeByName) {
   const Scene scene = path_scene(width, height);
   const auto key_of = [&](const auto& change) {
     RenderOptions options = noisy_options(scene);
@@ -190,7 +190,7 @@ double mean_of_rare_samples(double probability, int blocks, double* samples) {
 
 /// The first half has noise in its first 8 samples, and none later; the second one none at all, and
 /// so decides at once that 8 samples are enough for the first, which goes on to decide for it.
-TEST(Noise, IsThatOfTheSamplesThatCount) {
+TEST(Noise, CountsOnlyTheSamplesShown) {
   NoiseBlock noise({.half_width = 0.1F, .min_spp = 16, .max_spp = 512});
   const MeasuredPicture picture = measured(noise, {0, 0, 1, 1}, [](const SampleId& id) {
     const bool is_noisy = id.x == 0 && id.sample < 8;
@@ -205,7 +205,7 @@ TEST(Noise, IsThatOfTheSamplesThatCount) {
   EXPECT_GT(pixel.noise, 0.66 * std::sqrt(variance));
 }
 
-TEST(Noise, TheMeanOfRareBrightSamplesIsUnbiased) {
+TEST(Noise, MeanOfRareBrightSamplesIsUnbiased) {
   constexpr int blocks = 16;
   for (const double probability : {0.02, 0.3}) {
     double samples = 0;

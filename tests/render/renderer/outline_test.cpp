@@ -103,7 +103,7 @@ float line_share(const std::vector<Change>& changes, int x, int y) {
 
 class Lines : public testing::TestWithParam<float> {};
 
-TEST_P(Lines, CoverWhatIsNearAChange) {
+TEST_P(Lines, CoverPixelsNearAChange) {
   Scene scene = balls(90, 70);  // more than a block
   const Image plain = render(scene);
   scene.image.outline = GetParam();
@@ -122,7 +122,7 @@ TEST_P(Lines, CoverWhatIsNearAChange) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, Lines, testing::Values(0.5f, 1.0f, 1.75f, 3.0f, 7.0f));
 
-TEST(Outline, DoesNotDependOnThreadsTilesCropsOrInstructionSets) {
+TEST(Outline, IgnoresThreadsTilesCropsAndIsa) {
   Scene scene = mixed_scene(150, 80);
   scene.image.outline = 2.5f;
   RenderOptions options = options_of(scene);
@@ -173,7 +173,7 @@ TEST(Outline, RaisesAlpha) {
   EXPECT_GT(raised, 50);
 }
 
-TEST(Outline, LeavesSpecksAsTheyAre) {
+TEST(Outline, LeavesSpecksUnchanged) {
   Scene scene = empty_scene(60, 50);
   const auto matte = add_material(scene, Matte{});
   for (int i = 0; i < 400; ++i) {
@@ -185,7 +185,7 @@ TEST(Outline, LeavesSpecksAsTheyAre) {
   EXPECT_EQ(differing_pixels(render(scene), plain), 0);
 }
 
-TEST(Outline, TakesCamerasThatSeeNothingInTheCorners) {
+TEST(Outline, WorksWhereFisheyeCornersAreEmpty) {
   Scene scene = balls(200, 200);
   FisheyeCamera fisheye;
   fisheye.pose = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}};
@@ -196,7 +196,7 @@ TEST(Outline, TakesCamerasThatSeeNothingInTheCorners) {
   EXPECT_GT(differing_pixels(render(scene), plain), 10);
 }
 
-TEST(Outline, OfAWrongWidthIsRefused) {
+TEST(Outline, RefusesWrongWidths) {
   RenderOptions options;
   for (const float width : {-1.0f, 101.0f, std::nanf(""), HUGE_VALF}) {
     options.outline = width;

@@ -92,7 +92,7 @@ TEST(OwnColors, AreTheAlbedo) {
   }
 }
 
-TEST(OwnColors, WithAMaterialThatIsNotThereAreRefused) {
+TEST(OwnColors, WithUnknownMaterialsAreRefused) {
   Scene scene = mixed_scene(8, 8);
   scene.spheres[0].material = MaterialRef::colored(120, {1, 2, 3});
   const Status bad = validate(scene);

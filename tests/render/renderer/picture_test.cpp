@@ -42,7 +42,7 @@ TEST(Picture, IsTheSameFromTheReferencePath) {
   EXPECT_EQ(differing_pixels(render(scene(), options), expected()), 0);
 }
 
-TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
+TEST(Picture, IgnoresTheThreadCount) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     RenderOptions options = options_of(scene());
     options.threads = threads;
@@ -50,7 +50,7 @@ TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST(Picture, IsTheSameForAnyTileSizeAndOrder) {
+TEST(Picture, IgnoresTileSizeAndOrder) {
   for (const int tile : {1, 2, 3, 8, 15, 16, 31, 64}) {
     for (const PixelOrder order :
          {PixelOrder::rows, PixelOrder::tiles, PixelOrder::progressive, PixelOrder::frameless}) {
@@ -63,7 +63,7 @@ TEST(Picture, IsTheSameForAnyTileSizeAndOrder) {
   }
 }
 
-TEST(Picture, ACropIsThatPartOfTheFrame) {
+TEST(Picture, CropsEqualTheFramesPart) {
   for (const PixelRect& crop : {PixelRect{0, 0, 53, 37}, PixelRect{17, 5, 18, 6},
                                 PixelRect{10, 11, 40, 29}, PixelRect{52, 0, 53, 37}}) {
     RenderOptions options = options_of(scene());
@@ -88,7 +88,7 @@ TEST(Picture, TheSkyIsOnTop) {
   for (int y = 1; y < 8; ++y) EXPECT_LT(image.at(0, y).b, image.at(0, y - 1).b);
 }
 
-TEST(Picture, RightIsRight) {
+TEST(Picture, XGrowsToTheRight) {
   Scene right = empty_scene(9, 3);
   right.spheres = {{{1.5f, 0, 0}, 0.5f, add_material(right, Emissive{})}};
   const Image image = render(right);
@@ -98,7 +98,7 @@ TEST(Picture, RightIsRight) {
   EXPECT_GT(right_half, 0);
 }
 
-TEST(Picture, PixelCentresAreTheSlides) {
+TEST(Picture, PixelCentresAreTheLectures) {
   // 4 x 4 pixels over -1..1, with centres at -.75, -.25, .25, .75 on a film at distance 1. Tiny
   // lamps are exactly there.
   Scene slide = empty_scene(4, 4);
@@ -128,7 +128,7 @@ TEST(Picture, WithoutCameraAndLightIsNotBlack) {
   EXPECT_GT(lit, 200);
 }
 
-TEST(Picture, OfNothingIsTheBackground) {
+TEST(Picture, OfAnEmptySceneIsTheBackground) {
   Scene nothing;
   nothing.image = {5, 4, 2};
   nothing.background = ConstantBackground{{0.25f, 0.5f, 2}};
@@ -137,7 +137,7 @@ TEST(Picture, OfNothingIsTheBackground) {
   for (const Color& c : image.pixels) EXPECT_EQ(c, (Color{0.25f, 0.5f, 2}));
 }
 
-TEST(Picture, ManySamplesAndTheirSeedSmoothAnEdge) {
+TEST(Picture, ManySamplesSmoothAnEdge) {
   Scene edge = empty_scene(9, 9);
   edge.spheres = {{{0, 0, 0}, 1, add_material(edge, Emissive{})}};
   RenderOptions options = options_of(edge);

@@ -109,7 +109,7 @@ TEST(RayColumns, GiveTheHitsOfTheList) {
   }
 }
 
-TEST(RayColumns, OneValueServesAllRays) {
+TEST(RayColumns, OneValueCanServeAllRays) {
   Tracer tracer = Tracer::create(cloud()).value();
   const double org[] = {0, 0, 20};
   const float dir[] = {0, 0, -1}, far = inf, near = 0;
@@ -146,7 +146,7 @@ TEST(RayColumns, ZeroIsSubtractedInDouble) {
   EXPECT_EQ(id, hit.id);
 }
 
-TEST(RayColumns, RoomForTheResultsMustBeThere) {
+TEST(RayColumns, RefuseResultsOfAnotherSize) {
   Tracer tracer = Tracer::create(cloud()).value();
   std::uint8_t one = 0;
   const RayColumns columns{3, {}, {}, {}, {}, {}};

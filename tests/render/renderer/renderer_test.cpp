@@ -101,7 +101,7 @@ TEST(Renderer, BandsAreThePictureForAnyThreads) {
   }
 }
 
-TEST(Renderer, WhatTakesBandsEndsTheRendering) {
+TEST(Renderer, BandCallbacksCanEndTheRendering) {
   const Scene scene = mixed_scene(64, 640);
   RenderOptions options = options_of(scene);
   options.tile = 16;
@@ -133,7 +133,7 @@ TEST(Renderer, RefusesAPictureLargerThanTheMemory) {
   EXPECT_TRUE(Renderer::create(scene, part));
 }
 
-TEST(Renderer, RefusesAnInvalidSceneAndAnUnknownIsa) {
+TEST(Renderer, RefusesInvalidScenesAndUnknownIsas) {
   Scene scene = mixed_scene(8, 8);
   RenderOptions options = options_of(scene);
   options.isa = "mmx";
@@ -157,7 +157,7 @@ TEST(Renderer, PassesAddUpToThePicture) {
   EXPECT_EQ(differing_pixels(film.to_image(), render(scene)), 0);
 }
 
-TEST(Renderer, RefusesAForeignFilmAndAPassBeyondTheLastSample) {
+TEST(Renderer, RefusesForeignFilmsAndExcessPasses) {
   const Scene scene = mixed_scene(8, 8);
   auto renderer = Renderer::create(scene, options_of(scene));
   Film film({0, 0, 8, 8}), foreign({0, 0, 8, 7});
@@ -167,7 +167,7 @@ TEST(Renderer, RefusesAForeignFilmAndAPassBeyondTheLastSample) {
   EXPECT_FALSE(renderer.value().render_pass(film, 1));
 }
 
-TEST(Renderer, ACancelledPassGoesOnWhereItStopped) {
+TEST(Renderer, CancelledPassesResumeWhereTheyStopped) {
   Scene scene = mixed_scene(64, 64);
   scene.image.spp = 2;
   std::atomic<bool> cancel{false};
@@ -189,7 +189,7 @@ TEST(Renderer, ACancelledPassGoesOnWhereItStopped) {
   EXPECT_EQ(differing_pixels(film.to_image(), render(scene)), 0);
 }
 
-TEST(Renderer, ACancelledPictureIsAnError) {
+TEST(Renderer, CancellingIsAnError) {
   const Scene scene = mixed_scene(8, 8);
   const std::atomic<bool> cancel{true};
   RenderOptions options = options_of(scene);
@@ -199,7 +199,7 @@ TEST(Renderer, ACancelledPictureIsAnError) {
   EXPECT_FALSE(renderer.value().render());
 }
 
-TEST(Renderer, AnExceptionInTheProgressCallbackIsADiagnostic) {
+TEST(Renderer, ExceptionsOfProgressCallbacksBecomeDiagnostics) {
   const Scene scene = mixed_scene(8, 8);
   RenderOptions options = options_of(scene);
   options.threads = 1;
@@ -210,7 +210,7 @@ TEST(Renderer, AnExceptionInTheProgressCallbackIsADiagnostic) {
   EXPECT_EQ(image.error().message, "out of memory");
 }
 
-TEST(Renderer, SoIsOneThatComesAtTheEnd) {
+TEST(Renderer, ExceptionsAfterTheLastBlockBecomeDiagnostics) {
   const Scene scene = mixed_scene(8, 8);
   RenderOptions options = options_of(scene);
   options.threads = 1;
@@ -272,7 +272,7 @@ TEST(Renderer, KeepsLiveProgressUpToDate) {
   }
 }
 
-TEST(LiveProgress, KnowsWhatIsBeingWorkedOn) {
+TEST(LiveProgress, NamesTheCurrentWork) {
   LiveProgress live;
   EXPECT_EQ(live.read().share, 0);
   live.begin_pass(4, {.begin = 0.5, .end = 1, .rays = 100});
@@ -288,7 +288,7 @@ TEST(LiveProgress, KnowsWhatIsBeingWorkedOn) {
   EXPECT_EQ(live.ended(), 1u);
 }
 
-TEST(Renderer, KnowsWhatRanAndHowMuch) {
+TEST(Renderer, ReportsIsaAndRayCounts) {
   const Scene scene = mixed_scene(20, 10);
   RenderOptions options = options_of(scene);
   options.isa = "scalar";
@@ -313,7 +313,7 @@ TEST(Renderer, PassesTheNotesOn) {
   EXPECT_EQ(Renderer::create(scene, options_of(scene)).value().notes().size(), 1u);
 }
 
-TEST(Renderer, TakesTheSpheresAndKeepsThePlanesOfASceneHandedOver) {
+TEST(Renderer, TakesTheSpheresOfMovedScenes) {
   Scene scene = mixed_scene(8, 8);
   const std::vector<Sphere> spheres = scene.spheres;
   const Plane* const plane = scene.planes.data();

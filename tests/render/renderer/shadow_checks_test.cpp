@@ -62,7 +62,7 @@ struct CloseUp {
 constexpr CloseUp close_ups[] = {
     {0.5f, 40}, {0.05f, 5}, {0.005f, 0.5f}, {5e-4f, 0.05f}, {5e-5f, 5e-3f}};
 
-TEST_P(ShadowChecks, AroundTheContactOfABallWithAPlane) {
+TEST_P(ShadowChecks, AroundABallOnAPlane) {
   for (const CloseUp& view : close_ups) {
     const Vec3f lights[] = {{3, 4, 2}, {0.5f, view.eye_height, 4}, {1, -2, 3}, {-2, 0.01f, 0.5f}};
     for (const Vec3f& light : lights) {
@@ -137,7 +137,7 @@ Scene floor_scene(const Vec3f& up, const Vec3f& light) {
   return scene;
 }
 
-TEST_P(ShadowChecks, ALightOnAPlane) {
+TEST_P(ShadowChecks, LightOnAPlane) {
   for (const Vec3f& light : {Vec3f{1, 0, 1}, {-0.7f, 0, 2.3f}, {3.1f, 0, -4}})
     expect_right_beside_the_light(floor_scene({0, 1, 0}, light), GetParam());
   for (const Vec3f& light : {Vec3f{4, -3, 1}, {-4, 3, 2.3f}, {0.5f, -0.375f, -4}, {2, -1.5f, 3}})
@@ -149,7 +149,7 @@ constexpr Vec3f whole_lengths[] = {{1, 2, 2}, {2, 3, 6}, {4, 4, 7}, {6, 6, 7}, {
 
 float radius_of(const Vec3f& place) { return static_cast<float>(length(vec_cast<double>(place))); }
 
-TEST_P(ShadowChecks, ALightOnASphereSeenFromOutside) {
+TEST_P(ShadowChecks, LightOnASphereFromOutside) {
   for (const Vec3f& light : whole_lengths) {
     Scene scene = matte_scene(128, 96);
     const float r = radius_of(light);
@@ -162,7 +162,7 @@ TEST_P(ShadowChecks, ALightOnASphereSeenFromOutside) {
   }
 }
 
-TEST_P(ShadowChecks, ALightOnASphereSeenFromInside) {
+TEST_P(ShadowChecks, LightOnASphereFromInside) {
   for (const Vec3f& light : whole_lengths) {
     Scene scene = matte_scene(128, 96);
     const float r = radius_of(light);

@@ -89,7 +89,7 @@ std::vector<std::string> isa_names() {
 INSTANTIATE_TEST_SUITE_P(Isas, TracerIsa, testing::ValuesIn(isa_names()),
                          [](const auto& one) { return one.param; });
 
-TEST_P(TracerIsa, HitsAreThoseOfTheScalarPathBitForBit) {
+TEST_P(TracerIsa, HitsEqualTheScalarPath) {
   const Scene scene = cloud_and_planes();
   const std::vector<Ray> rays = ray_cloud(5003);
   const auto expected = reference_hits(scene, rays);
@@ -102,7 +102,7 @@ TEST_P(TracerIsa, HitsAreThoseOfTheScalarPathBitForBit) {
   }
 }
 
-TEST_P(TracerIsa, AnyTellsWhatClosestTells) {
+TEST_P(TracerIsa, AnyHitAgreesWithClosestHit) {
   const Scene scene = cloud_and_planes();
   const std::vector<Ray> rays = ray_cloud(5003);
   for (const Solver solver : solvers) {
@@ -181,7 +181,7 @@ std::vector<Ray> spoilt_rays() {
   return rays;
 }
 
-TEST_P(TracerIsa, NanInfAndNoDirectionAreMissesAndHarmNoOther) {
+TEST_P(TracerIsa, InvalidRaysMissAndHarmNoOthers) {
   const Scene scene = objects({{{0, 0, 0}, 1}}, {{{0, 0, -3}, {0, 0, 1}}});
   std::vector<Ray> rays;
   for (const Ray& bad : spoilt_rays()) {
@@ -223,7 +223,7 @@ TEST(Tracer, NormalsAreTheViewsNormals) {
   }
 }
 
-TEST(Tracer, NormalsAreOfUnitLengthAndTurnedAgainstTheRay) {
+TEST(Tracer, UnitNormalsFaceTheRay) {
   const Scene scene = cloud_and_planes();
   const std::vector<Ray> rays = ray_cloud(20000);
   const auto hits = closest(scene, rays);
@@ -239,7 +239,7 @@ TEST(Tracer, NormalsAreOfUnitLengthAndTurnedAgainstTheRay) {
   }
 }
 
-TEST(Tracer, BoundsChooseTheRootAndTheNormalFollows) {
+TEST(Tracer, BoundsChooseRootAndNormal) {
   const Scene scene = objects({{{0, 0, 0}, 1}});
   const auto hit = [&](double z, float tmin) {
     return closest(scene, bounded({0, 0, z}, {0, 0, -1}, tmin));
@@ -258,7 +258,7 @@ TEST(Tracer, BoundsChooseTheRootAndTheNormalFollows) {
   EXPECT_EQ(hit(5, 6).id, no_primitive);  // t = tmin is not in range
 }
 
-TEST(Tracer, SpheresComeBeforePlanesAndEqualsGoToTheLowerId) {
+TEST(Tracer, TiesGoToTheLowerId) {
   const Scene scene = objects({{{0, 0, 0}, 1}, {{0, 0, 0}, 1}, {{9, 0, 0}, 1}},
                               {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, -2}, {0, 0, 3}}});
   EXPECT_EQ(closest(scene, Ray{{0, 0, 5}, {0, 0, -1}}).id, 0);  // two spheres and a plane at t = 4
@@ -271,7 +271,7 @@ TEST(Tracer, SpheresComeBeforePlanesAndEqualsGoToTheLowerId) {
   EXPECT_EQ(back.normal.z, -1);
 }
 
-TEST(Tracer, CutsDoNotShow) {
+TEST(Tracer, PartitionsOfRaysDoNotMatter) {
   const Scene scene = cloud_and_planes();
   const std::vector<Ray> rays = ray_cloud(5003);
   Tracer tracer = make_tracer(scene);
@@ -292,14 +292,14 @@ TEST(Tracer, NeedsNeitherCameraNorLightNorObjects) {
   EXPECT_EQ(closest(objects({}), Ray{{0, 0, 0}, {1, 0, 0}}).id, no_primitive);
 }
 
-TEST(Tracer, NoRaysAreNoHits) {
+TEST(Tracer, ZeroRaysGiveZeroHits) {
   Tracer tracer = make_tracer(cloud_and_planes());
   EXPECT_FALSE(tracer.closest({}, {}));
   EXPECT_FALSE(tracer.any({}, {}));
   EXPECT_EQ(tracer.statistics().rays, 0u);
 }
 
-TEST(Tracer, TakesASceneThatIsHandedOver) {
+TEST(Tracer, TakesMovedScenes) {
   const Scene scene = cloud_and_planes();
   Tracer copying = make_tracer(scene);
   Tracer keeping = Tracer::create(Scene(scene)).value();
@@ -312,7 +312,7 @@ TEST(Tracer, TakesASceneThatIsHandedOver) {
   }
 }
 
-TEST(Tracer, RefusesWhatIsInvalid) {
+TEST(Tracer, RefusesInvalidScenes) {
   Scene scene = cloud_and_planes();
   TraceOptions options;
   options.isa = "mmx";
@@ -332,7 +332,7 @@ TEST(Tracer, RefusesAnotherNumberOfResults) {
   EXPECT_EQ(tracer.any(rays, met)->message, "there are 3 rays, but room for 4 results");
 }
 
-TEST(Tracer, CancelledItIsAnError) {
+TEST(Tracer, CancellingIsAnError) {
   std::atomic<bool> cancel{true};
   TraceOptions options;
   options.cancel = &cancel;

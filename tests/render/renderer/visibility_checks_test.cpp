@@ -187,7 +187,7 @@ TEST_P(WhatIsSeen, TheNearestOfShells) {
 }
 
 // From between two shells one is visible below and the other above. A plane cuts them open.
-TEST_P(WhatIsSeen, ShellsFromBetweenThemAndCutOpen) {
+TEST_P(WhatIsSeen, ShellsFromInsideAndCutOpen) {
   Scene between = shell_scene();
   between.camera = pinhole({0, 1.0001f, 0}, {1, 1.0001f, 0}, 60);
   const CheckedPicture gap = render_checked(between, GetParam());

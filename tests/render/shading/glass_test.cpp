@@ -82,7 +82,7 @@ struct Glassy {
   }
 };
 
-TEST(Glass, RefractsAMillionRaysThroughASphereBySnellsLaw) {
+TEST(Glass, SphereRefractionObeysSnellsLaw) {
   CaseRandom random(101);
   double worst = 0;
   for (const float ior : {1.33f, 1.5f, 2.4f, 0.75f}) {
@@ -131,7 +131,7 @@ TEST(Glass, SplitsTheLightByFresnelsEquations) {
   }
 }
 
-TEST(Glass, ReflectsTotallyWhatCannotEnter) {
+TEST(Glass, ReflectsTotallyBeyondTheCriticalAngle) {
   // A bubble: if the impact parameter is above ior radii, nothing goes in.
   CaseRandom random(103);
   const float ior = 0.75f;
@@ -155,7 +155,7 @@ TEST(Glass, ReflectsTotallyWhatCannotEnter) {
 /// Under a white sky a sphere of clear glass sends back all light except what is still inside after
 /// the last bounce: F + (1 - F)^2 (1 + F + F^2 + ..), because every chord has the same angle to the
 /// normal.
-TEST(Glass, IsInvisibleUnderAWhiteSkyButForTheLastBounce) {
+TEST(Glass, LosesOnlyTheLastBounceUnderWhite) {
   Scene scene = empty_scene(48, 48);
   scene.background = ConstantBackground{{1, 1, 1}};
   scene.camera = pinhole({0, 0, 5}, {0, 0, 0}, 25);

@@ -36,7 +36,7 @@ Bounce bounce_by_chance(const LobeSampler& lobes, std::uint32_t i) {
 
 /// In white light the mean weight of bounces is the light that the lobes send on: a quadrature of
 /// the diffuse lobe and the highlight, plus the weights of the reflected and the refracted ray.
-TEST(LobeSampler, BouncesAreWorthWhatTheLobesSendOn) {
+TEST(LobeSampler, MeanBounceWeightEqualsTheLobesAlbedo) {
   for (const Material& material : materials) {
     for (const double angle : {0.1, 0.8, 1.4}) {
       const FlatMaterial flat = flatten_for_paths(material);

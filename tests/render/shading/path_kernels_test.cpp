@@ -250,10 +250,10 @@ void PathKernels::check(const Options& options) {
       bounces);
 }
 
-TEST_P(PathKernels, PathsGoOnAsTheScalarOnesDo) { check({}); }
-TEST_P(PathKernels, AmongManyLights) { check({.lights = 40}); }
-TEST_P(PathKernels, WithALightThatIsAlwaysPicked) { check({.lights = 1, .weighs = false}); }
-TEST_P(PathKernels, UnderTheSkyAndByRoulette) {
+TEST_P(PathKernels, PathsContinueAsTheScalarOnes) { check({}); }
+TEST_P(PathKernels, ManyLightsContinueAsTheScalarOnes) { check({.lights = 40}); }
+TEST_P(PathKernels, SingleLightsContinueAsTheScalarOnes) { check({.lights = 1, .weighs = false}); }
+TEST_P(PathKernels, SkyAndRouletteContinueAsScalar) {
   check({.environment_share = 0.5, .roulette = true});
 }
 
@@ -279,7 +279,7 @@ Color seen_by(const Ray& ray, const Hit& hit, double density, const SeenLight& s
   return sum;
 }
 
-TEST_P(PathKernels, RaysSeeWhatTheScalarOnesDo) {
+TEST_P(PathKernels, EmittedLightEqualsTheScalarPaths) {
   make_rays();
   const std::vector<LightSphere> lights = some_lights(random, 9);
   const GradientBackground gradient{{0.1f, 0.2f, 0.3f}, {0.9f, 0.7f, 0.5f}, {1, 2, -0.5f}};

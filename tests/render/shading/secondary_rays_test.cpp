@@ -139,7 +139,7 @@ void check_sphere(CaseRandom& random, const Place& place, Count& count) {
   count.rays += first.inward.size() + second.inward.size();
 }
 
-TEST(SecondaryRays, NeitherMeetTheirSurfaceAgainNorGetLost) {
+TEST(SecondaryRays, NeverHitTheirSurfaceOrGetLost) {
   const std::size_t spheres = surface_points() / directions;
   std::size_t all_rays = 0;
   for (const Place& place : places) {
@@ -197,7 +197,7 @@ const Room rooms[] = {
 };
 
 /// Rays that bounce about: each goes on from its hit in a random direction of that side.
-TEST(SecondaryRays, NoneEscapesFromAClosedRoom) {
+TEST(SecondaryRays, NeverEscapeFromAClosedRoom) {
   constexpr std::size_t walkers = 2000;
   const std::size_t steps = 10 * surface_points() / walkers / std::size(rooms) + 1;
   const KernelTable& kernels = *select_kernels("auto").value();

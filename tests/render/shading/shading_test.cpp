@@ -89,7 +89,7 @@ TEST(Scatter, SharesTheLightOfADielectric) {
   EXPECT_TRUE(is_black(total.refraction));
 }
 
-TEST(Scatter, TotalReflectionGivesTheTransmissionToTheMirror) {
+TEST(Scatter, TotalReflectionAddsTransmissionToReflection) {
   const FlatMaterial phong = flatten(Phong{gray(1), 0, 1, 0.25f, 0, 0.5f, 1.5f}, {});
   const Scatter entering = scatter(phong, seen_at(60 * degree));
   EXPECT_EQ(entering.reflection, gray(0.25f));
@@ -100,7 +100,7 @@ TEST(Scatter, TotalReflectionGivesTheTransmissionToTheMirror) {
   EXPECT_TRUE(is_black(total.refraction));
 }
 
-TEST(Scatter, OfMetalAndMatte) {
+TEST(Scatter, MetalReflectsAndMatteAbsorbs) {
   EXPECT_EQ(scatter(flatten(Metal{{0.5f, 0.25f, 1}}, {}), seen_at(1)).reflection,
             (Color{0.5f, 0.25f, 1}));
   const Scatter none = scatter(flatten(Matte{}, {}), seen_at(1));
@@ -160,7 +160,7 @@ TEST(Lights, HaveTheirTargetAndFalloff) {
   EXPECT_EQ(shadow_coherence(sun), Coherence::common_direction);
 }
 
-TEST(Lights, ASphereIsAPointAtItsCentreAsBrightAsTheWhole) {
+TEST(Lights, SphereLightsEqualPointLightsInWhitted) {
   const SphereLight light{{0, 4, 0}, 0.5f, {8, 16, 24}};
   const ShadowTarget at = shadow_target(light);
   EXPECT_EQ((Vec3d{at.target[0], at.target[1], at.target[2]}), (Vec3d{0, 4, 0}));
@@ -169,7 +169,7 @@ TEST(Lights, ASphereIsAPointAtItsCentreAsBrightAsTheWhole) {
   EXPECT_EQ(shadow_coherence(light), Coherence::common_end);
 }
 
-TEST(Background, IsAColourOrAGradientAlongUp) {
+TEST(Background, IsConstantOrAGradientAlongUp) {
   EXPECT_EQ(background_radiance(ConstantBackground{{1, 2, 3}}, {0, 1, 0}), (Color{1, 2, 3}));
   const GradientBackground sky{{0, 0, 4}, {2, 0, 0}, {0, 5, 0}};
   EXPECT_EQ(background_radiance(sky, {0, 9, 0}), (Color{2, 0, 0}));

@@ -48,14 +48,14 @@ TEST(ShadowEpsilon, WithoutARemedyManyPixelsShadowThemselves) {
   }
 }
 
-TEST(ShadowEpsilon, OneThatSuitsTheSceneHelpsAndDoesNotWhereItIsScaled) {
+TEST(ShadowEpsilon, WorksForOneScaleOnly) {
   const Scene scene = ball_scene(1), large = ball_scene(10'000);
   constexpr float epsilon = 1e-3F;
   EXPECT_LT(wrong_pixels(with_epsilon(scene, epsilon), with_epsilon(scene, {})).dark, 8);
   EXPECT_GT(wrong_pixels(with_epsilon(large, epsilon), with_epsilon(large, {})).dark, 96 * 72 / 20);
 }
 
-TEST(ShadowEpsilon, ALargeOneLetsLightThrough) {
+TEST(ShadowEpsilon, LargeValuesLetLightThrough) {
   const Scene scene = ball_scene(1);
   const Wrong wrong = wrong_pixels(with_epsilon(scene, 1.5F), with_epsilon(scene, {}));
   EXPECT_GT(wrong.bright, 50);

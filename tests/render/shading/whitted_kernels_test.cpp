@@ -123,8 +123,8 @@ void WhittedKernels::check_scattering(bool sparse) {
       expected);
 }
 
-TEST_P(WhittedKernels, RaysScatterAsTheScalarOnesDo) { check_scattering(false); }
-TEST_P(WhittedKernels, AlsoWhereFewDo) { check_scattering(true); }
+TEST_P(WhittedKernels, RaysScatterAsTheScalarOnes) { check_scattering(false); }
+TEST_P(WhittedKernels, FewRaysScatterAsTheScalarOnes) { check_scattering(true); }
 
 void WhittedKernels::check_light(const Light& light, Method method) {
   make_rays(method);
@@ -177,18 +177,18 @@ TEST_P(WhittedKernels, PointsGetTheLightOfAPoint) {
   check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::whitted);
   check_light(PointLight{{-1, 2, 0.5f}, {30, 20, 10}, Falloff::inverse_square}, Method::whitted);
 }
-TEST_P(WhittedKernels, OfTheSun) {
+TEST_P(WhittedKernels, PointsGetTheLightOfTheSun) {
   check_light(DirectionalLight{{1, -2, 0.5f}, {3, 2, 1}}, Method::whitted);
 }
-TEST_P(WhittedKernels, OfABall) {
+TEST_P(WhittedKernels, PointsGetTheLightOfABall) {
   check_light(SphereLight{{0, 1, 1}, 0.5f, {3, 2, 1}}, Method::whitted);
 }
-TEST_P(WhittedKernels, AndWithHighlightsOfPaths) {
+TEST_P(WhittedKernels, PointsGetTheHighlightsOfPaths) {
   check_light(PointLight{{1, 2, 0.5f}, {3, 2, 1}, Falloff::none}, Method::path);
 }
 
 /// As where a whole block of pixels sees the light: rays in rows, many with one material.
-TEST_P(WhittedKernels, PointsInARowGetTheirLight) {
+TEST_P(WhittedKernels, PointsInARowGetLight) {
   make_rays(Method::whitted);
   std::size_t one = 0;
   while (!takes_light(one)) ++one;
@@ -209,7 +209,7 @@ TEST_P(WhittedKernels, PointsInARowGetTheirLight) {
   check_added(DirectionalLight{{1, -2, 0.5f}, {3, 2, 1}}, size);
 }
 
-TEST_P(WhittedKernels, SamplesGetTheLightOfTheirRaysInOrder) {
+TEST_P(WhittedKernels, SamplesSumTheirRaysInOrder) {
   constexpr std::size_t samples = 20;
   constexpr float inf = std::numeric_limits<float>::infinity();
   ColorBuffer throughput, radiance;

@@ -30,7 +30,7 @@ TEST(BlockDealer, DealsEachBlockOnce) {
   }
 }
 
-TEST(BlockDealer, PortionsShrinkToOneBlockForEachThread) {
+TEST(BlockDealer, PortionsShrinkToOneBlockPerThread) {
   BlockDealer dealer(numbers(10'000));
   std::size_t before = 10'000, portions = 0;
   while (dealer.left() > 0) {
@@ -55,7 +55,7 @@ TEST(BlockDealer, APortionIsSpreadOverThePicture) {
   }
 }
 
-TEST(BlockDealer, AWorkerHasTheNextPortionBeforeItNeedsIt) {
+TEST(BlockDealer, WorkersHoldTheirNextPortionEarly) {
   BlockDealer dealer(numbers(10));
   EXPECT_TRUE(dealer.wants(0, 0, 1, 4));
   EXPECT_TRUE(dealer.wants(40, 40, 1, 4));   // it has the first portion only
@@ -64,7 +64,7 @@ TEST(BlockDealer, AWorkerHasTheNextPortionBeforeItNeedsIt) {
   EXPECT_TRUE(dealer.wants(1, 1, 1, 4));
 }
 
-TEST(BlockDealer, TheLastBlocksGoToWhoHasNone) {
+TEST(BlockDealer, IdleWorkersGetTheLastBlocks) {
   BlockDealer dealer(numbers(4));
   EXPECT_FALSE(dealer.wants(1, 1, 1, 4));
   EXPECT_TRUE(dealer.wants(0, 1, 1, 4));

@@ -23,7 +23,7 @@ TEST(MpiLauncher, IsFoundByItsVariables) {
   EXPECT_EQ(launcher({{"PMI_RANK", "1"}, {"SLURM_STEP_NUM_TASKS", "16"}}), "MPICH");
 }
 
-TEST(MpiLauncher, OneProcessOrNoLauncherIsNone) {
+TEST(MpiLauncher, SingleProcessesHaveNoLauncher) {
   EXPECT_EQ(launcher({}), "");
   EXPECT_EQ(launcher({{"SLURM_PROCID", "0"}, {"SLURM_NTASKS", "16"}}), "");
   EXPECT_EQ(launcher({{"OMPI_COMM_WORLD_SIZE", "1"}}), "");

@@ -159,7 +159,7 @@ TEST_F(TeamTest, ALeaderThatFailsEndsAll) {
   EXPECT_EQ(codes, std::vector<int>(3, 3));
 }
 
-TEST_F(TeamTest, ASignalOnAnyRankReachesTheLeader) {
+TEST_F(TeamTest, SignalsOnAnyRankReachTheLeader) {
   const auto codes = run(3, [&](Team& team, int rank) {
     TeamPicture one = picture(0, 1'000'000);
     if (rank == 0) {
@@ -176,7 +176,7 @@ TEST_F(TeamTest, ASignalOnAnyRankReachesTheLeader) {
 }
 
 /// The rank never says anything, and the others are told by the clock.
-TEST_F(TeamTest, ARankThatGivesNoSignOfLifeIsNamedAndAllAreEnded) {
+TEST_F(TeamTest, SilentRanksAreNamedAndEndAll) {
   const auto mail = std::make_shared<MemoryMail>(2);
   std::atomic<bool> lost{false};
   std::string why;
@@ -193,7 +193,7 @@ TEST_F(TeamTest, ARankThatGivesNoSignOfLifeIsNamedAndAllAreEnded) {
   EXPECT_TRUE(mail->ended);
 }
 
-TEST_F(TeamTest, ARankWhoseProcessIsGoneIsNamed) {
+TEST_F(TeamTest, DeadRanksAreNamed) {
   const auto mail = std::make_shared<MemoryMail>(2);
   std::atomic<bool> lost{false};
   std::string why;
@@ -220,7 +220,7 @@ TEST_F(TeamTest, NoPostIsAnError) {
   EXPECT_EQ(team.error().message, "no module");
 }
 
-TEST(LetterReader, ALetterThatIsTooShortIsNotGood) {
+TEST(LetterReader, RefusesLettersThatAreTooShort) {
   LetterWriter writer(LetterKind::result);
   writer.add(7).add_text("part").add_list({1, 2, 3});
   const std::string whole = writer.take();

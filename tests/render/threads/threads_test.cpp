@@ -34,7 +34,7 @@ std::set<pid_t> run_together(std::size_t count) {
   return {names.begin(), names.end()};
 }
 
-TEST(Threads, OfOneLoopServeTheNext) {
+TEST(Threads, AreReusedByTheNextLoop) {
   const std::size_t count = WaitingThread::most_waiting();
   Threads::prepare(count);
   const std::set<pid_t> first = run_together(count);
@@ -43,7 +43,7 @@ TEST(Threads, OfOneLoopServeTheNext) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(run_together(count), first);
 }
 
-TEST(Threads, BeyondThoseOfTheHardwareEnd) {
+TEST(Threads, BeyondTheHardwaresNumberEnd) {
   const std::size_t count = WaitingThread::most_waiting() + 3;
   const std::set<pid_t> first = run_together(count);
   EXPECT_EQ(first.size(), count);
@@ -54,7 +54,7 @@ TEST(Threads, BeyondThoseOfTheHardwareEnd) {
   EXPECT_EQ(both.size(), WaitingThread::most_waiting());
 }
 
-TEST(Threads, OfSeveralCallersAtOnceAreDifferentOnes) {
+TEST(Threads, ConcurrentCallersGetDifferentThreads) {
   std::atomic<int> calls{0};
   const auto use_often = [&calls] {
     for (int i = 0; i < 200; ++i) {
@@ -74,7 +74,7 @@ TEST(Threads, OfSeveralCallersAtOnceAreDifferentOnes) {
   EXPECT_EQ(calls, 600);
 }
 
-TEST(Threads, WithLessStackThanIsWantedNowDoNotServe) {
+TEST(Threads, LargerStacksNeedNewThreads) {
   const std::set<pid_t> small = run_together(1);
   pthread_attr_t saved{}, larger{};
   pthread_getattr_default_np(&saved);
@@ -101,14 +101,14 @@ TEST(Threads, WithLessStackThanIsWantedNowDoNotServe) {
   EXPECT_EQ(small.count(name), 0u);
 }
 
-TEST(Threads, ForOthersAreCountedBesideThoseThatWait) {
+TEST(Threads, WaitingThreadsAreNotCountedTwice) {
   Threads::prepare(WaitingThread::most_waiting());
   const std::set<pid_t> before = run_together(WaitingThread::most_waiting());
   EXPECT_TRUE(can_start_threads(5));
   EXPECT_EQ(run_together(WaitingThread::most_waiting()), before);
 }
 
-TEST(Threads, OfAForkedChildAreItsOwn) {
+TEST(Threads, ForkedChildrenGetTheirOwn) {
   Threads::prepare(WaitingThread::most_waiting());
   const pid_t child = fork();
   if (child == 0) {

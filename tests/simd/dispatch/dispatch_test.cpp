@@ -63,7 +63,7 @@ TEST_F(Dispatch, TheCallersNameBeatsTheEnvironment) {
   EXPECT_EQ(select_kernels("scalar").value()->isa, Isa::scalar);
 }
 
-TEST_F(Dispatch, UnknownNamesAreErrorsThatSayWhatWouldDo) {
+TEST_F(Dispatch, UnknownNamesGiveErrorsListingValidNames) {
   for (const char* name : {"sse9", "", "AVX2", "avx2 "}) {
     const auto refused = select_kernels(name);
     ASSERT_FALSE(refused.ok()) << name;
@@ -75,7 +75,7 @@ TEST_F(Dispatch, UnknownNamesAreErrorsThatSayWhatWouldDo) {
   EXPECT_THAT(refused.error().message, HasSubstr("BOULE_ISA: 'sse9'"));
 }
 
-TEST_F(Dispatch, AnEmptyVariableIsNone) {
+TEST_F(Dispatch, EmptyEnvironmentVariableIsIgnored) {
   const KernelTable* const chosen = select_kernels("auto").value();
   force("");
   const auto kernels = select_kernels("auto");

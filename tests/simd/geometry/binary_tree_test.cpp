@@ -38,7 +38,7 @@ int depth_below(const BinaryTree& tree, std::uint32_t node) {
   return 1 + std::max(depth_below(tree, node + 1), depth_below(tree, tree.nodes[node].right));
 }
 
-TEST(BuildBox, HoldsItsSphereWhateverIsRounded) {
+TEST(BuildBox, HoldsItsSphereDespiteRounding) {
   CaseRandom random(61);
   for (int i = 0; i < 200'000; ++i) {
     const auto center = static_cast<float>(random.sign() * random.decade(-44, 18));
@@ -61,7 +61,7 @@ TEST(BuildBox, HoldsItsSphereWhateverIsRounded) {
   }
 }
 
-TEST(BinaryTree, PutsEverySphereIntoALeafInOrder) {
+TEST(BinaryTree, LeavesHoldEverySphereInOrder) {
   auto spheres = cloud(62, 1000);
   const BinaryTree tree = build(spheres);
   std::uint32_t leaves = 0, held = 0;
@@ -133,7 +133,7 @@ double area_of(const BvhNode& node, std::size_t k) {
 }
 
 /// Sums come in another order: compared to 1e-12.
-TEST(Collapse, IsTheBestOfAll) {
+TEST(Collapse, CostsAsLittleAsPossible) {
   for (std::uint64_t seed = 70; seed < 90; ++seed) {
     auto spheres = cloud(seed, 60 + 4 * static_cast<int>(seed - 70));
     const BinaryTree tree = build(spheres);

@@ -32,7 +32,7 @@ std::vector<Sphere> cloud(std::size_t count) {
   return spheres;
 }
 
-TEST(BvhBuilder, ACloudHasFullLeavesAndFewLevels) {
+TEST(BvhBuilder, CloudsGiveFullLeavesAndFewLevels) {
   for (const std::size_t count : {1U, 8U, 9U, 64U, 1000U, 50'000U}) {
     const auto spheres = cloud(count);
     const Bvh bvh = build_bvh(spheres);
@@ -46,7 +46,7 @@ TEST(BvhBuilder, ACloudHasFullLeavesAndFewLevels) {
   }
 }
 
-TEST(BvhBuilder, NothingIsNoTree) {
+TEST(BvhBuilder, ZeroSpheresGiveNoTree) {
   const Bvh bvh = build_bvh({});
   EXPECT_TRUE(bvh.nodes.empty());
   EXPECT_EQ(bvh.scanned, 0U);
@@ -109,7 +109,7 @@ std::vector<Hostile> hostile_sets() {
           })};
 }
 
-TEST(BvhBuilder, HostileSetsFillTheirLeaves) {
+TEST(BvhBuilder, HostileInputsFillTheirLeaves) {
   for (const Hostile& hostile : hostile_sets()) {
     SCOPED_TRACE(hostile.name);
     const Bvh bvh = build_bvh(hostile.spheres);
@@ -130,7 +130,7 @@ std::vector<std::int32_t> ids_of(const Bvh& bvh) {
 }
 
 /// However many there are, they cost what two cost.
-TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstTwoAreKept) {
+TEST(BvhBuilder, KeepsOnlyTwoOfManyCopies) {
   std::vector<Sphere> spheres = cloud(3000);
   spheres[5] = {{0.5F, 0.25F, -0.0F}, 0.01F, 0};
   spheres.resize(100'000, {{0.5F, 0.25F, 0.0F}, 0.01F, 1});
@@ -142,7 +142,7 @@ TEST(BvhBuilder, OfCopiesInOnePlaceTheFirstTwoAreKept) {
   EXPECT_LT(bvh.slots.size(), 8000U);
 }
 
-TEST(BvhBuilder, OfNothingButCopiesFewAreKept) {
+TEST(BvhBuilder, KeepsFewSpheresIfAllAreCopies) {
   for (const Sphere& sphere : {Sphere{{1, 2, 3}, 0.5F, 0}, Sphere{{2e18F, 0, 0}, 1, 0},
                                Sphere{{0, 0, 0}, std::numeric_limits<float>::quiet_NaN(), 0}}) {
     const std::vector<Sphere> spheres(100'000, sphere);
@@ -153,7 +153,7 @@ TEST(BvhBuilder, OfNothingButCopiesFewAreKept) {
   }
 }
 
-TEST(BvhBuilder, ALeafHoldsTheSpheresOfItsSlots) {
+TEST(BvhBuilder, LeavesHoldTheSpheresOfTheirSlots) {
   std::vector<Sphere> spheres = cloud(5000);
   spheres[7].radius = -0.01F;
   const Bvh bvh = build_bvh(spheres);
@@ -173,7 +173,7 @@ TEST(BvhBuilder, ALeafHoldsTheSpheresOfItsSlots) {
   }
 }
 
-TEST(BvhBuilder, GiantsAndWhatFitsNoBoxAreScanned) {
+TEST(BvhBuilder, ScansGiantsAndSpheresWithoutABox) {
   std::vector<Sphere> spheres = cloud(5000);
   spheres[77] = {{0, -1e6F, 0}, 1e6F, 0};
   spheres[78] = {{0, std::numeric_limits<float>::quiet_NaN(), 0}, 1, 0};
@@ -224,7 +224,7 @@ void expect_same(const Bvh& a, const Bvh& b) {
   }
 }
 
-TEST(BvhBuilder, IsTheSameTreeForAnyThreads) {
+TEST(BvhBuilder, IgnoresTheThreadCount) {
   for (const std::size_t count : {5U, 3000U, 70'000U}) {
     std::vector<Sphere> spheres = cloud(count);
     spheres[count / 2] = {{0, -1e6F, 0}, 1e6F, 0};
@@ -241,7 +241,7 @@ TEST(BvhBuilder, IsTheSameTreeForAnyThreads) {
 
 /// Clusters that are halved again and again from one side: their subtrees are of all sizes, and the
 /// small ones are twigs. Each sphere is made of something else.
-TEST(BvhBuilder, IsTheSameTreeForAnyThreadsWithTwigsAndMaterials) {
+TEST(BvhBuilder, IgnoresThreadCountWithTwigsAndMaterials) {
   std::vector<Sphere> spheres = cloud(70'000);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     Sphere& s = spheres[i];

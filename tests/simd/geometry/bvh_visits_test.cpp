@@ -36,7 +36,7 @@ Ids apart(const Bvh& bvh) {
   return ids;
 }
 
-TEST(BvhVisits, ADomeOnAGroundIsAGiantAsWell) {
+TEST(BvhVisits, DomesOnAGroundSphereAreScanned) {
   const std::vector<Sphere> plain = balls(5000);
   std::vector<Sphere> spheres = plain;
   spheres.push_back({{0, 0, 0}, 1e3F, 0});
@@ -49,7 +49,7 @@ TEST(BvhVisits, ADomeOnAGroundIsAGiantAsWell) {
   EXPECT_LE(mean_visits(bvh, spheres, 5000, 2).leaves, mean_visits(alone, plain, 5000, 2).leaves);
 }
 
-TEST(BvhVisits, OfManyDomesTheSixteenLargestAreApart) {
+TEST(BvhVisits, SixteenLargestDomesAreScanned) {
   for (const double growth : {1.0, 1.01, 1.5, 2.5}) {
     SCOPED_TRACE(growth);
     std::vector<Sphere> spheres = balls(5000);
@@ -66,7 +66,7 @@ TEST(BvhVisits, OfManyDomesTheSixteenLargestAreApart) {
   }
 }
 
-TEST(BvhVisits, NothingButGiantsIsNoTree) {
+TEST(BvhVisits, GiantsAloneGiveNoTree) {
   for (const std::size_t count : {1U, 7U, 16U}) {
     std::vector<Sphere> giants;
     for (std::size_t i = 0; i < count; ++i)
@@ -77,7 +77,7 @@ TEST(BvhVisits, NothingButGiantsIsNoTree) {
   }
 }
 
-TEST(BvhVisits, OneGiantAmongMillionsIsInNobodysWay) {
+TEST(BvhVisits, OneGiantAmongMillionsAddsFewVisits) {
   constexpr std::size_t count = 2'000'000;
   std::vector<Sphere> spheres = balls(count);
   const Bvh plain = build_bvh(spheres);

@@ -33,7 +33,7 @@ TEST(Geometry, KeepsOrderValuesAndIds) {
   EXPECT_EQ(view.planes.normal_y[0], 2);
 }
 
-TEST(Geometry, PadsWithSpheresAndPlanesThatNothingHits) {
+TEST(Geometry, PaddingIsNeverHit) {
   const Geometry geometry({{{1, 2, 3}, 4, 0}}, {{{1, 1, 1}, {0, 2, 0}, 0}});
   const GeometryView view = geometry.view();
   for (std::size_t i = 1; i < max_width; ++i) {
@@ -45,7 +45,7 @@ TEST(Geometry, PadsWithSpheresAndPlanesThatNothingHits) {
   }
 }
 
-TEST(Geometry, BlocksHoldTheSpheresOfTheirIdsAndNoOthers) {
+TEST(Geometry, BlocksHoldExactlyTheSpheresListed) {
   std::vector<Sphere> spheres;
   for (int i = 0; i < 155; ++i) {
     const auto x = static_cast<float>(i);
@@ -111,7 +111,7 @@ TEST(Geometry, BuildsATreeOverFortyNineSpheres) {
 }
 
 /// Without a tree too the extent bounds every coordinate of a sphere; NaN has none.
-TEST(Geometry, TheExtentHoldsSpheresThatAreScanned) {
+TEST(Geometry, ExtentIncludesScannedSpheres) {
   const auto extent = [](const std::vector<Sphere>& spheres) {
     return Geometry(spheres, {}, Structure::scan).view().bvh.extent;
   };

@@ -17,7 +17,7 @@ std::vector<Sphere> row_of_spheres(std::size_t count, bool many) {
   return spheres;
 }
 
-TEST(SlotMaterials, OneForAllTakesNoMemory) {
+TEST(SlotMaterials, OneSharedMaterialTakesNoMemory) {
   for (const std::size_t count : {1U, 10U, 1000U}) {
     const Geometry geometry(row_of_spheres(count, false), {});
     EXPECT_EQ(geometry.materials().by_slot(), nullptr);
@@ -25,7 +25,7 @@ TEST(SlotMaterials, OneForAllTakesNoMemory) {
   }
 }
 
-TEST(SlotMaterials, EachSlotHasThatOfItsSphere) {
+TEST(SlotMaterials, EachSlotHasItsSpheresMaterial) {
   for (const std::size_t count : {2U, 10U, 1000U, 100'000U}) {
     const std::vector<Sphere> spheres = row_of_spheres(count, true);
     const Geometry geometry(spheres, {});
@@ -43,21 +43,21 @@ TEST(SlotMaterials, EachSlotHasThatOfItsSphere) {
   }
 }
 
-TEST(SlotMaterials, ShowsTheMemoryOfOthers) {
+TEST(SlotMaterials, CanViewForeignMemory) {
   const std::vector<MaterialRef> refs{1, 2, 3};
   const SlotMaterials materials(refs.data(), 4);
   EXPECT_EQ(materials.by_slot(), refs.data());
   EXPECT_EQ(materials[2], refs[2]);
 }
 
-TEST(SlotMaterials, TakesAnUnknownMaterialOfOthersForTheFirst) {
+TEST(SlotMaterials, MissingMaterialsBecomeTheFirst) {
   const std::vector<MaterialRef> refs{1, 2, 3};
   const SlotMaterials materials(refs.data(), 3);
   EXPECT_EQ(materials[1], refs[1]);
   EXPECT_EQ(materials[2], MaterialRef());
 }
 
-TEST(SlotMaterials, NoSpheresHaveTheFirst) {
+TEST(SlotMaterials, ZeroSpheresGiveTheFirstMaterial) {
   const Geometry nothing({}, {});
   EXPECT_EQ(nothing.materials().by_slot(), nullptr);
   EXPECT_EQ(nothing.sphere_count(), 0U);

@@ -172,7 +172,7 @@ TEST_P(Lanes, PartsOfDoubles) {
   });
 }
 
-TEST_P(Lanes, FilterFmaIsFusedWhereTheIsaCan) {
+TEST_P(Lanes, FilterFmaIsFusedWhereSupported) {
   const bool fused = GetParam().fused;
   for_all_lanes([fused](const LaneInputs& in, const LaneOutputs& out, int i) {
     const float a = in.a[i], b = in.b[i], c = in.c[i];
@@ -226,7 +226,7 @@ TEST_P(Lanes, Integers) {
   });
 }
 
-TEST_P(Lanes, ChosenOneAfterTheOther) {
+TEST_P(Lanes, ChosenLanesComeInOrder) {
   for_all_lanes([](const LaneInputs& in, const LaneOutputs& out, int i) {
     if (i > 0) return;  // all at once
     int next = 1;

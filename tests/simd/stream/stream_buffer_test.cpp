@@ -7,7 +7,7 @@
 namespace boule::test {
 namespace {
 
-TEST(AlignedArray, StartsOnACacheLineAndIsPaddedAndFilled) {
+TEST(AlignedArray, IsAlignedPaddedAndFilled) {
   for (const std::size_t size : {1U, 15U, 16U, 17U, 1000U}) {
     AlignedArray<float> array(size, 2.5F);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % stream_alignment, 0U);
@@ -15,7 +15,7 @@ TEST(AlignedArray, StartsOnACacheLineAndIsPaddedAndFilled) {
   }
 }
 
-TEST(AlignedArray, ShrinkingAndRegrowingWithinItsMemoryKeepsIt) {
+TEST(AlignedArray, ResizingWithinCapacityKeepsTheMemory) {
   AlignedArray<int> array(100);
   array[99] = 7;
   const int* before = array.data();
@@ -25,7 +25,7 @@ TEST(AlignedArray, ShrinkingAndRegrowingWithinItsMemoryKeepsIt) {
   EXPECT_EQ(array[99], 7);
 }
 
-TEST(AlignedArray, AnImpossibleSizeIsBadAlloc) {
+TEST(AlignedArray, ImpossibleSizesThrowBadAlloc) {
   EXPECT_THROW(AlignedArray<double>(static_cast<std::size_t>(-1) / 4), std::bad_alloc);
 }
 
