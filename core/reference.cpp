@@ -10,7 +10,7 @@ namespace {
 
 constexpr double no_hit = std::numeric_limits<double>::infinity();
 
-/// Whether t lies in the ray's live interval. A t that float cannot hold is no hit; NaN never is.
+/// Whether t lies in the ray's interval. A t beyond the range of float is a miss, and so is NaN.
 bool in_range(double t, const Ray& ray) {
   const bool representable = t <= double{std::numeric_limits<float>::max()};
   return representable && t > double{ray.tmin} && t <= double{ray.tmax};
@@ -58,11 +58,11 @@ double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
   return in_range(second, ray) ? second : no_hit;
 }
 
-// Ray-plane. The lecture substitutes P = O + tD into (P - P0).N = 0: t = (P0 - O).N / D.N.
-// D.N = 0 is a ray along the plane, a miss. What if D.N is small? Products of two floats are exact
-// in double; their sum is rounded, and nearly parallel it would lose what is left after the
-// cancellation. So the error of each addition is found (Knuth, TAOCP 2, 4.2.2) and added at the
-// end.
+// Ray-plane. The lecture substitutes P = O + tD into (P - P0).N = 0: t = (P0 - O).N / D.N. D.N = 0
+// is a ray along the plane, a miss. A small D.N needs care: products of two floats are exact in
+// double, but their sum is rounded, and for a nearly parallel ray that would lose the digits that
+// are left after the cancellation. So the error of each addition is computed (Knuth, TAOCP 2,
+// 4.2.2) and added at the end.
 double denominator(const Vec3d& d, const Vec3d& n) {
   const double xy = d.x * n.x + d.y * n.y, z = d.z * n.z, sum = xy + z;
   const auto error_of = [](double a, double b, double rounded) {
@@ -73,7 +73,7 @@ double denominator(const Vec3d& d, const Vec3d& n) {
 }
 
 double intersect(const Ray& ray, const Plane& plane, bool leaves) {
-  if (leaves) return no_hit;  // flat: a ray that leaves it never comes back
+  if (leaves) return no_hit;  // flat: a ray that leaves it never hits it again
   const Vec3d n = vec_cast<double>(plane.normal);
   const double along = denominator(vec_cast<double>(ray.dir), n);
   if (along == 0 || !std::isfinite(along)) return no_hit;

@@ -49,7 +49,7 @@ Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> pla
 
 Departure depart(const Surface& surface, Side side) {
   const Vec3d& normal = surface.normal;
-  // The ray goes on within a sphere if it came from within and returns, or comes in from outside.
+  // The ray continues within a sphere if it came from within and returns, or comes in from outside.
   return {move_off(surface.point, side == Side::viewer ? normal : -normal, surface.reach),
           surface.id, surface.sphere && surface.inner == (side == Side::viewer)};
 }

@@ -38,8 +38,8 @@ void* map_anywhere(std::size_t bytes) {
   return map == MAP_FAILED ? nullptr : map;
 }
 
-/// So many bytes, whole pages, of which the first one begins a huge page if they fill one and there
-/// are addresses enough.
+/// `bytes` bytes in whole pages, of which the first begins a huge page if they fill one and if the
+/// address space has room.
 void* map_aligned(std::size_t bytes) {
   constexpr std::size_t huge_page = std::size_t{2} << 20;
   if (bytes < huge_page) return map_anywhere(bytes);
@@ -56,7 +56,7 @@ void* map_aligned(std::size_t bytes) {
 }  // namespace
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-  // Smaller blocks share their pages with other things, and have little to gain.
+  // Smaller blocks share their pages with other data, and gain little.
   constexpr std::size_t least = std::size_t{8} << 20;
   if (bytes >= least) advise(memory, bytes, huge);
 }
@@ -82,7 +82,7 @@ void* resize_pages(void* memory, std::size_t bytes, std::size_t wanted) {
   const std::size_t old_size = in_pages(bytes), new_size = in_pages(wanted);
   if (::mremap(memory, old_size, new_size, 0) != MAP_FAILED) return memory;
   void* const other = map_aligned(new_size);
-  if (other == nullptr) {  // where addresses are short, there may be room for one place only
+  if (other == nullptr) {  // in a small address space there may be only one place with room
     void* const moved = ::mremap(memory, old_size, new_size, MREMAP_MAYMOVE);
     return moved == MAP_FAILED ? nullptr : moved;
   }

@@ -21,7 +21,7 @@ HalfExtent spread(double half, FovAxis axis, double width, double height) {
   return {half * width / height, half};
 }
 
-// fit() sets what is special to a kind of camera in its view, and returns the film's extent.
+// fit() sets the special numbers of a kind of camera in its view, and returns the film's extent.
 
 HalfExtent fit(const PinholeCamera& camera, CameraView& view, double width, double height) {
   view.kind = CameraKind::pinhole;
@@ -52,14 +52,14 @@ HalfExtent fit(const LensCamera&, CameraView& view, double, double) {
   return {1, 1};
 }
 
-/// The radius of the disc that a camera's lens samples are spread over.
+/// The radius of the disc over which a camera's lens samples are spread.
 double lens_radius(const Camera& camera) {
   const auto* lens = std::get_if<ThinLensCamera>(&camera);
   return lens != nullptr ? double{lens->aperture} : 0;
 }
 
 // Raster (0, 0) is the top left corner of the picture; the film runs from -1 to 1 and its y grows
-// upward. Nothing else turns the picture upside down (lecture "The image is upside down").
+// upward. This is the only flip of the picture (lecture "The image is upside down").
 RasterToFilm raster_to_film_x(int width) { return {2.0, -1.0 * width, 1.0 * width}; }
 RasterToFilm raster_to_film_y(int height) { return {-2.0, 1.0 * height, 1.0 * height}; }
 
@@ -72,14 +72,14 @@ bool has_dark_corners(const CameraView& view) {
   return !(length(view.right * x + view.up * y) < almost_pi);
 }
 
-/// Whether some samples of a camera count less than others. An ST map may lead anywhere.
+/// Whether some samples of a camera have a smaller weight than others. An ST map may lead anywhere.
 bool weighs(const CameraView& view) {
   const bool mapped = view.distortion.st != nullptr;
   return view.kind == CameraKind::lens ||
          (view.kind == CameraKind::fisheye && (mapped || has_dark_corners(view)));
 }
 
-/// The exit pupil where there is no lens: nothing is seen through it.
+/// The exit pupil without a lens: it lets no light through.
 constexpr PupilRing dark{};
 
 LensView lens_view(const LensOptics* lens) {

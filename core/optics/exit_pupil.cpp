@@ -9,8 +9,8 @@
 namespace boule {
 namespace {
 
-/// Whether a ray from the film, r from the axis, passes that goes through (x, y) of the plane
-/// through the rear vertex.
+/// Whether a ray passes the lens, from a film point at the distance r from the axis through (x, y)
+/// of the plane through the rear vertex.
 bool passes(const LensOptics& optics, double r, double x, double y) {
   Vec3d org{r, 0, optics.film};
   Vec3d dir = normalize(Vec3d{x, y, optics.rear} - org);
@@ -21,16 +21,16 @@ double last_radius(const LensOptics& optics) {
   return std::sqrt(optics.elements.front().aperture2);
 }
 
-/// How far from the axis a pupil may be. A curved rear surface is met beyond its vertex' plane, so
-/// that in this plane the pupil may be wider than the surface.
+/// The largest distance of a pupil from the axis. Rays meet a curved rear surface beyond the plane
+/// of its vertex, so that in this plane the pupil may be wider than the surface.
 double reach(const LensOptics& optics) { return 1.5 * last_radius(optics); }
 
 // ---- In the middle of the film.
 
-constexpr double narrowest = 1e-9;  // of the last surface
+constexpr double narrowest = 1e-9;  // as a fraction of the last surface
 
 /// The radius at which rays begin or cease to pass, between two radii of which one passes and the
-/// other does not. By halving, to the last bit.
+/// other is stopped. By halving, to the last bit.
 double edge_between(const LensOptics& optics, double inner, double outer) {
   const bool within = passes(optics, 0, inner, 0);
   for (double middle = (inner + outer) / 2; inner < middle && middle < outer;
@@ -86,8 +86,8 @@ Stretch join(const Stretch& a, const Stretch& b) {
   return {std::min(a.x0, b.x0), std::max(a.x1, b.x1)};
 }
 
-/// The part of a stretch that a film point sees through, a step longer at both ends. The axis is
-/// enough: the pupil is alike on both sides of it, so a pupil of one piece meets it.
+/// The part of a stretch through which a film point sees, a step longer at both ends. The axis is
+/// enough: the pupil is symmetric about it, so a pupil of one piece meets it.
 Stretch seen_through(const LensOptics& optics, const Stretch& stretch, double r, int steps) {
   const double step = (stretch.x1 - stretch.x0) / steps;
   Stretch seen{stretch.x1, stretch.x0};
@@ -99,9 +99,9 @@ Stretch seen_through(const LensOptics& optics, const Stretch& stretch, double r,
   return seen;
 }
 
-/// Where on the x axis the pupil is. A narrow stop's pupil would fall between two steps. So the
-/// search begins with all apertures at least so wide, and goes on with a least width of an eighth
-/// each time, within what was seen before: a wider stop lets everything through that a narrower one
+/// The range of the pupil on the x axis. A narrow stop's pupil would fall between two steps. So the
+/// search begins with all apertures widened to a least width, and divides that width by eight each
+/// time, within the range found before: a wider stop lets all rays through that a narrower one
 /// does.
 Stretch stretch_of(const LensOptics& optics, double r) {
   constexpr int steps = 256;
@@ -120,15 +120,15 @@ Stretch stretch_of(const LensOptics& optics, double r) {
   return narrow ? seen_through(optics, stretch, r, steps) : stretch;
 }
 
-/// The first of `count` steps from `from` on along a row that passes, or count.
+/// The first of `count` steps from `from` on along a row that passes, or `count`.
 int first_seen(const LensOptics& optics, double r, double from, double step, double y, int count) {
   int i = 0;
   while (i < count && !passes(optics, r, from + (i + 0.5) * step, y)) ++i;
   return i;
 }
 
-/// The part of a box that a film point sees through, a cell wider on all sides. It is found in the
-/// half with y > 0, for the other one mirrors it; in each row from both ends up to the pupil.
+/// The part of a box through which a film point sees, a cell wider on all sides. It is found in the
+/// half with y > 0, because the other half mirrors it; in each row from both ends up to the pupil.
 PupilBox seen_through(const LensOptics& optics, const PupilBox& box, double r) {
   constexpr int cells = 64;
   const double step_x = (box.x1 - box.x0) / cells, step_y = 2 * box.y / cells;
@@ -145,7 +145,7 @@ PupilBox seen_through(const LensOptics& optics, const PupilBox& box, double r) {
   return {box.x0 + (left - 0.5) * step_x, box.x1 - (right - 0.5) * step_x, (top + 0.5) * step_y};
 }
 
-/// Whether anything passes on the outline of a box. If so, the pupil goes on outside of it.
+/// Whether any ray passes on the outline of a box. If so, the pupil continues outside of it.
 bool is_crossed(const LensOptics& optics, const PupilBox& box, double r) {
   constexpr int points = 64;
   for (int i = 0; i <= points; ++i) {
@@ -158,8 +158,8 @@ bool is_crossed(const LensOptics& optics, const PupilBox& box, double r) {
   return false;
 }
 
-/// The pupil's box, made from one that the pupil meets. The box grows until nothing passes on its
-/// outline, and shrinks until the pupil fills it: then the cells are small beside the pupil.
+/// The pupil's box, made from one that the pupil meets. The box grows until its outline stops all
+/// rays, and shrinks until the pupil fills it: then the cells are small beside the pupil.
 PupilBox fitted(const LensOptics& optics, PupilBox box, double r) {
   constexpr int most_rounds = 16;
   constexpr double growth = 0.25, filled = 0.75;
@@ -175,7 +175,7 @@ PupilBox fitted(const LensOptics& optics, PupilBox box, double r) {
 }
 
 /// The exit pupil of a film point. `near` is that of a point nearby. Around it the steps are finer,
-/// and find a pupil that is narrower than those over the whole width.
+/// and find pupils that are too narrow for the steps over the whole width.
 PupilBox pupil_of(const LensOptics& optics, const PupilBox& near, double r) {
   const double width = near.x1 - near.x0;
   const Stretch close = seen_through(optics, {near.x0 - width, near.x1 + width}, r, 128);
@@ -191,8 +191,8 @@ PupilBox middle_box(double radius) {
 }
 
 /// The ring between two film points. Both boxes are widened until the one half way between them
-/// holds its own pupil; by the same on both sides, so that the boxes' middles go on without a step
-/// from ring to ring.
+/// holds its own pupil; by the same on both sides, so that the boxes' middles are continuous from
+/// ring to ring.
 PupilRing ring_of(PupilBox inner, const PupilBox& middle, PupilBox outer) {
   if (is_empty(inner)) inner = is_empty(outer) ? middle : outer;
   if (is_empty(outer)) outer = inner;

@@ -26,7 +26,7 @@ std::vector<LensElement> elements_of(const std::vector<LensSurface>& surfaces, d
   return elements;
 }
 
-/// The elements of a lens that has some, and where its film is.
+/// The elements of a lens with surfaces, and the place of its film.
 void focus_elements(const LensCamera& camera, LensOptics& optics) {
   optics.elements = elements_of(camera.surfaces, optics.rear);
   optics.scale = camera.scale;

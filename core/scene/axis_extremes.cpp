@@ -5,7 +5,7 @@
 namespace boule {
 namespace {
 
-/// By `measure` of AxisExtremes: what is least for the sphere that lies outermost.
+/// By `measure` of AxisExtremes: a number that is smallest for the outermost sphere.
 double depth_of(const Sphere& s, std::size_t measure) {
   const auto radius = static_cast<double>(s.radius);
   if (measure == 0) return -radius;

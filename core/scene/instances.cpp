@@ -8,12 +8,12 @@
 namespace boule {
 namespace {
 
-/// The material that replaces all others inside an instance, if one does.
+/// The material that replaces all others inside an instance, if there is one.
 using Replacement = std::optional<std::uint32_t>;
 
 constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
 
-/// The sum of two counts. It stops at `most`, because nested groups multiply counts beyond 64 bits.
+/// The sum of two counts, limited to `most`, because nested groups multiply counts beyond 64 bits.
 PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
   return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most),
           std::min(a.placements + b.placements, most)};
@@ -83,7 +83,7 @@ class GroupSurvey {
 
   const Scene& scene_;
   std::vector<PrimitiveCount> counts_;
-  std::vector<std::size_t> depths_;  ///< by group: levels of groups in it, itself the first one
+  std::vector<std::size_t> depths_;  ///< by group: levels of groups in it, itself included
   std::vector<State> states_;
   std::vector<std::size_t> way_;  ///< the groups that are open, outer ones first
   std::optional<InstanceProblem> problem_;
@@ -95,7 +95,7 @@ PrimitiveCount count_with(const Scene& scene, const std::vector<PrimitiveCount>&
   return count;
 }
 
-/// How to get the primitives of one kind from a group, and their number from a count.
+/// Accessors for the primitives of one kind in a group, and for their number in a count.
 template <class Primitive>
 struct Kind;
 template <>
@@ -177,15 +177,15 @@ std::optional<InstanceProblem> find_own_problem(const Scene& scene,
 
 /// The range of a group's own spheres.
 struct SphereRange {
-  float largest = 0;  ///< of all coordinates and radii, without their signs
+  float largest = 0;  ///< of all absolute coordinates and radii
   float smallest_radius = std::numeric_limits<float>::infinity();
 
-  /// True if all numbers are certainly below `limit` where the spheres are shown, and radii neither
-  /// vanish nor lose digits.
+  /// True if all numbers are certainly below `limit` at the place where the spheres are shown, and
+  /// if radii keep all their digits.
   [[nodiscard]] bool stays_below(double limit, const Similarity& transform) const {
     const Vec3d& s = transform.shift;
     const double farthest = std::max({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
-    const double size = 2 * transform.scale * double{largest};  // no row is longer than sqrt(3)
+    const double size = 2 * transform.scale * double{largest};  // every row is at most sqrt(3) long
     return size + farthest < limit && transform.scale * double{smallest_radius} > 1e-37;
   }
 };
@@ -208,7 +208,7 @@ std::vector<SphereRange> ranges_of(const std::vector<Group>& groups) {
 }
 
 /// True if every sphere and plane that an instance shows is still valid after rounding to float.
-/// Groups that certainly stay in range are not gone through.
+/// Skips groups that certainly stay in range.
 bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& counts,
                     const std::vector<SphereRange>& ranges, const Instance& instance) {
   bool good = true;
@@ -222,10 +222,10 @@ bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& count
   return good;
 }
 
-/// Bytes that a sphere takes in a tree, and what it costs to show a tree once more.
+/// The number of bytes of a sphere in a tree, and of showing a tree once more.
 constexpr std::uint64_t bytes_of_sphere = 26, bytes_of_placement = 512;
 
-/// Whether it takes half the memory, or less, to keep the groups.
+/// Whether keeping the groups takes half the memory, or less.
 bool saves_memory(const Scene& scene, const PrimitiveCount& count) {
   constexpr std::uint64_t fewest = 1U << 17;
   const std::uint64_t shown = count.spheres - scene.spheres.size();

@@ -13,7 +13,7 @@
 namespace boule {
 namespace {
 
-/// How many pixels an image has; none where a side is negative.
+/// The number of pixels of an image; 0 if a side is negative.
 std::size_t area(int width, int height) {
   return static_cast<std::size_t>(std::max(width, 0)) *
          static_cast<std::size_t>(std::max(height, 0));

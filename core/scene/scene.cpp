@@ -19,7 +19,7 @@ std::string numbered(const std::string& name, std::size_t index) {
   return name + "[" + std::to_string(index) + "]";
 }
 
-/// Checks all of a scene but its objects, section by section in the order of fields<Scene>.
+/// Checks all of a scene except its objects, section by section in the order of fields<Scene>.
 class SectionCheck {
  public:
   explicit SectionCheck(const Scene& scene) {
@@ -72,7 +72,7 @@ class SectionCheck {
   static Status check(const std::string&, const TypeRule&, const std::vector<Instance>&) {
     return {};
   }
-  /// Whoever made them has checked them: there may be too many to go through.
+  /// The code that made them has checked them: there may be too many for another pass.
   static Status check(const std::string&, const TypeRule&,
                       const std::shared_ptr<const PackedSpheres>&) {
     return {};
@@ -83,7 +83,7 @@ class SectionCheck {
 
 bool is_valid(const Plane& plane) { return !find_problem(plane); }
 
-/// The index of the first primitive that is wrong, or how many there are.
+/// The index of the first invalid primitive, or the number of primitives.
 template <class Primitive>
 std::size_t find_wrong(const std::vector<Primitive>& primitives, std::size_t materials,
                        const ParallelFor& parallel_for) {

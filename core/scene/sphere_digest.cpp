@@ -16,8 +16,8 @@ std::uint64_t word_of(float low, float high) {
                                                  << 32;
 }
 
-/// Appends a hash to those before it: the sum of all, each times a power of an odd number that says
-/// where it stands.
+/// Appends a hash to those before it: the sum of all, each times a power of an odd number that
+/// encodes its place.
 std::uint64_t append(std::uint64_t hashes, std::uint64_t next) {
   return hashes * golden_step + next;
 }
@@ -35,7 +35,7 @@ std::uint64_t hash_of(std::uint64_t before, std::span<const Sphere> spheres) {
 
 }  // namespace
 
-/// Precondition: they do not go beyond the end of the chunk.
+/// Precondition: they fit into the rest of the chunk.
 void SphereDigest::add_to_chunk(std::span<const Sphere> spheres) {
   chunk_ = hash_of(chunk_, spheres);
   count_ += spheres.size();

@@ -10,31 +10,31 @@
 
 namespace boule {
 
-/// How many rays of one depth a sample has.
+/// The number of rays per depth of a sample.
 enum class RaysPerDepth { one_at_most, many };
 
 /// The radiance of samples. It is summed per depth, and then over the depths from 0 on. A float sum
-/// depends on its order; this one does not depend on how the rays of a depth are cut into streams,
-/// as long as they come in order. Where a sample has one ray of each depth, and the ray of a lower
-/// depth comes first, sums per depth would be the rays' own numbers, and there are none.
+/// depends on its order. This sum is the same for any partition of a depth's rays into streams, as
+/// long as they come in order. If a sample has one ray of each depth, and the ray of a lower depth
+/// comes first, sums per depth would equal the rays' own numbers, so they are left out.
 class DepthSums {
  public:
   explicit DepthSums(RaysPerDepth rays = RaysPerDepth::many) : rays_(rays) {}
 
-  /// Forgets everything. From now on the samples are 0 .. samples - 1.
+  /// Clears all sums. From now on the samples are 0 .. samples - 1.
   void start(std::size_t samples);
 
   /// The sums of one depth, one per sample, to which the caller adds; valid until the next call.
-  /// Precondition: `depth` is not below that of the last finish_below().
+  /// Precondition: `depth` is at least that of the last finish_below().
   ColorSum* at_depth(int depth);
 
-  /// Adds up the depths below `depth`, to which nothing is added any more.
+  /// Adds up the depths below `depth`, which are complete.
   void finish_below(int depth);
 
   /// Writes the sum over all depths of each sample, settled().
   void finish(Color* radiance);
 
-  /// What was wrong with all sums that were written so far.
+  /// The faults in all sums that were written so far.
   [[nodiscard]] const SampleFaults& faults() const { return faults_; }
 
  private:

@@ -12,15 +12,15 @@
 
 namespace boule {
 
-/// Path tracing (Kajiya, "The rendering equation", 1986): every ray goes on as one ray in a random
-/// direction. Light of spheres and of the environment's image is found in two ways at each point,
-/// weighted by the power heuristic (Veach, "Robust Monte Carlo methods for light transport
-/// simulation", 1997, 9.2): by light sampling (next-event estimation), which is a shadow ray to one
-/// sphere light, to one emissive sphere or into the image, and by the direction in which the path
-/// goes on. Point and directional lights are found by shadow rays only, one to each of them at
-/// every point. Paths end by Russian roulette, or after max_depth bounces; at their last point
-/// light is found by light sampling only. The random numbers of a sample depend on its pixel, its
-/// index, the depth and the seed, and on nothing else.
+/// Path tracing (Kajiya, "The rendering equation", 1986): every ray continues as one ray in a
+/// random direction. The light of spheres and of the environment's image is found in two ways at
+/// each point, weighted by the power heuristic (Veach, "Robust Monte Carlo methods for light
+/// transport simulation", 1997, 9.2). One is light sampling (next-event estimation): a shadow ray
+/// to one sphere light, to one emissive sphere or into the image. The other is the direction in
+/// which the path continues. Point and directional lights are found by shadow rays only, one to
+/// each of them at every point. Paths end by Russian roulette, or after max_depth bounces; at their
+/// last point light is found by light sampling only. The random numbers of a sample depend only on
+/// its pixel, its index, the depth and the seed.
 class Path final : public StreamIntegrator {
  public:
   /// `scene`, prepared for Method::path, and `kernels` must outlive the integrator.
@@ -28,9 +28,9 @@ class Path final : public StreamIntegrator {
 
  private:
   using RandomKey = RandomNumbers::Key;
-  /// What the random numbers of one depth are used for.
+  /// The uses of the random numbers of one depth.
   enum class Use { bounce, light, roulette };
-  /// What a kernel does with the points of one kind.
+  /// A kernel that continues the paths at the points of one kind.
   using Continue = void (*)(const LobePoints&, const PathStep&, SampledLights&, GoingOn&);
 
   void start(const CameraRays& camera) override;
@@ -53,7 +53,7 @@ class Path final : public StreamIntegrator {
   [[nodiscard]] double weight_of_hit(double density, double light_density) const;
 
   PixelKeys keys_;
-  double environment_share_;   ///< probability to sample the environment, not a sphere
+  double environment_share_;   ///< probability to sample the environment rather than a sphere
   bool samples_lights_;        ///< light sampling is on, and there is a light to sample
   bool delta_lights_ = false;  ///< there are point or directional lights
   HitWeight hit_weight_;

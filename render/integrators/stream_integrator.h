@@ -17,8 +17,8 @@
 namespace boule {
 
 /// The part of an integrator that follows rays depth by depth, a stream at a time: it finds their
-/// hits and the direct light there, and adds up the radiance. A derived class says what a hit sends
-/// back without direct light, on which hits direct light falls, and which rays go on.
+/// hits and the direct light there, and adds up the radiance. A derived class decides the radiance
+/// of a hit without direct light, the hits that direct light reaches, and the rays that continue.
 class StreamIntegrator : public Integrator {
  public:
   bool trace(const CameraRays& camera, Color* radiance) final;
@@ -32,27 +32,27 @@ class StreamIntegrator : public Integrator {
     std::size_t first, end;
   };
 
-  /// The most rays that go on from one.
+  /// The largest number of rays that continue from one.
   static constexpr std::size_t most_spawned = 2;
 
   /// `scene` and `kernels` must outlive the integrator.
   StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                    const IntegratorSettings& settings, RaysPerDepth rays);
 
-  /// From now on, direct light of this light of the scene is added to all lit hits.
+  /// From now on, the direct light of this light of the scene is added to all lit hits.
   void use_light(const Light& light);
 
-  /// From now on rays see this by their direction; the camera's own rays see the backdrop in place
-  /// of the background, if the scene has one.
+  /// From now on rays see this light by their direction. If the scene has a backdrop, the camera's
+  /// own rays see it in place of the background.
   void use_seen(const SeenLight& seen);
 
   /// Called before the first stream of these camera rays.
   virtual void start(const CameraRays&) {}
-  /// Called before each stream, with room for how many rays to make.
+  /// Called before each stream, with the number of rays to make room for.
   virtual void make_room(std::size_t) {}
 
   /// Sets the radiance_ of every ray of the block, adds the lit hits to illumination_, and spawns
-  /// the rays that go on, parents in order.
+  /// the rays that continue, parents in order.
   virtual void shade(const Block& block) = 0;
 
   /// Called when all blocks of a stream are shaded and their direct light is added.
@@ -61,18 +61,18 @@ class StreamIntegrator : public Integrator {
   /// Sets the radiance of the block's rays to the light that they find by their direction.
   void see_light(const Block& block);
 
-  /// What a ray that meets nothing sees of a background that is not for kernels: an image.
+  /// The background for a ray that misses, if the background is an image, which kernels leave out.
   [[nodiscard]] virtual Color see_image(const PathStream& stream, std::size_t ray) const;
 
   /// Finds the surfaces of all hits of the block.
   void find_surfaces(const Block& block);
 
-  /// Finds which of these shadow rays are blocked: 1 for those that are, else 0. Valid until the
+  /// Finds the blocked ones among these shadow rays: 1 if blocked, otherwise 0. Valid until the
   /// next call.
   const std::uint8_t* find_blocked(const RayStream& shadow_rays, Coherence coherence);
 
   [[nodiscard]] Hit hit(std::size_t ray) const { return hits_.get(ray); }
-  /// How shadow rays start by the lecture's epsilon; none: by themselves.
+  /// The lecture's epsilon at which shadow rays start; none: they start by themselves.
   [[nodiscard]] std::optional<Illumination::Epsilon> epsilon() const;
   [[nodiscard]] bool ends(const PathStream& stream) const {
     return stream.depth == settings_.max_depth;
@@ -96,13 +96,14 @@ class StreamIntegrator : public Integrator {
     LightIntensity intensity;
   };
 
-  /// Rays of one depth have more in common with each other than with those of others.
+  /// Experience of one depth, because rays of one depth are more alike than those of different
+  /// depths.
   struct DepthExperience {
     Experience nearest, shadow;
   };
 
   void trace_stream(const PathStream& stream, const CameraRays& camera);
-  /// What is known of rays of the stream at hand.
+  /// The experience with rays of the current stream.
   [[nodiscard]] DepthExperience& experience();
   void find_float_points(const PathStream& stream);
   void tell_coverage(std::uint8_t* covered) const;
@@ -115,10 +116,10 @@ class StreamIntegrator : public Integrator {
   SeenLight seen_{}, seen_by_camera_{};
   std::uint64_t primary_ = 0, shadow_ = 0;
   std::array<DepthExperience, 8> experience_;  ///< by depth; the last one is of all deeper ones too
-  int depth_ = 0;                              ///< of the stream at hand
+  int depth_ = 0;                              ///< of the current stream
 
   // Working memory of one stream.
-  std::vector<Vec3f> float_points_;  ///< by ray, where shadow rays start by an epsilon
+  std::vector<Vec3f> float_points_;  ///< by ray, if shadow rays start by an epsilon
   AlignedArray<std::uint8_t> blocked_;
 };
 

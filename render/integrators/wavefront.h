@@ -21,20 +21,19 @@ struct PathStream {
   RayBuffer* rays = nullptr;
   ColorStream throughput{};
   const std::uint32_t* sample = nullptr;
-  const float* density =
-      nullptr;    ///< with which each direction was chosen, 0: of a mirror or camera
-  int depth = 0;  ///< number of bounces since the camera
+  const float* density = nullptr;  ///< density of choosing each direction; 0: of a mirror or camera
+  int depth = 0;                   ///< number of bounces since the camera
 };
 
 /// The recursion of ray tracing as a loop over streams (lecture "Recursion"). An integrator takes a
-/// stream, adds the radiance that its rays found, spawns the rays that go on, and takes the next
-/// stream. The order is depth first, stream by stream, so memory grows with the depth but not with
-/// the number of rays. The rays of each depth come in the order of their parents, so no sum depends
-/// on the size of the streams.
+/// stream, adds the radiance that its rays found, spawns the rays that continue, and takes the next
+/// stream. The order is depth first, stream by stream, so memory grows with the depth and is
+/// independent of the number of rays. The rays of each depth come in the order of their parents, so
+/// every sum is the same for any size of the streams.
 class Wavefront {
  public:
   /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1, or `most_together`, if
-  /// that is more: no more are spawned at once. `kernels` must outlive it.
+  /// that is more: this many at most are spawned at once. `kernels` must outlive it.
   Wavefront(const KernelTable& kernels, std::size_t stream_size, std::size_t most_together,
             RaysPerDepth rays)
       : kernels_(kernels),
@@ -45,33 +44,33 @@ class Wavefront {
   /// Begins with the camera's rays, one per sample. The caller keeps them alive.
   void start(RayBuffer& camera_rays);
 
-  /// The next stream, or null when none is left. Ends the life of the stream before.
+  /// The next stream, or null at the end. Ends the life of the stream before.
   const PathStream* next();
 
   /// Adds the radiance that each ray of the current stream found.
   void add(const ColorStream& radiance);
 
-  /// For records: adds a ray that goes on from ray `parent` of the current stream, unless its
+  /// For records: adds a ray that continues from ray `parent` of the current stream, unless its
   /// weight in the sample is black. Its PathStream::density is 0. Precondition: parents come in
   /// order.
   void spawn(std::size_t parent, const Ray& ray, const Color& weight);
 
-  /// Room for `most` more rays behind others that go on from the current stream: kernels add them,
-  /// parents in order or one to a sample. Then end_spawning() takes them.
+  /// Room for `most` more rays, behind others, that continue from the current stream: kernels add
+  /// them, parents in order or one to a sample. Then end_spawning() takes them.
   GoingOn begin_spawning(std::size_t most);
   void end_spawning(const GoingOn& rays);
 
   /// Writes the radiance of every sample. Precondition: next() returned null.
   void finish(Color* radiance) { depth_sums_.finish(radiance); }
 
-  /// What was wrong with all samples that were written so far.
+  /// The faults in all samples that were written so far.
   [[nodiscard]] const SampleFaults& faults() const { return depth_sums_.faults(); }
 
   /// The number of all rays that were spawned so far.
   [[nodiscard]] std::uint64_t spawned() const { return spawned_; }
 
  private:
-  /// What a PathStream points to. The first `size` entries are in use.
+  /// The memory behind a PathStream. The first `size` entries are in use.
   struct Stream {
     GoingOnBuffer rays;
     std::size_t size = 0;
@@ -95,7 +94,7 @@ class Wavefront {
   PathStream current_;
   ColorSum* sums_ = nullptr;         ///< of the current depth
   bool started_ = false;             ///< next() has returned the camera's rays
-  StreamPtr running_;                ///< what current_ points to, unless that is the camera's rays
+  StreamPtr running_;                ///< the memory of current_, unless that is the camera's rays
   std::vector<StreamPtr> waiting_;   ///< a stack, in which depths never fall towards the top
   std::vector<StreamPtr> children_;  ///< of the current stream, in order
   std::vector<StreamPtr> spare_;

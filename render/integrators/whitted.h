@@ -20,7 +20,7 @@ class Whitted final : public StreamIntegrator {
           const IntegratorSettings& settings);
 
  private:
-  /// What a block has.
+  /// The data of a block.
   struct Found {
     bool lit = false, scattering = false;
   };
@@ -36,7 +36,7 @@ class Whitted final : public StreamIntegrator {
   // Working memory of one block.
   AlignedArray<std::uint8_t> scatters_;     ///< by ray
   std::vector<const LobeMaterial*> lobes_;  ///< by ray
-  const FlatMaterial* recorded_ = nullptr;  ///< that the only ray met
+  const FlatMaterial* recorded_ = nullptr;  ///< the material at the hit of the only ray
 };
 
 }  // namespace boule

@@ -10,7 +10,7 @@ namespace {
 /// One number of the AOVs.
 struct AovKind {
   const char* name;             ///< of its channel
-  bool AovSelection::*wanted;   ///< what asks for it
+  bool AovSelection::*wanted;   ///< the member that selects it
   float (*value)(const Aovs&);  ///< null: the id
 };
 

@@ -13,7 +13,7 @@ constexpr std::size_t stream_size = 1024;  // rays: few enough to stay in the ca
 AovWorker::AovWorker(const BlockSetup& setup, Solver solver)
     : setup_(setup), tracer_(setup.scene, setup.kernels, solver), aovs_(stream_size) {
   pixels_.reserve(stream_size);
-  // Sets the samples' positions on a lens to its centre, where they stay.
+  // Sets the samples' lens points to the centre, where they stay.
   samples_.resize(stream_size, setup.scene.camera_view);
   rays_.resize(stream_size, common_part(setup_.scene.camera_view.kind));
 }
@@ -29,7 +29,7 @@ void AovWorker::render(const PixelRect& block, AovChannels& channels) {
   trace(channels);
 }
 
-/// Traces the rays that were gathered, and forgets them.
+/// Traces the collected rays, and forgets them.
 void AovWorker::trace(AovChannels& channels) {
   if (pixels_.empty()) return;
   samples_.resize(pixels_.size());

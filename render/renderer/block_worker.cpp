@@ -97,7 +97,7 @@ bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) 
   return true;
 }
 
-/// Traces the samples that were gathered and adds them to the film, or to what measures noise.
+/// Traces the collected samples and adds them to the film, or to the measurement of noise.
 template <class Target>
 bool BlockWorker::trace(Target& target) {
   const std::size_t count = pixels_.size();
@@ -111,7 +111,7 @@ bool BlockWorker::trace(Target& target) {
   return true;
 }
 
-/// Finds where the samples that were gathered lie on the film and on the lens.
+/// Finds the positions of the collected samples on the film and on the lens.
 void BlockWorker::position_samples() {
   const Sampler& sampler = setup_.sampler;
   const CameraView& camera = setup_.scene.camera_view;
@@ -155,8 +155,7 @@ bool BlockWorker::trace_all(Target& target) {
   return true;
 }
 
-/// Traces the samples that have a ray. One without a ray counts as a black sample that nothing
-/// covers.
+/// Traces the samples that have a ray. A sample without a ray counts as black and uncovered.
 template <class Target>
 bool BlockWorker::trace_weighted(Target& target) {
   keep_live_rays(samples_, rays_);

@@ -6,11 +6,11 @@
 #include "render/frame/live_passes.h"
 #include "render/renderer/renderer.h"
 
-/// Rendering in steps, for pictures that somebody watches and moves.
+/// Rendering in steps, for pictures that are watched and moved.
 namespace boule {
 namespace {
 
-/// `index` of `count`, begun at a share of them.
+/// `index` of `count`, with a start at a fraction of them.
 std::size_t rotated(std::size_t index, std::size_t count, double by) {
   return (index + static_cast<std::size_t>(by * static_cast<double>(count))) % count;
 }
@@ -26,7 +26,7 @@ bool rotates_blocks(PixelOrder order) {
   return order == PixelOrder::rows || order == PixelOrder::tiles;
 }
 
-/// About how many pixels of each block a pass takes.
+/// The approximate number of pixels of each block that a pass takes.
 double taken_share(const PixelPick& pick) {
   return 1.0 / pick.spacing / pick.spacing / pick.slices;
 }
@@ -85,7 +85,7 @@ Status Renderer::render_step(Film& film, LivePosition& position, const StepLimit
   return std::nullopt;
 }
 
-/// Renders blocks of a pass from position.block on. A block that is begun is finished.
+/// Renders blocks of a pass from position.block on. A block that has begun is finished.
 Status Renderer::run_slice(Film& film, const LivePass& pass, LivePosition& position,
                            const BlockRange& range) {
   const std::size_t first = position.block;

@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-/// How many samples of a pixel's own the variance around it counts for.
+/// The weight of the variance around a pixel, in samples of the pixel's own.
 constexpr double samples_around = 32;
 
 float as_float(double number) {
@@ -73,7 +73,7 @@ void NoiseBlock::find_variances() {
   }
 }
 
-/// The rim's pixels have served when their variance is known.
+/// The rim's pixels are done once their variance is known.
 void NoiseBlock::look_around() {
   for (int y = block_.y0; y < block_.y1; ++y) {
     for (int x = block_.x0; x < block_.x1; ++x) at(x, y).around = variance_around(x, y);
@@ -101,8 +101,8 @@ PixelNumbers NoiseBlock::variance_around(int x, int y) {
   return sum;
 }
 
-/// What a half says, or, if that is more, the same together with a few samples of the pixels
-/// around: a pixel whose first samples all miss what is rare there does not end too early.
+/// The variance that a half measures or, if that is more, the same together with a few samples of
+/// the pixels around. So a pixel whose first samples all miss a rare event continues long enough.
 PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) const {
   const double count = state.halves[half].count();
   PixelNumbers variance = state.variances[half];
@@ -114,7 +114,7 @@ PixelNumbers NoiseBlock::careful_variance(const State& state, std::size_t half) 
   return variance;
 }
 
-/// The greatest half-width of the channels as they are displayed, or `least` if that is more.
+/// The greatest displayed half-width of the channels, or `least` if that is more.
 double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_width,
                              double least) const {
   double greatest = target_.alpha ? std::max(least, half_width[3]) : least;
@@ -126,7 +126,7 @@ double NoiseBlock::displayed(const PixelNumbers& mean, const PixelNumbers& half_
   return greatest;
 }
 
-/// Whether a half says that the pixel has enough with so many samples in both halves.
+/// Whether a half judges that the pixel has enough with this many samples in both halves.
 bool NoiseBlock::is_enough(const State& state, std::size_t half, int count) const {
   const SampleHalf& samples = state.halves[half];
   const double factor = student_quantile(2 * (samples.batches() - 1));  // of two such halves
@@ -136,9 +136,9 @@ bool NoiseBlock::is_enough(const State& state, std::size_t half, int count) cons
   return displayed(samples.mean(), half_width, most) <= most;
 }
 
-/// How many samples the other half is to have, as a half says: as many as it has itself, or the
-/// next number, or 0: that is to be asked again when it has more. (To ask again for the next number
-/// would be more certain, but costs samples that only decide: 10 % of all in soft_light.)
+/// The number of samples for the other half, as this half decides: as many as it has itself, or the
+/// next number, or 0 to decide again with more samples of its own. (To decide again for the next
+/// number would be safer, but costs samples that only decide: 10 % of all in soft_light.)
 int NoiseBlock::decide(const State& state, std::size_t half) const {
   const int most = target_.max_spp / 2, count = state.halves[half].count(),
             next = std::min(next_look(count), most);
@@ -146,7 +146,7 @@ int NoiseBlock::decide(const State& state, std::size_t half) const {
   return next == most || is_enough(state, half, next) ? next : 0;
 }
 
-/// Decides how many samples the halves are to have, and settles those that have them. True if both
+/// Decides the halves' numbers of samples, and settles the halves that have them. True if both
 /// have.
 bool NoiseBlock::settle(State& state) const {
   for (std::size_t half = 0; half < 2; ++half) {
@@ -160,7 +160,7 @@ bool NoiseBlock::settle(State& state) const {
   return state.settled[0].count > 0 && state.settled[1].count > 0;
 }
 
-/// Wants samples for the halves of a pixel that are to have more, and for those that decide for the
+/// Requests samples for the halves of a pixel that need more, and for those that decide for the
 /// other half.
 void NoiseBlock::want_more(const Pixel& pixel) {
   const State& state = at(pixel.x, pixel.y);

@@ -22,7 +22,7 @@ PixelRect widened(const PixelRect& rect, int margin, const PixelRect& frame) {
           std::min(rect.x1 + margin, frame.x1), std::min(rect.y1 + margin, frame.y1)};
 }
 
-/// How far a disc of this radius reaches to either side, by the distance from its centre.
+/// The reach of a disc of this radius to either side, by the distance from its centre.
 std::vector<int> disc_half_widths(double radius) {
   std::vector<int> widths;
   for (int dy = 0; static_cast<double>(dy) <= radius; ++dy) {
@@ -33,7 +33,7 @@ std::vector<int> disc_half_widths(double radius) {
   return widths;
 }
 
-/// Those of lines of 0, 1, 2, ... half pixels, and of this width.
+/// The discs of lines of 0, 1, 2, ... half pixels, and of this width.
 std::vector<std::vector<int>> discs_of_lines(float width) {
   std::vector<std::vector<int>> discs;
   for (int halves = 0; 2 * static_cast<double>(width) > halves; ++halves) {
@@ -92,7 +92,7 @@ void OutlineWorker::find_hits() {
   }
 }
 
-/// Finds what the chunk sees whose first point is (x0, y0).
+/// Traces the rays of the chunk whose first point is (x0, y0).
 void OutlineWorker::trace(int x0, int y0) {
   const auto each_point = [&](const auto& visit) {
     std::size_t k = 0;
@@ -124,7 +124,7 @@ void OutlineWorker::trace(int x0, int y0) {
   });
 }
 
-/// The line between two points that see different things.
+/// The line between two points with different hits.
 const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) const {
   const Hit& nearer = b.t < a.t ? b : a;
   const PreparedScene& scene = setup_.scene;

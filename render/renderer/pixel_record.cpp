@@ -2,14 +2,14 @@
 #include "render/integrators/whitted.h"
 #include "render/renderer/renderer.h"
 
-/// The recursion of one pixel, for those who ask what its colour is made of.
+/// The recursion of one pixel, which shows the parts of its colour.
 namespace boule {
 
 Result<float> Renderer::record_pixel(int x, int y, RayRecord& record) const {
   const FloatEnvironment environment;
   const CameraView& camera = scene_->camera_view;
   SampleBuffer samples;
-  samples.resize(1, camera);  // sets its place on a lens to the centre
+  samples.resize(1, camera);  // sets its lens point to the centre
   samples.set(0, x + 0.5, y + 0.5);
   RayBuffer rays(1);
   setup_->kernels.primary_rays(camera, samples.view(), rays.view());

@@ -14,7 +14,7 @@
 namespace boule {
 namespace {
 
-/// Finds the lines of a block in parts that the worker is good at.
+/// Finds the lines of a block in parts of the size that is fastest for the worker.
 void find_lines_of(const PixelRect& block, OutlineWorker& worker, Outline& lines) {
   const BlockOrder parts(block, OutlineWorker::block_side, PixelOrder::tiles);
   for (std::size_t i = 0; i < parts.size(); ++i) worker.find(parts[i], lines);

@@ -17,7 +17,7 @@ int least_tile(const RenderOptions& options) {
   return options.tile != 0 ? options.tile : smallest_fit;
 }
 
-/// The most bytes that bands and the file's encoder take.
+/// The largest number of bytes of bands and of the file's encoder.
 std::uint64_t bytes_of_bands(const RenderOptions& options) {
   constexpr std::uint64_t encoder = std::uint64_t{40} << 20;
   const std::uint64_t whole = rendered_rect(options).area() * (sizeof(Color) + sizeof(float));

@@ -43,7 +43,7 @@ Result<Renderer> Renderer::create(Scene&& scene, const RenderOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// If the scene is copied, it is copied within the guard.
+/// A copy of the scene is made within the guard.
 template <class AnyScene>
 Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
   const Stopwatch watch;
@@ -104,7 +104,8 @@ Result<Image> Renderer::render() {
 Status Renderer::render_measured(MeasuredPicture& picture, Film* preview) {
   if (!scene_) return moved_away();
   const FloatEnvironment environment;
-  // What one sample is of those that pixels get: of few that are soon enough, or of thousands.
+  // The fraction of one sample among the samples of a pixel: of few that are soon enough, or of
+  // thousands.
   const double share_of_preview = preview != nullptr ? 0.02 : 0;
   if (preview != nullptr) {
     const auto one = [&](BlockWorker& worker, const PixelRect& block) {
@@ -119,7 +120,7 @@ Status Renderer::render_measured(MeasuredPicture& picture, Film* preview) {
   return run_blocks(std::cref(task), pass_from(share_of_preview));
 }
 
-/// The pass that renders all that is left, from a share of it on.
+/// The pass that renders the rest, from a fraction of all work on.
 LiveProgress::PassSpan Renderer::pass_from(double begin) const {
   const bool measures = options_.live != nullptr && setup_->noise.half_width > 0;
   return {.begin = begin,
@@ -269,7 +270,7 @@ Status Renderer::find_lines(Outline& outline) {
       [&](OutlineWorker& worker, const PixelRect& block) { worker.find(block, outline); });
 }
 
-/// Calls task(worker, block) for each of the blocks, with workers that `make` makes.
+/// Calls task(worker, block) for each of the blocks, with workers from `make`.
 template <class Worker, class Make, class Task>
 Status Renderer::run_extra(const BlockOrder& blocks, const Make& make, const Task& task) {
   std::vector<std::unique_ptr<Worker>> workers(scheduler_.workers());

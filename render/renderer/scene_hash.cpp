@@ -15,7 +15,7 @@
 namespace boule {
 namespace {
 
-/// Takes values one after the other, each in 64 bits: of a struct its fields in the order of their
+/// Adds values one after the other, each in 64 bits: of a struct its fields in the order of their
 /// list, of a variant the index and the value, of a list the length and the elements.
 class Hasher {
  public:
@@ -68,7 +68,7 @@ class Hasher {
   std::uint64_t state_ = 0;
 };
 
-/// Adds the sections of a scene in their order: all that a picture depends on.
+/// Adds the sections of a scene in their order: all values that affect a picture.
 class SceneHasher {
  public:
   SceneHasher(const Scene& scene, const ParallelFor& parallel_for)
@@ -83,10 +83,10 @@ class SceneHasher {
   void add(const Section& section) {
     hash_.add(section);
   }
-  /// How a picture is made is not in the hash.
+  /// Image and render settings are left out of the hash.
   void add(const ImageSettings&) {}
   void add(const RenderSettings&) {}
-  /// Nor is how a camera is fitted, where the scene has one or says nothing of it.
+  /// The fit is left out if the scene has a camera or leaves the fit at its defaults.
   void add(const CameraFit& fit) {
     if (!scene_.camera && !(fit == CameraFit{})) hash_.add(fit);
   }
@@ -98,8 +98,8 @@ class SceneHasher {
   void add(const std::optional<Color>& backdrop) {
     if (backdrop) hash_.add(*backdrop);
   }
-  /// The scene's own and those that its instances show, as one list. Where they are packed there
-  /// are no others. Groups that are shared are too many spheres to go through.
+  /// The scene's own spheres and those that its instances show, as one list. Packed spheres are the
+  /// only ones where they exist. Shared groups hold too many spheres for a pass over them.
   void add(const std::vector<Sphere>& spheres) {
     if (scene_.packed) return hash_.add(scene_.packed->digest);
     hash_.add(digest_of(spheres, !shares_));
@@ -110,7 +110,7 @@ class SceneHasher {
     if (shares_) return;
     visit_shown(scene_, std::function([this](const Plane& one) { hash_.add(one); }));
   }
-  /// Groups that are shared are added as they are: their planes in order, and their spheres.
+  /// Shared groups are added as they are: their planes in order, and their spheres.
   void add(const std::vector<Group>& groups) {
     if (!shares_) return;
     hash_.add(std::uint64_t{groups.size()});

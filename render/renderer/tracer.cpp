@@ -18,10 +18,11 @@ namespace {
 
 /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
 constexpr std::size_t rays_of_stream = 1024;
-/// Rays whose surfaces are found at a time: few enough for them to stay in the nearest caches.
+/// Number of rays whose surfaces are found at a time: few enough for them to stay in the nearest
+/// caches.
 constexpr std::size_t surface_block_size = 256;
 
-/// The nearest float of a finite number or infinity, which numbers that are too large become.
+/// The nearest float of a finite number; infinity for infinity and for numbers that are too large.
 float to_float(double x) {
   constexpr double too_large = 0x1.ffffffp127;  // halfway from the largest float to 2^128
   constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -55,7 +56,7 @@ struct Tracer::Worker {
   HitBuffer hits;
   SurfaceBuffer surfaces{surface_block_size};
   AlignedArray<std::uint8_t> met;
-  Experience closest, any;  ///< of all calls: they are likely to have rays of one kind
+  Experience closest, any;  ///< of all calls: they probably have rays of one kind
 
   void load(std::span<const Ray> block) {
     rays.resize(block.size());
@@ -88,7 +89,7 @@ Result<Tracer> Tracer::create(Scene&& scene, const TraceOptions& options) {
   return create_from(std::move(scene), options);
 }
 
-/// If the scene is copied, it is copied within the guard.
+/// A copy of the scene is made within the guard.
 template <class AnyScene>
 Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
   const Stopwatch watch;

@@ -5,10 +5,10 @@
 
 namespace boule {
 
-/// The radiance that a ray along `direction`, of any length, sees if it misses everything.
+/// The background's radiance for a ray along `direction`, of any length, that misses everything.
 Color background_radiance(const Background& background, const Vec3f& direction);
 
-/// The background as kernels see it. Images are not for them.
+/// The background for the kernels, which leave out images.
 SeenBackground seen_background(const Background& background);
 
 }  // namespace boule

@@ -9,11 +9,11 @@ namespace boule {
 
 /// The formulas of core/optics/reflectance.h for one surface.
 
-/// How much the rays that continue from a surface count. There is no ray where the weight is black.
+/// The weights of the rays that continue from a surface. There is no ray if the weight is black.
 struct Scatter {
   Color reflection;  ///< weight of the ray along Surface::mirrored
   Color refraction;  ///< weight of the ray along `refracted`
-  Vec3d refracted;   ///< unit length; anything if `refraction` is black
+  Vec3d refracted;   ///< unit length; undefined if `refraction` is black
 };
 
 inline Vec3f vector_of(const Color& c) { return {c.r, c.g, c.b}; }

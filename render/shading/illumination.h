@@ -13,27 +13,27 @@
 namespace boule {
 
 /// The direct light on the hits of a stream's rays, one light after the other: make_shadow_rays()
-/// makes the shadow rays, and add_unblocked() adds the light of those that are not blocked.
+/// makes the shadow rays, and add_unblocked() adds the light of the unoccluded ones.
 class Illumination {
  public:
   /// Forgets all hits, and makes room for one per ray.
   void start(std::size_t rays);
 
-  /// Adds the hit of ray `ray` of the stream, on which light may fall.
+  /// Adds the hit of ray `ray` of the stream, which light may reach.
   void add_point(std::size_t ray, const LobeMaterial& material) {
     lit_[ray] = 1;
     materials_[ray] = &material;
     any_ = true;
   }
 
-  /// By the lecture's epsilon: how long it is, and the points as floats have them, by ray.
+  /// The lecture's epsilon: its length, and the points in floats, by ray.
   struct Epsilon {
     float length;
     const Vec3f* points;
   };
 
   /// The shadow rays of the points that face the light, in the points' order; valid until the next
-  /// call. All points are found in `surfaces`. With an epsilon they start by it.
+  /// call. `surfaces` holds all points. With an epsilon the rays start by it.
   RayStream make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,
                              StreamSurfaces& surfaces, const std::optional<Epsilon>& epsilon = {});
 
@@ -58,7 +58,7 @@ class Illumination {
   RayBuffer shadow_rays_;
   VectorBuffer to_light_;
   AlignedArray<double> cosines_;      ///< n.l
-  AlignedArray<std::uint32_t> rays_;  ///< the ray to whose hit it belongs
+  AlignedArray<std::uint32_t> rays_;  ///< the ray of its hit
 };
 
 }  // namespace boule

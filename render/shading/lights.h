@@ -7,14 +7,14 @@
 
 namespace boule {
 
-/// What shadow rays of many points to a light go to.
+/// The target of shadow rays from many points to a light.
 ShadowTarget shadow_target(const Light& light);
 
-/// What arrives at points along them. A sphere light is a point at its centre here, with radiance
-/// (radius / distance)^2: what a surface receives that sees all of it.
+/// The intensity that arrives at points along these rays. A sphere light is a point at its centre
+/// here, with radiance (radius / distance)^2: the light on a surface that sees all of it.
 LightIntensity light_intensity(const Light& light);
 
-/// What a light's shadow rays have in common.
+/// The coherence of a light's shadow rays.
 Coherence shadow_coherence(const Light& light);
 
 }  // namespace boule

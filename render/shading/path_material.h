@@ -6,7 +6,7 @@
 
 namespace boule {
 
-/// A material as the kernels read it.
+/// A material for the kernels.
 inline LobeMaterial lobe_material(const FlatMaterial& m) {
   return {{m.diffuse.r, m.diffuse.g, m.diffuse.b, 0},
           {m.mirror.r, m.mirror.g, m.mirror.b, 0},
@@ -24,7 +24,7 @@ inline LobeKind lobe_kind(const FlatMaterial& m) {
   return scatters(m) || m.highlight > 0 ? LobeKind::glossy : LobeKind::matte;
 }
 
-/// A material as Whitted's method reads it.
+/// A material for Whitted's method.
 struct WhittedMaterial {
   FlatMaterial flat;
   LobeMaterial lobes;
@@ -37,15 +37,15 @@ struct WhittedMaterial {
         sends_on(scatters(m)) {}
 };
 
-/// A material as path tracing reads it.
+/// A material for path tracing.
 struct PathMaterial {
   LobeMaterial lobes;
   Color constant;
   LobeKind kind;
-  bool emits;        ///< the constant is not black; then it sends nothing on
+  bool emits;        ///< the constant is above black; then it reflects nothing
   bool takes_light;  ///< takes_direct_light(), unless it emits
 
-  /// Of flatten_for_paths().
+  /// From a material of flatten_for_paths().
   explicit PathMaterial(const FlatMaterial& m)
       : lobes(lobe_material(m)),
         constant(m.constant),

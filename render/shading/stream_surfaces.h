@@ -11,37 +11,38 @@
 
 namespace boule {
 
-/// The surfaces that a stream's rays met, found block by block. What shadow rays need is kept for
-/// the whole stream; the rest is kept for the block that was found last.
+/// The surfaces that a stream's rays hit, found block by block. The data for shadow rays are kept
+/// for the whole stream; the rest is kept for the last block.
 class StreamSurfaces {
  public:
-  /// The most rays in a block: few enough for their surfaces to stay in the nearest caches.
+  /// The largest number of rays in a block: few enough for their surfaces to stay in the nearest
+  /// caches.
   static constexpr std::size_t block_size = 256;
 
   /// `scene` and `kernels` must outlive it.
   StreamSurfaces(const PreparedScene& scene, const KernelTable& kernels);
 
-  /// Makes room for so many rays.
+  /// Makes room for `rays` rays.
   void resize(std::size_t rays);
 
   /// Finds the surfaces of the block of rays first .. first + size - 1. Preconditions: `first` is a
   /// multiple of block_size, and size <= block_size.
   void find(const RayStream& rays, const HitStream& hits, std::size_t first, std::size_t size);
 
-  /// The surfaces of the block that was found last, by its rays.
+  /// The surfaces of the last block, by its rays.
   SurfaceStream of_block();
   /// Ids below it are those of spheres.
   [[nodiscard]] std::int32_t first_plane() const { return geometry_.planes.first_id; }
 
-  /// The surface that ray k of the block met. Precondition: it met one.
+  /// The surface that ray k of the block hit. Precondition: it hit one.
   [[nodiscard]] Surface get(std::size_t k) const;
 
   /// Surface::point and Surface::mirrored, by ray of the stream.
   VectorStream points() { return points_.view(); }
   VectorStream mirrored() { return mirrored_.view(); }
 
-  /// The hits of the first `size` rays. lit[k] is 1 if light may fall on that of ray k, else 0,
-  /// also up to padded(size).
+  /// The hits of the first `size` rays. lit[k] is 1 if light may reach the hit of ray k, otherwise
+  /// 0, also up to padded(size).
   LitStream lit(const std::uint8_t* lit, std::size_t size);
 
  private:

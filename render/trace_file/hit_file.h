@@ -12,14 +12,14 @@
 
 namespace boule {
 
-/// What is stored of each ray.
+/// The stored form of a hit.
 /// - closest: a TracedHit in 24 bytes, [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))].
 /// - any: one byte, '|u1', which is 1 for a hit and 0 for a miss.
 enum class HitKind { closest, any };
 
 /// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. Like an
-/// OutputFile it appears under its name when it is complete, its errors are "cannot write 'NAME':
-/// REASON", and after commit(), or once it was moved away, it refuses all calls.
+/// OutputFile it appears under its name when it is complete, and its errors are "cannot write
+/// 'NAME': REASON". After commit(), and after a move, it refuses all calls.
 class HitFile {
  public:
   /// Begins a file of `count` hits. `stop` is as for OutputFile::create().
@@ -33,10 +33,10 @@ class HitFile {
   Status append(std::span<const TracedHit> hits);
   Status append(std::span<const std::uint8_t> met);
 
-  /// Makes the data durable. After the last hit it saves commit() that time.
+  /// Makes the data durable. After the last hit, it saves commit() that time.
   Status sync();
 
-  /// Gives the file its name. An error if it does not hold `count` hits yet. `stop` is as for
+  /// Gives the file its name. An error if it holds fewer than `count` hits. `stop` is as for
   /// OutputFile::commit().
   Status commit(const std::function<bool()>& stop = {});
 
@@ -47,7 +47,7 @@ class HitFile {
   OutputFile file_;
   std::string name_;
   HitKind kind_;
-  std::uint64_t left_;               ///< hits that are still to be written
+  std::uint64_t left_;               ///< number of hits still to be written
   std::vector<unsigned char> rows_;  ///< of one write, as in the file
 };
 
