@@ -3,6 +3,6 @@
 
 # pages ROOT: the documents below a folder, from there, but for those of builds.
 pages() {
-  (cd "$1" && find -L . \( -name 'build*' -o -name '.?*' \) -prune -o -name '*.md' -print) |
+  (cd "$1" && find -L . \( -type d -name 'build*' -o -name '.?*' \) -prune -o -name '*.md' -print) |
     sed 's|^\./||' | LC_ALL=C sort
 }
