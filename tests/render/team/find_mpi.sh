@@ -78,7 +78,7 @@ wrapper "$folder/bare/mpicc.mpich" "-I/usr/include/mpich-not-there -L/usr/lib -l
 wrapper "$folder/bare/mpicc" "nothing"
 links=$folder/links
 mkdir "$links"
-for tool in "$cxx" cmake make ninja ar ranlib ld uname sh; do
+for tool in "$cxx" cmake make ninja as ar ranlib ld uname sh; do
   path=$(command -v "$tool") && ln -sf "$path" "$links/$(basename "$tool")"
 done
 
@@ -101,8 +101,8 @@ cmake --build "$folder/path" > "$folder/log" 2>&1 || fail "it does not build: $(
 cmake --install "$folder/path" --prefix "$folder/installed" > /dev/null
 for module in "$folder/path/bin" "$folder"/installed/lib*/boule "$folder"/installed/lib/*/boule; do
   [ -d "$module" ] || continue
-  ldd "$module/boule_mpi_openmpi.so" | grep -q "libmpi.so.7 => $folder/first/lib/libmpi.so.7" ||
-    fail "$module: $(ldd "$module/boule_mpi_openmpi.so")"
+  needed=$(ldd "$module/boule_mpi_openmpi.so")
+  grep -q "libmpi.so.7 => $folder/first/lib/libmpi.so.7" <<< "$needed" || fail "$module: $needed"
   modules=$((${modules:-0} + 1))
 done
 [ "${modules:-0}" = 2 ] || fail "$modules modules"
