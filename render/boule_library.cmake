@@ -1,15 +1,28 @@
-# boule_library(NAME header source macro otherwise): a library that one source uses. Without it,
-# `otherwise` holds.
-function(boule_library name header source macro otherwise)
-  string(TOUPPER ${name} upper)
-  find_path(BOULE_${upper}_INCLUDE_DIR ${header})
-  find_library(BOULE_${upper}_LIBRARY ${name})
-  mark_as_advanced(BOULE_${upper}_INCLUDE_DIR BOULE_${upper}_LIBRARY)
-  if(NOT BOULE_${upper}_INCLUDE_DIR OR NOT BOULE_${upper}_LIBRARY)
-    message(STATUS "Without ${header}: ${otherwise}")
-    return()
+# boule_library(NAME header function source macro otherwise): a library that one source uses, whose
+# header declares the function. Without it, `otherwise` holds.
+function(boule_library name header function source macro otherwise)
+  set(program "#include <${header}>\nint main() { auto* volatile used = &${function}; return !used; }\n")
+  boule_compiles(compiles ${name} "${program}" LIBRARIES ${name})
+  set(linked ${name})  # by name: an installation can be moved
+  if(NOT compiles)
+    string(TOUPPER ${name} upper)
+    find_path(BOULE_${upper}_INCLUDE_DIR ${header})
+    find_library(BOULE_${upper}_LIBRARY ${name})
+    mark_as_advanced(BOULE_${upper}_INCLUDE_DIR BOULE_${upper}_LIBRARY)
+    if(BOULE_${upper}_INCLUDE_DIR AND BOULE_${upper}_LIBRARY)
+      boule_compiles(compiles ${name} "${program}"
+        INCLUDES ${BOULE_${upper}_INCLUDE_DIR} LIBRARIES ${BOULE_${upper}_LIBRARY})
+    endif()
+    if(NOT compiles)
+      message(STATUS "Without ${header}: ${otherwise}")
+      return()
+    endif()
+    target_include_directories(boule SYSTEM PRIVATE $<BUILD_INTERFACE:${BOULE_${upper}_INCLUDE_DIR}>)
+    set(linked ${BOULE_${upper}_LIBRARY})
+    cmake_path(GET linked PARENT_PATH folder)
+    set_property(GLOBAL APPEND PROPERTY BOULE_PC_FOLDERS ${folder})
   endif()
   set_property(SOURCE ${source} TARGET_DIRECTORY boule APPEND PROPERTY COMPILE_DEFINITIONS ${macro})
-  target_link_libraries(boule PRIVATE ${name})  # by name: an installation can be moved
+  target_link_libraries(boule PRIVATE ${linked})
   set_property(GLOBAL APPEND PROPERTY BOULE_PC_LIBRARIES ${name})
 endfunction()

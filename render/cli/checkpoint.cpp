@@ -1,12 +1,15 @@
 #include "render/cli/checkpoint.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "render/cli/interrupt.h"
+#include "render/cli/messages.h"
 #include "render/cli/run_report.h"
 
 namespace boule::cli {
@@ -33,11 +36,19 @@ Result<bool> Checkpoint::load(const FilmHead& head, PartSheet& sheet) const {
   const auto reader = film_file::Reader::open(choice_.file);
   if (!reader) return reader.error();
   const FilmHead& found = reader.value().head();
-  std::string difference = find_difference(found.facts, head.facts);
+  std::string difference =
+      find_difference(found.facts, head.facts, head.kinds.measured ? "" : samples_name);
   if (difference.empty()) difference = find_difference(found.share, head.share);
   if (!difference.empty()) return Diagnostic::in_file(choice_.file, difference);
+  // A sample that is to be the only one lies at the pixel's centre, where none of several does.
+  if (found.spp == 1 && head.spp > 1) return false;
   if (auto bad = reader.value().read(sheet)) return *bad;
-  return true;
+  const int most = sheet.most_samples(), usable = found.spp > 1 && head.spp == 1 ? 0 : head.spp;
+  if (most <= usable) return true;
+  return Diagnostic::in_file(
+      choice_.file,
+      fmt::format("has pixels of {}, expected --spp to be {} or more, not {}",
+                  counted(static_cast<std::size_t>(most), "sample"), std::max(most, 2), head.spp));
 }
 
 Status Checkpoint::save(const FilmHead& head, const PartSheet& sheet) const {
@@ -45,6 +56,9 @@ Status Checkpoint::save(const FilmHead& head, const PartSheet& sheet) const {
   return film_file::write(choice_.file, head, sheet, {});
 }
 
-void Checkpoint::remove() const { unlink(choice_.file.c_str()); }
+void Checkpoint::remove(const std::string& output) const {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(choice_.file, output, ignored)) unlink(choice_.file.c_str());
+}
 
 }  // namespace boule::cli

@@ -18,15 +18,17 @@ class Checkpoint {
   /// has it, or, without --resume, the file is there already.
   static Result<Checkpoint> open(const RenderCommand& command, ExitCode& code);
 
-  /// With --resume: whether there is a checkpoint; its blocks are then put into the sheet. An error
-  /// if it is of another picture, by name, or damaged.
+  /// With --resume: whether there is a checkpoint whose samples can be used; its blocks are then
+  /// put into the sheet. They may be those of a run with another number of samples per pixel, the
+  /// noise of which is not measured. An error if it is of another picture, by name, has pixels with
+  /// more samples than are wanted, or is damaged.
   Result<bool> load(const FilmHead& head, PartSheet& sheet) const;
 
   /// Replaces the checkpoint. A signal does not end it.
   Status save(const FilmHead& head, const PartSheet& sheet) const;
 
-  /// Removes it: the picture is finished.
-  void remove() const;
+  /// Removes it: the picture or film `output` is finished. If it is that film itself, it stays.
+  void remove(const std::string& output) const;
 
   [[nodiscard]] const std::string& file() const { return choice_.file; }
   [[nodiscard]] double interval() const { return choice_.interval; }

@@ -60,7 +60,8 @@ void handle(int signal) {
 }  // namespace
 
 void install_interrupt_handlers() {
-  // A closed pipe or a size limit is reported as an error instead of ending the program silently.
+  // A closed pipe or a size limit does not end the program before it has removed what is
+  // unfinished.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = handle;
@@ -104,6 +105,8 @@ int StopGuard::caught() { return caught_signal; }
 const char* StopGuard::caught_name() { return signal_name(caught_signal); }
 
 void leave_as_caught() { leave(caught_signal); }
+
+void leave_unread() { leave_at_once("", 128 + SIGPIPE); }
 
 void leave_at_once(const char* line, int code) {
   sigset_t all{};

@@ -67,6 +67,10 @@ class StopGuard {
 /// a literal such as "the picture had been written", takes its place in the line.
 void set_written(const char* end);
 
+/// Ends the program in silence with the exit status of SIGPIPE, 141: nobody reads its output any
+/// more. What was written to files stays.
+[[noreturn]] void leave_unread();
+
 /// Ends the program at once, on any thread: removes the temporary file of a RemovalGuard, writes
 /// the line to standard error, and leaves with that code. If several threads call it, the first one
 /// wins. It is async-signal-safe and needs no memory.

@@ -1,11 +1,14 @@
+#include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "render/cli/commands.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/messages.h"
+#include "render/cli/option_values.h"
 #include "render/cli/own_memory.h"
 #include "render/cli/standard_streams.h"
+#include "render/threads/threads.h"
 
 namespace {
 
@@ -22,8 +25,16 @@ struct Run {
   }
 };
 
+/// Slurm binds a task to its processors on some clusters only.
+void limit_threads_of_task() {
+  const char* const processors = std::getenv("SLURM_CPUS_PER_TASK");
+  if (processors == nullptr) return;
+  if (const auto number = parse_number(processors, 1U, 1U << 20)) boule::limit_threads(*number);
+}
+
 ExitCode run_program(int argc, char** argv) {
   try {
+    limit_threads_of_task();
     if (const auto bad = take_stack()) return report(*bad, failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
   } catch (const std::bad_alloc&) {

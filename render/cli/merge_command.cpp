@@ -35,14 +35,18 @@ class Merging {
 
   [[nodiscard]] const FilmHead& head() const { return head_; }
   PartSheet& sheet() { return *sheet_; }
+  /// None: the picture is finished.
+  [[nodiscard]] const std::optional<PartialSamples>& partial() const { return partial_; }
+  [[nodiscard]] Image image() const;
 
  private:
   Status add(const std::string& file);
-  [[nodiscard]] Status check_blocks() const;
+  Status check_blocks();
 
   const MergeCommand& command_;
   FilmHead head_;  ///< of the first film, with the blocks of all
   std::optional<PartSheet> sheet_;
+  std::optional<PartialSamples> partial_;
 };
 
 Status Merging::add(const std::string& file) {
@@ -61,18 +65,25 @@ Status Merging::add(const std::string& file) {
       return Diagnostic::in_file(file, "is not of the pixels of " + command_.films.front());
   }
   if (auto bad = reader.value().read(*sheet_)) return bad;
-  for (const PixelRect& block : head.blocks) {
-    if (!sheet_->is_finished(block, head.spp))
-      return Diagnostic::in_file(file, "is a checkpoint that is not finished");
-    head_.blocks.push_back(block);
-  }
+  head_.blocks.insert(head_.blocks.end(), head.blocks.begin(), head.blocks.end());
   return std::nullopt;
 }
 
-Status Merging::check_blocks() const {
+Status Merging::check_blocks() {
   const std::string gap = find_gap(head_.rect, head_.blocks);
-  if (gap.empty()) return std::nullopt;
-  return Diagnostic::of("the films do not make a picture: " + gap);
+  if (!gap.empty()) return Diagnostic::of("the films do not make a picture: " + gap);
+  const PartialSamples samples = samples_of(*sheet_, head_.blocks, head_.spp);
+  if (samples.done == 0) return Diagnostic::of("the films do not make a picture: no pixel is done");
+  if (samples.done < samples.all) partial_ = samples;
+  return std::nullopt;
+}
+
+/// Where noise is measured, a film has nothing of pixels that are not.
+Image Merging::image() const {
+  const Alpha alpha = head_.transparent ? Alpha::coverage : Alpha::none;
+  if (!partial_) return sheet_->image(alpha);
+  return sheet_->partial_image(head_.order, alpha,
+                               Film(head_.kinds.measured ? head_.rect : PixelRect{}));
 }
 
 /// An error if the picture cannot be written in that format.
@@ -100,6 +111,7 @@ ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
     file.crop = {head.frame_width, head.frame_height, head.rect.x0, head.rect.y0};
   file.date_time = date;
   file.metadata = head.metadata;
+  if (merging.partial()) file.metadata.push_back(merging.partial()->remark());
   if (head.kinds.measured) {
     for (auto& entry : noise_header(noise_reached(merging.sheet().measured(), head.spp)))
       file.metadata.push_back(std::move(entry));
@@ -111,8 +123,7 @@ ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
 }
 
 ExitCode write(const MergeCommand& command, Merging& merging, const std::string& date) {
-  const FilmHead& head = merging.head();
-  const Image image = merging.sheet().image(head.transparent ? Alpha::coverage : Alpha::none);
+  const Image image = merging.image();
   Status status;
   {
     const WriteGuard guard;
@@ -121,9 +132,13 @@ ExitCode write(const MergeCommand& command, Merging& merging, const std::string&
   }
   exit_if_interrupted();
   if (status) return report(*status, failed);
-  if (!command.quiet) {
+  const std::string films = counted(command.films.size(), "film");
+  if (const auto& partial = merging.partial()) {  // even if quiet, as render does
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, of {}", command.output,
+                           partial->percent(), partial->what, films));
+  } else if (!command.quiet) {
     print_note(fmt::format("boule: {}: {} x {} pixels, {} spp, of {}", command.output, image.width,
-                           image.height, head.spp, counted(command.films.size(), "film")));
+                           image.height, merging.head().spp, films));
   }
   return done;
 }

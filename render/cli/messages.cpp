@@ -3,20 +3,31 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "render/cli/interrupt.h"
 #include "render/cli/standard_error.h"
 #include "render/image/output_file.h"
 
 namespace boule::cli {
+namespace {
+
+bool has_reader = true;
+
+}  // namespace
 
 Status print_data(const std::string& text) {
   write_lines("");  // ends an open line: both streams may be the same terminal
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return std::nullopt;
-  return cannot_write("standard output", errno);
+  if (errno != EPIPE) return cannot_write("standard output", errno);
+  has_reader = false;
+  return std::nullopt;
 }
+
+bool reader_left() { return !has_reader; }
 
 ExitCode print_as_result(const std::string& text) {
   const Status bad = print_data(text);
+  if (reader_left()) leave_unread();
   return bad ? report(*bad, failed) : done;
 }
 

@@ -8,11 +8,14 @@
 
 namespace boule::cli {
 
-/// Writes to standard output: data only.
+/// Writes to standard output: data only. That nobody reads them any more is no error: the reader
+/// has closed the pipe, as `head` does.
 Status print_data(const std::string& text);
+/// Whether that was so.
+bool reader_left();
 
 /// print_data() for a command that does nothing else. Returns done, or reports the error and
-/// returns failed.
+/// returns failed. Ends the program where nobody reads (leave_unread()).
 ExitCode print_as_result(const std::string& text);
 
 /// A line for people, on standard error.

@@ -32,7 +32,8 @@ void add_part_options(CLI::App& app, RenderCommand& command) {
   add_parsed(app, "--checkpoint", command.checkpoint, parse_checkpoint,
              "FILE or FILE,TIME such as run.film,60s", "FILE[,TIME]",
              "Save what is rendered every TIME (60s) and when a signal or limit stops it");
-  app.add_flag("--resume", command.resume, "Go on from the checkpoint, where there is one");
+  app.add_flag("--resume", command.resume,
+               "Go on from the checkpoint, where there is one; --spp may be greater");
   add_parsed(app, "--shard", command.shard, parse_shard, "K/N with 1 <= K <= N, such as 3/8", "K/N",
              "Render share K of N into a .film file; boule merge makes the picture");
   app.add_flag("--claim", command.claim,
@@ -71,7 +72,6 @@ Status check_shard(const RenderCommand& command) {
   if (command.skip_existing || command.claim)
     return wrong_option("goes with pictures, not with --shard",
                         command.claim ? "--claim" : "--skip-existing");
-  if (command.partial) return wrong_option("goes with pictures, not with --shard", "--partial");
   return std::nullopt;
 }
 
@@ -80,11 +80,6 @@ Status check_shard(const RenderCommand& command) {
 Status check_part_options(const RenderCommand& command) {
   if (command.resume && !command.checkpoint)
     return wrong_option("needs --checkpoint, which names the file", "--resume");
-  if (command.checkpoint && command.partial)
-    return wrong_option(
-        "a checkpoint goes on where it was stopped: it is --checkpoint or "
-        "--partial",
-        "--partial");
   if (command.checkpoint && command.output == standard_output)
     return wrong_option("needs a picture in a file, not on standard output", "--checkpoint");
   if (command.claim && !command.frames)

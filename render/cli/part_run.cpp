@@ -8,7 +8,8 @@
 #include "render/cli/time_span.h"
 
 namespace boule::cli {
-/// Takes what the checkpoint holds, if there is one, and begins its first interval.
+
+/// Takes what the checkpoint holds, if there is one.
 Status PartRun::load() {
   if (checkpoint_ == nullptr) return std::nullopt;
   const auto loaded = checkpoint_->load(head_, sheet_);
@@ -17,59 +18,135 @@ Status PartRun::load() {
   for (const PixelRect& block : head_.blocks) {
     if (is_finished(block)) tell_measured(block);
   }
-  due_ = Clock::now() + time_span(checkpoint_->interval());
   return std::nullopt;
+}
+
+/// The first one, or the next one.
+void PartRun::begin_interval() {
+  if (checkpoint_ != nullptr) due_ = Clock::now() + time_span(checkpoint_->interval());
 }
 
 Status PartRun::run(const std::vector<PixelRect>& blocks) {
   head_.blocks = blocks;
   if (auto bad = load()) return bad;
+  if (auto bad = shows_ ? begin_shown() : std::nullopt) return bad;
+  begin_interval();
+  const int spp = renderer_.options().spp;
+  const bool at_once = !shows_ || head_.kinds.measured;
+  const LivePasses passes(at_once ? PixelOrder::tiles : head_.order, renderer_.rect(), spp);
+  int least = spp;
+  for (const PixelRect& block : blocks) least = std::min(least, sheet_.least_samples(block));
+  double begin = 0;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const LivePass pass = passes[i];
+    if (pass.until > least || at_once) {
+      if (auto bad = run_pass(pass, begin)) return bad;
+    }
+    begin = pass.share;
+  }
+  return std::nullopt;
+}
+
+/// What a picture that is stopped has in any case: lines and AOVs; and where pixels are measured
+/// one by one, a sample of each of the others.
+Status PartRun::begin_shown() {
+  std::vector<PixelRect> rest, empty;
+  for (const PixelRect& block : head_.blocks) {
+    if (!is_finished(block)) rest.push_back(block);
+    if (sheet_.least_samples(block) == 0) empty.push_back(block);
+  }
+  const auto extras = [this](BlockTools& tools, const PixelRect& block) {
+    find_extras(tools, block, sheet_);
+    return true;
+  };
+  const auto one_sample = [this](BlockTools& tools, const PixelRect& block) {
+    return tools.render(block, 1, preview_);
+  };
+  const LiveProgress::PassSpan none{share(), share()};
+  if (auto bad = render_some(empty, none, extras)) return bad;
+  if (head_.kinds.measured && !StopGuard::flag()) {
+    preview_.restart(sheet_.rect());
+    if (auto bad = render_some(rest, none, one_sample)) return bad;
+  }
+  return StopGuard::flag() ? save_stopped() : std::nullopt;
+}
+
+/// `begin` is the share of the samples that the passes before have.
+Status PartRun::run_pass(const LivePass& pass, double begin) {
+  const auto task = [this, &pass](BlockTools& tools, const PixelRect& block) {
+    return render_block(tools, block, pass, sheet_);
+  };
   for (;;) {
     std::vector<PixelRect> rest;
-    for (const PixelRect& block : blocks) {
-      if (!is_finished(block)) rest.push_back(block);
+    for (const PixelRect& block : head_.blocks) {
+      if (!has(block, pass)) rest.push_back(block);
     }
     if (rest.empty()) return std::nullopt;
-    Status bad = render_some(rest);
+    const double done = std::max(share(), begin);
+    const Status bad =
+        render_some(rest, {done, std::max(pass.share, done), 0, measured_pixels(rest)}, task);
     if (bad && !StopGuard::flag()) return bad;
-    if (checkpoint_ != nullptr && (StopGuard::flag() || is_due())) {
+    if (StopGuard::flag()) return save_stopped();
+    if (checkpoint_ != nullptr && is_due()) {
       if (auto unsaved = save()) return unsaved;
     }
-    if (StopGuard::flag()) return Diagnostic::of("rendering was cancelled");
   }
 }
 
-/// Renders these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
-Status PartRun::render_some(const std::vector<PixelRect>& blocks) {
+/// The error of a run that was stopped; another one if the checkpoint could not be replaced.
+Status PartRun::save_stopped() {
+  if (checkpoint_ != nullptr) {
+    if (auto unsaved = save()) return unsaved;
+  }
+  return Diagnostic::of("rendering was cancelled");
+}
+
+/// Works on these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
+Status PartRun::render_some(const std::vector<PixelRect>& blocks,
+                            const LiveProgress::PassSpan& span, const BlockTask& task) {
+  if (blocks.empty()) return std::nullopt;
   LiveProgress& progress = live_.progress();
-  const std::uint64_t rays = renderer_.statistics().rays.total();
-  progress.begin_pass(blocks.size(), {share(), 1, rays, measured_pixels(blocks)});
+  LiveProgress::PassSpan traced = span;
+  traced.rays = renderer_.statistics().rays.total();
+  progress.begin_pass(blocks.size(), traced);
   std::atomic<std::size_t> next{0};
-  const auto task = [&](BlockTools& tools) {
+  const auto work = [&](BlockTools& tools) {
     for (std::size_t i = next++; i < blocks.size() && !is_due(); i = next++) {
       if (StopGuard::flag()) return;
       const std::uint64_t before = tools.counts().total();
       progress.begin_block();
-      if (!render_block(tools, blocks[i], sheet_)) return progress.drop_block();
+      if (!task(tools, blocks[i])) return progress.drop_block();
       progress.end_block(tools.counts().total() - before);
       live_.update(progress.read());
     }
   };
-  return renderer_.work(std::cref(task));
+  return renderer_.work(std::cref(work));
+}
+
+bool PartRun::render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
+  LivePass all;
+  all.until = renderer_.options().spp;
+  return render_block(tools, block, all, sheet);
 }
 
 /// Lines and AOVs first: where all pixels have samples, they are known.
-bool PartRun::render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
-  const int spp = renderer_.options().spp;
-  int until = sheet.least_samples(block);
-  if (until == 0) find_extras(tools, block, sheet);
+bool PartRun::render_block(BlockTools& tools, const PixelRect& block, const LivePass& pass,
+                           PartSheet& sheet) const {
+  LivePass part = pass;
+  part.until = sheet.least_samples(block, pass.pick);
+  if (part.until == 0 && !shows_) find_extras(tools, block, sheet);
   if (sheet.kinds().measured) return tools.measure(block, sheet.measured());
-  while (until < spp) {
+  while (part.until < pass.until) {
     if (is_due()) return false;
-    until += std::min(spp - until, tools.worthwhile_samples(block));
-    if (!tools.render(block, until, sheet.film())) return false;
+    part.until += std::min(pass.until - part.until, tools.worthwhile_samples(block));
+    if (!tools.render(block, part, sheet.film())) return false;
   }
   return true;
+}
+
+bool PartRun::has(const PixelRect& block, const LivePass& pass) const {
+  return head_.kinds.measured ? is_finished(block)
+                              : sheet_.least_samples(block, pass.pick) >= pass.until;
 }
 
 void PartRun::find_extras(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const {
@@ -105,10 +182,13 @@ bool PartRun::is_due() const { return Clock::now() >= due_; }
 Status PartRun::save() {
   if (auto bad = checkpoint_->save(head_, sheet_)) return bad;
   saved_ = true;
-  due_ = Clock::now() + time_span(checkpoint_->interval());
+  begin_interval();
   return std::nullopt;
 }
 
-double PartRun::share() const { return sheet_.share(head_.blocks, renderer_.options().spp); }
+double PartRun::share() const {
+  const std::uint64_t all = sheet_.all(head_.blocks, renderer_.options().spp);
+  return all > 0 ? static_cast<double>(sheet_.done()) / static_cast<double>(all) : 0;
+}
 
 }  // namespace boule::cli

@@ -4,13 +4,16 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "core/base/error.h"
 #include "render/cli/checkpoint.h"
 #include "render/cli/interrupt.h"
 #include "render/cli/live_report.h"
+#include "render/frame/film.h"
+#include "render/frame/live_passes.h"
+#include "render/frame/progress.h"
 #include "render/parts/film_file.h"
 #include "render/parts/part_sheet.h"
 #include "render/renderer/block_tools.h"
@@ -20,12 +23,17 @@ namespace boule::cli {
 
 /// Renders a picture, or a shard of it, in full: its samples, lines and AOVs. With a checkpoint it
 /// goes on from that, replaces it at each interval, and when a StopGuard's flag is raised.
+/// A picture that is shown although it was stopped grows in the passes of head.order (LivePasses),
+/// after its lines and AOVs; others grow block by block.
 class PartRun {
  public:
   /// All must outlive it; `head` is what a film file of the whole picture says, without blocks, and
   /// gets the blocks that are rendered. `checkpoint` may be null.
-  PartRun(Renderer& renderer, LiveReport& live, FilmHead& head, const Checkpoint* checkpoint)
-      : PartRun(renderer, live, head, checkpoint, renderer.rect()) {}
+  PartRun(Renderer& renderer, LiveReport& live, FilmHead& head, const Checkpoint* checkpoint,
+          bool shows_unfinished)
+      : PartRun(renderer, live, head, checkpoint, renderer.rect()) {
+    shows_ = shows_unfinished;
+  }
   PartRun(const PartRun&) = delete;
   PartRun& operator=(const PartRun&) = delete;
   virtual ~PartRun() = default;
@@ -37,6 +45,8 @@ class PartRun {
 
   [[nodiscard]] PartSheet& sheet() { return sheet_; }
   [[nodiscard]] const PartSheet& sheet() const { return sheet_; }
+  /// A sample of each pixel that is to be measured, where the picture is shown unfinished.
+  [[nodiscard]] const Film& preview() const { return preview_; }
   /// Whether the checkpoint holds all that was done when it was cancelled.
   [[nodiscard]] bool saved() const { return saved_; }
   /// The share of the samples that are done, 0..1.
@@ -55,10 +65,13 @@ class PartRun {
         sheet_(sheet_rect, head.kinds) {}
 
   Status load();
+  void begin_interval();
   [[nodiscard]] bool is_finished(const PixelRect& block) const;
   [[nodiscard]] bool is_due() const;
   /// Renders what a block has not yet. False if it was stopped.
   bool render_block(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const;
+  bool render_block(BlockTools& tools, const PixelRect& block, const LivePass& pass,
+                    PartSheet& sheet) const;
   Status save();
   /// How many pixels of the blocks are counted one by one: all where noise is measured, else 0.
   [[nodiscard]] std::uint64_t measured_pixels(const std::vector<PixelRect>& blocks) const;
@@ -74,12 +87,21 @@ class PartRun {
  private:
   using Clock = std::chrono::steady_clock;
 
-  Status render_some(const std::vector<PixelRect>& blocks);
+  /// Works on a block. False if it was stopped.
+  using BlockTask = std::function<bool(BlockTools&, const PixelRect& block)>;
+  Status begin_shown();
+  Status run_pass(const LivePass& pass, double begin);
+  Status render_some(const std::vector<PixelRect>& blocks, const LiveProgress::PassSpan& span,
+                     const BlockTask& task);
+  Status save_stopped();
+  [[nodiscard]] bool has(const PixelRect& block, const LivePass& pass) const;
   void find_extras(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const;
 
   Clock::time_point due_ = Clock::time_point::max();
   double resumed_ = 0;
   bool saved_ = false;
+  bool shows_ = false;
+  Film preview_{PixelRect{}};
 };
 
 }  // namespace boule::cli

@@ -15,6 +15,14 @@ double PartialSamples::percent() const {
   return std::floor(static_cast<double>(done) / static_cast<double>(all) * 1000) / 10;
 }
 
+Metadata::value_type PartialSamples::remark() const {
+  return {"ImageDescription", fmt::format("partial: {} of {} {}", done, all, what)};
+}
+
+PartialSamples samples_of(const PartSheet& sheet, const std::vector<PixelRect>& blocks, int spp) {
+  return {sheet.done(), sheet.all(blocks, spp), sheet.kinds().measured ? "pixels" : "samples"};
+}
+
 Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, const Vec3d& origin,
                         const std::optional<PartialSamples>& partial) {
   const RenderOptions& options = renderer.options();
@@ -37,10 +45,7 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, cons
     header.emplace_back("boule:noise", fmt::format("{}", options.noise));
     header.emplace_back("boule:min_spp", options.min_spp);
   }
-  if (partial) {
-    header.emplace_back("ImageDescription", fmt::format("partial: {} of {} {}", partial->done,
-                                                        partial->all, partial->what));
-  }
+  if (partial) header.push_back(partial->remark());
   return header;
 }
 

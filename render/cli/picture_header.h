@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "render/frame/pixel_rect.h"
 #include "render/image/write_image.h"
+#include "render/parts/part_sheet.h"
 #include "render/renderer/renderer.h"
 
 namespace boule::cli {
@@ -15,7 +18,12 @@ struct PartialSamples {
 
   /// Rounded down to a tenth, so that 100 means all.
   [[nodiscard]] double percent() const;
+  /// The entry of a picture's header.
+  [[nodiscard]] Metadata::value_type remark() const;
 };
+
+/// Those of these blocks of a sheet, for pictures of so many samples per pixel.
+PartialSamples samples_of(const PartSheet& sheet, const std::vector<PixelRect>& blocks, int spp);
 
 /// A picture file's metadata: worldtocamera, worldtoscreen (CameraMatrices),
 /// samplesPerPixel, boule:solver, boule:method, boule:filter, boule:max_depth, boule:seed, and

@@ -9,6 +9,7 @@
 #include <climits>
 #include <functional>
 
+#include "render/cli/interrupt.h"
 #include "render/cli/run_report.h"
 #include "render/image/encode_image.h"
 #include "render/image/output_file.h"
@@ -86,6 +87,7 @@ Status send_picture(const Image& image, StreamFormat format, const ImageFileOpti
   if (options.temporary) options.temporary({});
   const int code = send(bytes.value(), options.stop);
   if (code == 0) return std::nullopt;
+  if (code == EPIPE) leave_unread();
   return code == ECANCELED ? cannot_write(stream_name, "interrupted")
                            : cannot_write(stream_name, code);
 }

@@ -210,6 +210,7 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
 }  // namespace
 
 ExitCode run(const RenderCommand& command) {
+  if (auto bad = check_copies(command)) return report(*bad, wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);
   return team.value() ? run_as_rank(*team.value(), command) : run_in(nullptr, command);

@@ -317,9 +317,11 @@ void Rendering::tell_end(const Image& image) const {
                                 ? fmt::format("interrupted ({})", StopGuard::caught_name())
                                 : std::string("stopped by the time limit");
   if (partial_) {  // even if quiet: the exit code does not tell that the picture is partial
-    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, {}",
+    const std::string saved =
+        checkpoint_ ? "; " + checkpoint_->file() + " holds them, --resume goes on" : "";
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, {}{}",
                            shown_output(command_.output), partial_->percent(), partial_->what,
-                           cause));
+                           cause, saved));
     return;
   }
   if (!tells_of_itself()) return;

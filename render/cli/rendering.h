@@ -61,6 +61,7 @@ class Rendering {
   ExitCode prepare_parts(RenderOptions& options);
   ExitCode write_parts(Renderer& renderer, PartRun& run, const FilmHead& head);
   ExitCode write_film(const PartRun& run, const FilmHead& head);
+  [[nodiscard]] bool can_show(const PartRun& run) const;
   ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;
   [[nodiscard]] FilmHead film_head(const Renderer& renderer) const;
   std::unique_ptr<PartRun> part_run(Renderer& renderer, FilmHead& head);

@@ -67,12 +67,14 @@ FilmHead Rendering::film_head(const Renderer& renderer) const {
   head.spp = options.spp;
   head.transparent = options.transparent;
   head.kinds = kinds_of(options);
+  if (command_.partial) head.order = options.order;
   return head;
 }
 
 std::unique_ptr<PartRun> Rendering::part_run(Renderer& renderer, FilmHead& head) {
   const Checkpoint* const checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
-  if (team_ == nullptr) return std::make_unique<PartRun>(renderer, live_, head, checkpoint);
+  if (team_ == nullptr)
+    return std::make_unique<PartRun>(renderer, live_, head, checkpoint, command_.partial);
   return std::make_unique<TeamRun>(renderer, live_, head, checkpoint, *team_,
                                    command_.frame.value_or(0));
 }
@@ -85,7 +87,8 @@ ExitCode Rendering::render_parts(Renderer& renderer) {
   live_.end_pass();
   live_.end_time_limit();
   if (!writes()) return run->failed() ? refuse(*bad, command_, failed) : done;
-  if (bad) {
+  if (bad && can_show(*run)) partial_ = samples_of(run->sheet(), head.blocks, head.spp);
+  if (bad && !partial_) {
     const ExitCode code = explain_parts(*bad, *run);
     checkpoint_.reset();  // the lock goes, whether this was a series or not
     return code;
@@ -97,8 +100,14 @@ ExitCode Rendering::render_parts(Renderer& renderer) {
   }
   live_.start_stage("writing " + printable(shown_output(command_.output)));
   const ExitCode code = write_parts(renderer, *run, head);
-  if (code == done && checkpoint_) checkpoint_->remove();
+  if (code == done && checkpoint_ && !partial_) checkpoint_->remove(command_.output);
   return code == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : code;
+}
+
+/// Whether a run that was stopped has something to show, and may. What is not saved is an error.
+bool Rendering::can_show(const PartRun& run) const {
+  if (!command_.partial || run.failed() || (checkpoint_ && !run.saved())) return false;
+  return run.sheet().done() > 0 || run.preview().total_samples() > 0;
 }
 
 /// Tells what the ranks did, if somebody asks.
@@ -132,7 +141,9 @@ ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead
     return finish(renderer, size);
   }
   if (head.kinds.measured) noise_ = noise_reached(run.sheet().measured(), head.spp);
-  const Image image = run.sheet().image(alpha_of(renderer.options()));
+  const Alpha alpha = alpha_of(renderer.options());
+  const Image image = partial_ ? run.sheet().partial_image(head.order, alpha, run.preview())
+                               : run.sheet().image(alpha);
   ImageFileOptions options = file_options(renderer);
   options.channels = run.sheet().release_channels();
   const ExitCode written = write(image, options);

@@ -31,6 +31,7 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
       failed_ = true;
       return bad;
     }
+    begin_interval();
     picture.blocks = unfinished(blocks);
     std::vector<PixelRect> rest;
     for (const std::uint32_t number : picture.blocks) rest.push_back(blocks[number]);

@@ -1,5 +1,7 @@
 #include "render/cli/team_start.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <utility>
 
@@ -45,6 +47,18 @@ Result<std::unique_ptr<Team>> join_team(const RenderCommand& command) {
   if (team) return team;
   return Diagnostic::of("started by " + launcher.name + " as one of several, but " +
                         team.error().message + "; --mpi never renders alone");
+}
+
+Status check_copies(const RenderCommand& command) {
+  if (command.mpi == MpiUse::never || command.shard || command.claim) return std::nullopt;
+  const int copies = count_copies([](const char* name) { return std::getenv(name); });
+  if (copies < 2) return std::nullopt;
+  const std::string together = command.frames ? "--claim or srun --mpi=pmix" : "srun --mpi=pmix";
+  return wrong_option(
+      fmt::format("srun started {} copies of this command, each of which would render all of it: "
+                  "{} makes them work together, --mpi never renders {} times",
+                  copies, together, copies),
+      "--mpi");
 }
 
 Status check_team(const RenderCommand& command) {

@@ -12,6 +12,10 @@ namespace boule::cli {
 /// or --mpi never is given.
 Result<std::unique_ptr<Team>> join_team(const RenderCommand& command);
 
+/// An error if a launcher started several copies of the command, each of which would render all of
+/// it. Shards, series that are shared out, and --mpi never are for copies.
+Status check_copies(const RenderCommand& command);
+
 /// An error if the command is one that a team cannot work on together.
 Status check_team(const RenderCommand& command);
 

@@ -60,6 +60,7 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
   settings.stop = [&unwritten] { return StopGuard::flag() || unwritten.has_value(); };
   settings.ready = [&](const std::string& url) {
     unwritten = print_data(url + "\n");
+    if (reader_left()) leave_unread();
     if (!unwritten && command.open) open_browser(url);
   };
   const StopGuard guard(OnSignal::stop);

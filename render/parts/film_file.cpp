@@ -17,6 +17,8 @@ namespace {
 constexpr char magic[8] = {'b', 'o', 'u', 'l', 'f', 'i', 'l', 'm'};
 constexpr std::uint32_t format_version = 1;
 constexpr std::uint32_t transparent_flag = 1, outline_flag = 2, measured_flag = 4;
+constexpr std::uint32_t order_shift = 8, order_mask = 3;  // the order is a number of the flags
+static_assert(names<PixelOrder>.size() == order_mask + 1);
 
 /// The numbers of a file's head, as they stand in it.
 struct Numbers {
@@ -57,7 +59,8 @@ Numbers numbers_of(const FilmHead& head, std::size_t text_bytes) {
   n.rect = head.rect;
   n.spp = head.spp;
   n.flags = (head.transparent ? transparent_flag : 0) | (head.kinds.outline ? outline_flag : 0) |
-            (head.kinds.measured ? measured_flag : 0);
+            (head.kinds.measured ? measured_flag : 0) |
+            static_cast<std::uint32_t>(head.order) << order_shift;
   n.aovs = bits_of(head.kinds.aovs);
   n.pixel_bytes = static_cast<std::uint32_t>(head.kinds.pixel_bytes());
   return n;
@@ -219,6 +222,7 @@ std::string Reader::parse() {
   head_.rect = n.rect;
   head_.spp = n.spp;
   head_.transparent = (n.flags & transparent_flag) != 0;
+  head_.order = static_cast<PixelOrder>(n.flags >> order_shift & order_mask);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "render/frame/pixel_order.h"
 #include "render/frame/pixel_rect.h"
 #include "render/image/write_image.h"
 #include "render/parts/part_sheet.h"
@@ -23,7 +24,8 @@ struct FilmHead {
   int spp = 1;
   bool transparent = false;
   PartKinds kinds;
-  std::vector<PixelRect> blocks;  ///< that the file holds
+  PixelOrder order = PixelOrder::tiles;  ///< in which it grows: how to show it unfinished
+  std::vector<PixelRect> blocks;         ///< that the file holds
 };
 
 /// Film files hold samples of pixels in full, so that rendering can go on, or parts be put

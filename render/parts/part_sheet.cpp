@@ -7,6 +7,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "render/frame/partial_picture.h"
+
 namespace boule {
 namespace {
 
@@ -68,13 +70,25 @@ void append_pixels(const PixelRect& block, const Pixels& pixels, std::string& te
 }
 
 template <class Pixels>
-int least_of(const PixelRect& block, const Pixels& pixels) {
+int least_of(const PixelRect& block, const PixelPick& pick, const Pixels& pixels) {
   int least = std::numeric_limits<int>::max();
   for (int y = block.y0; y < block.y1; ++y) {
-    for (const auto& pixel : pixels.row(block.x0, block.x1, y))
-      least = std::min(least, samples_of(pixel));
+    int x = block.x0;
+    for (const auto& pixel : pixels.row(block.x0, block.x1, y)) {
+      if (pick.takes(x++, y)) least = std::min(least, samples_of(pixel));
+    }
   }
   return least;
+}
+
+template <class Pixels>
+int most_of(const PixelRect& rect, const Pixels& pixels) {
+  int most = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (const auto& pixel : pixels.row(rect.x0, rect.x1, y))
+      most = std::max(most, samples_of(pixel));
+  }
+  return most;
 }
 
 }  // namespace
@@ -163,28 +177,39 @@ Image PartSheet::image(Alpha alpha) const {
   return image;
 }
 
+Image PartSheet::partial_image(PixelOrder order, Alpha alpha, const Film& preview) const {
+  Image image = kinds_.measured ? partial_picture(preview, measured_, order, alpha)
+                                : partial_picture(film_, order, alpha);
+  if (lines_) lines_->draw(image);
+  return image;
+}
+
 std::vector<ImageChannel> PartSheet::release_channels() {
   for (ImageChannel& channel : measured_channels(kinds_.aovs, measured_))
     channels_.push_back(std::move(channel));
   return std::exchange(channels_, {});
 }
 
-int PartSheet::least_samples(const PixelRect& block) const {
-  return kinds_.measured ? least_of(block, measured_) : least_of(block, film_);
+int PartSheet::least_samples(const PixelRect& block, const PixelPick& pick) const {
+  return kinds_.measured ? least_of(block, pick, measured_) : least_of(block, pick, film_);
+}
+
+int PartSheet::most_samples() const {
+  return kinds_.measured ? most_of(rect_, measured_) : most_of(rect_, film_);
 }
 
 bool PartSheet::is_finished(const PixelRect& block, int spp) const {
   return least_samples(block) >= (kinds_.measured ? 1 : spp);
 }
 
-double PartSheet::share(const std::vector<PixelRect>& blocks, int spp) const {
-  double pixels = 0, done = 0;
-  for (const PixelRect& block : blocks) {
-    pixels += static_cast<double>(block.area());
-    if (kinds_.measured && is_finished(block, spp)) done += static_cast<double>(block.area());
-  }
-  if (!kinds_.measured) done = static_cast<double>(film_.total_samples()) / spp;
-  return pixels > 0 ? done / pixels : 0;
+std::uint64_t PartSheet::done() const {
+  return kinds_.measured ? count_measured(measured_) : film_.total_samples();
+}
+
+std::uint64_t PartSheet::all(const std::vector<PixelRect>& blocks, int spp) const {
+  std::uint64_t pixels = 0;
+  for (const PixelRect& block : blocks) pixels += static_cast<std::uint64_t>(block.area());
+  return kinds_.measured ? pixels : pixels * static_cast<std::uint64_t>(spp);
 }
 
 std::uint64_t PartSheet::bytes(const PixelRect& rect, const PartKinds& kinds) {

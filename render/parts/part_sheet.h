@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "render/frame/film.h"
+#include "render/frame/live_passes.h"
 #include "render/frame/measured_picture.h"
+#include "render/frame/pixel_order.h"
 #include "render/image/write_image.h"
 #include "render/renderer/aov_channels.h"
 #include "render/renderer/outline.h"
@@ -45,12 +47,17 @@ class PartSheet {
   [[nodiscard]] MeasuredPicture& measured() { return measured_; }
   [[nodiscard]] const MeasuredPicture& measured() const { return measured_; }
 
-  /// The fewest samples that a pixel of the block has. Precondition: the block lies in rect().
-  [[nodiscard]] int least_samples(const PixelRect& block) const;
+  /// The fewest samples that a pixel of the block has, of those that are picked; the largest int
+  /// where none is. Precondition: the block lies in rect().
+  [[nodiscard]] int least_samples(const PixelRect& block, const PixelPick& pick = {}) const;
+  /// The most samples that a pixel has.
+  [[nodiscard]] int most_samples() const;
   /// Whether all pixels of the block are finished, in a picture of so many samples per pixel.
   [[nodiscard]] bool is_finished(const PixelRect& block, int spp) const;
-  /// The share of the samples, or of the measured pixels, that these blocks have.
-  [[nodiscard]] double share(const std::vector<PixelRect>& blocks, int spp) const;
+  /// How many samples all pixels have, or how many pixels are measured.
+  [[nodiscard]] std::uint64_t done() const;
+  /// The most of them that these blocks can have, in a picture of so many samples per pixel.
+  [[nodiscard]] std::uint64_t all(const std::vector<PixelRect>& blocks, int spp) const;
 
   /// Takes the lines, or the AOVs, of a block from what holds them. Precondition: both have it.
   void set_lines(const PixelRect& block, const Outline& outline);
@@ -66,6 +73,9 @@ class PartSheet {
 
   /// The picture: the samples' means, with the lines drawn.
   [[nodiscard]] Image image(Alpha alpha) const;
+  /// The same of an unfinished picture that grew in that order (partial_picture()). `preview` has
+  /// what is shown of pixels that are not measured yet; it is of rect().
+  [[nodiscard]] Image partial_image(PixelOrder order, Alpha alpha, const Film& preview) const;
   /// The channels of the AOVs; afterwards there are none.
   std::vector<ImageChannel> release_channels();
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,12 @@ using RunFacts = std::vector<std::pair<std::string, std::string>>;
 RunFacts facts_of(const RenderOptions& options, std::uint64_t scene_hash,
                   const std::string& version);
 
+/// The fact in which a film that goes on may differ (Checkpoint::load()).
+inline constexpr std::string_view samples_name = "spp";
+
 /// The first difference in words for somebody who has `wanted`: "is of another scene: ...", "has
-/// --spp 4, not 16"; empty if there is none. Takes any facts.
-std::string find_difference(const RunFacts& found, const RunFacts& wanted);
+/// --spp 4, not 16"; empty if there is none. The fact named `but` may differ. Takes any facts.
+std::string find_difference(const RunFacts& found, const RunFacts& wanted,
+                            std::string_view but = {});
 
 }  // namespace boule

@@ -23,6 +23,10 @@ class BlockTools {
   bool render(const PixelRect& block, int until, Film& film) {
     return worker_.render(block, until, film);
   }
+  /// The same for the pixels that a pass picks, and for the samples of that pass.
+  bool render(const PixelRect& block, const LivePass& pass, Film& film) {
+    return worker_.render(block, pass, film);
+  }
   /// Renders a block until its noise is that of the options. Returns false after a cancellation;
   /// then pixels without samples must be rendered again. Precondition: the options ask for noise.
   bool measure(const PixelRect& block, MeasuredPicture& picture) {

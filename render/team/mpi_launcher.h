@@ -16,4 +16,9 @@ struct MpiLauncher {
 /// mpiexec and srun --mpi=pmi2 are known.
 MpiLauncher find_mpi_launcher(const std::function<const char*(const char* name)>& variable);
 
+/// How many copies of this process a launcher started that is not MPI's: srun without --mpi, or
+/// with
+/// --mpi=none. 1 where find_mpi_launcher() finds one, and for the one process of a batch script.
+int count_copies(const std::function<const char*(const char* name)>& variable);
+
 }  // namespace boule

@@ -1,11 +1,15 @@
 #include "render/threads/threads.h"
 
 #include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <thread>
 #include <utility>
 
+#include "render/threads/cpu_quota.h"
 #include "render/threads/waiting_thread.h"
 
 namespace boule {
@@ -15,6 +19,13 @@ constexpr std::size_t least_stack = std::size_t{4} << 20;
 
 /// The stack of each thread: the default, but enough for kernels and shading.
 std::size_t stack_size() { return std::max(default_stack(), least_stack); }
+
+std::atomic<unsigned> thread_limit{0};
+
+unsigned own_quota() {
+  std::ifstream file("/proc/self/cgroup");
+  return quota_threads({std::istreambuf_iterator<char>(file), {}}, "/sys/fs/cgroup");
+}
 
 }  // namespace
 
@@ -27,7 +38,16 @@ std::size_t default_stack() {
   return size;
 }
 
-unsigned hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1U); }
+unsigned hardware_threads() {
+  static const unsigned quota = own_quota();
+  unsigned threads = std::max(std::thread::hardware_concurrency(), 1U);
+  for (const unsigned most : {quota, thread_limit.load()}) {
+    if (most > 0) threads = std::min(threads, most);
+  }
+  return threads;
+}
+
+void limit_threads(unsigned most) { thread_limit = most; }
 
 Threads::Threads(std::size_t count, std::function<void(std::size_t)> run) : run_(std::move(run)) {
   const std::size_t stack = stack_size();

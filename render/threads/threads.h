@@ -9,8 +9,12 @@ namespace boule {
 /// Bytes of stack that a thread has by default; not 0.
 std::size_t default_stack();
 
-/// How many threads the hardware runs at once; 1 if that is not known.
+/// How many threads this process can run at once: on the processors that it is bound to, under the
+/// quotas of its control groups when this was first called, and limit_threads(). 1 or more.
 unsigned hardware_threads();
+
+/// From now on hardware_threads() is `most` at most; 0: what it is without.
+void limit_threads(unsigned most);
 
 class WaitingThread;
 

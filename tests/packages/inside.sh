@@ -31,7 +31,7 @@ apt-get update -q >log
 dpkg --purge python3-boule libboule-dev libboule1.0 boule-mpi boule >>log 2>&1  # what a failed trial left
 # What the packages need is installed before, so that what is left at the end is theirs.
 depends=$(for deb in *.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*)//; s/|.*//; s/ //g' |
-  grep -vE '^(boule|libboule1.0|)$' | sort -u)
+  grep -vE '^(boule|boule-image-module-.*|libboule1.0|)$' | sort -u)
 # shellcheck disable=SC2086 # one word each
 install $depends g++ cmake ninja-build pkg-config openmpi-bin mpich man-db
 files >before
@@ -60,6 +60,11 @@ done
 bash docs/links.sh /usr/share/doc/boule installed || fail "links of the manual lead nowhere"
 
 echo "packages: libboule-dev"
+# Programs with the library stay where the program is another version, of the same module.
+needs=$(dpkg-deb -f libboule1.0_*.deb Depends)
+! grep -qE 'boule \(|\(= ' <<<"$needs" || fail "libboule1.0 needs one version: $needs"
+module=$(dpkg-deb -f boule_*.deb Provides)
+[[ $module == boule-image-module-[0-9]* && ", $needs," == *", $module,"* ]] || fail "'$module' is not needed: $needs"
 install ./libboule1.0_*.deb ./libboule-dev_*.deb
 for kind in boule shared; do
   cmake -S consumer/find_package -B "build-$kind" -G Ninja -DBOULE_LIBRARY="boule::$kind" >>log

@@ -94,7 +94,8 @@ TEST_F(CheckpointRuns, AnotherPictureIsRefusedByName) {
     words.insert(words.end(), more.begin(), more.end());
     return refused_run(render("out.exr", words, spp), 3).err;
   };
-  EXPECT_THAT(refused("99999", {}), HasSubstr("run.film: error: has --spp 100000, not 99999"));
+  EXPECT_THAT(refused("99999", {"--max-depth", "3"}),
+              HasSubstr("run.film: error: has --max-depth 5, not 3"));
   EXPECT_THAT(refused("100000", {"--crop", "0,0,9,9"}), HasSubstr("has --crop 0,0,97,61, not"));
   const std::string scene = read("scene.toml");
   std::vector<std::string> other = long_run({"--resume"});
@@ -128,13 +129,142 @@ TEST_F(CheckpointRuns, TheSecondOfTwoIsRefusedByTheLock) {
 
 TEST_F(CheckpointRuns, OptionsThatDoNotGoTogetherAreRefused) {
   EXPECT_THAT(refused_run(render("a.exr", {"--resume"}), 2).err, HasSubstr("needs --checkpoint"));
-  const std::vector<std::string> partial = {"--checkpoint", path("c"), "--partial"};
-  EXPECT_THAT(refused_run(render("a.exr", partial), 2).err, HasSubstr("--partial"));
   EXPECT_THAT(refused_run(render("a.exr", {"--checkpoint", ",60s"}), 2).err,
               HasSubstr("expected FILE or FILE,TIME"));
   EXPECT_THAT(
       refused_run(render("a.##.exr", {"--frames", "1-2", "--checkpoint", path("c")}), 2).err,
       HasSubstr("needs a place for the number"));
+}
+
+/// A picture that is stopped although it is shown.
+class ShownRuns : public CheckpointRuns {
+ protected:
+  /// Stopped as soon as there is something to show: after few of these samples.
+  ProgramRun stopped_early(const std::vector<std::string>& words) const {
+    ProgramRun run;
+    for (int limit_ms = 2; limit_ms < 60'000; limit_ms *= 2) {
+      for (const char* name : {"run.film", "out.exr"}) std::filesystem::remove(path(name));
+      std::vector<std::string> limited = words;
+      limited.insert(limited.end(), {"--time-limit", std::to_string(limit_ms) + "ms"});
+      run = boule_run(limited);
+      if (run.exit_code == 0) break;
+    }
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run;
+  }
+  std::vector<std::string> shown(const std::string& spp, const std::vector<std::string>& more = {},
+                                 const std::string& output = "out.exr") const {
+    std::vector<std::string> words = {"--checkpoint", path("run.film")};
+    words.insert(words.end(), more.begin(), more.end());
+    return render(output, words, spp);
+  }
+};
+
+TEST_F(ShownRuns, ThePictureIsThatOfTheCheckpointAndGoesOnToThatOfOneRun) {
+  const std::string whole = whole_picture();
+  for (const char* const order : {"rows", "tiles", "progressive", "frameless"}) {
+    const ProgramRun run = stopped_early(shown("100000", {"--partial", "--order", order}));
+    EXPECT_THAT(run.err, HasSubstr("out.exr: partial, "));
+    EXPECT_THAT(run.err, HasSubstr("stopped by the time limit; "));
+    EXPECT_THAT(run.err, HasSubstr("run.film holds them, --resume goes on\n"));
+    const ProgramRun merged = boule_run({"merge", path("run.film"), "-o", path("now.exr"), "-q"});
+    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    EXPECT_THAT(merged.err, HasSubstr("now.exr: partial, "));
+    EXPECT_EQ(read("now.exr"), read("out.exr")) << order;
+    // Block by block, a pixel may have thousands of samples already.
+    if (std::string(order) == "rows" || std::string(order) == "tiles") continue;
+    const ProgramRun resumed = boule_run(shown("20", {"--partial", "--order", order, "--resume"}));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(read("out.exr"), whole) << order;
+    EXPECT_FALSE(std::filesystem::exists(path("run.film")));
+  }
+}
+
+/// What was begun to be shown goes on without, and the other way round.
+TEST_F(ShownRuns, AnyOtherRunGoesOn) {
+  const std::string whole = whole_picture("400");
+  const std::vector<std::string> partial = {"--partial"}, none;
+  for (const auto* const first : {&partial, &none}) {
+    std::vector<std::string> words = shown("400", *first);
+    if (first == &none) {
+      RunningProgram program(shown("400", none));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      program.send(SIGTERM);
+      program.finish();
+    } else {
+      stopped_early(words);
+    }
+    std::vector<std::string> more = first == &partial ? none : partial;
+    more.emplace_back("--resume");
+    const ProgramRun run = boule_run(shown("400", more));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read("out.exr"), whole);
+  }
+}
+
+TEST_F(ShownRuns, ASignalWritesThePictureToo) {
+  RunningProgram program(long_run({"--partial"}));
+  while (!std::filesystem::exists(path("run.film")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  program.send(SIGTERM);
+  EXPECT_EQ(program.finish().exit_code, 143);
+  EXPECT_THAT(files(), ElementsAre("out.exr", "run.film", "scene.toml"));
+}
+
+TEST_F(ShownRuns, PicturesWhoseNoiseIsAskedForToo) {
+  ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
+  const std::vector<std::string> saved = {"--checkpoint", path("run.film"), "--partial"};
+  const ProgramRun stopped = stopped_early(render_noise("out.exr", saved));
+  if (std::filesystem::exists(path("run.film"))) {  // finished where the machine is fast
+    EXPECT_THAT(stopped.err, HasSubstr(" % of its pixels, stopped by the time limit; "));
+    std::vector<std::string> more = render_noise("out.exr", saved);
+    *std::find(more.begin(), more.end(), "64") = "128";
+    more.emplace_back("--resume");
+    EXPECT_THAT(refused_run(more, 3).err, HasSubstr("has --spp 64, not 128"));
+  }
+  std::vector<std::string> resumed = saved;
+  resumed.emplace_back("--resume");
+  const ProgramRun run = boule_run(render_noise("out.exr", resumed));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("out.exr"), read("whole.exr"));
+}
+
+TEST_F(ShownRuns, MoreSamplesHaveTheBitsOfOneRun) {
+  const std::string whole = whole_picture("20");
+  const auto keep = [&](const std::string& spp) {
+    std::filesystem::remove(path("run.film"));
+    EXPECT_EQ(boule_run(render("run.film", {"--shard", "1/1"}, spp)).exit_code, 0);
+  };
+  // A sample that is the only one is none of several: then all begin anew.
+  for (const char* const spp : {"1", "2", "7", "20"}) {
+    keep(spp);
+    const ProgramRun run = boule_run(shown("20", {"--resume"}));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read("out.exr"), whole) << spp;
+    EXPECT_FALSE(std::filesystem::exists(path("run.film")));
+  }
+  keep("7");
+  for (const auto& [spp, words] : {std::pair{"6", "expected --spp to be 7 or more, not 6"},
+                                   std::pair{"1", "expected --spp to be 7 or more, not 1"}})
+    EXPECT_THAT(refused_run(shown(spp, {"--resume"}), 3).err,
+                HasSubstr(std::string("run.film: error: has pixels of 7 samples, ") + words));
+}
+
+/// The film of a share is its own checkpoint.
+TEST_F(ShownRuns, AShardGetsMoreSamplesInItsPlace) {
+  const std::string whole = whole_picture("20");
+  for (const char* const shard : {"1/2", "2/2"}) {
+    const std::string film = std::string("part") + shard[0] + ".film";
+    for (const char* const spp : {"4", "20"}) {
+      const ProgramRun run =
+          boule_run(render(film, {"--shard", shard, "--checkpoint", path(film), "--resume"}, spp));
+      EXPECT_EQ(run.exit_code, 0) << run.err;
+    }
+  }
+  const ProgramRun run =
+      boule_run({"merge", path("part1.film"), path("part2.film"), "-o", path("merged.exr"), "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("merged.exr"), whole);
 }
 
 /// By hand with BOULE_KILLS=50. A run may end before its kill: then the next begins anew.

@@ -104,10 +104,48 @@ TEST_F(Shards, HaveCheckpointsToo) {
   std::vector<std::string> stopped = render("p.film", saved, "100000");
   for (const char* word : {"--shard", "1/2", "--time-limit", "100ms"}) stopped.emplace_back(word);
   EXPECT_EQ(boule_run(stopped).exit_code, 1);
-  EXPECT_THAT(refused_run(merge({path("run.film")}), 3).err, HasSubstr("is not finished"));
+  EXPECT_THAT(refused_run(merge({path("run.film")}), 3).err, HasSubstr("are missing"));
   std::vector<std::string> other = render("p.film", saved, "100000");
   for (const char* word : {"--shard", "2/2", "--resume"}) other.emplace_back(word);
   EXPECT_THAT(refused_run(other, 3).err, HasSubstr("has --shard 1/2, not 2/2"));
+}
+
+/// srun without MPI: N copies would write one file.
+TEST_F(Shards, CopiesThatSrunStartedAreRefusedUnlessTheyShareTheWork) {
+  const std::vector<std::string> step = {"SLURM_PROCID=1", "SLURM_STEP_ID=0", "SLURM_NTASKS=4",
+                                         "SLURM_STEP_NUM_TASKS=4"};
+  const std::vector<std::string> frames = {"--frames", "1-2"};
+  EXPECT_THAT(refused_run(render("a.exr"), 2, step).err,
+              HasSubstr("srun started 4 copies of this command"));
+  EXPECT_THAT(refused_run(render("a.##.exr", frames), 2, step).err,
+              HasSubstr("--claim or srun --mpi=pmix"));
+  for (const auto& [output, words] :
+       {std::pair{"a.film", std::vector<std::string>{"--shard", "2/4"}},
+        std::pair{"a.##.exr", std::vector<std::string>{"--frames", "1-2", "--claim"}},
+        std::pair{"a.exr", std::vector<std::string>{"--mpi", "never"}}}) {
+    const ProgramRun run = boule_run(render(output, words, "1"), step);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+  }
+  const ProgramRun batch = boule_run(render("a.exr"), {"SLURM_PROCID=0", "SLURM_NTASKS=4"});
+  EXPECT_EQ(batch.exit_code, 0) << batch.err;
+}
+
+/// What a share has when it is stopped, and the whole picture of what all have.
+TEST_F(Shards, AnUnfinishedFilmMakesAPictureThatSaysSo) {
+  std::vector<std::string> stopped = render("a.film", {}, "100000");
+  for (const char* word : {"--shard", "1/2", "--partial", "--time-limit", "300ms"})
+    stopped.emplace_back(word);
+  const ProgramRun part = boule_run(stopped);
+  EXPECT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_THAT(part.err, HasSubstr("a.film: partial, "));
+  std::vector<std::string> rest = render("b.film", {}, "100000");
+  for (const char* word : {"--shard", "2/2", "--partial", "--time-limit", "300ms"})
+    rest.emplace_back(word);
+  ASSERT_EQ(boule_run(rest).exit_code, 0);
+  const ProgramRun run = boule_run(merge({path("a.film"), path("b.film")}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("merged.exr: partial, "));
+  EXPECT_THAT(run.err, HasSubstr(" % of its samples, of 2 films\n"));
 }
 
 }  // namespace

@@ -19,6 +19,24 @@ class Statistics : public ProgramTest {
   }
 };
 
+/// Where the processors are not bound, Slurm's variable alone tells.
+TEST_F(Statistics, ThreadsAreNoMoreThanATaskOfSlurmHas) {
+  const auto threads = [&](const std::vector<std::string>& options, const std::string& processors) {
+    std::vector<std::string> words = {"--stats", "json:-", "--size", "300x200"};
+    words.insert(words.end(), options.begin(), options.end());
+    std::vector<std::string> arguments = {"render", small_scene(), "-o", path("x.ppm"), "-q"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    const ProgramRun run = boule_run(arguments, {"SLURM_CPUS_PER_TASK=" + processors});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(run.out).at("threads").get<int>();
+  };
+  const int all = threads({}, "");
+  EXPECT_EQ(threads({}, "1"), 1);
+  EXPECT_EQ(threads({"-t", "0"}, "1"), 1);
+  EXPECT_EQ(threads({"-t", "2"}, "1"), 2);
+  for (const char* none : {"0", "-1", "many", "1000000"}) EXPECT_EQ(threads({}, none), all);
+}
+
 TEST_F(Statistics, JsonHasEveryFigure) {
   const ProgramRun run = render({"--stats", "json:-", "--spp", "3", "-t", "2", "--isa", "scalar"});
   ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -73,5 +73,34 @@ TEST_F(ClosedStreams, DataThatHaveNowhereToGoAreAnError) {
   }
 }
 
+/// As `| head -1`, which may leave before anything is written: silence, and the exit code of
+/// SIGPIPE.
+TEST_F(ClosedStreams, AReaderThatLeavesEndsACommandInSilence) {
+  small_scene();
+  const auto piped = [&](const std::string& arguments, const std::string& before,
+                         const std::string& reader) {
+    const std::string line = "cd " + path("") + " && { " + before + "\"" BOULE_PROGRAM "\" " +
+                             arguments + "; echo $? >code; } 2>told | " + reader;
+    run_program("/bin/sh", {{"-c", line}, {}});
+    EXPECT_EQ(read("told"), "") << arguments;
+    return read("code");
+  };
+  const auto unread = [&](const std::string& arguments) {
+    std::filesystem::remove(path("closed"));
+    return piped(arguments, "until [ -e closed ]; do sleep 0.01; done; ",
+                 "{ exec <&-; : >closed; }");
+  };
+  for (const char* command : {"info scene.toml --json", "isa --json", "--version", "render --help",
+                              "help", "render scene.toml -q -o - --format ppm"}) {
+    SCOPED_TRACE(command);
+    EXPECT_EQ(unread(command), "141\n");
+    for (int i = 0; i < 7; ++i)
+      EXPECT_THAT(piped(command, "", "head -c 1"), testing::AnyOf("0\n", "141\n"));
+  }
+  // The files of a run are what it is for.
+  EXPECT_EQ(unread("render scene.toml -q -o f.##.ppm --frames 1-3 --stats json"), "0\n");
+  for (const char* frame : {"f.01.ppm", "f.02.ppm", "f.03.ppm"}) EXPECT_NE(read(frame), "");
+}
+
 }  // namespace
 }  // namespace boule::test

@@ -26,6 +26,7 @@ class FilmFile : public testing::Test {
     head_.rect = {3, 4, 43, 34};
     head_.spp = 9;
     head_.transparent = true;
+    head_.order = PixelOrder::frameless;
     head_.kinds.outline = true;
     head_.kinds.aovs.depth = head_.kinds.aovs.id = true;
     head_.blocks = {{3, 4, 19, 20}, {30, 20, 43, 34}};
@@ -74,7 +75,8 @@ TEST_F(FilmFile, HoldsMeasuredPixelsToo) {
   EXPECT_EQ(sheet.least_samples({5, 6, 6, 7}), 77);
   EXPECT_TRUE(sheet.is_finished({5, 6, 6, 7}, 1000));
   EXPECT_FALSE(sheet.is_finished(head_.blocks[0], 1000));
-  EXPECT_EQ(sheet.share({{5, 6, 6, 7}, {6, 6, 7, 7}}, 1000), 0.5);
+  EXPECT_EQ(sheet.done(), 1U);
+  EXPECT_EQ(sheet.all({{5, 6, 6, 7}, {6, 6, 7, 7}}, 1000), 2U);
   ASSERT_FALSE(film_file::write(path_, head_, sheet, {}));
   const auto reader = film_file::Reader::open(path_);
   ASSERT_TRUE(reader) << reader.error().message;
@@ -106,6 +108,7 @@ TEST_F(FilmFile, ReadsWhatItWrote) {
   EXPECT_EQ(head.frame_height, 40);
   EXPECT_EQ(head.spp, 9);
   EXPECT_TRUE(head.transparent);
+  EXPECT_EQ(head.order, PixelOrder::frameless);
   PartSheet sheet(head.rect, head.kinds);
   ASSERT_FALSE(reader.value().read(sheet));
   ASSERT_FALSE(film_file::write(path_, head, sheet, {}));

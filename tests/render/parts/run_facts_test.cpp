@@ -41,6 +41,16 @@ TEST(RunFacts, ChangedPixelOptionsAreNamed) {
   EXPECT_TRUE(told.count("has --spp 17, not 1") == 1);
 }
 
+TEST(RunFacts, OneOfThemMayDiffer) {
+  RenderOptions more, other;
+  more.spp = other.spp = 17;
+  other.seed = 1;
+  const RunFacts base = facts_of({}, 1, "0.1.0");
+  EXPECT_EQ(find_difference(facts_of(more, 1, "0.1.0"), base, samples_name), "");
+  EXPECT_EQ(find_difference(facts_of(other, 1, "0.1.0"), base, samples_name),
+            "has --seed 1, not 0");
+}
+
 TEST(RunFacts, LeaveOutOptionsWithoutInfluence) {
   RenderOptions other;
   other.order = PixelOrder::frameless;

@@ -3,18 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
+#include <string>
 
 namespace boule::test {
 namespace {
 
-std::string launcher(const std::map<std::string, std::string>& environment) {
-  const auto find = [&](const char* name) {
+using Environment = std::map<std::string, std::string>;
+
+std::function<const char*(const char*)> finder(const Environment& environment) {
+  return [&environment](const char* name) {
     const auto at = environment.find(name);
     return at == environment.end() ? nullptr : at->second.c_str();
   };
-  return find_mpi_launcher(find).name;
 }
+std::string launcher(const Environment& environment) {
+  return find_mpi_launcher(finder(environment)).name;
+}
+int copies(const Environment& environment) { return count_copies(finder(environment)); }
 
 TEST(MpiLauncher, IsFoundByItsVariables) {
   EXPECT_EQ(launcher({{"OMPI_COMM_WORLD_SIZE", "4"}, {"PMIX_RANK", "0"}}), "OpenMPI");
@@ -29,6 +36,33 @@ TEST(MpiLauncher, SingleProcessesHaveNoLauncher) {
   EXPECT_EQ(launcher({{"OMPI_COMM_WORLD_SIZE", "1"}}), "");
   EXPECT_EQ(launcher({{"PMI_SIZE", "1"}}), "");
   EXPECT_EQ(launcher({{"OMPI_COMM_WORLD_SIZE", "many"}}), "");
+}
+
+/// As srun sets them since Slurm 17, in steps without MPI.
+TEST(MpiLauncher, CopiesOfSrunAreCounted) {
+  EXPECT_EQ(copies({{"SLURM_PROCID", "2"}, {"SLURM_STEP_ID", "0"}, {"SLURM_STEP_NUM_TASKS", "4"}}),
+            4);
+  EXPECT_EQ(copies({{"SLURM_PROCID", "0"}, {"SLURM_STEP_ID", "0"}, {"SLURM_NTASKS", "4"}}), 4);
+  EXPECT_EQ(copies({{"SLURM_PROCID", "0"}, {"SLURM_STEPID", "3"}, {"SLURM_NTASKS", "2"}}), 2);
+}
+
+TEST(MpiLauncher, OthersAreNoCopies) {
+  EXPECT_EQ(copies({}), 1);
+  // The script of a job, and a step of one task in a job of many.
+  EXPECT_EQ(copies({{"SLURM_PROCID", "0"}, {"SLURM_NTASKS", "16"}}), 1);
+  EXPECT_EQ(copies({{"SLURM_PROCID", "0"},
+                    {"SLURM_STEP_ID", "0"},
+                    {"SLURM_NTASKS", "16"},
+                    {"SLURM_STEP_NUM_TASKS", "1"}}),
+            1);
+  EXPECT_EQ(copies({{"SLURM_STEP_NUM_TASKS", "4"}}), 1);
+  const Environment step = {
+      {"SLURM_PROCID", "1"}, {"SLURM_STEP_ID", "0"}, {"SLURM_STEP_NUM_TASKS", "4"}};
+  for (const char* const mpi : {"PMIX_RANK", "PMI_RANK", "OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    Environment ranks = step;
+    ranks[mpi] = "1";
+    EXPECT_EQ(copies(ranks), 1) << mpi;
+  }
 }
 
 }  // namespace

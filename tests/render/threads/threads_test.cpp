@@ -8,12 +8,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
 #include <iterator>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "render/threads/cpu_quota.h"
 #include "render/threads/waiting_thread.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temp_dir.h"
 
 namespace boule {
 namespace {
@@ -123,6 +128,70 @@ TEST(Threads, ForkedChildrenGetTheirOwn) {
   int status = -1;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(status, 0);
+}
+
+/// A folder of control groups as the kernel shows it.
+class Quotas : public testing::Test {
+ protected:
+  void file(const std::string& name, const std::string& text) const {
+    const auto path = folder_.path() / name;
+    std::filesystem::create_directories(path.parent_path());
+    test::write_bytes(path, text);
+  }
+  unsigned threads(const std::string& groups) const {
+    return quota_threads(groups, folder_.path().string());
+  }
+
+ private:
+  test::TempDir folder_;
+};
+
+TEST_F(Quotas, OfVersionTwoTheTightestCounts) {
+  file("a/cpu.max", "400000 100000\n");
+  file("a/b/cpu.max", "max 100000\n");
+  EXPECT_EQ(threads("0::/a/b\n"), 4U);
+  file("a/b/cpu.max", "150000 100000\n");
+  EXPECT_EQ(threads("0::/a/b\n"), 2U);  // rounded up
+  EXPECT_EQ(threads("0::/a\n"), 4U);
+  EXPECT_EQ(threads("0::/c\n"), 0U);
+  file("cpu.max", "50000 100000\n");  // a container's own
+  EXPECT_EQ(threads("0::/\n"), 1U);
+  EXPECT_EQ(threads("0::/outside/name\n"), 1U);
+}
+
+TEST_F(Quotas, OfVersionOneToo) {
+  const std::string groups = "12:memory:/x\n4:cpu,cpuacct:/x\n3:cpuset:/x\n0::/y\n";
+  EXPECT_EQ(threads(groups), 0U);
+  file("cpu,cpuacct/x/cpu.cfs_quota_us", "-1\n");
+  file("cpu,cpuacct/x/cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(threads(groups), 0U);
+  file("cpu,cpuacct/x/cpu.cfs_quota_us", "300000\n");
+  EXPECT_EQ(threads(groups), 3U);
+  file("cpu,cpuacct/cpu.cfs_quota_us", "100000\n");
+  file("cpu,cpuacct/cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(threads(groups), 1U);
+  EXPECT_EQ(threads("4:cpuset:/x\n"), 0U);
+}
+
+TEST_F(Quotas, TakeAnyText) {
+  for (const char* text : {"", ":", "::", "0::", "0::a", "x\ny:z", "0::/../..\n1:cpu:"})
+    EXPECT_EQ(threads(text), 0U) << text;
+  file("cpu.max", "0 0\n");
+  EXPECT_EQ(threads("0::/\n"), 0U);
+  file("cpu.max", "1e300 1\n");
+  EXPECT_EQ(threads("0::/\n"), 0U);
+  file("cpu.max", "x\n");
+  EXPECT_EQ(threads("0::/\n"), 0U);
+}
+
+TEST(Threads, AreNoMoreThanTheirLimit) {
+  const unsigned all = hardware_threads();
+  limit_threads(1);
+  EXPECT_EQ(hardware_threads(), 1U);
+  limit_threads(all + 1);
+  EXPECT_EQ(hardware_threads(), all);
+  limit_threads(0);
+  EXPECT_EQ(hardware_threads(), all);
 }
 
 }  // namespace
