@@ -59,12 +59,12 @@ try_scene() {
   expect "$where" 0 "$program" info "$name"
 }
 
-# try_python BLOCK: where there is a NumPy, and the package boule for what imports it. Debian's Python, if
+# try_python BLOCK: where there are a NumPy and the package boule for what imports them. Debian's Python, if
 # there is one: the package is built for it.
 try_python() {
   local python=python3
   [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
-  "$python" -c 'import numpy' 2>/dev/null || return 0
+  ! grep -qE 'import (numpy|boule)' "$1" || "$python" -c 'import numpy' 2>/dev/null || return 0
   ! grep -q 'import boule' "$1" || [[ -d "$build/boule" ]] || return 0
   expect "$(head -n 1 "$1")" 0 env PYTHONPATH="$build" "$python" -c "$(tail -n +2 "$1")"
 }
