@@ -11,13 +11,14 @@ readonly build_packages=(cmake clang g++ ninja-build libxsimd-dev libopenimageio
 # chromium-driver, python3-selenium: the pages, driven in a browser.
 # libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
 # bash-completion, fish, zsh, man-db, mandoc: who reads the manual pages and completions.
-readonly test_packages=(bash-completion binutils chromium-driver clang-format clang-tidy fish libclang-rt-14-dev libgmock-dev
+# doxygen, python3-sphinx: the pages of the target `reference`.
+readonly test_packages=(bash-completion binutils chromium-driver clang-format clang-tidy doxygen fish libclang-rt-14-dev libgmock-dev
   libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev man-db
   mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-selenium qemu-user zsh)
 # For the package boule, and what its tests hold it against.
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
 readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
-  python3-nbclient python3-pytest)
+  python3-nbclient python3-pytest python3-sphinx)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
 readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopenmpi-dev lintian)
 

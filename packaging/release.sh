@@ -18,6 +18,8 @@ section=$(grep -m 1 '^## \[' CHANGELOG.md)
   fail "the newest section of CHANGELOG.md is '$section', not that of $version with a date"
 grep -q "^Package: libboule$interface\$" packaging/debian/control ||
   fail "packaging/debian/control has no package libboule$interface"
+grep -q "^version: $version\$" CITATION.cff || fail "CITATION.cff has another version than $version"
+grep -q "^date-released: ${section##* }\$" CITATION.cff || fail "CITATION.cff has another date than CHANGELOG.md"
 [[ "${1:-}" != --check ]] || { echo "release: $version can be released"; exit 0; }
 
 [[ -z "$(git status --porcelain)" ]] || fail "not all is committed: git status"
@@ -32,3 +34,4 @@ echo "release: $(sha256sum "$tarball")"
 echo "release: boule $version is ready. It is tagged by"
 echo "  git tag -a v$version -m 'Boule $version' $(git rev-parse HEAD)"
 echo "  git push origin v$version"
+echo "release: then name the commit in CHANGELOG.md: '## [$version] - DATE, commit $(git rev-parse --short=12 HEAD)'"

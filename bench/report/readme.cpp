@@ -10,6 +10,11 @@ namespace {
 
 constexpr const char* begin_mark = "<!-- report: begin -->\n";
 constexpr const char* end_mark = "<!-- report: end -->\n";
+// A test looks for the first line in the report of the commit that was measured.
+constexpr const char* table_header =
+    "| scene | primary: Embree | Boule | ratio | shadow: Embree | Boule | ratio "
+    "| wrong: Embree | Boule |\n"
+    "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 constexpr std::size_t most_rows = 8;  // a first look; the page has them all
 
 /// The best of Embree and the widest of Boule on the same rays.
@@ -43,41 +48,84 @@ std::vector<std::string> scenes_of(const PeerRows& peers) {
   return scenes;
 }
 
-/// A row for each scene: its primary rays, its shadow rays, and what both got wrong together.
-std::string scene_rows(const PeerRows& peers) {
-  std::string lines =
-      "| scene | primary rays: Embree | Boule | ratio | shadow rays: Embree | Boule | ratio | "
-      "wrong: "
-      "Embree | Boule |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-  std::size_t rows = 0;
+/// A scene that both have traced.
+struct SceneDuels {
+  std::string scene;
+  Duel primary, shadow;
+
+  [[nodiscard]] std::size_t wrong(const PeerRow* Duel::*contender) const {
+    return (primary.*contender)->mismatches + (shadow.*contender)->mismatches;
+  }
+};
+
+std::vector<SceneDuels> duels_of(const PeerRows& peers) {
+  std::vector<SceneDuels> duels;
   for (const std::string& scene : scenes_of(peers)) {
-    const Duel primary = find_duel(peers, scene, "primary");
-    const Duel shadow = find_duel(peers, scene, "shadow");
-    if (!primary.complete() || !shadow.complete() || rows == most_rows) continue;
-    lines += fmt::format("| {} |", scene);
-    for (const Duel& duel : {primary, shadow}) {
+    const SceneDuels both{scene, find_duel(peers, scene, "primary"),
+                          find_duel(peers, scene, "shadow")};
+    if (both.primary.complete() && both.shadow.complete() && duels.size() < most_rows)
+      duels.push_back(both);
+  }
+  return duels;
+}
+
+/// "1.7 to 3.8", or one number where both are the same.
+template <class Number>
+std::string range_of(const std::vector<Number>& numbers, const char* format) {
+  const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+  const std::string first = fmt::format(fmt::runtime(format), *least);
+  const std::string last = fmt::format(fmt::runtime(format), *most);
+  return first == last ? first : first + " to " + last;
+}
+
+/// The two claims that are measured, a line or two each.
+std::string claims(const PeerRows& peers, const std::vector<SceneDuels>& duels) {
+  std::vector<double> primary, shadow;
+  std::vector<std::size_t> wrong;
+  std::size_t ours = 0;
+  for (const SceneDuels& scene : duels) {
+    primary.push_back(scene.primary.boule->ratio);
+    shadow.push_back(scene.shadow.boule->ratio);
+    wrong.push_back(scene.wrong(&Duel::embree));
+    ours += scene.wrong(&Duel::boule);
+  }
+  return fmt::format(
+      "- **Fast.** {} times as many primary rays a second as Embree {}, and {} times as many\n"
+      "  shadow rays ([repeat it](docs/howto/claims.md#how-fast)).\n"
+      "- **Exact.** {} wrong hits. Embree returns {} wrong hits in each of these scenes\n"
+      "  ([repeat it](docs/howto/claims.md#how-fast)).\n\n",
+      range_of(primary, "{:.1f}"), peers.embree, range_of(shadow, "{:.1f}"), ours,
+      range_of(wrong, "{}"));
+}
+
+/// A row for each scene: its primary rays, its shadow rays, and how many both got wrong together.
+std::string scene_rows(const std::vector<SceneDuels>& duels) {
+  std::string lines = table_header;
+  for (const SceneDuels& scene : duels) {
+    lines += fmt::format("| {} |", scene.scene);
+    for (const Duel& duel : {scene.primary, scene.shadow}) {
       lines += fmt::format(" {:.3g} | {:.3g} | {:.2f} |", duel.embree->mrays_per_s,
                            duel.boule->mrays_per_s, duel.boule->ratio);
     }
-    lines += fmt::format(" {} | {} |\n", primary.embree->mismatches + shadow.embree->mismatches,
-                         primary.boule->mismatches + shadow.boule->mismatches);
-    ++rows;
+    lines += fmt::format(" {} | {} |\n", scene.wrong(&Duel::embree), scene.wrong(&Duel::boule));
   }
   return lines;
 }
 
 std::string table(const Figures& figures) {
   const Provenance& p = figures.provenance;
-  std::string text =
-      fmt::format("Measured on {}, {}, commit {}{}, by `{}`; one thread, {}.", p.cpu, p.compiler,
-                  p.commit, p.date.empty() ? "" : ", " + p.date, p.command, figures.widest);
-  if (!figures.peers || figures.peers->rows.empty())
-    return text + " This build found no Embree to compare with.\n";
-  text += fmt::format(
-      " Million rays per second beside Embree {}, the best of its modes, on the same rays ({} of a "
-      "camera for each scene); wrong: another hit than an independent tree in double finds.\n\n",
-      figures.peers->embree, figures.peers->rows.front().count);
-  return text + scene_rows(*figures.peers);
+  const std::string measured =
+      fmt::format("Measured on {}, {}, commit {}{}, by `{}`", p.cpu, p.compiler, p.commit,
+                  p.date.empty() ? "" : ", " + p.date, p.command);
+  const std::vector<SceneDuels> duels =
+      figures.peers ? duels_of(*figures.peers) : std::vector<SceneDuels>{};
+  if (duels.empty()) return measured + ". This build found no Embree to compare with.\n";
+  return claims(*figures.peers, duels) + scene_rows(duels) +
+         fmt::format(
+             "\n{}: one thread, {}, million rays a second, the same {} camera rays of each scene, "
+             "Embree in the best of its modes. A hit is wrong if an independent tree in double "
+             "finds another one. uN: N balls at random; flakeN: a sphereflake of N levels.\n",
+             measured, figures.widest, figures.peers->rows.front().count);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # commands.sh PROGRAM SOURCE BUILD [PAGE...]: what the documents, or these pages, show is so.
 #
-# Every block of TOML or NFF is a scene. Every line of a block of sh is tried: boule and the programs
-# that make data run, in a copy of the scenes' folder, once where several pages show the same. Of what
-# takes minutes it is checked that there is such a thing: a target, a preset, a test that a ctest line
+# Every block of TOML or NFF is a scene, every block of C++ compiles. Every line of a block of sh is tried:
+# boule and the programs that make data run, in a copy of the scenes' folder, once where several pages show
+# the same. Of what takes minutes it is checked that there is such a thing: a target, a preset, a test that a ctest line
 # selects, a word of bootstrap.sh. A block whose first line is "# NAME.toml" is that file for the commands. docs/command_line.md has all
 # options of the program's help, and no others. A page of docs/howto has at most 100 lines, and commands.
 set -euo pipefail
@@ -59,14 +59,22 @@ try_scene() {
   expect "$where" 0 "$program" info "$name"
 }
 
-# try_python BLOCK: where there is a NumPy, and the package boule for what imports it. Debian's Python, if
+# try_python BLOCK: where there are a NumPy and the package boule for what imports them. Debian's Python, if
 # there is one: the package is built for it.
 try_python() {
   local python=python3
   [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
-  "$python" -c 'import numpy' 2>/dev/null || return 0
+  ! grep -qE 'import (numpy|boule)' "$1" || "$python" -c 'import numpy' 2>/dev/null || return 0
   ! grep -q 'import boule' "$1" || [[ -d "$build/boule" ]] || return 0
   expect "$(head -n 1 "$1")" 0 env PYTHONPATH="$build" "$python" -c "$(tail -n +2 "$1")"
+}
+
+# try_cpp BLOCK: what includes <boule/boule.h> compiles, where there is a compiler.
+try_cpp() {
+  local compiler="${CXX:-c++}"
+  command -v "$compiler" >/dev/null && grep -q '<boule/boule.h>' "$1" || return 0
+  tail -n +2 "$1" >block.cpp
+  expect "$(head -n 1 "$1")" 0 "$compiler" -std=c++20 -fsyntax-only -I "$source" -I "$source/render/include" block.cpp
 }
 
 # has WHERE WORD TEXT WHAT: the text has it as a word.
@@ -116,7 +124,7 @@ try_line() {
   line="$(sed 's/ *# .*//; s/^\([A-Z_]*=[^ ]* \)*//; s/^valgrind \(-[^ ]* \)*//' <<<"$line")"
   # A slow machine is no fault, nor are pictures of these pages tried at their size.
   line="$(sed -E 's/--time-limit [0-9]+[a-z]+/--time-limit 1h/' <<<"$line")"
-  [[ "$where" != docs/@(gallery.md:*|particles.md:*|howto/*) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
+  [[ "$where" != @(README.md:*|docs/@(gallery.md:*|particles.md:*|recipes.md:*|howto/*)) ]] || line="$(sed 's/--size [0-9x]*/--size 64x48/; s/--spp [0-9]*/--spp 1/' <<<"$line")"
   mapfile -t words < <(xargs -r printf '%s\n' <<<"$line")  # as the shell does, quotes and all
   ((${#words[@]} > 0)) || return 0
   tried=$((tried + 1))
@@ -171,6 +179,7 @@ for block in "$work"/blocks/*; do  # in the order of the pages: what one makes, 
   case "$block" in
     *.toml | *.nff) try_scene "$block" ;;
     *.python) try_python "$block" ;;
+    *.cpp) try_cpp "$block" ;;
     *.sh) try_commands "$block" ;;
   esac
 done

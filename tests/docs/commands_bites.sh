@@ -54,6 +54,12 @@ expect fails "$(block sh 'cmake --build build/release --target boule_nothing')" 
 expect fails "$(block sh 'ctest --test-dir build/test -R no.such.test')" 'selects no test'
 expect fails "$(block sh 'bench_two')" 'there is no benchmark bench_two'
 expect fails "$(block sh 'make')" 'nobody tries make'
+ln -s "$(realpath "$source")"/{core,simd,render} "$work"
+expect passes "$good
+$(block cpp '#include <boule/boule.h>' 'boule::Scene scene;')"
+expect fails "$good
+$(block cpp '#include <boule/boule.h>' 'boule::NoSuchThing thing;')" 'exit code 1 of'
+rm "$work"/{core,simd,render}
 # Pages that say how to do something.
 mkdir "$work/docs/howto"
 { block sh 'boule isa'; yes ''; } 2>/dev/null | head -n 101 >"$work/docs/howto/long.md" || true

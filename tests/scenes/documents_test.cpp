@@ -73,10 +73,7 @@ void expect_all_load(const std::filesystem::path& page, const std::string& langu
   }
 }
 
-TEST(Documents, EveryTomlBlockIsAScene) {
-  expect_all_load(scene_format(), "toml", 7);
-  expect_all_load(documents_folder().parent_path() / "README.md", "toml", 1);
-}
+TEST(Documents, EveryTomlBlockIsAScene) { expect_all_load(scene_format(), "toml", 7); }
 
 TEST(Documents, EveryNffBlockIsAScene) { expect_all_load(scene_format(), "nff", 1); }
 
