@@ -47,7 +47,7 @@ struct Diagnostic {
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
 /// External text, made safe to print. Control bytes, which could end a line or steer a terminal,
-/// become \xNN; the text is cut to `longest` characters. Throws std::bad_alloc.
+/// become `\xNN`; the text is cut to `longest` characters. Throws std::bad_alloc.
 std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
 
 /// printable() in quotation marks. Throws std::bad_alloc.
