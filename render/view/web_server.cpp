@@ -16,6 +16,7 @@
 #include "render/view/access.h"
 #include "render/view/client_message.h"
 #include "render/view/outbox.h"
+#include "render/view/outer_address.h"
 #include "render/view/page_files.h"
 #include "render/view/picture_store.h"
 #include "render/view/view_session.h"
@@ -330,8 +331,9 @@ class WebServer::Implementation {
     const tcp::endpoint own = acceptor_.local_endpoint();
     const asio::ip::address address = own.address();
     // Nobody can open an address that means all of this machine's.
-    std::string host = address.is_unspecified() ? "127.0.0.1" : address.to_string();
-    if (!address.is_unspecified() && address.is_v6()) host = "[" + host + "]";
+    std::string host =
+        address.is_unspecified() ? outer_address(address.is_v6()) : address.to_string();
+    if (address.is_v6()) host = "[" + host + "]";
     return "http://" + host + ":" + std::to_string(own.port()) + "/?token=" + hub_.settings->token;
   }
 

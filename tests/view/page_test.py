@@ -285,6 +285,78 @@ class Page(unittest.TestCase):
         browser.find("#problem button").click()
         self.assertEqual(browser.find("#problem").text, "")
 
+    def enter(self, selector, text):
+        field = self.browser.find(selector)
+        field.clear()
+        field.send_keys(text, Keys.ENTER)
+
+    def test_every_refused_field_has_words_until_it_is_right(self):
+        browser = self.browser
+        browser.choose("#camera-type", "thin_lens")
+        browser.wait("bouleView.session.camera.focus !== undefined", "a thin lens")
+        browser.choose("#shadow_epsilon-0", "other")
+        fields = browser.script("""
+            return [...document.querySelectorAll('#panel input[inputmode]')]
+                .filter((field) => field.offsetParent !== null).map((field) => field.id);""")
+        for name in ("fov-number", "aperture", "focus", "width", "picture-height", "spp", "max-depth",
+                     "own-epsilon-0"):
+            self.assertIn(name, fields)
+        for name in fields:
+            self.enter(f"#{name}", "x")
+            words = browser.find(f"#{name}-wrong")
+            self.assertTrue(words.is_displayed(), name)
+            self.assertRegex(words.text, r"^Expected a (whole )?number.*\.$")
+            field = browser.find(f"#{name}")
+            self.assertEqual(field.get_attribute("aria-invalid"), "true")
+            self.assertEqual(field.get_attribute("aria-errormessage"), f"{name}-wrong")
+        self.assertEqual(browser.find("#spp-wrong").text, "Expected a whole number of 1 or more.")
+        for spp in ("3", "2"):
+            self.enter("#spp", spp)
+            browser.wait(f"bouleView.session.state.settings.spp === {spp}", "other samples")
+            browser.rest()
+            self.assertEqual(browser.driver.find_elements("css selector", "#spp-wrong"), [])
+        browser.wait("!document.querySelector('.wrong, [aria-invalid]')", "that the state is shown")
+
+    def test_an_alert_goes_when_the_value_is_right_again(self):
+        browser = self.browser
+        for name, wrong, right, key in (("width", "1000000", "256", "size[0]"),
+                                        ("spp", "99999999999", "2", "spp"),
+                                        ("fov-number", "359", "40", None)):
+            self.enter(f"#{name}", wrong)
+            text = browser.wait("document.querySelector('#problem p')?.textContent", "an alert")
+            words = browser.find(f"#{name}-wrong").text
+            self.assertRegex(words, r"^(Expected|Must be) .*\.$")
+            self.assertIn(words[1:], text)
+            self.enter(f"#{name}", right)
+            browser.wait("!document.querySelector('#problem p')", "that the alert goes")
+            self.assertEqual(browser.driver.find_elements("css selector", ".wrong, [aria-invalid]"), [])
+            if key:
+                browser.wait(f"bouleView.session.state.settings.{key} === {right}", "the right value")
+        self.assertEqual(browser.complaints(), [])
+
+    def test_a_drag_whose_capture_is_lost_ends(self):
+        browser = self.browser
+        browser.script("""document.querySelector('.view').addEventListener(
+            'pointerdown', ({pointerId}) => { window.pressed = pointerId; }, {once: true});""")
+        x, y = browser.center()
+        browser.mouse("mouseMoved", x, y)
+        browser.mouse("mousePressed", x, y, "left")
+        browser.mouse("mouseMoved", x + 40, y, "left")
+        moved = browser.camera()
+        browser.script("document.querySelector('.view').releasePointerCapture(window.pressed)")
+        browser.mouse("mouseMoved", x + 41, y, "left")  # the capture ends with the next event
+        browser.rest()
+        ended = browser.camera()
+        browser.mouse("mouseMoved", x + 90, y, "left")
+        browser.mouse("mouseMoved", x + 140, y, "left")
+        browser.rest()
+        self.assertEqual(browser.camera(), ended)
+        self.assertEqual(moved["look_at"], ended["look_at"])
+        browser.mouse("mouseReleased", x + 140, y, "left")
+        browser.drag(30, 0)
+        browser.rest()
+        self.assertNotEqual(browser.camera(), ended)
+
     def test_a_wrong_token_is_refused(self):
         self.browser.driver.get(self.server.url[:-3] + "xyz")
         self.assertIn("token", self.browser.find("body").text)

@@ -33,15 +33,39 @@ export function fillSelect(select, pairs, chosen) {
   select.value = chosen;
 }
 
+/** Marks a field whose value is refused, and says why below it. */
+export function refuse(input, words) {
+  const id = `${input.id}-wrong`;
+  const note = byId(id) ?? make('p', {id, className: 'wrong', role: 'alert'});
+  note.textContent = words;
+  (input.closest('.row') ?? input).after(note);
+  input.setAttribute('aria-invalid', 'true');
+  input.setAttribute('aria-errormessage', id);
+}
+
+/** Takes that back: the value is right. */
+function accept(input) {
+  byId(`${input.id}-wrong`)?.remove();
+  for (const name of ['aria-invalid', 'aria-errormessage']) input.removeAttribute(name);
+}
+
 /** Shows a value in a field, unless somebody is typing there. */
 export function showValue(input, value) {
   if (document.activeElement === input && input.dataset.edited) return;
   input.value = value;
-  input.removeAttribute('aria-invalid');
+  accept(input);
+}
+
+// "Expected a whole number of 1 or more."
+function expectation({low, high, whole, empty}) {
+  const noun = whole ? 'a whole number' : 'a number';
+  let limits = '';
+  if (Number.isFinite(low)) limits = Number.isFinite(high) ? ` from ${low} to ${high}` : ` of ${low} or more`;
+  return `Expected ${noun}${limits}${empty === undefined ? '' : ', or nothing'}.`;
 }
 
 /** Calls `use` with the number that was typed into a field, once it is complete. A text that is no
- * number within the limits is marked; `empty` stands for no text. */
+ * number within the limits is refused; `empty` stands for no text. */
 export function onNumber(input, use, {low = -Infinity, high = Infinity, whole = false, empty} = {}) {
   input.addEventListener('input', () => { input.dataset.edited = '1'; });
   input.addEventListener('change', () => {
@@ -50,9 +74,10 @@ export function onNumber(input, use, {low = -Infinity, high = Infinity, whole = 
     const value = text === '' ? empty : Number(text);
     const right = value === empty ||
         (Number.isFinite(value) && value >= low && value <= high && (!whole || Number.isInteger(value)));
-    input.toggleAttribute('aria-invalid', false);
-    if (right && value !== undefined) use(value);
-    else input.setAttribute('aria-invalid', 'true');
+    if (!right || value === undefined) return refuse(input, expectation({low, high, whole, empty}));
+    accept(input);
+    input.dispatchEvent(new CustomEvent('right', {bubbles: true}));
+    use(value);
   });
 }
 

@@ -22,7 +22,10 @@ export class Gestures {
     stage.addEventListener('pointerdown', (event) => this.down(event));
     stage.addEventListener('pointermove', (event) => this.moved(event));
     stage.addEventListener('pointerup', (event) => this.up(event, true));
-    stage.addEventListener('pointercancel', (event) => this.up(event, false));
+    // A capture ends after each pointerup, too, and alone where an element or another program takes it.
+    for (const end of ['pointercancel', 'lostpointercapture']) {
+      stage.addEventListener(end, (event) => this.up(event, false));
+    }
     stage.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
     stage.addEventListener('contextmenu', (event) => {
       if (event.target.closest('.view')) event.preventDefault();

@@ -103,6 +103,10 @@ export class Settings {
         if (row.key === 'shadow_epsilon') pairs.push(['other', 'other ε …']);
         fillSelect(this.selects[index][row.key], pairs, JSON.stringify(pane[row.key]));
       }
+      const own = byId(`own-epsilon-${index}`);
+      if (document.activeElement === own) return;
+      own.hidden = true;
+      showValue(own, '');
     });
   }
 
@@ -134,7 +138,7 @@ export class Settings {
       return cell;
     }
     const own = make('input', {
-      'aria-label': `Epsilon${of}`, inputMode: 'decimal', autocomplete: 'off', hidden: true,
+      'aria-label': `Epsilon${of}`, id: `own-epsilon-${index}`, inputMode: 'decimal', autocomplete: 'off', hidden: true,
     });
     onNumber(own, (epsilon) => this.changePane(index, row.key, epsilon), {low: 0});
     select.addEventListener('change', () => {

@@ -2,7 +2,7 @@
 
 import {CameraForm} from './camera_form.js';
 import {Connection} from './connection.js';
-import {byId, counted, make, sentence, short} from './dom.js';
+import {byId, counted, make, refuse, sentence, short} from './dom.js';
 import {FrameReader} from './frames.js';
 import {Gestures} from './gestures.js';
 import {Overlay} from './overlay.js';
@@ -64,10 +64,32 @@ function showLink(kind) {
   if (kind === 'connecting') session.restart();
 }
 
+// Shown until it is closed, or a value that was entered after it is right.
+let problemNumber = 0;
+
 function showProblem(text) {
   const close = make('button', {type: 'button', textContent: 'Close'});
-  close.addEventListener('click', () => byId('problem').replaceChildren());
+  close.addEventListener('click', hideProblem);
   byId('problem').replaceChildren(make('p', {textContent: sentence(text)}), close);
+  problemNumber = session.number;
+}
+
+function hideProblem() {
+  byId('problem').replaceChildren();
+}
+
+// The fields of the keys that the server may refuse.
+const fields = {
+  size: ['width', 'picture-height'], spp: ['spp'], max_depth: ['max-depth'], fov: ['fov-number'],
+  height: ['height'], aperture: ['aperture'], focus: ['focus'], range: ['range-low', 'range-high'],
+};
+
+let entered = null;  // the field that was used last
+
+function showError({text, key}) {
+  showProblem(key && !text.includes(key) ? `${key}: ${text}` : text);
+  const ids = fields[key?.split('.').pop()] ?? [];
+  for (const id of ids.includes(entered) ? [entered] : ids) refuse(byId(id), sentence(text));
 }
 
 function showScene({scene, version}) {
@@ -87,7 +109,12 @@ function showScene({scene, version}) {
 session.on('state', showScene);
 session.on('problem', showProblem);
 session.on('hide', () => rays.hide());
-session.on('error', ({text, key}) => showProblem(key && !text.includes(key) ? `${key}: ${text}` : text));
+session.on('error', showError);
+session.on('state', ({number}) => { if (number > problemNumber) hideProblem(); });
+document.addEventListener('right', ({target}) => {
+  entered = target.id;
+  hideProblem();
+});
 session.on('busy', ({text}) => { byId('busy').textContent = text === null ? '' : sentence(text); });
 
 const token = new URLSearchParams(location.search).get('token') ?? '';

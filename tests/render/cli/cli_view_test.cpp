@@ -1,4 +1,9 @@
 // boule view from the command line; what it serves is tested in tests/render/view.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <csignal>
 
 #include "tests/render/cli/program.h"
@@ -39,6 +44,22 @@ TEST_F(View, RefusesWhatItCannotShow) {
   refused_run({"view", small_scene(), "--port", "65536"}, 2);
   refused_run({"view", small_scene(), "--listen", "203.0.113.1"}, 1);
   refused_run({"view"}, 2);
+}
+
+/// All of this machine's addresses mean one that others can open.
+TEST_F(View, TellsAnAddressThatCanBeOpened) {
+  const ProgramRun run =
+      boule_run({"view", small_scene(), "--listen", "0.0.0.0", "--idle", "100ms"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_TRUE(run.out.starts_with("http://")) << run.out;
+  const std::string host = run.out.substr(7, run.out.rfind(':') - 7);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  ASSERT_EQ(inet_pton(AF_INET, host.c_str(), &place.sin_addr), 1) << host;
+  EXPECT_NE(place.sin_addr.s_addr, INADDR_ANY);
+  const int own = socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_EQ(bind(own, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0) << host;
+  close(own);
 }
 
 class RenderedCamera : public ProgramTest {
