@@ -7,9 +7,9 @@
     scene.add_spheres(centers, radii, colors=rgb, material=boule.Plastic())
     boule.render(scene).save("spheres.png")
 
-Lengths are in the units of the scene, angles in degrees, colours linear RGB or "#rrggbb". What is
-wrong raises boule.Error, a ValueError with file, line, column and key; too little memory is a
-MemoryError. All functions may be called by any thread, and give way to other threads of Python.
+Lengths are in the units of the scene, angles in degrees, colours linear RGB or "#rrggbb". Faults
+raise boule.Error, a ValueError with file, line, column and key; too little memory is a MemoryError.
+You may call all functions from any thread; they give way to other threads of Python.
 Ctrl-C ends every call within a tenth of a second.
 """
 

@@ -12,7 +12,7 @@ from ._sources import look_keys, with_look
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during render(). picture is what there is: a Picture that is not finished, or None."""
+    """Ctrl-C during render(). picture is the unfinished Picture, or None before there is one."""
 
     def __init__(self, picture=None):
         super().__init__("rendering was interrupted")
@@ -26,15 +26,15 @@ def render(
     order=None, tile=None, solver="robust", threads=0, isa="auto", progress=False, frame=None, polygons=None,
     trust=False, **look,
 ):  # fmt: skip
-    """Renders a scene to a Picture. What is not given comes from the scene.
+    """Renders a scene to a Picture. Arguments that you leave out come from the scene.
 
     scene: a Scene, or the name of a file that load() would read; then frame, polygons and look are
         as there. Of a packed scene, .boule, it is always the name, and trust=True opens it without
-        checking it: for files of one's own only.
+        checking it: for your own files only.
     size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
     noise: each pixel gets samples, min_spp to spp of them, until it is right to so much of 0..1 as
         it is shown with this exposure, with a probability of 95 %; 0: all pixels get spp.
-    background: what shows where nothing is: "#rrggbb" or "transparent". outline: in pixels.
+    background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
         albedo, z; with noise also noise, samples).
@@ -48,7 +48,7 @@ def render(
     progress: True shows a bar (tqdm's if it is installed); or a function, called with the share
         that is done, 0 to 1; 1 comes once, at the end of a render that was not stopped.
 
-    Raises Interrupted, a KeyboardInterrupt, after Ctrl-C; its picture is what there is.
+    Raises Interrupted, a KeyboardInterrupt, after Ctrl-C; it has the unfinished picture.
     """
     if isinstance(scene, Scene):
         source = scene._tree()

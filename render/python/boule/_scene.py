@@ -19,7 +19,7 @@ from ._objects import (
 
 
 class Spheres:
-    """Many spheres in arrays, which are read once: later changes to the arrays change nothing.
+    """Many spheres in arrays, which are read once: you may change the arrays afterwards.
 
     centers: N x 3, float32 or float64. Those of float64 are kept as they are, 24 bytes each, and
         rounded once, after the origin of the scene is subtracted.
@@ -27,7 +27,7 @@ class Spheres:
     colors: N x 3, uint8 or floats from 0 to 1: codes of the sRGB curve (color_space="srgb") or
         linear values ("linear").
     scalar: N numbers, which map makes colours of: the name of a map, or colours "#rrggbb"; range
-        says what its ends stand for (the 1st to the 99th percentile).
+        has the numbers at its ends (the 1st and the 99th percentile).
     color: one colour for all, "#rrggbb" or three linear numbers from 0 to 1.
     material: a material, or the name of one in Scene.materials.
 
@@ -79,7 +79,7 @@ class Spheres:
 
     @property
     def range(self):
-        """What the ends of map stand for, [low, high], given or chosen; None without scalar."""
+        """The numbers at the ends of map, [low, high], given or chosen; None without scalar."""
         return None if self._range is None else list(self._range)
 
     @property
@@ -184,8 +184,8 @@ def _named(values, key):
 
 
 class Group(_Objects):
-    """Objects with coordinates of their own, which instances show. name is that which it gets in
-    what is rendered where it does not stand in Scene.groups; it may be empty."""
+    """Objects with coordinates of their own, which instances show. name is for a group that is not
+    in Scene.groups; you may leave it empty."""
 
     def __init__(self, name=""):
         self.name = name
@@ -247,21 +247,21 @@ class _Names:
 
 
 class Scene(_Objects):
-    """A scene, as values: what scene files say, by the same names and with the same defaults.
+    """A scene, as values: the tables and keys of scene files, with the same names and defaults.
 
     image, render: ImageSettings and RenderSettings.
     camera: Pinhole, Orthographic, Fisheye, ThinLens, Lens; Fit or None: fitted to the spheres.
     background: ConstantBackground, GradientBackground or EnvironmentBackground.
     ambient: light on every surface from everywhere (method "whitted").
-    backdrop: what the camera sees where nothing is, in place of the background; or None.
+    backdrop: the colour that the camera sees behind all objects, not the background; or None.
     materials: a dictionary of materials by name.
     lights: a list of PointLight, DirectionalLight, SphereLight.
     spheres: a list of Sphere, Spheres and Particles; ids count them in this order.
     planes, instances: lists of Plane and Instance. groups: a dictionary of Group by name.
     origin: a point that is subtracted from all points before they are rounded, or "auto".
-    notes, warnings: what was told when the scene was read. legend: what its colours mean, as SVG.
+    notes, warnings: messages from reading the scene. legend: an SVG that explains its colours.
 
-    What these attributes hold is checked when the scene is rendered or traced.
+    These attributes are checked when you render or trace the scene.
     """
 
     def __init__(

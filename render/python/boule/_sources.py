@@ -55,7 +55,7 @@ def load(source, *, frame=None, polygons="plane", **look):
 
     source: the name of the file.
     frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
-    polygons: what those of NFF become: "plane", "skip" or "error".
+    polygons: NFF polygons become planes ("plane"), are left out ("skip"), or refused ("error").
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
         quick, floor, input_format, columns (names, "-" skips one), water, color, map, range,
         radius, scale, select, view, up.
@@ -73,9 +73,9 @@ def frames(source, frames=None, *, polygons="plane", **look):
 
     frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
 
-    What is left to be chosen is chosen once for all of them, as `boule render --frames` does it: the
-    camera is fitted to all frames, colour maps have the range of the first. A file that has one frame
-    and no #### in its name shows it under every number, as there.
+    Boule makes its choices once for all of them, as `boule render --frames` does: the camera is
+    fitted to all frames, colour maps have the range of the first. A file of one frame without ####
+    in its name shows it under every number, as there.
     """
     path = path_of(source)
     keys = {**look_keys(**look), "polygons": polygons}
@@ -120,13 +120,13 @@ def from_particles(
     """The scene that shows particles, as `boule render` shows a file of them.
 
     positions: N x 3, finite. species: N symbols, as text or bytes, or atomic numbers, whole from 0
-        (ASE's X, no element) to 118; other texts name what is no element.
+        (ASE's X) to 118; other texts are species that are not elements.
     columns: a dictionary of N numbers or texts by name, which color, radius and select may name.
     cell: 3 x 3, its edges; periodic: along which of them, three bools, or one for all.
     angstrom: how many one unit of length has (10 for nm), finite and above 0.
     look: as for load().
 
-    Raises boule.Error with the argument as its key: "species" for what is neither.
+    Raises boule.Error with the argument as its key, such as "species".
     """
     data = particles(
         positions, species=species, columns=columns, cell=cell, periodic=periodic,

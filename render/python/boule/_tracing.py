@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Hits(NamedTuple):
-    """What N rays meet. A miss has t = inf, id = -1 and the normal 0.
+    """The hits of N rays. A miss has t = inf, id = -1 and the normal 0.
 
     t: N, float64, in units of the length of dir.
     id: N, int32: of the sphere or plane, spheres first.
@@ -73,5 +73,5 @@ class Tracer:
 
     @property
     def stats(self):
-        """What it has cost so far: rays, prepare_seconds, trace_seconds, isa, width, threads."""
+        """The cost so far: rays, prepare_seconds, trace_seconds, isa, width, threads."""
         return self._tracer.stats()
