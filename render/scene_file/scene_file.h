@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct SceneFileOptions {
   ColorRanges color_ranges{};
   /// Of a series: the colours that species and other texts have already.
   KindColors kind_colors{};
-  /// Of a series: the origin, where the scene file leaves it to be chosen.
+  /// Of a series: the origin, where the file leaves it to be chosen.
   std::optional<Vec3d> origin{};
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads
   /// at a time.
@@ -48,9 +49,23 @@ struct LoadedScene {
   std::vector<std::string> data_files{};
   std::vector<std::string> notes{};        ///< what was decided for the user, a sentence each
   std::vector<ParticleFacts> particles{};  ///< of each file of particles
-  /// What was subtracted from all points of the scene before they were rounded: its own point 0.
+  /// What was subtracted, in double, from all points of the file before they were rounded: the file
+  /// has the scene's point 0 there. Whoever traces rays against the scene subtracts it from theirs,
+  /// and adds it to points of hits. What the file does not say is 0, where rounding goes unseen
+  /// that way, else a point among the spheres.
   Vec3d origin{};
+  /// The same for what is inside groups, by their index; of those beyond the end it is 0. The
+  /// translations of instances make up for it.
+  std::vector<Vec3d> group_origins{};
+
+  [[nodiscard]] Vec3d origin_of(std::size_t group) const {
+    return group < group_origins.size() ? group_origins[group] : Vec3d{};
+  }
 };
+
+/// From where the translation of an instance is counted, so that it is that of the file; `origin`
+/// is that of the scene or the group which the instance is in.
+Vec3d shown_origin(const LoadedScene& loaded, const Instance& instance, const Vec3d& origin);
 
 /// Reads a scene by its extension: .toml, .nff (Haines' SPD), .boule (packed), or .npy: spheres
 /// alone, N x 4.
