@@ -20,6 +20,14 @@ Json first_info(const Scene& scene, const std::vector<Thing>& things, const Vec3
   return list;
 }
 
+Json instances_info(const LoadedScene& loaded, const std::vector<Instance>& all,
+                    const Vec3d& origin) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < all.size() && i < most_told; ++i)
+    list.push_back(fields_info(all[i], &loaded.scene, shown_origin(loaded, all[i], origin)));
+  return list;
+}
+
 }  // namespace
 
 Json spheres_info(const Scene& scene, const Vec3d& origin) {
@@ -37,20 +45,23 @@ Json spheres_info(const Scene& scene, const Vec3d& origin) {
 Json planes_info(const Scene& scene, const Vec3d& origin) {
   return first_info(scene, scene.planes, origin);
 }
-Json instances_info(const Scene& scene, const Vec3d& origin) {
-  return first_info(scene, scene.instances, origin);
+Json instances_info(const LoadedScene& loaded) {
+  return instances_info(loaded, loaded.scene.instances, loaded.origin);
 }
 
-Json groups_info(const Scene& scene) {
+Json groups_info(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
   Json list = Json::array();
-  for (const Group& group : scene.groups) {
+  for (std::size_t i = 0; i < scene.groups.size(); ++i) {
+    const Group& group = scene.groups[i];
+    const Vec3d origin = loaded.origin_of(i);
     list.push_back({{"name", group.name},
                     {"spheres", group.spheres.size()},
                     {"planes", group.planes.size()},
                     {"instances", group.instances.size()},
-                    {"first_spheres", first_info(scene, group.spheres, {})},
-                    {"first_planes", first_info(scene, group.planes, {})},
-                    {"first_instances", first_info(scene, group.instances, {})}});
+                    {"first_spheres", first_info(scene, group.spheres, origin)},
+                    {"first_planes", first_info(scene, group.planes, origin)},
+                    {"first_instances", instances_info(loaded, group.instances, origin)}});
   }
   return list;
 }

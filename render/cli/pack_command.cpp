@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/scene/instances.h"
 #include "render/cli/commands.h"
@@ -21,6 +22,7 @@
 #include "render/packed/pack.h"
 #include "render/packed/packed_file.h"
 #include "render/scene_file/npy_source.h"
+#include "render/scene_file/scene_origin.h"
 
 namespace boule::cli {
 namespace {
@@ -56,11 +58,22 @@ bool is_spheres(const std::string& input, const LookOptions& look) {
   return input.ends_with(".npy") && !is_particle_input(input, look);
 }
 
+void tell(const PackCommand& command, const std::vector<std::string>& notes) {
+  if (command.quiet) return;
+  for (const std::string& note : notes) print_note("boule: note: " + printable(note));
+}
+
 Result<Input> spheres_alone(const PackCommand& command, const ParallelFor& parallel_for) {
   auto source = NpySource::open(command.inputs, command.output, parallel_for);
   if (!source) return source.error();
+  const auto extent = source.value()->extent();
+  if (!extent) return extent.error();
+  std::vector<std::string> notes;
   Input input;
   input.scene.materials.push_back({"default", Matte{}});
+  input.origin = choose_origin({extent.value()}, {}, notes);
+  source.value()->set_origin(input.origin);
+  tell(command, notes);
   input.spheres = std::move(source).value();
   return Result<Input>(std::move(input));
 }
@@ -80,6 +93,7 @@ Result<Input> whole_scene(const PackCommand& command) {
   if (!command.quiet) {
     for (const std::string& warning : loaded.value().warnings) print_note(warning);
   }
+  tell(command, loaded.value().notes);
   Input input;
   input.scene = std::move(loaded.value().scene);
   input.origin = loaded.value().origin;

@@ -128,7 +128,7 @@ void add_surroundings(Json& json, const Scene& scene, const Vec3d& origin) {
 Json scene_info(LoadedScene loaded, const std::string& path) {
   Scene& scene = loaded.scene;
   const Vec3d& origin = loaded.origin;
-  Json groups = groups_info(scene), instances = instances_info(scene, origin);
+  Json groups = groups_info(loaded), instances = instances_info(loaded);
   const std::size_t group_count = scene.groups.size(), instance_count = scene.instances.size();
   const std::uint64_t hash = scene_hash(scene, Scheduler(0).parallel_for());
   share_or_expand(scene);

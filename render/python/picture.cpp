@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "render/cli/options.h"
@@ -165,9 +166,18 @@ std::string repr_of(const Picture& picture) {
                      parts.spp, unfinished);
 }
 
+/// Points that are counted from `origin`, in double, as the scene counts them; 0 stays: a miss.
+py::object counted_from_zero(const py::object& points, const Vec3d& origin) {
+  const py::module_ numpy = py::module_::import("numpy");
+  const py::object is_hit = points.attr("any")(py::arg("axis") = -1, py::arg("keepdims") = true);
+  const py::object zero = numpy.attr("array")(py::make_tuple(origin.x, origin.y, origin.z));
+  return numpy.attr("where")(is_hit, zero + points, 0.0);
+}
+
 /// The extra channels by AOV: H x W, or H x W x 3, which is a copy.
 py::dict aovs_of(const py::object& picture) {
   const py::dict channels = channels_of(picture);
+  const Vec3d& origin = py::cast<const Picture&>(picture).parts->origin;
   py::dict aovs;
   for (const AovName& aov : aov_names) {
     AovSelection one;
@@ -183,6 +193,8 @@ py::dict aovs_of(const py::object& picture) {
     } else {
       aovs[key] = py::module_::import("numpy").attr("stack")(found, py::arg("axis") = -1);
     }
+    if (std::string_view(aov.name) == "position" && !(origin == Vec3d{}))
+      aovs[key] = counted_from_zero(aovs[key], origin);
   }
   return aovs;
 }
@@ -213,9 +225,11 @@ void bind_picture(py::module_& module) {
       .def_property_readonly("channels", &channels_of,
                              "The extra channels by their names in EXR files (Z, N.X, ...): each "
                              "H x W, float32 or uint32, in place.")
-      .def_property_readonly("aovs", &aovs_of,
-                             "The extra channels by AOV: depth, id and z are H x W, in place; "
-                             "normal, position and albedo H x W x 3, copied.")
+      .def_property_readonly(
+          "aovs", &aovs_of,
+          "The extra channels by AOV: depth, id and z are H x W, in place; "
+          "normal, position and albedo H x W x 3, copied. Positions are float64, "
+          "and those of the scene, where it has an origin.")
       .def_property_readonly("stats", &stats_of, "What it has cost: times in seconds, rays, ...")
       .def_property_readonly(
           "notes", [](const Picture& p) { return p.parts->notes; },

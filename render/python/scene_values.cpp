@@ -38,8 +38,7 @@ class SceneValues {
   [[nodiscard]] py::list lights() const;
   [[nodiscard]] py::object spheres(std::vector<Sphere>&& spheres, const Vec3d& base) const;
   [[nodiscard]] py::list planes(const std::vector<Plane>& planes, const FieldValues& values) const;
-  [[nodiscard]] py::list instances(const std::vector<Instance>& all,
-                                   const FieldValues& values) const;
+  [[nodiscard]] py::list instances(const std::vector<Instance>& all, const Vec3d& origin) const;
   [[nodiscard]] py::list groups();
   [[nodiscard]] py::object origin() const;
 
@@ -157,10 +156,10 @@ py::list SceneValues::planes(const std::vector<Plane>& planes, const FieldValues
   return all;
 }
 
-py::list SceneValues::instances(const std::vector<Instance>& all, const FieldValues& values) const {
+py::list SceneValues::instances(const std::vector<Instance>& all, const Vec3d& origin) const {
   py::list list;
   for (const Instance& instance : all) {
-    py::dict one = values.of(instance);
+    py::dict one = FieldValues(shown_origin(loaded_, instance, origin)).of(instance);
     one["group"] = loaded_.scene.groups[instance.group].name;
     if (instance.material) one["material"] = names_[*instance.material];
     list.append(one);
@@ -170,11 +169,13 @@ py::list SceneValues::instances(const std::vector<Instance>& all, const FieldVal
 
 py::list SceneValues::groups() {
   py::list all;
-  for (Group& group : loaded_.scene.groups) {
+  for (std::size_t i = 0; i < loaded_.scene.groups.size(); ++i) {
+    Group& group = loaded_.scene.groups[i];
+    const Vec3d origin = loaded_.origin_of(i);
     py::dict one;
-    one["spheres"] = spheres(std::move(group.spheres), {});
-    one["planes"] = planes(group.planes, own_);
-    one["instances"] = instances(group.instances, own_);
+    one["spheres"] = spheres(std::move(group.spheres), origin);
+    one["planes"] = planes(group.planes, FieldValues(origin));
+    one["instances"] = instances(group.instances, origin);
     all.append(py::make_tuple(group.name, one));
   }
   return all;
@@ -198,7 +199,7 @@ py::dict SceneValues::all() {
   values["materials"] = materials();
   values["lights"] = lights();
   values["planes"] = planes(scene.planes, world_);
-  values["instances"] = instances(scene.instances, world_);
+  values["instances"] = instances(scene.instances, loaded_.origin);
   values["groups"] = groups();
   values["spheres"] = spheres(std::move(scene.spheres), loaded_.origin);
   values["origin"] = origin();

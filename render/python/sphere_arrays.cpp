@@ -46,35 +46,12 @@ Vec3f to_float(const Vec3d& v) {
   return {float32_or_inf(v.x), float32_or_inf(v.y), float32_or_inf(v.z)};
 }
 
-void widen(SphereExtent& extent, const SphereExtent& by) {
-  extent.low = {std::min(extent.low.x, by.low.x), std::min(extent.low.y, by.low.y),
-                std::min(extent.low.z, by.low.z)};
-  extent.high = {std::max(extent.high.x, by.high.x), std::max(extent.high.y, by.high.y),
-                 std::max(extent.high.z, by.high.z)};
-  extent.radius = std::min(extent.radius, by.radius);
-}
-
-bool is_sphere(const Vec3d& center, double radius) {
-  return is_finite(center) && std::isfinite(radius) && radius > 0;
-}
-
-/// The box of the centres of those rows that are spheres; others are refused when they are rounded.
+/// Where they are, before they are rounded.
 SphereExtent extent_of(const SphereInput& input, const ParallelFor& parallel_for) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const SphereExtent nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  std::mutex mutex;
-  SphereExtent all = nothing;
-  each_chunk(input.centers.rows(), parallel_for, [&](std::size_t begin, std::size_t end) {
-    SphereExtent mine = nothing;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3d center = center_at(input.centers, i);
-      const double radius = input.radii.at(i);
-      if (is_sphere(center, radius)) widen(mine, {center, center, radius});
-    }
-    const std::lock_guard lock(mutex);
-    widen(all, mine);
-  });
-  return std::isinf(all.radius) ? SphereExtent{} : all;
+  return boule::extent_of(input.centers.rows(), parallel_for,
+                          [&](std::size_t i, SphereExtent& extent) {
+                            extent.add(center_at(input.centers, i), input.radii.at(i));
+                          });
 }
 
 /// Why a row is no sphere.
@@ -234,7 +211,6 @@ Result<SphereArrays> make_spheres(const SphereInput& input, const ParallelFor& p
   SphereArrays arrays;
   if (auto bad = round_all(input, {}, arrays.spheres, parallel_for)) return *bad;
   if (!input.centers.is_double()) return arrays;
-  arrays.extent = extent_of(input, parallel_for);
   arrays.centers.resize(input.centers.rows());
   each_chunk(arrays.centers.size(), parallel_for, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) arrays.centers[i] = center_at(input.centers, i);
@@ -246,11 +222,7 @@ Result<PlacedSpheres> place_spheres(const SphereInput& input, const std::optiona
                                     const ParallelFor& parallel_for) {
   if (auto bad = check_room(input)) return *bad;
   PlacedSpheres placed;
-  if (origin) {
-    placed.origin = *origin;
-  } else if (input.centers.is_double()) {
-    placed.origin = choose_origin({.extents = {extent_of(input, parallel_for)}});
-  }
+  placed.origin = origin ? *origin : choose_origin({extent_of(input, parallel_for)});
   if (auto bad = round_all(input, placed.origin, placed.spheres, parallel_for)) return *bad;
   return placed;
 }

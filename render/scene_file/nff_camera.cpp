@@ -42,8 +42,8 @@ bool NffCamera::read_member(std::string_view name, NffCursor& line, FirstError& 
                  "is given twice, first on line " + std::to_string(place.line));
   }
   place = line.place(1);
-  if (name == "from") line.take(member->key, camera_.pose.eye);
-  if (name == "at") line.take(member->key, camera_.pose.look_at);
+  if (name == "from") line.take_point(member->key, camera_.pose.eye);
+  if (name == "at") line.take_point(member->key, camera_.pose.look_at);
   if (name == "up") line.take(member->key, camera_.pose.up);
   if (name == "angle") line.take(member->key, camera_.fov);
   if (name == "hither") line.take(member->key, hither_);

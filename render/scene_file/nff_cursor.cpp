@@ -12,6 +12,8 @@
 namespace boule {
 namespace {
 
+constexpr const char* too_large = "is too large for a 32-bit float";
+
 /// Space, '\t', '\v', '\f' or '\r' (and '\n', which no line has within).
 bool is_nff_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
@@ -83,19 +85,19 @@ bool NffCursor::take_number_word(const char* key, const char* expected, std::str
   return false;
 }
 
-bool NffCursor::take(const char* key, float& out) {
+bool NffCursor::take(const char* key, double& out) {
   const std::size_t start = skip_blanks(line_, at_);
   const char* const line_end = line_.data() + line_.size();
   double number = 0;
   const auto [end, code] = std::from_chars(line_.data() + start, line_end, number);
   const bool is_word = end == line_end || is_nff_blank(*end);
-  if (code != std::errc{} || !is_word || !fits_float32(number)) return take_unusual(key, out);
+  if (code != std::errc{} || !is_word || !std::isfinite(number)) return take_unusual(key, out);
   at_ = static_cast<std::size_t>(end - line_.data());
-  out = static_cast<float>(number);
+  out = number;
   return true;
 }
 
-bool NffCursor::take_unusual(const char* key, float& out) {
+bool NffCursor::take_unusual(const char* key, double& out) {
   std::string_view word;
   if (!take_number_word(key, "a number", word)) return false;
   double number = 0;
@@ -103,14 +105,32 @@ bool NffCursor::take_unusual(const char* key, float& out) {
   const bool is_number = code != std::errc::invalid_argument && end == word.data() + word.size();
   if (!is_number) return report(word, key, "expected a number, got " + quote(word));
   if (!std::isfinite(number)) return report(word, key, "must be finite");
-  const bool out_of_range = code == std::errc::result_out_of_range;
-  if (out_of_range && is_tiny(word)) number = word[0] == '-' ? -0.0 : 0.0;
-  const auto rounded = to_float32(number);
-  if (!rounded || (out_of_range && !is_tiny(word))) {
-    return report(word, key, "is too large for a 32-bit float");
+  if (code == std::errc::result_out_of_range) {
+    if (!is_tiny(word)) return report(word, key, too_large);
+    number = word[0] == '-' ? -0.0 : 0.0;
+  }
+  out = number;
+  return true;
+}
+
+bool NffCursor::take_from(const char* key, double zero, float& out) {
+  const std::size_t before = at_;
+  double number = 0;
+  if (!take(key, number)) return false;
+  const auto rounded = to_float32(number - zero);
+  if (!rounded) {
+    const std::size_t start = skip_blanks(line_, before);
+    return report(without_plus(line_.substr(start, at_ - start)), key, too_large);
   }
   out = *rounded;
   return true;
+}
+
+bool NffCursor::take(const char* key, float& out) { return take_from(key, 0, out); }
+
+bool NffCursor::take_point(const char* key, Vec3f& out) {
+  return take_from(key, origin_.x, out.x) && take_from(key, origin_.y, out.y) &&
+         take_from(key, origin_.z, out.z);
 }
 
 bool NffCursor::take(const char* key, Vec3f& out) {

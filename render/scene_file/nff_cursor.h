@@ -18,7 +18,8 @@ namespace boule {
 class NffCursor {
  public:
   /// `text` and `error` must outlive it.
-  NffCursor(std::string_view text, FirstError& error) : rest_(text), error_(&error) {}
+  NffCursor(std::string_view text, FirstError& error, const Vec3d& origin = {})
+      : rest_(text), error_(&error), origin_(origin) {}
 
   /// Goes to the next line that has a word; false at the end of the text.
   bool next_line();
@@ -27,9 +28,13 @@ class NffCursor {
   /// True if the line has no further word.
   bool at_line_end();
 
-  /// A finite number, rounded to float once.
+  /// A finite number.
+  bool take(const char* key, double& out);
+  /// The same, rounded to float once.
   bool take(const char* key, float& out);
   bool take(const char* key, Vec3f& out);
+  /// A point, from which the origin is subtracted before it is rounded.
+  bool take_point(const char* key, Vec3f& out);
   bool take(const char* key, Color& out);
   /// An integer of 32 bits.
   bool take(const char* key, int& out);
@@ -44,7 +49,8 @@ class NffCursor {
 
  private:
   /// take() for words that are not simply a number: one with a '+', an underflow, an error.
-  bool take_unusual(const char* key, float& out);
+  bool take_unusual(const char* key, double& out);
+  bool take_from(const char* key, double zero, float& out);
   bool take_number_word(const char* key, const char* expected, std::string_view& word);
   bool report(std::string_view word, const char* key, std::string message);
   [[nodiscard]] TextPlace place_of(std::size_t offset) const;
@@ -54,6 +60,7 @@ class NffCursor {
   std::size_t at_ = 0;     // how much of it is taken
   std::uint64_t number_ = 0;
   FirstError* error_;
+  Vec3d origin_;
 };
 
 }  // namespace boule

@@ -9,6 +9,7 @@
 #include "render/scene_file/nff_camera.h"
 #include "render/scene_file/nff_cursor.h"
 #include "render/scene_file/nff_polygon.h"
+#include "render/scene_file/scene_origin.h"
 
 namespace boule {
 namespace {
@@ -30,8 +31,9 @@ constexpr FieldWord fill_words[] = {{"color", "f.color", 1},    {"kd", "f.Kd", 4
 /// Turns NFF text into a Scene, one entity per call of read_entity().
 class NffReader {
  public:
-  NffReader(std::string_view text, const std::string& path, PolygonPolicy polygons)
-      : error_(path), line_(text, error_), policy_(polygons) {}
+  NffReader(std::string_view text, const std::string& path, PolygonPolicy polygons,
+            const Vec3d& origin)
+      : error_(path), line_(text, error_, origin), policy_(polygons) {}
 
   Result<LoadedScene> read();
 
@@ -127,7 +129,7 @@ void NffReader::read_background() {
 
 void NffReader::read_light() {
   PointLight light;
-  if (!line_.take("l.position", light.position)) return;
+  if (!line_.take_point("l.position", light.position)) return;
   if (line_.at_line_end()) {
     uncolored_lights_.push_back(scene_.lights.size());
   } else if (!line_.take("l.color", light.intensity) || !line_.take_line_end("l")) {
@@ -152,7 +154,7 @@ void NffReader::read_fill() {
 
 void NffReader::read_sphere() {
   Sphere sphere;
-  const bool is_complete = line_.take("s.center", sphere.center) &&
+  const bool is_complete = line_.take_point("s.center", sphere.center) &&
                            line_.take("s.radius", sphere.radius) && line_.take_line_end("s");
   if (!is_complete) return;
   if (!is_valid(sphere)) check(find_problem(sphere), sphere_words);
@@ -186,8 +188,8 @@ bool NffReader::read_vertices(const char* key, bool has_normals, int count) {
                         " vertices");
       return false;
     }
-    const bool is_complete = line_.take(key, vertex) && (!has_normals || line_.take(key, normal)) &&
-                             line_.take_line_end(key);
+    const bool is_complete = line_.take_point(key, vertex) &&
+                             (!has_normals || line_.take(key, normal)) && line_.take_line_end(key);
     if (!is_complete) return false;
     vertices_.push_back(vertex);
   }
@@ -223,11 +225,35 @@ void NffReader::finish() {
     error_.report({}, bad->key, bad->message);
 }
 
+/// Where the spheres are. What is no sphere is refused when it is read.
+SphereExtent extent_of(std::string_view text) {
+  SphereExtent extent;
+  FirstError ignored("");
+  NffCursor line(text, ignored);
+  while (line.next_line()) {
+    Vec3d center;
+    double radius = 0;
+    if (line.take_word() == "s" && line.take("", center.x) && line.take("", center.y) &&
+        line.take("", center.z) && line.take("", radius)) {
+      extent.add(center, radius);
+    }
+  }
+  return extent;
+}
+
 }  // namespace
 
-Result<LoadedScene> read_nff(std::string_view text, const std::string& path,
-                             PolygonPolicy polygons) {
-  return NffReader(text, path, polygons).read();
+Result<LoadedScene> read_nff(std::string_view text, const std::string& path, PolygonPolicy polygons,
+                             const std::optional<Vec3d>& origin) {
+  std::vector<std::string> notes;
+  SceneExtents extents;
+  if (!origin) extents.push_back(extent_of(text));
+  const Vec3d zero = choose_origin(extents, origin, notes);
+  auto loaded = NffReader(text, path, polygons, zero).read();
+  if (!loaded) return loaded;
+  loaded.value().notes = std::move(notes);
+  loaded.value().origin = zero;
+  return loaded;
 }
 
 }  // namespace boule

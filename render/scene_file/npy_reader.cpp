@@ -1,8 +1,11 @@
 #include "render/scene_file/npy_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <mutex>
 #include <span>
+#include <utility>
 
 #include "render/file/float32.h"
 #include "render/file/input_file.h"
@@ -55,6 +58,17 @@ Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& reques
                          npy_is_double(header) ? std::size_t{8} : std::size_t{4}};
   if (auto bad = check_npy_length(header, layout.bytes(), file_size)) return *bad;
   return layout;
+}
+
+/// The numbers of a row, as they are.
+std::array<double, 4> numbers_of(const unsigned char* row, const RowLayout& layout,
+                                 const NpySpheres& request) {
+  std::array<double, 4> numbers{0, 0, 0, double{request.radius.value_or(0)}};
+  for (std::size_t i = 0; i < layout.columns; ++i) {
+    const unsigned char* bytes = row + i * layout.width;
+    numbers[i] = layout.width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
+  }
+  return numbers;
 }
 
 /// Decodes the rows of one file.
@@ -131,12 +145,10 @@ std::optional<std::string> RowDecoder::find_problem_in(const unsigned char* row)
   constexpr const char* names[] = {"center x", "center y", "center z", "radius"};
   const Vec3d& o = request_.origin;
   const double origin[4] = {o.x, o.y, o.z, 0};
-  float numbers[4] = {0, 0, 0, request_.radius.value_or(0)};
-  for (std::size_t i = 0; i < layout_.columns; ++i) {
-    const unsigned char* bytes = row + i * layout_.width;
-    const double read =
-        layout_.width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
-    const auto number = to_float32(read - origin[i]);
+  const std::array<double, 4> read = numbers_of(row, layout_, request_);
+  float numbers[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto number = to_float32(read[i] - origin[i]);
     if (!number) return std::string(names[i]) + " is too large for a 32-bit float";
     numbers[i] = *number;
   }
@@ -145,36 +157,33 @@ std::optional<std::string> RowDecoder::find_problem_in(const unsigned char* row)
   return problem->field + " " + problem->message;
 }
 
-/// Reads a piece of the rows, from row `first` of the file on, block by block.
-Status read_piece(const InputFile& file, const RowLayout& layout, const RowDecoder& decoder,
-                  std::uint64_t first, std::span<Sphere> spheres) {
+/// Reads some of the rows, block by block, and calls take(bytes, row, count) for each block.
+template <class Take>
+Status read_piece(const InputFile& file, const RowLayout& layout, std::size_t row, std::size_t end,
+                  const Take& take) {
   constexpr std::size_t rows_per_block = 4096;
-  std::vector<unsigned char> block(std::min(rows_per_block, spheres.size()) * layout.bytes());
-  while (!spheres.empty()) {
-    const std::size_t count = std::min(rows_per_block, spheres.size());
-    if (auto bad = read_npy_rows(file, layout.begin + first * layout.bytes(), block.data(),
+  std::vector<unsigned char> block(std::min(rows_per_block, end - row) * layout.bytes());
+  for (; row < end; row += rows_per_block) {
+    const std::size_t count = std::min(rows_per_block, end - row);
+    if (auto bad = read_npy_rows(file, layout.begin + row * layout.bytes(), block.data(),
                                  count * layout.bytes())) {
       return bad;
     }
-    if (auto bad = decoder.decode(block.data(), first, spheres.first(count))) return bad;
-    first += count;
-    spheres = spheres.subspan(count);
+    if (auto bad = take(block.data(), row, count)) return bad;
   }
   return std::nullopt;
 }
 
-/// Threads read a piece each, into the place where the spheres stay.
-Status append_rows(const InputFile& file, const RowLayout& layout, const NpySpheres& request,
-                   std::vector<Sphere>& spheres, const ParallelFor& parallel_for) {
+/// The same for all rows, of which threads read a piece each.
+template <class Take>
+Status read_rows(const InputFile& file, const RowLayout& layout, const ParallelFor& parallel_for,
+                 const Take& take) {
   constexpr std::size_t rows_per_piece = std::size_t{1} << 16;
-  const std::size_t before = spheres.size(), rows = static_cast<std::size_t>(layout.rows);
-  append_blank(spheres, rows, parallel_for);
-  const RowDecoder decoder(layout, request);
+  const auto rows = static_cast<std::size_t>(layout.rows);
   std::vector<Status> pieces((rows + rows_per_piece - 1) / rows_per_piece);
   parallel_for(pieces.size(), [&](std::size_t i) {
-    const std::span<Sphere> rest = std::span(spheres).subspan(before + i * rows_per_piece);
-    pieces[i] = read_piece(file, layout, decoder, i * rows_per_piece,
-                           rest.first(std::min(rows_per_piece, rest.size())));
+    const std::size_t row = i * rows_per_piece;
+    pieces[i] = read_piece(file, layout, row, std::min(row + rows_per_piece, rows), take);
   });
   for (const Status& piece : pieces) {
     if (piece) return piece;
@@ -182,10 +191,14 @@ Status append_rows(const InputFile& file, const RowLayout& layout, const NpySphe
   return std::nullopt;
 }
 
-}  // namespace
+/// A file of spheres that is open.
+struct OpenSpheres {
+  InputFile file;
+  RowLayout layout;
+};
 
-Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
-                      const ParallelFor& parallel_for) {
+/// Opens a file whose spheres fit into memory beside so many others.
+Result<OpenSpheres> open_spheres(const NpySpheres& request, std::uint64_t others) {
   const auto named = [&](Diagnostic error) {
     error.file = request.path;
     return error;
@@ -197,17 +210,51 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
   const auto layout = check_layout(header.value(), request, file.value().size());
   if (!layout) return named(layout.error());
   const std::uint64_t rows = layout.value().rows;
-  if (auto bad =
-          check_memory(bytes_of_tree(spheres.size() + rows) - bytes_of_spheres(spheres.size()),
-                       std::to_string(rows) + " spheres need")) {
+  if (auto bad = check_memory(bytes_of_tree(others + rows) - bytes_of_spheres(others),
+                              std::to_string(rows) + " spheres need")) {
     return named(*bad);
   }
+  return OpenSpheres{std::move(file).value(), layout.value()};
+}
+
+}  // namespace
+
+Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
+                      const ParallelFor& parallel_for) {
   const std::size_t before = spheres.size();
-  if (auto bad = append_rows(file.value(), layout.value(), request, spheres, parallel_for)) {
+  const auto opened = open_spheres(request, before);
+  if (!opened) return opened.error();
+  const auto& [file, layout] = opened.value();
+  append_blank(spheres, static_cast<std::size_t>(layout.rows), parallel_for);
+  const RowDecoder decoder(layout, request);
+  const auto decode = [&](const unsigned char* rows, std::size_t row, std::size_t count) {
+    return decoder.decode(rows, row, std::span(spheres).subspan(before + row, count));
+  };
+  if (auto bad = read_rows(file, layout, parallel_for, decode)) {
     spheres.resize(before);
-    return named(*bad);
+    bad->file = request.path;
+    return bad;
   }
   return std::nullopt;
+}
+
+SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_for) {
+  SphereExtent all;
+  const auto opened = open_spheres(request, 0);
+  if (!opened) return all;
+  const RowLayout& layout = opened.value().layout;
+  std::mutex mutex;
+  const auto take = [&](const unsigned char* rows, std::size_t, std::size_t count) -> Status {
+    const SphereExtent some =
+        extent_of(count, serial_for, [&](std::size_t i, SphereExtent& extent) {
+          const auto [x, y, z, r] = numbers_of(rows + i * layout.bytes(), layout, request);
+          extent.add({x, y, z}, r);
+        });
+    const std::lock_guard lock(mutex);
+    all.add(some);
+    return std::nullopt;
+  };
+  return read_rows(opened.value().file, layout, parallel_for, take) ? SphereExtent{} : all;
 }
 
 }  // namespace boule

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
+#include "render/scene_file/scene_origin.h"
 
 namespace boule {
 
@@ -26,5 +27,9 @@ struct NpySpheres {
 /// same for any threads. Passes on what `parallel_for` throws; the spheres may then be longer.
 Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
                       const ParallelFor& parallel_for = serial_for);
+
+/// Where the file's spheres are, before the origin is subtracted and they are rounded. Nothing of a
+/// file that append_spheres() refuses.
+SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "render/file/float32.h"
@@ -20,24 +21,36 @@ double number_at(const unsigned char* row, std::size_t column, std::size_t width
   return width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
 }
 
+using Row = std::array<double, 4>;
+
+/// The numbers of a row, the centre counted from `origin`.
+Row numbers_of(const unsigned char* row, std::size_t width, const Vec3d& origin) {
+  return {number_at(row, 0, width) - origin.x, number_at(row, 1, width) - origin.y,
+          number_at(row, 2, width) - origin.z, number_at(row, 3, width)};
+}
+
 /// The sphere of a row, each number rounded once; an invalid one if a number is too large.
-Sphere sphere_of(const unsigned char* row, std::size_t width) {
-  float numbers[4];
-  for (std::size_t i = 0; i < 4; ++i) numbers[i] = float32_or_nan(number_at(row, i, width));
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+Sphere sphere_of(const Row& row) {
+  return {{float32_or_nan(row[0]), float32_or_nan(row[1]), float32_or_nan(row[2])},
+          float32_or_nan(row[3])};
 }
 
 /// What is wrong with a row.
-std::string problem_of(const unsigned char* row, std::size_t width) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!to_float32(number_at(row, i, width)))
+std::string problem_of(const Row& row) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (!to_float32(row[i]))
       return std::string(sphere_columns[i]) + " is too large for a 32-bit float";
   }
-  const auto problem = find_problem(sphere_of(row, width));
+  const auto problem = find_problem(sphere_of(row));
   return problem ? problem->field + " " + problem->message : std::string();
 }
 
 }  // namespace
+
+Status NpySource::named(const File& file, Status bad) {
+  if (bad) bad->file = file.is_pipe ? "standard input" : file.name;
+  return bad;
+}
 
 Result<std::unique_ptr<NpySource>> NpySource::open(const std::vector<std::string>& paths,
                                                    const std::string& beside,
@@ -90,23 +103,45 @@ void NpySource::forget(std::uint64_t before) {
   forgotten_ = bytes;
 }
 
-Status NpySource::read(std::vector<Sphere>& part, std::size_t most) {
-  part.clear();
+Status NpySource::next_rows(std::size_t most, Rows& rows) {
+  rows = {};
   std::uint64_t before = 0;
   for (File& file : files_) {
     if (next_ >= before && next_ - before < file.rows) {
       const std::uint64_t first = next_ - before;
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, file.rows - first));
-      Status bad = read_rows(file, first, count);
-      part.resize(count);
-      if (!bad) bad = decode(file, first, count, part.data());
-      if (bad) bad->file = file.is_pipe ? "standard input" : file.name;
+      rows = {&file, first, count};
       next_ += count;
-      return bad;
+      return named(file, read_rows(file, first, count));
     }
     before += file.rows;
   }
   return std::nullopt;
+}
+
+Status NpySource::read(std::vector<Sphere>& part, std::size_t most) {
+  part.clear();
+  Rows rows;
+  if (auto bad = next_rows(most, rows)) return bad;
+  if (rows.file == nullptr) return std::nullopt;
+  part.resize(rows.count);
+  return named(*rows.file, decode(*rows.file, rows.first, rows.count, part.data()));
+}
+
+Result<SphereExtent> NpySource::extent() {
+  constexpr std::size_t at_once = std::size_t{1} << 20;
+  SphereExtent all;
+  Rows rows;
+  do {
+    if (auto bad = next_rows(at_once, rows)) return *bad;
+    all.add(extent_of(rows.count, parallel_for_, [&](std::size_t i, SphereExtent& extent) {
+      const File& file = *rows.file;
+      const auto [x, y, z, r] = numbers_of(rows_.data() + i * file.row_bytes(), file.width, {});
+      extent.add({x, y, z}, r);
+    }));
+  } while (rows.file != nullptr);
+  next_ = 0;
+  return all;
 }
 
 Status NpySource::read_rows(File& file, std::uint64_t first, std::size_t count) {
@@ -148,14 +183,15 @@ Status NpySource::decode(const File& file, std::uint64_t first, std::size_t coun
   std::vector<std::size_t> bad((count + piece - 1) / piece, count);  // the first one of each
   parallel_for_(bad.size(), [&](std::size_t i) {
     for (std::size_t k = std::min((i + 1) * piece, count); k-- > i * piece;) {
-      spheres[k] = sphere_of(rows_.data() + k * file.row_bytes(), file.width);
+      spheres[k] = sphere_of(numbers_of(rows_.data() + k * file.row_bytes(), file.width, origin_));
       if (!is_valid(spheres[k])) bad[i] = k;
     }
   });
   const std::size_t row = bad.empty() ? count : *std::min_element(bad.begin(), bad.end());
   if (row == count) return std::nullopt;
-  return Diagnostic::of("row " + std::to_string(first + row) + ": " +
-                        problem_of(rows_.data() + row * file.row_bytes(), file.width));
+  return Diagnostic::of(
+      "row " + std::to_string(first + row) + ": " +
+      problem_of(numbers_of(rows_.data() + row * file.row_bytes(), file.width, origin_)));
 }
 
 }  // namespace boule

@@ -26,6 +26,14 @@ void report(std::atomic<std::size_t>& least, std::size_t index) {
 
 }  // namespace
 
+SphereExtent SphereArrays::extent(const ParallelFor& parallel_for) const {
+  return extent_of(spheres.size(), parallel_for, [&](std::size_t i, SphereExtent& extent) {
+    const Sphere& sphere = spheres[i];
+    extent.add(centers.empty() ? vec_cast<double>(sphere.center) + base : centers[i],
+               static_cast<double>(sphere.radius));
+  });
+}
+
 Status SphereArrays::append_to(std::vector<Sphere>& target, const Vec3d& origin,
                                const ParallelFor& parallel_for) const {
   const std::size_t before = target.size(), count = spheres.size();

@@ -12,7 +12,7 @@
 #include "core/scene/primitive.h"
 #include "render/image/image.h"
 #include "render/particle_file/particle_file.h"
-#include "render/scene_file/toml_origin.h"
+#include "render/scene_file/scene_origin.h"
 
 namespace boule {
 
@@ -26,8 +26,9 @@ struct SphereArrays {
   /// The names of the materials that the spheres have by index; empty: all have the table's.
   std::vector<std::string> materials{};
   bool has_colors = false;  ///< any sphere has a colour of its own
-  SphereExtent extent{};    ///< of `centers`
 
+  /// Where they are, before they are rounded.
+  [[nodiscard]] SphereExtent extent(const ParallelFor& parallel_for) const;
   /// Appends the spheres, each rounded once, with centres counted from `origin`. An error, and no
   /// sphere more, if a centre is then too large for a float; it names the sphere from 0 ("row 17").
   /// Throws std::bad_alloc.

@@ -32,17 +32,22 @@ bool has_extension(std::string_view path, std::string_view extension) {
 Result<LoadedScene> read_text_scene(const std::string& path, const SceneFileOptions& options) {
   const auto text = read_text(path);
   if (!text) return text.error();
-  return has_extension(path, ".toml") ? read_toml(text.value(), path, options)
-                                      : read_nff(text.value(), path, options.polygons);
+  return has_extension(path, ".toml")
+             ? read_toml(text.value(), path, options)
+             : read_nff(text.value(), path, options.polygons, options.origin);
 }
 
 /// Spheres alone, of the default material.
-Result<LoadedScene> read_npy_scene(const std::string& path, const ParallelFor& parallel_for) {
+Result<LoadedScene> read_npy_scene(const std::string& path, const SceneFileOptions& options) {
   LoadedScene loaded;
   loaded.scene.materials.push_back({"default", Matte{}});
   NpySpheres request;
   request.path = path;
   request.is_scene = true;
+  const ParallelFor& parallel_for = options.parallel_for;
+  SceneExtents extents;
+  if (!options.origin) extents.push_back(extent_of(request, parallel_for));
+  loaded.origin = request.origin = choose_origin(extents, options.origin, loaded.notes);
   if (auto bad = append_spheres(request, loaded.scene.spheres, parallel_for)) return *bad;
   if (auto bad = validate_all_but_primitives(loaded.scene)) {
     bad->file = path;
@@ -68,7 +73,7 @@ Result<LoadedScene> load(const std::string& path, const SceneFileOptions& option
     return Diagnostic::in_file(
         path, "not a scene file by its name, expected an extension .toml, .nff, .npy or .boule");
   }
-  return is_npy ? read_npy_scene(path, options.parallel_for) : read_text_scene(path, options);
+  return is_npy ? read_npy_scene(path, options) : read_text_scene(path, options);
 }
 
 /// Calls `read`, and refuses what does not fit into memory.
@@ -95,6 +100,12 @@ Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions
 }
 
 }  // namespace
+
+Vec3d shown_origin(const LoadedScene& loaded, const Instance& instance, const Vec3d& origin) {
+  Similarity by = transform_of(instance);
+  by.shift = {};
+  return origin - by.apply(loaded.origin_of(instance.group));
+}
 
 Result<LoadedScene> load_scene(const std::string& path, const SceneFileOptions& options) {
   return load_checked(path, options, [&] { return load(path, options); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,9 +49,23 @@ struct LoadedScene {
   std::vector<std::string> data_files{};
   std::vector<std::string> notes{};        ///< automatic choices, a sentence each
   std::vector<ParticleFacts> particles{};  ///< of each file of particles
-  /// The scene's own point 0: it was subtracted from all points before they were rounded.
+  /// The scene's own point 0: it was subtracted, in double, from all points of the file before they
+  /// were rounded. If you trace rays against the scene, subtract it from theirs, and add it to
+  /// points of hits. If the file leaves it open, it is 0 where rounding goes unseen that way, else
+  /// a point among the spheres.
   Vec3d origin{};
+  /// The same for what is inside groups, by their index; of those beyond the end it is 0. The
+  /// translations of instances make up for it.
+  std::vector<Vec3d> group_origins{};
+
+  [[nodiscard]] Vec3d origin_of(std::size_t group) const {
+    return group < group_origins.size() ? group_origins[group] : Vec3d{};
+  }
 };
+
+/// From where the translation of an instance is counted, so that it is that of the file; `origin`
+/// is that of the scene or the group which the instance is in.
+Vec3d shown_origin(const LoadedScene& loaded, const Instance& instance, const Vec3d& origin);
 
 /// Reads a scene by its extension: .toml, .nff (Haines' SPD), .boule (packed), or .npy: spheres
 /// alone, N x 4. An error is a Diagnostic with file, line, column and key. A scene that is too

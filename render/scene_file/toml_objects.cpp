@@ -8,6 +8,7 @@
 
 #include "core/scene/instances.h"
 #include "core/scene/number_text.h"
+#include "render/file/float32.h"
 #include "render/file/nearest_name.h"
 #include "render/file/sphere_room.h"
 #include "render/memory/scene_memory.h"
@@ -18,14 +19,6 @@
 
 namespace boule {
 namespace {
-
-/// The spheres in memory that a table [[spheres]] names, or null.
-const SphereArrays* find_arrays(TomlTable& table) {
-  std::string name;
-  if (table.data() == nullptr || !table.has_text("file")) return nullptr;
-  table.read("file", name);
-  return find_data(&table.data()->spheres, name);
-}
 
 /// The number that `ids` has for the name under `key` of a table; an unknown name is reported.
 std::uint32_t find_id(TomlTable& table, const char* key,
@@ -41,7 +34,27 @@ std::uint32_t find_id(TomlTable& table, const char* key,
   return 0;
 }
 
+/// Subtracts the point from which the group of an instance is counted, where the group is shown.
+void count_from(const Vec3d& group_origin, TomlTable& table, Instance& instance) {
+  if (group_origin == Vec3d{}) return;
+  Vec3d translate;
+  table.read("translate", translate);
+  Similarity by = transform_of(instance);
+  by.shift = translate;
+  const Vec3d shown = by.apply(group_origin) - table.origin();
+  const auto x = to_float32(shown.x), y = to_float32(shown.y), z = to_float32(shown.z);
+  if (!x || !y || !z) return table.report("translate", "is too large for a 32-bit float");
+  instance.translate = {*x, *y, *z};
+}
+
 }  // namespace
+
+const SphereArrays* find_arrays(TomlTable& table) {
+  std::string name;
+  if (table.data() == nullptr || !table.has_text("file")) return nullptr;
+  table.read("file", name);
+  return find_data(&table.data()->spheres, name);
+}
 
 ObjectTables object_tables(TomlTable& table) {
   ObjectTables tables;
@@ -51,12 +64,7 @@ ObjectTables object_tables(TomlTable& table) {
   constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto source = static_cast<ObjectTables::Source>(i);
-    for (TomlTable& one : table.tables(keys[i])) {
-      const SphereArrays* const arrays =
-          source == ObjectTables::Source::spheres ? find_arrays(one) : nullptr;
-      all.push_back({std::move(one), source});
-      if (arrays != nullptr && !arrays->centers.empty()) all.back().exact = arrays->extent;
-    }
+    for (TomlTable& one : table.tables(keys[i])) all.push_back({std::move(one), source});
   }
   // Ids follow the order in the file, of all of them together.
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -88,7 +96,7 @@ T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_
 
 void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
                                std::vector<Sphere>& spheres) {
-  for (auto& [table, source, particles, exact] : tables) {
+  for (auto& [table, source, particles] : tables) {
     switch (source) {
       case ObjectTables::Source::sphere:
         read_sphere(table, spheres);
@@ -104,7 +112,7 @@ void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
 }
 
 void TomlObjects::load_particles(ObjectTables& tables) {
-  for (auto& [table, source, particles, exact] : tables.spheres) {
+  for (auto& [table, source, particles] : tables.spheres) {
     if (source != ObjectTables::Source::particles) continue;
     const std::uint32_t material = colorable_material_of(table, "material");
     particles = read_particles(table, material, options_);
@@ -232,9 +240,11 @@ void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {
 }
 
 void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
+                                 const std::vector<Vec3d>& origins,
                                  std::vector<Instance>& instances) {
   for (TomlTable& table : tables) {
-    instances.push_back(read_checked<Instance>(table, {"group"}));
+    Instance& instance = instances.emplace_back(read_checked<Instance>(table, {"group"}));
+    if (instance.group < origins.size()) count_from(origins[instance.group], table, instance);
     instance_tables_.push_back({.group = group, .instance = instances.size() - 1, .table = table});
   }
 }
@@ -246,20 +256,18 @@ void TomlObjects::start_groups(const std::vector<TomlTable>& tables) {
   }
 }
 
-void TomlObjects::read_group(std::size_t group, TomlTable& table) {
-  ObjectTables tables = object_tables(table);
-  table.finish();
-  load_particles(tables);
+void TomlObjects::read_group(std::size_t group, ObjectTables& tables,
+                             const std::vector<Vec3d>& origins) {
   Group& own = scene_.groups[group];
   read_spheres(tables.spheres, own.spheres);
   for (TomlTable& plane : tables.planes) read_plane(plane, own.planes);
-  read_instances(tables.instances, group, own.instances);
+  read_instances(tables.instances, group, origins, own.instances);
 }
 
-void TomlObjects::read_scene(ObjectTables& tables) {
+void TomlObjects::read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins) {
   read_spheres(tables.spheres, scene_.spheres);
   for (TomlTable& plane : tables.planes) read_plane(plane, scene_.planes);
-  read_instances(tables.instances, std::nullopt, scene_.instances);
+  read_instances(tables.instances, std::nullopt, group_origins, scene_.instances);
 }
 
 void TomlObjects::check_instances() {

@@ -13,7 +13,6 @@
 #include "render/scene_file/particle_facts.h"
 #include "render/scene_file/scene_file.h"
 #include "render/scene_file/toml_fields.h"
-#include "render/scene_file/toml_origin.h"
 #include "render/scene_file/toml_particles.h"
 #include "render/scene_file/toml_sphere_colors.h"
 #include "render/scene_file/toml_table.h"
@@ -30,7 +29,6 @@ struct ObjectTables {
     TomlTable table;
     Source source;
     std::optional<TomlParticles> particles{};  ///< once they are read
-    std::optional<SphereExtent> exact{};       ///< of spheres in memory with double precision
   };
   std::vector<Spheres> spheres;
   std::vector<TomlTable> planes;
@@ -40,8 +38,11 @@ struct ObjectTables {
 /// Takes them from the table of a scene or a group; their keys become known.
 ObjectTables object_tables(TomlTable& table);
 
+/// The spheres in memory that a table [[spheres]] names, or null.
+const SphereArrays* find_arrays(TomlTable& table);
+
 /// Reads materials, and the objects of a scene and its groups: first read_materials(), then
-/// start_groups() and load_particles(), then the others.
+/// start_groups() and load_particles() of all, then the others.
 class TomlObjects final : private TomlNames {
  public:
   /// Scene, error and options must outlive it.
@@ -55,8 +56,9 @@ class TomlObjects final : private TomlNames {
   void start_groups(const std::vector<TomlTable>& tables);
   /// Reads the files of the tables [[particles]]. They become spheres with the other objects.
   void load_particles(ObjectTables& tables);
-  void read_group(std::size_t group, TomlTable& table);
-  void read_scene(ObjectTables& tables);
+  /// The group's table has its origin by now, one of those of all groups.
+  void read_group(std::size_t group, ObjectTables& tables, const std::vector<Vec3d>& origins);
+  void read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins);
 
   /// Reports what find_instance_problem() finds at the instance's table, and an error if there is
   /// no memory for the spheres and planes that the instances show.
@@ -85,7 +87,7 @@ class TomlObjects final : private TomlNames {
   void add_images(TomlTable& table, ParticleSpheres particles);
   void read_plane(TomlTable& table, std::vector<Plane>& planes);
   void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
-                      std::vector<Instance>& instances);
+                      const std::vector<Vec3d>& origins, std::vector<Instance>& instances);
   /// Reads a struct that may refer to materials and groups, with these keys required.
   template <class T>
   T read_checked(TomlTable& table, std::initializer_list<std::string_view> required = {});

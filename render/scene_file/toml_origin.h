@@ -1,36 +1,45 @@
 #pragma once
 
-#include <limits>
-#include <optional>
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "core/math/vec.h"
+#include "core/scene/group.h"
+#include "render/scene_file/scene_file.h"
+#include "render/scene_file/scene_origin.h"
+#include "render/scene_file/toml_objects.h"
 #include "render/scene_file/toml_table.h"
 
 namespace boule {
 
-/// The box around the centres of spheres, and the smallest of their radii.
-struct SphereExtent {
-  Vec3d low{}, high{};
-  double radius = std::numeric_limits<double>::infinity();  ///< infinite: there are no spheres
+/// Finds where the spheres of a scene and its groups are, before any of them is rounded. What is
+/// wrong in the tables is told when they are read.
+class TomlExtents {
+ public:
+  /// `groups` are the tables of the groups, with their objects in the same order. The particles are
+  /// loaded. All must outlive it.
+  TomlExtents(const std::vector<TomlTable>& groups, std::vector<ObjectTables>& objects,
+              const SceneFileOptions& options);
+
+  /// The extents of the objects of a scene or group, those of its instances among them.
+  SceneExtents of(ObjectTables& objects) { return parts_of(objects, 0); }
+
+ private:
+  SceneExtents parts_of(ObjectTables& objects, std::size_t depth);
+  SphereExtent of_spheres(ObjectTables::Spheres& spheres);
+  SphereExtent of_file(TomlTable& table);
+  SphereExtent of_instance(TomlTable& table, std::size_t depth);
+  const SphereExtent& of_group(std::size_t group, std::size_t depth);
+
+  std::map<std::string, std::size_t> ids_;
+  std::vector<ObjectTables>& objects_;
+  const SceneFileOptions& options_;
+  std::vector<std::optional<SphereExtent>> known_;  ///< by group
 };
 
-/// What floats may be too coarse for: the spheres of double precision that a scene has.
-struct ExactSpheres {
-  std::vector<SphereExtent> extents;   ///< one for each file or array of them
-  std::optional<Vec3d> cell_middle{};  ///< of the cell, if all share one
-};
-
-/// The point that `origin = "auto"` stands for: 0, if rounding moves no centre that is counted from
-/// there by more than 2^-16 of the smallest radius, which a picture of 65535 pixels could show.
-/// Else the point with the fewest decimal digits near the middle of the spheres (that of their
-/// cell, or of the box around their centres) from where this holds. Else a point near the middle,
-/// if it makes the rounding eight times smaller than 0 does. Else 0.
-Vec3d choose_origin(const ExactSpheres& spheres);
-
-/// Reads the key `origin` of a scene: "auto", which is the default, or a point. What was chosen
-/// automatically, if it is not 0, is told in a note. Errors are reported through the table.
-Vec3d read_origin(TomlTable& root, const ExactSpheres& spheres, std::vector<std::string>& notes);
+/// Reads the key `origin` of a scene: a point, or "auto", which is the default: nothing. Errors are
+/// reported through the table.
+std::optional<Vec3d> read_origin(TomlTable& root);
 
 }  // namespace boule

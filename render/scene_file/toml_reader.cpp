@@ -15,15 +15,6 @@
 namespace boule {
 namespace {
 
-void add_extent(const ParticleSpheres& particles, ExactSpheres& spheres) {
-  const auto& [low, high] = particles.center_bounds();
-  SphereExtent extent{low, high};
-  if (particles.size() != 0) extent.radius = particles.smallest_radius();
-  spheres.extents.push_back(extent);
-  const auto& cell = particles.cell();
-  if (cell) spheres.cell_middle = cell->origin + (cell->a + cell->b + cell->c) * 0.5;
-}
-
 /// Turns the root table into a Scene: settings first, then materials, then the objects, which refer
 /// to them.
 class TomlReader {
@@ -42,11 +33,15 @@ class TomlReader {
 
  private:
   void check_schema();
-  void choose_origin(const ObjectTables& objects);
+  std::vector<ObjectTables> tables_in(std::vector<TomlTable>& groups);
+  void choose_origins(const std::vector<TomlTable>& groups, std::vector<ObjectTables>& inside,
+                      ObjectTables& objects);
   void check_packed(const ObjectTables& objects);
   void read_camera_table(TomlTable& table);
+  void read_background_table(TomlTable& table);
   void choose_up();
   void validate_whole();
+  void describe(const std::vector<std::string>& notes);
 
   const SceneFileOptions& options_;
   const CameraMotion* motion_;
@@ -67,7 +62,7 @@ Result<LoadedScene> TomlReader::read() {
   auto objects = object_tables(root_);
   auto groups = root_.named_tables("group");
   packed_ = read_packed(root_, options_);
-  for (TomlTable& group : groups) group.set_origin(nullptr);  // each has its own
+  auto inside = tables_in(groups);
   root_.has("origin");  // makes it known: it is read once the particles are there
   root_.finish();
   if (!root_.has("schema")) root_.report("schema", "missing key 'schema': write schema = 1");
@@ -80,53 +75,68 @@ Result<LoadedScene> TomlReader::read() {
   reader.read_materials(std::move(materials));
   reader.start_groups(groups);
   reader.load_particles(objects);
-  choose_origin(objects);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i].finish();
+    reader.load_particles(inside[i]);
+  }
+  choose_origins(groups, inside, objects);
   if (packed_) check_packed(objects);
   // From here on points are read.
   if (!lights.empty()) scene_.lights.clear();
   if (camera) read_camera_table(*camera);
-  if (background) {
-    scene_.ambient = {};
-    scene_.backdrop.reset();
-    scene_.background = read_background(*background, scene_);
-  }
+  if (background) read_background_table(*background);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
-  reader.read_scene(objects);
-  for (std::size_t i = 0; i < groups.size(); ++i) reader.read_group(i, groups[i]);
+  reader.read_scene(objects, loaded_.group_origins);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    reader.read_group(i, inside[i], loaded_.group_origins);
+  }
   reader.check_instances();
   loaded_.particles = reader.facts();
   choose_up();
   validate_whole();
   if (error_.status()) return *error_.status();
-  std::vector<std::string> notes = reader.notes();
+  describe(reader.notes());
+  return std::move(loaded_);
+}
+
+/// The objects of each group, whose points are counted from its origin, once that is chosen.
+std::vector<ObjectTables> TomlReader::tables_in(std::vector<TomlTable>& groups) {
+  loaded_.group_origins.resize(groups.size());
+  std::vector<ObjectTables> inside;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i].set_origin(&loaded_.group_origins[i]);
+    inside.push_back(object_tables(groups[i]));
+  }
+  return inside;
+}
+
+/// Sets what is told of a scene that was read; `notes` are those of its objects.
+void TomlReader::describe(const std::vector<std::string>& notes) {
   loaded_.notes.insert(loaded_.notes.begin(), notes.begin(), notes.end());
   loaded_.notes.insert(loaded_.notes.end(), error_.notes().begin(), error_.notes().end());
   loaded_.data_files = error_.data_files();
   loaded_.origin = origin_;
-  return std::move(loaded_);
+  loaded_.group_origins.resize(scene_.groups.size(), origin_);  // images of particles
 }
 
-/// Groups keep their own point 0: what shows them is moved.
-void TomlReader::choose_origin(const ObjectTables& objects) {
-  // A text is "auto": any other was refused when the series chose its origin.
-  if (options_.origin && (!root_.has("origin") || root_.has_text("origin"))) {
-    origin_ = *options_.origin;
-    return;
+/// Each group has an origin of its own, which those who show it make up for.
+void TomlReader::choose_origins(const std::vector<TomlTable>& groups,
+                                std::vector<ObjectTables>& inside, ObjectTables& objects) {
+  const auto given = read_origin(root_);
+  TomlExtents extents(groups, inside, options_);
+  SceneExtents all;
+  if (!given && !options_.origin) all = extents.of(objects);
+  origin_ = given ? *given : choose_origin(all, options_.origin, loaded_.notes);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    loaded_.group_origins[i] = choose_origin(extents.of(inside[i]));
   }
-  ExactSpheres spheres;
-  for (const auto& table : objects.spheres) {
-    if (table.particles) add_extent(table.particles->spheres, spheres);
-    if (table.exact) spheres.extents.push_back(*table.exact);
-  }
-  if (spheres.extents.size() != 1) spheres.cell_middle.reset();
-  origin_ = read_origin(root_, spheres, loaded_.notes);
 }
 
 /// Packed spheres are the only ones of a scene, and their points are counted from its origin.
 void TomlReader::check_packed(const ObjectTables& objects) {
-  for (const auto& [table, source, particles, exact] : objects.spheres)
+  for (const auto& [table, source, particles] : objects.spheres)
     error_.report(table.place(), table.path(), "a scene has no other spheres beside packed ones");
-  if (root_.has("origin") && !(origin_ == packed_->origin))
+  if (root_.has("origin") && !root_.has_text("origin") && !(origin_ == packed_->origin))
     root_.report("origin", "is not that of the packed scene, which need not be repeated");
   origin_ = packed_->origin;
 }
@@ -149,6 +159,12 @@ void TomlReader::read_camera_table(TomlTable& table) {
   }
   scene_.camera = read_camera(table);
   if (motion_ != nullptr && table.ok()) check_camera_keys(*motion_, *scene_.camera, table);
+}
+
+void TomlReader::read_background_table(TomlTable& table) {
+  scene_.ambient = {};
+  scene_.backdrop.reset();
+  scene_.background = read_background(table, scene_);
 }
 
 /// Where particles have a cell, z is up in a picture whose camera does not say otherwise.

@@ -98,6 +98,8 @@ class TomlTable {
   /// The path of a file name in this table, which is relative to the scene file. It becomes one of
   /// the scene's data files.
   [[nodiscard]] std::string file_path(const std::string& name);
+  /// The same path alone.
+  [[nodiscard]] std::string beside_scene(const std::string& name) const;
 
   /// Where the table begins, and where the value under `key` does (the table, if it is absent).
   [[nodiscard]] TextPlace place() const { return place_; }
@@ -111,7 +113,6 @@ class TomlTable {
   const TomlValue* find(std::string_view key);
   [[nodiscard]] TomlTable inner(const TomlMembers& members, TextPlace place,
                                 std::string path) const;
-  [[nodiscard]] std::string beside_scene(const std::string& name) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
   template <class Number>
   void read_vector(std::string_view key, Vec3<Number>& out);

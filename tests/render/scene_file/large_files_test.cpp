@@ -112,7 +112,9 @@ TEST(LargeNff, NumbersAcrossTheBordersOfBlocks) {
     const std::size_t used = view.size() + before;
     const std::string text = view + "#" + std::string(text_block - used - 2, '-') + "\n" + line +
                              line.substr(0, line.size() - 2);
-    const auto loaded = SceneFolder{}.load("a.nff", text);
+    SceneFileOptions options;
+    options.origin = Vec3d{};
+    const auto loaded = SceneFolder{}.load("a.nff", text, options);
     ASSERT_TRUE(loaded.ok()) << format_diagnostic(loaded.error());
     ASSERT_EQ(loaded.value().scene.spheres.size(), 2u);
     for (const Sphere& s : loaded.value().scene.spheres) {
@@ -173,7 +175,8 @@ TEST(LargeNff, NumbersAreWholeWords) {
     for (char& c : word) c = characters[random() % characters.size()];
     if (word[0] == '#') continue;
     const double number = number_of(word);
-    const auto loaded = read_nff(view + "s\t" + word + "\v0\f0 1", "a.nff", PolygonPolicy::plane);
+    const auto loaded =
+        read_nff(view + "s\t" + word + "\v0\f0 1", "a.nff", PolygonPolicy::plane, Vec3d{});
     ASSERT_EQ(loaded.ok(), !std::isnan(number)) << word;
     if (loaded) {
       ++good;

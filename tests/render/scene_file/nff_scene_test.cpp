@@ -154,7 +154,7 @@ TEST(NffScene, PolygonNormalsFollowTheVertexOrder) {
 
 TEST(NffScene, NumbersAreRoundedToFloatOnce) {
   const auto x = [](const std::string& number) {
-    return load(view + "s " + number + " 0 0 1\n").scene.spheres.at(0).center.x;
+    return load(view + "s " + number + " 0 0 1e37\n").scene.spheres.at(0).center.x;
   };
   EXPECT_EQ(x("0.1"), 0.1f);
   EXPECT_EQ(x("+2.5"), 2.5f);

@@ -55,7 +55,6 @@ SphereArrays exact(double moved) {
   SphereArrays arrays;
   arrays.spheres = {{{}, 0.5F, MaterialRef()}, {{}, 0.25F, MaterialRef()}};
   arrays.centers = {{moved + 0.125, 0, 0}, {moved + 1, 2, 0}};
-  arrays.extent = {{moved + 0.125, 0, 0}, {moved + 1, 2, 0}, 0.25};
   return arrays;
 }
 

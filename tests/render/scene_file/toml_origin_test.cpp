@@ -209,15 +209,30 @@ TEST(TomlOrigin, AutoLeavesWhatRoundingLeaves) {
   EXPECT_EQ(loaded(files, "[[particles]]\nfile = \"wide.xyz\"\n").origin, Vec3d{});
 }
 
-TEST(TomlOrigin, AutoIsForParticlesOnly) {
+TEST(TomlOrigin, AutoIsForAllSpheres) {
   const test::SceneFolder files;
   const LoadedScene scene =
       loaded(files, "origin = \"auto\"\n[[sphere]]\ncenter = [1000000, 0, 0]\nradius = 1e-3\n");
-  EXPECT_EQ(scene.origin, Vec3d{});
-  EXPECT_EQ(scene.scene.spheres[0].center, (Vec3f{1000000, 0, 0}));
+  EXPECT_EQ(scene.origin, (Vec3d{1000000, 0, 0}));
+  EXPECT_EQ(scene.scene.spheres[0].center, Vec3f{});
 }
 
-TEST(TomlOrigin, AutoTakesAShortPointNearTheMiddleOfTheCell) {
+/// A group has coordinates of its own, which may be far from its own 0.
+TEST(TomlOrigin, AutoIsForGroupsByThemselves) {
+  const test::SceneFolder files;
+  const LoadedScene scene =
+      loaded(files,
+             "[[group.ball.sphere]]\ncenter = [1000000.0625, 0, 0]\n"
+             "[[instance]]\ngroup = \"ball\"\nrotate = [0, 0, 90]\nscale = 0.5\n"
+             "translate = [0.25, -500000, 0.5]\n");
+  EXPECT_EQ(scene.origin, Vec3d{});
+  EXPECT_EQ(scene.origin_of(0), (Vec3d{1000000, 0, 0}));
+  EXPECT_EQ(scene.scene.groups[0].spheres[0].center, (Vec3f{0.0625F, 0, 0}));
+  EXPECT_EQ(scene.scene.instances[0].translate, (Vec3f{0.25F, 0, 0.5F}));
+  EXPECT_EQ(shown_origin(scene, scene.scene.instances[0], scene.origin), (Vec3d{0, -500000, 0}));
+}
+
+TEST(TomlOrigin, AutoTakesAShortPointThatIsNearEnough) {
   const test::SceneFolder files;
   const auto origin = [&](const std::string& radius) {
     static_cast<void>(files.write("cell.xyz",
@@ -226,18 +241,19 @@ TEST(TomlOrigin, AutoTakesAShortPointNearTheMiddleOfTheCell) {
     return loaded(files, "[[particles]]\nfile = \"cell.xyz\"\nradius = " + radius + "\n").origin;
   };
   EXPECT_EQ(origin("1.7"), (Vec3d{1000000, 0, 0}));
-  EXPECT_EQ(origin("0.3"), (Vec3d{1000100, 0, 0}));
-  EXPECT_EQ(origin("0.03"), (Vec3d{1000120, 0, 0}));
-  EXPECT_EQ(origin("0.01"), (Vec3d{1000120, 0, 0}));
-  EXPECT_EQ(origin("0.003"), (Vec3d{1000121, 1, 1}));  // the only atom
+  EXPECT_EQ(origin("0.3"), (Vec3d{1000121, 1, 1}));  // the only atom
+  EXPECT_EQ(origin("0.003"), (Vec3d{1000121, 1, 1}));
 }
 
-/// Too far apart for their radii: the middle makes the rounding less, but not unseen.
-TEST(TomlOrigin, AutoTakesTheMiddleOfWhatIsWide) {
+/// Too far apart for their radii: a point among them makes the rounding less, but not unseen.
+TEST(TomlOrigin, AutoTakesAPointAmongWhatIsWide) {
   const test::SceneFolder files;
-  static_cast<void>(files.write("wide.xyz", "2\n\nC 1e6 0 0\nC 1.001e6 0 0\n"));
-  const LoadedScene wide = loaded(files, "[[particles]]\nfile = \"wide.xyz\"\nradius = 0.01\n");
-  EXPECT_EQ(wide.origin, (Vec3d{1000512, 0, 0}));
+  const auto origin = [&](const std::string& atoms) {
+    static_cast<void>(files.write("wide.xyz", "2\n\n" + atoms));
+    return loaded(files, "[[particles]]\nfile = \"wide.xyz\"\nradius = 0.01\n").origin;
+  };
+  EXPECT_EQ(origin("C 1e6 0 0\nC 1.001e6 0 0\n"), (Vec3d{1000000, 0, 0}));
+  EXPECT_EQ(origin("C 1000300.5 0 0\nC 1001300.5 0 0\n"), (Vec3d{1000800, 0, 0}));
 }
 
 class WrongOrigins : public testing::TestWithParam<test::Refusal> {};

@@ -296,7 +296,9 @@ material = "red"
 
 TEST(TomlScene, NumbersAreRoundedToFloatOnce) {
   const auto x = [](const std::string& number) {
-    return load("schema = 1\n[[sphere]]\ncenter = [" + number + ", 0, 0]\n").spheres[0].center.x;
+    return load("schema = 1\norigin = [0, 0, 0]\n[[sphere]]\ncenter = [" + number + ", 0, 0]\n")
+        .spheres[0]
+        .center.x;
   };
   EXPECT_EQ(x("0.1"), 0.1f);
   EXPECT_EQ(x("16777217"), 16777216.0f);
