@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "core/base/exact_math.h"
 #include "core/base/float_environment.h"
 #include "render/threads/threads.h"
 

@@ -1,5 +1,8 @@
 #include "render/image/write_image.h"
 
+#include <cerrno>
+#include <new>
+
 #include "render/image/band_writer.h"
 #include "render/image/output_file.h"
 
@@ -15,21 +18,31 @@ ImageForm form_of(const Image& image, const ImageFileOptions& options) {
   return form;
 }
 
-/// The whole picture as one band.
-Status write_all(Result<BandWriter> writer, const Image& image, const ImageFileOptions& options) {
-  if (!writer) return writer.error();
-  if (auto bad = writer.value().put(image, options.channels)) return bad;
-  return writer.value().finish();
+/// The whole picture as one band, by the writer that open(form) makes for a file of this name.
+template <class Open>
+Status write_all(const Image& image, const std::string& name, const ImageFileOptions& options,
+                 const Open& open) {
+  try {
+    Result<BandWriter> writer = open(form_of(image, options));
+    if (!writer) return writer.error();
+    if (auto bad = writer.value().put(image, options.channels)) return bad;
+    return writer.value().finish();
+  } catch (const std::bad_alloc&) {
+    return cannot_write(name, ENOMEM);
+  }
 }
 
 }  // namespace
 
 Status write_image(const Image& image, const std::string& path, const ImageFileOptions& options) {
-  return write_all(BandWriter::open(form_of(image, options), path, options), image, options);
+  return write_all(image, path, options,
+                   [&](const ImageForm& form) { return BandWriter::open(form, path, options); });
 }
 
 Status write_png(const Image& image, const OpenFile& file, const ImageFileOptions& options) {
-  return write_all(BandWriter::open_png(form_of(image, options), file, options), image, options);
+  return write_all(image, file.name, options, [&](const ImageForm& form) {
+    return BandWriter::open_png(form, file, options);
+  });
 }
 
 }  // namespace boule

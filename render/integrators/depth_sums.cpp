@@ -5,32 +5,37 @@
 #include <utility>
 
 namespace boule {
+namespace {
 
 /// By memset(), because assign() stores number by number.
-void DepthSums::clear(std::vector<ColorSum>& row) const {
-  row.resize(samples_);
-  if (samples_ > 0) std::memset(row.data(), 0, samples_ * sizeof(ColorSum));
+void clear(std::vector<ColorSum>& row, std::size_t samples) {
+  row.resize(samples);
+  if (samples > 0) std::memset(row.data(), 0, samples * sizeof(ColorSum));
 }
 
+}  // namespace
+
 void DepthSums::start(std::size_t samples) {
+  while (!rows_.empty()) {
+    spare_.push_back(std::move(rows_.back()));
+    rows_.pop_back();
+  }
+  clear(total_, samples);
   samples_ = samples;
   first_depth_ = 0;
-  for (auto& row : rows_) spare_.push_back(std::move(row));
-  rows_.clear();
-  clear(total_);
 }
 
 ColorSum* DepthSums::at_depth(int depth) {
   if (rays_ == RaysPerDepth::one_at_most) return total_.data();
   const auto row = static_cast<std::size_t>(depth - first_depth_);
   while (rows_.size() <= row) {
-    if (spare_.empty()) {
-      rows_.emplace_back();
-    } else {
-      rows_.push_back(std::move(spare_.back()));
+    std::vector<ColorSum> next;
+    if (!spare_.empty()) {
+      next = std::move(spare_.back());
       spare_.pop_back();
     }
-    clear(rows_.back());
+    clear(next, samples_);
+    rows_.push_back(std::move(next));
   }
   return rows_[row].data();
 }

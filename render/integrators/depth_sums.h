@@ -38,8 +38,6 @@ class DepthSums {
   [[nodiscard]] const SampleFaults& faults() const { return faults_; }
 
  private:
-  void clear(std::vector<ColorSum>& row) const;
-
   RaysPerDepth rays_;
   std::size_t samples_ = 0;
   int first_depth_ = 0;                      ///< the depth of rows_[0]

@@ -9,12 +9,12 @@ namespace boule {
 void Wavefront::start(RayBuffer& camera_rays) {
   const std::size_t samples = camera_rays.size();
   if (samples > most_samples_) {
-    most_samples_ = std::bit_ceil(samples);
-    camera_throughput_.resize(most_samples_, 1);
-    camera_density_.resize(most_samples_);
-    camera_sample_.resize(most_samples_);
-    for (std::size_t k = 0; k < most_samples_; ++k)
-      camera_sample_[k] = static_cast<std::uint32_t>(k);
+    const std::size_t most = std::bit_ceil(samples);
+    camera_throughput_.resize(most, 1);
+    camera_density_.resize(most);
+    camera_sample_.resize(most);
+    for (std::size_t k = 0; k < most; ++k) camera_sample_[k] = static_cast<std::uint32_t>(k);
+    most_samples_ = most;
   }
   // A run that was cancelled or failed may have left streams.
   if (running_) spare_.push_back(std::move(running_));
@@ -108,8 +108,10 @@ Wavefront::StreamPtr Wavefront::take_stream() {
 }
 
 void Wavefront::recycle(std::vector<StreamPtr>& streams) {
-  for (StreamPtr& stream : streams) spare_.push_back(std::move(stream));
-  streams.clear();
+  while (!streams.empty()) {  // one by one: where memory ends, what is left is whole
+    spare_.push_back(std::move(streams.back()));
+    streams.pop_back();
+  }
 }
 
 }  // namespace boule

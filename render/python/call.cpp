@@ -1,8 +1,15 @@
 #include "render/python/call.h"
 
-#include <chrono>
-#include <utility>
+#include <unistd.h>
+#include <cstdio>
+#include <cstdlib>
 
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "render/python/presence.h"
 #include "render/threads/threads.h"
 
 namespace py = pybind11;
@@ -10,40 +17,48 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
+using Clock = Waiting::Clock;
 
 constexpr milliseconds look_every{20};  // for signals
-constexpr milliseconds tick_every{100};
-constexpr milliseconds patience{60};  // with a call that is asked to stop
+constexpr milliseconds patience{60};    // with a call that is asked to stop
 
-std::atomic<int> running{0};
+/// The calls whose work goes on, also those that were left.
+struct Running {
+  std::mutex mutex;
+  std::vector<Call*> calls;
+
+  void add(Call& call) {
+    const std::lock_guard lock(mutex);
+    calls.push_back(&call);
+  }
+  void remove(Call& call) {
+    const std::lock_guard lock(mutex);
+    calls.erase(std::find(calls.begin(), calls.end(), &call));
+  }
+  /// Asks all to stop; true if there are none.
+  bool stop() {
+    const std::lock_guard lock(mutex);
+    for (Call* const call : calls) call->cancel = true;
+    return calls.empty();
+  }
+};
+
+/// Never destroyed: what was left may outlive all else.
+Running* running = new Running;
+
+void pause(milliseconds time) {
+  const py::gil_scoped_release no_gil;
+  std::mutex mutex;
+  std::condition_variable never;
+  std::unique_lock lock(mutex);
+  never.wait_for(lock, time);
+}
 
 }  // namespace
 
-/// The waiting side of a call.
-class Waiting {
- public:
-  explicit Waiting(std::shared_ptr<Call> call) : call_(std::move(call)) {}
-
-  void start(std::function<void()> work);
-  /// Waits so long at most; true if the work has ended. Without the GIL.
-  bool wait(milliseconds time);
-  CallEnd finish(const WaitOptions& options, std::optional<py::error_already_set>& raised);
-  /// Throws what the work has thrown.
-  void rethrow() const {
-    if (call_->error_) std::rethrow_exception(call_->error_);
-  }
-
- private:
-  bool watch(const WaitOptions& options, std::optional<py::error_already_set>& raised);
-  bool wait_for_end(std::optional<py::error_already_set>& raised);
-
-  std::shared_ptr<Call> call_;
-  bool is_out_of_time_ = false;
-};
-
-void Waiting::start(std::function<void()> work) {
+Waiting::Waiting(std::shared_ptr<Call> call, std::function<void()> work, WaitOptions options)
+    : call_(std::move(call)), options_(std::move(options)) {
   const auto run = [call = call_, work = std::move(work)]() mutable noexcept {
     std::exception_ptr error;
     try {
@@ -58,95 +73,121 @@ void Waiting::start(std::function<void()> work) {
       call->is_done_ = true;
       call->changed_.notify_all();
     }
-    --running;
+    running->remove(*call);
   };
-  ++running;
-  if (start_detached(run)) return;
   const std::function<void()> here = run;
+  running->add(*call_);
+  try {
+    if (start_detached(here)) return;
+  } catch (const std::bad_alloc&) {  // then here
+  }
+  const py::gil_scoped_release no_gil;
   here();
 }
 
-bool Waiting::wait(milliseconds time) {
+/// So long at most, without the GIL; true if the work has ended.
+bool Waiting::sleep(milliseconds time) {
+  const py::gil_scoped_release no_gil;
   std::unique_lock lock(call_->mutex_);
   return call_->changed_.wait_for(lock, time, [&] { return call_->is_done_; });
 }
 
-/// Keeps what Python has raised; true if it has.
-bool has_raised(std::optional<py::error_already_set>& raised) {
-  if (PyErr_CheckSignals() == 0) return false;
-  raised.emplace();
+/// Keeps what ends the call, if anything does.
+bool Waiting::has_raised() {
+  if (Presence::is_over()) {
+    PyErr_SetNone(PyExc_SystemExit);
+  } else if (interrupts_.take()) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+  } else if (PyErr_CheckSignals() == 0) {
+    return false;
+  }
+  raised_.emplace();
   return true;
 }
 
-/// Waits until the work ends or is to be stopped; true if it has ended. Holds the GIL now and then.
-bool Waiting::watch(const WaitOptions& options, std::optional<py::error_already_set>& raised) {
-  auto ticked = Clock::now();
-  while (!wait(look_every)) {
-    const auto now = Clock::now();
-    if (options.is_out_of_time && options.is_out_of_time()) {
-      is_out_of_time_ = true;
-      return false;
+bool Waiting::wait(Clock::time_point until) {
+  while (!end_) {
+    if (sleep(look_every)) {
+      const bool was_asked = call_->cancel && has_raised();  // by the end of the interpreter
+      end_ = was_asked ? CallEnd::interrupted : CallEnd::done;
+      break;
     }
-    const py::gil_scoped_acquire gil;
-    if (has_raised(raised)) return false;
-    if (!options.tick || now - ticked < tick_every) continue;
-    ticked = now;
-    try {
-      options.tick();
-    } catch (py::error_already_set& error) {
-      raised.emplace(error);
+    is_out_of_time_ = options_.is_out_of_time && options_.is_out_of_time();
+    if (is_out_of_time_ || has_raised()) {
+      stop();
+    } else if (Clock::now() >= until) {
       return false;
     }
   }
   return true;
 }
 
-/// Waits for work that was asked to stop; false if a signal comes first.
-bool Waiting::wait_for_end(std::optional<py::error_already_set>& raised) {
-  while (!wait(look_every)) {
-    const py::gil_scoped_acquire gil;
-    if (has_raised(raised)) return false;
-  }
-  return true;
-}
-
-CallEnd Waiting::finish(const WaitOptions& options, std::optional<py::error_already_set>& raised) {
-  if (watch(options, raised)) return CallEnd::done;
+void Waiting::stop() {
+  if (end_) return;
   call_->cancel = true;
-  const bool waits = options.waits_for_end || is_out_of_time_;
-  const bool has_ended = waits ? wait_for_end(raised) : wait(patience);
-  if (!has_ended) return CallEnd::left;
-  return is_out_of_time_ ? CallEnd::stopped_by_time : CallEnd::interrupted;
+  const bool waits = options_.waits_for_end || is_out_of_time_;
+  bool has_ended = sleep(patience);
+  while (waits && !has_ended && !has_raised()) has_ended = sleep(look_every);
+  const CallEnd ended = is_out_of_time_ ? CallEnd::stopped_by_time : CallEnd::interrupted;
+  end_ = has_ended ? ended : CallEnd::left;
 }
 
-CallEnd run_call(const std::shared_ptr<Call>& call, std::function<void()> work,
-                 const WaitOptions& options, std::optional<py::error_already_set>& raised) {
-  CallEnd end = CallEnd::done;
-  {
-    const py::gil_scoped_release no_gil;
-    Waiting waiting(call);
-    waiting.start(std::move(work));
-    end = waiting.finish(options, raised);
-  }
-  if (end == CallEnd::done) Waiting(call).rethrow();
-  return end;
+CallEnd Waiting::end() const {
+  if (*end_ == CallEnd::done && call_->error_) std::rethrow_exception(call_->error_);
+  return *end_;
 }
 
 std::shared_ptr<const py::object> keep(py::object object) {
   return {new py::object(std::move(object)), [](const py::object* kept) {
-            if (_Py_IsFinalizing() != 0) return;  // there is nobody to give it back to
-            const py::gil_scoped_acquire gil;
-            delete kept;
+            if (!Presence::enter()) return;  // there is nobody to give it back to
+            {
+              const py::gil_scoped_acquire gil;
+              delete kept;
+            }
+            Presence::leave();
           }};
 }
 
-void wait_for_left_calls() {
-  const py::gil_scoped_release no_gil;
-  std::mutex mutex;
-  std::condition_variable never;
-  std::unique_lock lock(mutex);
+namespace {
+
+/// Ends the calls that other threads are inside of, and those that were left: these get a few
+/// seconds, or until Ctrl-C.
+void end_calls() {
+  Presence::close();
+  running->stop();
+  while (Presence::count() > 1) pause(milliseconds{5});  // this call is one
   const auto end = Clock::now() + std::chrono::seconds(5);
-  while (running != 0 && Clock::now() < end) never.wait_for(lock, look_every);
+  while (!running->stop() && Clock::now() < end) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    pause(look_every);
+  }
+}
+
+/// Work that was left and does not end uses what the end of the process would destroy.
+void end_without_destructors(int status, void* /*argument*/) {
+  std::fflush(nullptr);
+  _exit(status);
+}
+
+void look_for_left_calls() {
+  if (!running->stop()) on_exit(end_without_destructors, nullptr);
+}
+
+/// In a forked process, which has none of the threads.
+void forget_calls() {
+  running = new Running;
+  Presence::forget();
+}
+
+}  // namespace
+
+void bind_ends_of_calls(py::module_& module) {
+  module.def("end_calls", &end_calls, inside());
+  module.def("forget_calls", &forget_calls);
+  py::module_::import("atexit").attr("register")(module.attr("end_calls"));
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         module.attr("forget_calls"));
+  Py_AtExit(look_for_left_calls);
 }
 
 }  // namespace boule::python

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <type_traits>
 
 #include "render/frame/scheduler.h"
+#include "render/python/interrupts.h"
 
 namespace boule::python {
 
@@ -37,45 +39,68 @@ class Call {
   std::exception_ptr error_;
 };
 
-/// What is done while a call runs.
+/// What stops a call, besides signals.
 struct WaitOptions {
-  /// Called with the GIL ten times a second or so; what it throws ends the call. May be empty.
-  std::function<void()> tick{};
-  /// True once the call is to be stopped, without an exception. Called without the GIL; may be
-  /// empty.
+  /// True once the call is to be stopped, without an exception. May be empty.
   std::function<bool()> is_out_of_time{};
   /// After a signal, wait for the work to stop however long it takes; a second signal leaves it.
   bool waits_for_end = false;
 };
 
-/// How a call ended.
+/// How a call ended. `left`: it did not stop at once, and what it shares must not be touched.
 enum class CallEnd { done, stopped_by_time, interrupted, left };
 
-/// Runs `work` and waits for it. Needs the GIL, which it releases. If a signal or the tick raised
-/// an exception of Python, that one is put into `raised` and the call is asked to stop. `left`: it
-/// did not stop at once, and what it shares must not be touched. Exceptions of the work are thrown
-/// unless a signal came.
-CallEnd run_call(const std::shared_ptr<Call>& call, std::function<void()> work,
-                 const WaitOptions& options, std::optional<pybind11::error_already_set>& raised);
+/// Runs work and waits for it. All of it needs the GIL, which it releases while it waits.
+class Waiting {
+ public:
+  using Clock = std::chrono::steady_clock;
 
-/// The same for work that gives a value; a signal is thrown. The work and what it captures must not
-/// hold references to Python's objects, except by keep().
+  /// Starts the work.
+  Waiting(std::shared_ptr<Call> call, std::function<void()> work, WaitOptions options = {});
+  /// Asks the work to stop if it still runs.
+  ~Waiting() { call_->cancel = true; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  /// Waits until the call has ended, by itself or by a signal; false if `until` comes first.
+  bool wait(Clock::time_point until = Clock::time_point::max());
+  /// Ends the call as a signal does.
+  void stop();
+  /// How it ended. Throws what the work has thrown, if that ended it. Precondition: wait() was true
+  /// or stop() was called.
+  [[nodiscard]] CallEnd end() const;
+  /// The exception of Python that a signal has raised, if one did.
+  [[nodiscard]] const std::optional<pybind11::error_already_set>& raised() const { return raised_; }
+
+ private:
+  bool sleep(std::chrono::milliseconds time);
+  bool has_raised();
+
+  std::shared_ptr<Call> call_;
+  WaitOptions options_;
+  Interrupts interrupts_;
+  std::optional<pybind11::error_already_set> raised_;
+  std::optional<CallEnd> end_;
+  bool is_out_of_time_ = false;
+};
+
+/// Runs work that gives a value; a signal is thrown. The work and what it captures must not hold
+/// references to Python's objects, except by keep().
 template <class Work>
 auto interruptible(const Work& work) {
   using Value = std::invoke_result_t<Work, Call&>;
   const auto call = std::make_shared<Call>();
   const auto value = std::make_shared<std::optional<Value>>();
-  std::optional<pybind11::error_already_set> raised;
-  run_call(
-      call, [call, value, work] { value->emplace(work(*call)); }, {}, raised);
-  if (raised) throw pybind11::error_already_set(*raised);
+  Waiting waiting(call, [call, value, work] { value->emplace(work(*call)); });
+  waiting.wait();
+  if (waiting.end() != CallEnd::done) throw pybind11::error_already_set(*waiting.raised());
   return std::move(**value);
 }
 
 /// A reference that may be dropped by any thread, with or without the GIL.
 std::shared_ptr<const pybind11::object> keep(pybind11::object object);
 
-/// Waits for calls that were left, at the end of the process; a few seconds at most.
-void wait_for_left_calls();
+/// Sees to it that calls end before the interpreter does, and are right in forked processes.
+void bind_ends_of_calls(pybind11::module_& module);
 
 }  // namespace boule::python

@@ -10,6 +10,7 @@
 #include "core/scene/scene.h"
 #include "render/python/arrays.h"
 #include "render/python/errors.h"
+#include "render/python/presence.h"
 #include "render/python/values.h"
 
 namespace py = pybind11;
@@ -116,11 +117,12 @@ py::object sphere_colors(const Data& data) {
 }  // namespace
 
 void bind_data(py::module_& module) {
-  module.def("picture", &picture_of, py::arg("pixels"), py::arg("name"), py::arg("components"));
-  module.def("lens", &lens_of, py::arg("surfaces"));
-  module.def("array_of", &array_of, py::arg("data"), py::arg("components"));
-  module.def("sphere_views", &sphere_views, py::arg("data"));
-  module.def("sphere_colors", &sphere_colors, py::arg("data"));
+  module.def("picture", &picture_of, inside(), py::arg("pixels"), py::arg("name"),
+             py::arg("components"));
+  module.def("lens", &lens_of, inside(), py::arg("surfaces"));
+  module.def("array_of", &array_of, inside(), py::arg("data"), py::arg("components"));
+  module.def("sphere_views", &sphere_views, inside(), py::arg("data"));
+  module.def("sphere_colors", &sphere_colors, inside(), py::arg("data"));
 }
 
 }  // namespace boule::python

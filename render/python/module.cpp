@@ -43,7 +43,6 @@ PYBIND11_MODULE(_core, module) {
   bind_tracing(module);
   bind_picture(module);
   bind_rendering(module);
+  bind_ends_of_calls(module);
   module.def("isa", &isa);
-  module.def("wait_for_left_calls", &wait_for_left_calls);
-  py::module_::import("atexit").attr("register")(module.attr("wait_for_left_calls"));
 }

@@ -17,6 +17,7 @@
 #include "render/python/arguments.h"
 #include "render/python/arrays.h"
 #include "render/python/errors.h"
+#include "render/python/presence.h"
 #include "render/python/values.h"
 
 namespace py = pybind11;
@@ -207,7 +208,7 @@ Data particles_of(const py::object& positions, const py::object& species, const 
 }  // namespace
 
 void bind_particle_arrays(py::module_& module) {
-  module.def("particles", &particles_of, py::arg("positions"), py::arg("species"),
+  module.def("particles", &particles_of, inside(), py::arg("positions"), py::arg("species"),
              py::arg("columns"), py::arg("cell"), py::arg("periodic"), py::arg("angstrom"));
 }
 

@@ -16,6 +16,7 @@
 #include "render/python/choices.h"
 #include "render/python/errors.h"
 #include "render/python/made_by_calls.h"
+#include "render/python/presence.h"
 #include "render/renderer/aov_channels.h"
 
 namespace py = pybind11;
@@ -220,13 +221,13 @@ void bind_picture(py::module_& module) {
           "Whether it has all its samples.")
       .def_property_readonly("share", &share_of, "Of its samples that it has, 0 to 1.")
       .def_property_readonly(
-          "alpha", &alpha_of,
+          "alpha", py::cpp_function(&alpha_of, inside()),
           "H x W, float32, 0 to 1, how much of each pixel objects cover; or None.")
-      .def_property_readonly("channels", &channels_of,
+      .def_property_readonly("channels", py::cpp_function(&channels_of, inside()),
                              "The extra channels by their names in EXR files (Z, N.X, ...): each "
                              "H x W, float32 or uint32, in place.")
       .def_property_readonly(
-          "aovs", &aovs_of,
+          "aovs", py::cpp_function(&aovs_of, inside()),
           "The extra channels by AOV: depth, id and z are H x W, in place; "
           "normal, position and albedo H x W x 3, copied. Positions are float64, "
           "and those of the scene, where it has an origin.")
@@ -234,19 +235,19 @@ void bind_picture(py::module_& module) {
       .def_property_readonly(
           "notes", [](const Picture& p) { return p.parts->notes; },
           "What was decided for the user, a sentence each.")
-      .def("to_srgb", &srgb_of, py::kw_only(), py::arg("exposure") = 0.0F,
+      .def("to_srgb", &srgb_of, inside(), py::kw_only(), py::arg("exposure") = 0.0F,
            "H x W x 3 of uint8 (x 4, straight, with alpha): codes of the sRGB curve. Colours are "
            "multiplied by 2^exposure, of -100 to 100, and clamped before. Raises Error.")
       .def(
-          "save", &save, py::arg("path"), py::kw_only(), py::arg("exposure") = 0.0F,
+          "save", &save, inside(), py::arg("path"), py::kw_only(), py::arg("exposure") = 0.0F,
           py::arg("compression") = "zip",
           "Write a file in the format of its extension, as `boule render` does: .exr (linear, with "
           "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure, of "
           "-100 to 100). It appears under its name when it is complete. compression, of .exr: "
           "none, rle or zip. Raises Error.")
-      .def("__array__", &as_array, py::arg("dtype") = py::none())
+      .def("__array__", &as_array, inside(), py::arg("dtype") = py::none())
       .def(
-          "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, "For notebooks.")
+          "_repr_png_", [](const Picture& p) { return png_of(p, 0); }, inside(), "For notebooks.")
       .def("__repr__", &repr_of);
 }
 

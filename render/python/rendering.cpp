@@ -17,6 +17,7 @@
 #include "render/python/arguments.h"
 #include "render/python/call.h"
 #include "render/python/picture.h"
+#include "render/python/presence.h"
 #include "render/python/scenes.h"
 #include "render/renderer/scene_hash.h"
 
@@ -267,37 +268,66 @@ void Run::describe(const Renderer& renderer, PictureParts& parts) const {
   parts.notes.insert(parts.notes.end(), renderer.notes().begin(), renderer.notes().end());
 }
 
-/// What the exception was that a signal or the tick raised, or None.
-py::object value_of(const std::optional<py::error_already_set>& raised) {
-  return raised ? py::object(raised->value()) : py::object(py::none());
-}
+/// A render that Python waits for. What its progress tells is called by Python, between two waits:
+/// no code of the caller runs inside a call of ours.
+class Rendering {
+ public:
+  Rendering(const py::object& source, const py::dict& keys, const py::dict& given)
+      : run_(std::make_shared<Run>(SceneRequest(source, keys), wishes_of(given))),
+        waiting_(call_, work(), options(given)) {}
 
-/// Renders: a picture or None, and what stopped it: an exception, "time" or None.
-py::tuple render(const py::object& source, const py::dict& keys, const py::dict& given,
-                 const py::object& tick) {
-  const auto run = std::make_shared<Run>(SceneRequest(source, keys), wishes_of(given));
-  const auto call = std::make_shared<Call>();
-  const auto status = std::make_shared<Status>();
-  WaitOptions waiting;
-  waiting.is_out_of_time = [run] { return run->is_out_of_time(); };
-  waiting.waits_for_end = Arguments(given).flag("partial");
-  if (!tick.is_none()) waiting.tick = [&] { tick(run->share()); };
-  std::optional<py::error_already_set> raised;
-  const CallEnd end = run_call(
-      call, [run, call, status] { *status = run->work(*call); }, waiting, raised);
-  if (end == CallEnd::left) return py::make_tuple(py::none(), value_of(raised));
-  if (end == CallEnd::done && *status) throw_error(**status);
-  py::object picture = py::none();
-  if (run->picture()) picture = py::cast(Picture{run->picture()});
-  if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture, "time");
-  return py::make_tuple(picture, value_of(raised));
+  /// Waits until it has ended; true if it has. With `ticks` it waits a tenth of a second at most.
+  bool wait(bool ticks) {
+    constexpr std::chrono::milliseconds tick_every{100};
+    return ticks ? waiting_.wait(Clock::now() + tick_every) : waiting_.wait();
+  }
+  [[nodiscard]] std::optional<double> share() const { return run_->share(); }
+  /// Ends it; the picture, or None.
+  py::object stop() {
+    waiting_.stop();
+    return waiting_.end() == CallEnd::left ? py::none() : picture();
+  }
+  /// Once it has ended: a picture or None, and what stopped it: an exception, "time" or None.
+  [[nodiscard]] py::tuple end() const;
+
+ private:
+  [[nodiscard]] std::function<void()> work() const {
+    return [run = run_, call = call_, status = status_] { *status = run->work(*call); };
+  }
+  [[nodiscard]] WaitOptions options(const py::dict& given) const {
+    return {.is_out_of_time = [run = run_] { return run->is_out_of_time(); },
+            .waits_for_end = Arguments(given).flag("partial")};
+  }
+  [[nodiscard]] py::object picture() const {
+    return run_->picture() ? py::cast(Picture{run_->picture()}) : py::none();
+  }
+
+  std::shared_ptr<Run> run_;
+  std::shared_ptr<Call> call_ = std::make_shared<Call>();
+  std::shared_ptr<Status> status_ = std::make_shared<Status>();
+  Waiting waiting_;
+};
+
+py::tuple Rendering::end() const {
+  const CallEnd end = waiting_.end();
+  const auto& raised = waiting_.raised();
+  const py::object stopped = raised ? py::object(raised->value()) : py::none();
+  if (end == CallEnd::left) return py::make_tuple(py::none(), stopped);
+  if (end == CallEnd::done && *status_) throw_error(**status_);
+  if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture(), "time");
+  return py::make_tuple(picture(), stopped);
 }
 
 }  // namespace
 
 void bind_rendering(py::module_& module) {
-  module.def("render", &render, py::arg("source"), py::arg("keys"), py::arg("options"),
-             py::arg("tick"));
+  py::class_<Rendering>(module, "Rendering")
+      .def(py::init<const py::object&, const py::dict&, const py::dict&>(), inside(),
+           py::arg("source"), py::arg("keys"), py::arg("options"))
+      .def("wait", &Rendering::wait, inside(), py::arg("ticks"))
+      .def("share", &Rendering::share, inside())
+      .def("stop", &Rendering::stop, inside())
+      .def("end", &Rendering::end, inside());
 }
 
 }  // namespace boule::python

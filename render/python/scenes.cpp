@@ -14,6 +14,7 @@
 #include "render/python/choices.h"
 #include "render/python/errors.h"
 #include "render/python/made_by_calls.h"
+#include "render/python/presence.h"
 #include "render/python/scene_values.h"
 #include "render/scene_file/frame_name.h"
 #include "render/scene_file/scene_tree.h"
@@ -145,12 +146,12 @@ void bind_scenes(py::module_& module) {
   const py::class_<Data> data(module, "Data", made_by_calls(),
                               "Something large that a scene holds: spheres, a picture, ...");
   py::class_<Series, std::shared_ptr<Series>>(module, "Series")
-      .def(py::init(&open_series), py::arg("path"), py::arg("first"), py::arg("last"),
+      .def(py::init(&open_series), inside(), py::arg("path"), py::arg("first"), py::arg("last"),
            py::arg("step"), py::arg("keys"))
-      .def("read", &next_of_series, py::arg("frame"));
-  module.def("count_frames", &count_frames, py::arg("path"), py::arg("keys"));
-  module.def("read", &read_scene, py::arg("source"), py::arg("keys"));
-  module.def("show_particles", &show_particles, py::arg("particles"), py::arg("keys"));
+      .def("read", &next_of_series, inside(), py::arg("frame"));
+  module.def("count_frames", &count_frames, inside(), py::arg("path"), py::arg("keys"));
+  module.def("read", &read_scene, inside(), py::arg("source"), py::arg("keys"));
+  module.def("show_particles", &show_particles, inside(), py::arg("particles"), py::arg("keys"));
 }
 
 }  // namespace boule::python

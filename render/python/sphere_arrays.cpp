@@ -19,6 +19,7 @@
 #include "render/python/call.h"
 #include "render/python/choices.h"
 #include "render/python/errors.h"
+#include "render/python/presence.h"
 #include "render/python/values.h"
 #include "render/scene_file/npy_colors.h"
 #include "render/scene_file/toml_color_map.h"
@@ -228,8 +229,9 @@ Result<PlacedSpheres> place_spheres(const SphereInput& input, const std::optiona
 }
 
 void bind_sphere_arrays(py::module_& module) {
-  module.def("spheres", &spheres_of, py::arg("centers"), py::arg("radii"), py::arg("colors"),
-             py::arg("color_space"), py::arg("scalar"), py::arg("map"), py::arg("range"));
+  module.def("spheres", &spheres_of, inside(), py::arg("centers"), py::arg("radii"),
+             py::arg("colors"), py::arg("color_space"), py::arg("scalar"), py::arg("map"),
+             py::arg("range"));
 }
 
 }  // namespace boule::python

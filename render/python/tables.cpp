@@ -10,6 +10,7 @@
 #include "render/python/call.h"
 #include "render/python/errors.h"
 #include "render/python/field_values.h"
+#include "render/python/presence.h"
 #include "render/scene_file/toml_camera.h"
 #include "render/scene_file/toml_camera_keys.h"
 #include "render/scene_file/toml_color_map.h"
@@ -235,8 +236,9 @@ py::dict check_table(const std::string& kind, const py::dict& dictionary,
 }
 
 void bind_tables(py::module_& module) {
-  module.def("fields", &list_fields, "The keys of each kind and type of table, with defaults.");
-  module.def("check", &check_table, py::arg("kind"), py::arg("table"), py::arg("array"),
+  module.def("fields", &list_fields, inside(),
+             "The keys of each kind and type of table, with defaults.");
+  module.def("check", &check_table, inside(), py::arg("kind"), py::arg("table"), py::arg("array"),
              "Raise Error if a table is wrong; return its values as plain ones.");
 }
 

@@ -17,6 +17,7 @@
 #include "render/python/arrays.h"
 #include "render/python/call.h"
 #include "render/python/errors.h"
+#include "render/python/presence.h"
 #include "render/python/scenes.h"
 #include "render/python/sphere_arrays.h"
 #include "render/renderer/tracer.h"
@@ -221,11 +222,12 @@ py::dict statistics(const TracerHandle& tracer) {
 
 void bind_tracing(py::module_& module) {
   py::class_<SharedTracer, TracerHandle>(module, "Tracer")
-      .def(py::init(&make), py::arg("source"), py::arg("radii"), py::arg("origin"),
+      .def(py::init(&make), inside(), py::arg("source"), py::arg("radii"), py::arg("origin"),
            py::arg("options"))
-      .def("closest", &closest, py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
-      .def("any", &any, py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
-      .def("stats", &statistics);
+      .def("closest", &closest, inside(), py::arg("org"), py::arg("dir"), py::arg("tmin"),
+           py::arg("tmax"))
+      .def("any", &any, inside(), py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
+      .def("stats", &statistics, inside());
 }
 
 }  // namespace boule::python

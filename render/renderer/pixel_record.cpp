@@ -1,3 +1,5 @@
+#include <new>
+
 #include "core/base/float_environment.h"
 #include "render/integrators/whitted.h"
 #include "render/renderer/renderer.h"
@@ -6,7 +8,16 @@
 namespace boule {
 
 Result<float> Renderer::record_pixel(int x, int y, RayRecord& record) const {
+  if (!scene_) return moved_away();
   const FloatEnvironment environment;
+  try {
+    return record_ray(x, y, record);
+  } catch (const std::bad_alloc&) {
+    return Diagnostic::out_of_memory("out of memory for the rays of a pixel");
+  }
+}
+
+Result<float> Renderer::record_ray(int x, int y, RayRecord& record) const {
   const CameraView& camera = scene_->camera_view;
   SampleBuffer samples;
   samples.resize(1, camera);  // sets its lens point to the centre

@@ -23,7 +23,7 @@ void find_lines_of(const PixelRect& block, OutlineWorker& worker, Outline& lines
 }  // namespace
 
 Status Renderer::render_bands(const std::function<Status(const Image&)>& take) {
-  if (!scene_) return Diagnostic::of("the renderer was moved away");
+  if (!scene_) return moved_away();
   const FloatEnvironment environment;
   try {
     const Bands bands = bands_of(options_, scheduler_.workers());

@@ -16,11 +16,8 @@
 #include "render/renderer/preparation.h"
 
 namespace boule {
-namespace {
 
-Diagnostic moved_away() { return Diagnostic::of("the renderer was moved away"); }
-
-}  // namespace
+Diagnostic Renderer::moved_away() { return Diagnostic::of("the renderer was moved away"); }
 
 Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
                    const KernelTable& kernels)
@@ -228,21 +225,28 @@ Status Renderer::work(const std::function<void(BlockTools&)>& task) {
   if (!scene_) return moved_away();
   const FloatEnvironment environment;
   const Stopwatch watch;
+  try {
+    Status status = run_task(task);
+    render_seconds_ += watch.seconds();
+    return status;
+  } catch (const std::bad_alloc&) {
+    return Diagnostic::out_of_memory("out of memory for the renderer's workers");
+  }
+}
+
+Status Renderer::run_task(const std::function<void(BlockTools&)>& task) {
+  const OutlineWorker::Lines lines{
+      {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
   std::vector<std::unique_ptr<BlockTools>> tools(scheduler_.workers());
-  const auto body = [&](unsigned worker, std::size_t) {
-    if (!workers_[worker]) workers_[worker] = make_worker();
-    if (!tools[worker]) {
-      const OutlineWorker::Lines lines{
-          {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
-      tools[worker] = std::make_unique<BlockTools>(*setup_, *workers_[worker], lines);
-    }
-    task(*tools[worker]);
+  const auto body = [&](unsigned index, std::size_t) {
+    BlockWorker& mine = worker(index);
+    if (!tools[index]) tools[index] = std::make_unique<BlockTools>(*setup_, mine, lines);
+    task(*tools[index]);
   };
   Status status = scheduler_.run(tools.size(), std::cref(body));
   for (const auto& one : tools) {
     if (one) extra_rays_ += one->extra_counts();
   }
-  render_seconds_ += watch.seconds();
   return status;
 }
 

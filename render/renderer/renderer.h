@@ -27,8 +27,8 @@ class BlockTools;
 
 /// The cost of rendering, over all passes so far.
 struct RenderStatistics : RunStatistics {
-  RayCounts rays;
-  SampleFaults faults;
+  RayCounts rays{};
+  SampleFaults faults{};
   double render_seconds = 0;
 };
 
@@ -96,8 +96,8 @@ class Renderer {
   /// The rays of the recursion through the centre of pixel (x, y), and of the lens: Whitted's,
   /// whatever the method. Returns the weight that the camera gives the sample: the picture with one
   /// sample has the record's total times this weight. 0: there is no ray, and the record is empty.
-  /// An error if there are too many rays. Preconditions: the pixel lies in the frame; the scene was
-  /// prepared for Method::whitted.
+  /// An error if there are too many rays, or not enough memory. Preconditions: the pixel lies in
+  /// the frame; the scene was prepared for Method::whitted.
   Result<float> record_pixel(int x, int y, RayRecord& record) const;
 
   /// The lines that options.outline asks for. render() draws them itself; for a picture of a film,
@@ -123,6 +123,7 @@ class Renderer {
   static Result<Renderer> create_from(AnyScene&& scene, const RenderOptions& options);
   Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
            const KernelTable& kernels);
+  static Diagnostic moved_away();
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] IntegratorSettings integrator_settings() const;
   [[nodiscard]] RayCounts count_rays() const;
@@ -140,6 +141,8 @@ class Renderer {
   Status run_indexed(std::size_t count, const IndexedTask& task,
                      const LiveProgress::PassSpan& span);
   Status run_bands(const Bands& bands, BandQueue& queue);
+  Result<float> record_ray(int x, int y, RayRecord& record) const;
+  Status run_task(const std::function<void(BlockTools&)>& task);
   Status find_aovs(AovChannels& channels);
   Status find_lines(Outline& outline);
   template <class Worker, class Make, class Task>

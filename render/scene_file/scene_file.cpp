@@ -81,8 +81,11 @@ template <class Read>
 Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions& options,
                                  const Read& read) {
   const FloatEnvironment environment;
-  Diagnostic too_large = Diagnostic::in_file(path, "needs more memory than there is");
-  too_large.of_memory = true;
+  const auto too_large = [&] {
+    Diagnostic error = Diagnostic::in_file(path, "needs more memory than there is");
+    error.of_memory = true;
+    return error;
+  };
   try {
     Result<LoadedScene> loaded = read();
     if (options.particle_files != nullptr) options.particle_files->close_unused();
@@ -93,9 +96,9 @@ Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions
     }
     return loaded;
   } catch (const std::bad_alloc&) {
-    return too_large;
+    return too_large();
   } catch (const std::length_error&) {  // more spheres than a vector can have
-    return too_large;
+    return too_large();
   }
 }
 

@@ -6,8 +6,6 @@
 namespace boule {
 
 void Illumination::start(std::size_t rays) {
-  size_ = rays;
-  any_ = false;
   const std::size_t room = std::bit_ceil(rays);
   lit_.resize(room);
   std::fill_n(lit_.data(), padded(rays), std::uint8_t{0});
@@ -16,6 +14,9 @@ void Illumination::start(std::size_t rays) {
   cosines_.resize(room);
   rays_.resize(room);
   if (materials_.size() < room) materials_.resize(room);
+  size_ = rays;
+  any_ = false;
+  shadow_count_ = 0;
 }
 
 RayStream Illumination::make_shadow_rays(const KernelTable& kernels, const ShadowTarget& light,

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/base/exact_math.h"
 #include "simd/dispatch/cpu.h"
 
 namespace boule {

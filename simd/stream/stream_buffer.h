@@ -141,12 +141,12 @@ class SampleBuffer {
   }
   /// Room for the arrays that a camera needs; new lens samples are at the lens' centre.
   void resize(std::size_t size, const CameraView& camera) {
-    resize(size);
     if (has_lens(camera.kind)) {
       lens_x_.resize(size, 0.5);
       lens_y_.resize(size, 0.5);
     }
     if (camera.weighs) weight_.resize(size);
+    resize(size);
   }
   [[nodiscard]] std::size_t size() const { return size_; }
   void set(std::size_t i, double x, double y) {

@@ -70,7 +70,7 @@ BEGIN {
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
   owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/cli/", "the terminal")
-  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/cli/", "the end of the process")
+  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/(cli/|python/call\\.cpp$)", "the end of the process")
   owner(word "(secure_)?getenv[ ]*\\(", "^(render/cli|simd/dispatch)/", "the environment")
   anywhere("^[ \t]*#[ \t]*define[ \t]", "^core/base/platform\\.h$", "a macro")
 }

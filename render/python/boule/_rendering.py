@@ -66,7 +66,7 @@ def render(
         "solver": solver, "threads": threads, "isa": isa,
     }  # fmt: skip
     with reporter(progress) as tick:
-        picture, stopped = _core.render(source, keys, options, tick)
+        picture, stopped = _wait_for(_core.Rendering(source, keys, options), tick)
         if tick is not None and stopped is None and picture.finished:
             tick.finish()
     if stopped is None or (partial and picture is not None and _is_stop(stopped)):
@@ -77,6 +77,16 @@ def render(
         raise stopped
     end = "before the first sample" if partial else "first; partial=True gives what there is"
     raise error("time_limit", f"the time limit of {time_limit} s came {end}")
+
+
+def _wait_for(rendering, tick):
+    """A picture or None, and what stopped it: an exception, "time" or None."""
+    try:
+        while not rendering.wait(tick is not None):
+            tick(rendering.share())
+    except BaseException as exception:  # of tick, or of a signal meanwhile
+        return rendering.stop(), exception
+    return rendering.end()
 
 
 def _is_stop(stopped):

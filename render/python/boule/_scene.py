@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from . import _checks as checks
 from . import _core
 from ._objects import (
     ConstantBackground,
@@ -18,7 +19,7 @@ from ._objects import (
 )
 
 
-class Spheres:
+class Spheres(checks.Strict):
     """Many spheres in arrays, which are read once: you may change the arrays afterwards.
 
     centers: N x 3, float32 or float64. Those of float64 are kept as they are, 24 bytes each, and
@@ -32,7 +33,8 @@ class Spheres:
     material: a material, or the name of one in Scene.materials.
 
     Of these, color and material can be set afterwards. All are checked when they are set, but for
-    the name of a material, which is looked up when the scene is rendered.
+    the name of a material, which is looked up when the scene is rendered. No other attribute can be
+    set.
     """
 
     def __init__(
@@ -112,7 +114,7 @@ class Spheres:
         return table
 
 
-class _Objects:
+class _Objects(checks.Strict):
     """What a scene and a group have in common. spheres, planes and instances are lists."""
 
     def add_spheres(
@@ -150,42 +152,34 @@ class _Objects:
     def _object_tables(self, names):
         """The lists of objects as scene files have them."""
         kinds = {Sphere: "sphere", Spheres: "spheres", Particles: "particles"}
-        order = []
-        for place, one in enumerate(_listed(self.spheres, "spheres")):
-            kind = next((name for cls, name in kinds.items() if isinstance(one, cls)), None)
-            if kind is None:
-                raise error(f"spheres[{place}]", f"expected spheres, got {type(one).__name__}")
+        order = []  # in one order, as ids count them: see TreeBuilder
+        for one in _spheres("spheres", self.spheres):
+            kind = next(name for cls, name in kinds.items() if isinstance(one, cls))
             order.append((kind, one._table(names)))
-        tables = {None: order}  # in one order, as ids count them: see TreeBuilder
-        for key, kind in (("plane", Plane), ("instance", Instance)):
-            tables[key] = [_table(one, kind, f"{key}[{i}]", names)
-                           for i, one in enumerate(_listed(getattr(self, key + "s"), key + "s"))]  # fmt: skip
+        tables = {None: order}
+        tables["plane"] = [one._table(names) for one in _planes("planes", self.planes)]
+        tables["instance"] = [one._table(names) for one in _instances("instances", self.instances)]
         return tables
 
 
-def _listed(values, key):
-    """A list of a scene or a group, which anyone may have set to something else, as a new one."""
-    try:
-        return list(values)
-    except TypeError:
-        raise error(key, f"expected a list, got {type(values).__name__}") from None
-
-
-def _named(values, key):
-    """A dictionary of a scene by name, as a new one."""
-    try:
-        known = dict(values)
-    except (TypeError, ValueError):
-        raise error(key, f"expected a dictionary, got {type(values).__name__}") from None
-    for name in known:
-        if not isinstance(name, str):
-            raise error(key, f"names must be text, got {type(name).__name__}")
-    return known
+_spheres = checks.list_of("spheres", "spheres", checks.is_instance(Sphere, Spheres, Particles))
+_planes = checks.list_of("plane", "a Plane", checks.is_instance(Plane))
+_instances = checks.list_of("instance", "an Instance", checks.is_instance(Instance))
+_lights = checks.list_of("light", "a light", checks.is_kind("light"))
+_notes = checks.list_of("notes", "text", checks.is_instance(str))
+_warnings = checks.list_of("warnings", "text", checks.is_instance(str))
+_materials = checks.dictionary_of("material", "a material", checks.is_kind("material"))
 
 
 class Group(_Objects):
     """Objects with coordinates of their own, which instances show. name is for a group that is not
-    in Scene.groups; you may leave it empty."""
+    in Scene.groups; you may leave it empty.
+
+    Attributes are checked when they are set, and no others can be set."""
+
+    _checks = {
+        "name": checks.text_or_none, "spheres": _spheres, "planes": _planes, "instances": _instances,
+    }  # fmt: skip
 
     def __init__(self, name=""):
         self.name = name
@@ -197,17 +191,7 @@ class Group(_Objects):
         return f"<boule.Group {self.name!r}>"
 
 
-def _table(value, kind, key, names):
-    if not isinstance(value, kind):
-        raise error(key, f"expected a {kind.__name__}, got {type(value).__name__}")
-    return value._table(names)
-
-
-def _kind_table(value, kind, key):
-    """The table of what a scene has one of."""
-    if not isinstance(value, Table) or value._kind != kind:
-        raise error(key, f"expected a {kind}, got {type(value).__name__}")
-    return value._table(None)
+_groups = checks.dictionary_of("group", "a Group", checks.is_instance(Group))
 
 
 class _Names:
@@ -215,8 +199,8 @@ class _Names:
     in Scene.materials or Scene.groups are added to what is rendered, not to the scene."""
 
     def __init__(self, scene):
-        self.materials = _named(scene.materials, "materials")
-        self.groups = _named(scene.groups, "groups")
+        self.materials = dict(_materials("materials", scene.materials))
+        self.groups = dict(_groups("groups", scene.groups))
 
     def __call__(self, kind, value):
         known = self.materials if kind == "material" else self.groups
@@ -226,17 +210,13 @@ class _Names:
             if one is value:
                 return name
         is_right = (
-            isinstance(value, Group)
-            if kind == "group"
-            else isinstance(value, Table) and value._kind == "material"
+            isinstance(value, Group) if kind == "group" else checks.is_kind("material")(value)
         )
         if not is_right:
             raise error(kind, f"expected a {kind} or its name, got {type(value).__name__}")
         name = type(value).__name__.lower()
         if kind == "group" and value.name not in ("", None):
             name = value.name
-        if not isinstance(name, str):
-            raise error(kind, f"the name of a group must be text, is {type(name).__name__}")
         number = 1
         free = name
         while free in known:
@@ -261,8 +241,17 @@ class Scene(_Objects):
     origin: a point that is subtracted from all points before they are rounded, or "auto".
     notes, warnings: messages from reading the scene. legend: an SVG that explains its colours.
 
-    These attributes are checked when you render or trace the scene.
+    Attributes are checked when they are set, and no others can be set. What is in their lists and
+    dictionaries is checked again when the scene is rendered or traced.
     """
+
+    _checks = {
+        "image": checks.one("image"), "render": checks.one("render"), "camera": checks.camera,
+        "background": checks.one("background"), "ambient": checks.color, "backdrop": checks.color,
+        "materials": _materials, "lights": _lights, "spheres": _spheres, "planes": _planes,
+        "groups": _groups, "instances": _instances, "origin": checks.origin, "notes": _notes,
+        "warnings": _warnings, "legend": checks.text,
+    }  # fmt: skip
 
     def __init__(
         self, *, image=None, render=None, camera=None, background=None, ambient=(0.0, 0.0, 0.0),
@@ -275,12 +264,12 @@ class Scene(_Objects):
         self.background = ConstantBackground() if background is None else background
         self.ambient = ambient
         self.backdrop = backdrop
-        self.materials = {} if materials is None else _named(materials, "materials")
-        self.lights = [] if lights is None else _listed(lights, "lights")
-        self.spheres = [] if spheres is None else _listed(spheres, "spheres")
-        self.planes = [] if planes is None else _listed(planes, "planes")
-        self.groups = {} if groups is None else _named(groups, "groups")
-        self.instances = [] if instances is None else _listed(instances, "instances")
+        self.materials = {} if materials is None else dict(_materials("materials", materials))
+        self.lights = [] if lights is None else list(_lights("lights", lights))
+        self.spheres = [] if spheres is None else list(_spheres("spheres", spheres))
+        self.planes = [] if planes is None else list(_planes("planes", planes))
+        self.groups = {} if groups is None else dict(_groups("groups", groups))
+        self.instances = [] if instances is None else list(_instances("instances", instances))
         self.origin = origin
         self.notes = []
         self.warnings = []
@@ -303,30 +292,24 @@ class Scene(_Objects):
         """The scene as its file would have it."""
         names = _Names(self)
         tree = {"schema": 1, "origin": self.origin}
-        tree["image"] = _kind_table(self.image, "image", "image")
-        tree["render"] = _kind_table(self.render, "render", "render")
+        tree["image"] = self.image._table(None)
+        tree["render"] = self.render._table(None)
         if self.camera is not None:
-            tree["camera"] = _kind_table(self.camera, "camera", "camera")
-        background = dict(_kind_table(self.background, "background", "background"))
+            tree["camera"] = self.camera._table(None)
+        background = dict(self.background._table(None))
         background["ambient"] = self.ambient
         background["backdrop"] = self.backdrop
         tree["background"] = background
-        tree["light"] = [
-            _kind_table(light, "light", f"light[{i}]")
-            for i, light in enumerate(_listed(self.lights, "lights"))
-        ]
+        tree["light"] = [light._table(None) for light in _lights("lights", self.lights)]
         objects = self._object_tables(names)
         groups = {}
         done = 0
         while done < len(names.groups):  # instances in groups may bring groups along
             name = list(names.groups)[done]
-            group = names.groups[name]
-            if not isinstance(group, Group):
-                raise error(f"group.{name}", f"expected a Group, got {type(group).__name__}")
-            groups[name] = group._object_tables(names)
+            groups[name] = names.groups[name]._object_tables(names)
             done += 1
         tree["material"] = {
-            name: _kind_table(material, "material", f"material.{name}")
+            name: material._table(None)
             for name, material in names.materials.items()
         }
         tree["group"] = {name: _in_order(tables) for name, tables in groups.items()}

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
+from ._checks import Strict
 from ._objects import error, path_of
 from ._scene import Scene
 
@@ -27,7 +28,7 @@ class Hits(NamedTuple):
     normal: NDArray[np.float32]
 
 
-class Tracer:
+class Tracer(Strict):
     """Traces rays against spheres, or against the objects of a scene, on all cores.
 
     Tracer(centers, radii): N x 3 and N (or one number), float32 or float64, read where they are and

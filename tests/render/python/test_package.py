@@ -2,9 +2,11 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from conftest import ROOT
 
@@ -34,6 +36,20 @@ def test_importing_loads_next_to_nothing():
     told = run("-c", "import boule; boule.Tracer([[0, 0, 0]], 1).closest([[0, 0, 5]], [[0, 0, -1]]);"
                "print(open('/proc/self/maps').read())")  # fmt: skip
     assert "OpenImageIO" not in told
+
+
+def test_numpy_has_bounds_and_is_within_them():
+    """In the metadata of the wheel and of the Debian package, and the same in both."""
+    low, high = re.search(
+        r'"numpy>=([\d.]+),<([\d.]+)"', (ROOT / "pyproject.toml").read_text()
+    ).groups()  # fmt: skip
+    control = (ROOT / "packaging" / "debian" / "control").read_text()
+    assert f"python3-numpy (>= 1:{low}), python3-numpy (<< 1:{high}~)" in control
+
+    def numbers(version):
+        return [int(part) for part in re.findall(r"\d+", version)[:2]]
+
+    assert numbers(low) <= numbers(np.__version__) < numbers(high)
 
 
 def test_version_and_isa():

@@ -11,12 +11,11 @@ import boule
 @pytest.mark.parametrize("name", [
     "lights", "spheres", "planes", "instances", "materials", "groups"])  # fmt: skip
 @pytest.mark.parametrize("value", [None, 3])
-def test_a_list_that_is_none_is_an_error(ball, name, value):
-    setattr(ball, name, value)
-    for call in (boule.render, boule.Tracer):
-        with pytest.raises(boule.Error, match="expected a (list|dictionary)") as caught:
-            call(ball)
-        assert caught.value.key == name
+def test_a_list_that_is_none_is_refused(ball, name, value):
+    before = getattr(ball, name)
+    with pytest.raises(boule.Error, match="expected a (list|dictionary)") as caught:
+        setattr(ball, name, value)
+    assert caught.value.key == name and getattr(ball, name) is before
     if value is not None:
         with pytest.raises(boule.Error) as caught:
             boule.Scene(**{name: value})
@@ -43,14 +42,82 @@ def test_names_may_be_empty_or_missing(ball):
     ball.materials[""] = boule.Matte()
     ball.instances[0].group = ""
     assert np.array_equal(np.asarray(boule.render(ball)), told)
-    with pytest.raises(boule.Error) as caught:
+    with pytest.raises(boule.Error, match="must be text, is int") as caught:
         ball.add_instance(boule.Group(3))
-    assert caught.value.key == "group"
+    assert caught.value.key == "name"
     ball.add_instance(boule.Group(None))
     assert np.array_equal(np.asarray(boule.render(ball)), told)
-    ball.instances[-1].group.name = 3
     with pytest.raises(boule.Error, match="must be text, is int"):
-        boule.render(ball)
+        ball.instances[-1].group.name = 3
+
+
+WRONG_VALUES = {
+    "image": [None, 3, boule.Sphere()],
+    "render": [None, "path", boule.ImageSettings()],
+    "camera": [3, "pinhole", boule.Matte()],
+    "background": [None, "#ffffff", boule.Matte()],
+    "ambient": ["dark", 3, (1, 2), (-1, 0, 0), (0, 0, float("nan"))],
+    "backdrop": ["dark", (1, 2, 3, 4), {}],
+    "materials": [[1], {"a": 3}, {3: boule.Matte()}, {"a": boule.Sphere()}],
+    "lights": [3, [3], boule.PointLight(position=(0, 0, 0)), [boule.Sphere()]],
+    "spheres": [boule.Sphere(), [boule.Plane()], [[0, 0, 0, 1]]],
+    "planes": [boule.Plane(), [boule.Sphere()]],
+    "groups": [{"a": 3}, [boule.Group("a")]],
+    "instances": [["a"], [boule.Group("a")]],
+    "origin": ["moon", 3, (1, 2), (1, 2, 3, 4), (0, 0, float("inf")), ("1", "a", 2), None],
+    "notes": [3, [3]],
+    "warnings": [None],
+    "legend": [None, 3],
+}
+
+
+@pytest.mark.parametrize("name", WRONG_VALUES)
+def test_a_wrong_value_of_a_scene_is_refused_when_it_is_set(ball, name):
+    before = getattr(ball, name)
+    for value in WRONG_VALUES[name]:
+        with pytest.raises(boule.Error) as caught:
+            setattr(ball, name, value)
+        assert caught.value.key.startswith(name.rstrip("s")), value
+        assert getattr(ball, name) is before
+    setattr(ball, name, before)
+    assert boule.render(ball, size=(4, 3)).finished
+
+
+@pytest.mark.parametrize(
+    "make, wrong, right",
+    [
+        (boule.Scene, "camrea", "camera"),
+        (boule.Scene, "light", "lights"),
+        (boule.Scene, "add_spheres", None),
+        (boule.Group, "sphere", "spheres"),
+        (boule.Group, "camera", None),
+        (lambda: boule.Spheres([[0, 0, 0]], 1), "colour", "color"),
+        (lambda: boule.Spheres([[0, 0, 0]], 1), "radius", "radii"),
+        (lambda: boule.Tracer([[0, 0, 0]], 1), "solver", None),
+        (lambda: boule.render(boule.Scene(), size=(4, 3)), "exposure", None),
+    ],
+)
+def test_an_attribute_that_there_is_not_is_refused(make, wrong, right):
+    made = make()
+    with pytest.raises(AttributeError, match=wrong) as caught:
+        setattr(made, wrong, getattr(made, wrong, 1))
+    if right:
+        assert f"did you mean {right!r}?" in str(caught.value)
+
+
+def test_what_is_read_from_arrays_cannot_be_set():
+    spheres = boule.Spheres([[0, 0, 0]], 1)
+    for name in ("centers", "radii", "colors", "range"):
+        with pytest.raises(AttributeError):
+            setattr(spheres, name, getattr(spheres, name))
+
+
+def test_a_list_stays_the_callers_own(ball):
+    lights = [boule.PointLight(position=(1, 2, 3))]
+    ball.lights = lights
+    assert ball.lights is lights
+    ball.planes = (plane for plane in [boule.Plane()])
+    assert ball.planes == [boule.Plane()]
 
 
 def test_classes_may_be_derived_from(ball):

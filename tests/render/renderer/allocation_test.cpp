@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <fstream>
 #include <new>
 #include <string>
@@ -18,33 +16,9 @@
 #include "render/scene_file/scene_file.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
+#include "tests/render/renderer/counted_allocations.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_scenes.h"
-
-namespace {
-
-std::atomic<long> allocations{0};
-std::atomic<long> last_allocation{-1};  ///< allocations after this one fail; -1: none fails
-
-void* counted(std::size_t size, std::size_t alignment) {
-  const long number = ++allocations;
-  if (last_allocation >= 0 && number > last_allocation) throw std::bad_alloc();
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded))
-    return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace boule::test {
 namespace {
@@ -61,12 +35,12 @@ TEST(Allocation, WhittedAllocatesNothingWhenWarm) {
       rays.set(static_cast<std::size_t>(i), primary_ray(view, i % 32 + 0.5, i / 32 + 0.5));
     }
     std::vector<Color> radiance(1024);
-    const long start = allocations;
+    const long start = allocations();
     ASSERT_TRUE(whitted.trace({rays, prepared.coherence, nullptr}, radiance.data()));
-    const long first = allocations;
+    const long first = allocations();
     EXPECT_GT(first, start);
     ASSERT_TRUE(whitted.trace({rays, prepared.coherence, nullptr}, radiance.data()));
-    EXPECT_EQ(allocations, first);
+    EXPECT_EQ(allocations(), first);
   }
 }
 
@@ -85,9 +59,9 @@ TEST(Allocation, PathTracingAllocatesNothingWhenWarm) {
   }
   std::vector<Color> radiance(1024);
   ASSERT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
-  const long first = allocations;
+  const long first = allocations();
   ASSERT_TRUE(path.trace({rays, prepared.coherence, ids.data()}, radiance.data()));
-  EXPECT_EQ(allocations, first);
+  EXPECT_EQ(allocations(), first);
 }
 
 /// Two parallel mirrors, between which a ray goes on for ever.
@@ -103,10 +77,10 @@ TEST(Allocation, SameForOneRayAtAnyDepth) {
     RayBuffer ray(1);
     ray.set(0, {{0, 0, 5}, {0, 0, -1}});
     Color radiance;
-    const long start = allocations;
+    const long start = allocations();
     EXPECT_TRUE(whitted.trace({ray, Coherence::common_origin, nullptr}, &radiance));
     EXPECT_EQ(whitted.counts().continuation, static_cast<std::uint64_t>(max_depth));
-    return allocations - start;
+    return allocations() - start;
   };
   EXPECT_EQ(allocated_at_depth(10000), allocated_at_depth(100));
 }
@@ -120,10 +94,10 @@ RenderAllocations count_render(const Scene& scene, const RenderOptions& options)
   auto renderer = Renderer::create(scene, options);
   EXPECT_TRUE(renderer.ok());
   const auto counted_render = [&] {
-    const long start = allocations;
+    const long start = allocations();
     const auto image = renderer.value().render();
     EXPECT_TRUE(image.ok());
-    return allocations - start;
+    return allocations() - start;
   };
   const long first = counted_render();
   return {first, counted_render()};
@@ -189,13 +163,6 @@ TEST(Allocation, DoesNotGrowAsBlocksFillUp) {
   EXPECT_LE(first, most_per_worker);
   EXPECT_EQ(second, 1);
 }
-
-/// While it lives, only so many more allocations succeed.
-class ShortMemory {
- public:
-  explicit ShortMemory(long allowed) { last_allocation = allocations + allowed; }
-  ~ShortMemory() { last_allocation = -1; }
-};
 
 /// Calls `make` with ever more memory until it returns true, and counts the calls before. Each of
 /// them returns false or throws std::bad_alloc; any other end would end the test program.
