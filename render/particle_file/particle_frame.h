@@ -24,11 +24,18 @@ struct ParticleCell {
 bool is_finite(const ParticleCell& cell);
 
 /// A number of every particle, under the name that the file gives it; whole numbers are exact up
-/// to 2^53.
+/// to 2^53. NaN stands for one that is missing.
 struct NumberColumn {
   std::string name;
   std::vector<double> values;  ///< by particle
 };
+
+/// What numbers a column has.
+struct ColumnExtent {
+  double least = 0, largest = 0;  ///< of the finite ones; least > largest where there are none
+  std::size_t missing = 0, infinite = 0;
+};
+ColumnExtent extent_of(const NumberColumn& column);
 
 /// A text of every particle, such as the name of a residue: an index into the texts that occur.
 struct TextColumn {
@@ -38,7 +45,8 @@ struct TextColumn {
 };
 
 /// One frame of a particle file, in the units of the file (lengths of GROMACS files: nm). All
-/// lists by particle have as many entries as `positions`, and all numbers are finite.
+/// lists by particle have as many entries as `positions`, which are finite. So are all numbers that
+/// are there, unless the file was read with ParticleFileOptions::lenient.
 struct ParticleFrame {
   std::vector<Vec3d> positions;
   /// The particles' kinds: elements ("C", "Fe") where the file tells them, else types ("1").
