@@ -22,6 +22,7 @@ struct ParticleColors {
     std::string by;  ///< as MappedColors
     ColorMap map;
     std::array<double, 2> range{};  ///< that was chosen
+    std::size_t missing = 0;        ///< particles without a number, of missing_color
   };
   /// Those that are shown, in the order of the file; or the texts of another column that tells
   /// particles apart. Empty for other rules.
