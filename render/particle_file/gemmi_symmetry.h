@@ -47,19 +47,23 @@ inline const gemmi::SpaceGroup* group_named(std::string name, const gemmi::UnitC
   return find();
 }
 
-/// "x+0.25" as "x+6/24", which gemmi reads: an operation's parts of a cell are of 24.
+/// "x+0.25" as "x+6/24", which gemmi reads: an operation's parts of a cell are of 24. Nothing where
+/// a number is longer than any of these.
 inline std::string with_fractions(const std::string& operation) {
+  constexpr std::size_t longest = 8;
   std::string text;
   for (std::size_t i = 0; i < operation.size();) {
     const std::size_t end =
         std::min(operation.find_first_not_of("0123456789.", i), operation.size());
-    const std::string number = operation.substr(i, end - i);
-    if (number.find('.') == std::string::npos) {
-      text += number.empty() ? std::string(1, operation[i]) : number;
-      i = number.empty() ? i + 1 : end;
+    if (end == i) {
+      text += operation[i++];
       continue;
     }
-    text += std::to_string(std::lround(gemmi::cif::as_number(number, 0) * 24)) + "/24";
+    const std::string number = operation.substr(i, end - i);
+    if (number.size() > longest) return {};
+    const bool is_decimal = number.find('.') != std::string::npos;
+    const double parts = is_decimal ? gemmi::cif::as_number(number, 0) * gemmi::Op::DEN : 0;
+    text += is_decimal ? std::to_string(std::lround(parts)) + "/24" : number;
     i = end;
   }
   return text;
@@ -91,6 +95,10 @@ class CifSymmetryReader {
 
  private:
   Result<CifSymmetry> from_list(const gemmi::cif::Column& column) {
+    constexpr int most = 1024;  // space groups have up to 192
+    if (column.length() > most) {
+      return Diagnostic::about("symmetry", "it has more than 1024 operations");
+    }
     CifSymmetry found;
     find_group();
     found.group = name_;

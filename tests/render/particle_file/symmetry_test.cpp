@@ -89,6 +89,13 @@ TEST_F(Symmetry, OperationsOfTheFileComeFirst) {
   EXPECT_EQ(read(cubic + numbered + head + "C1 C 0.1 0.2 0.3\n").size(), 2U);
   EXPECT_EQ(particle_error("a.cif", cubic + "_symmetry_equiv_pos_as_xyz 'x,y'\n" + salt),
             "0:0: the operation 'x,y' cannot be read (symmetry)");
+  EXPECT_EQ(
+      particle_error("a.cif", cubic + "_symmetry_equiv_pos_as_xyz x+999999999/2,y,z\n" + salt),
+      "0:0: the operation 'x+999999999/2,y,z' cannot be read (symmetry)");
+  std::string many = "loop_\n_symmetry_equiv_pos_as_xyz\n";
+  for (int i = 0; i < 2000; ++i) many += "-x,-y,-z\n";
+  EXPECT_EQ(particle_error("a.cif", cubic + many + salt),
+            "0:0: it has more than 1024 operations (symmetry)");
 }
 
 TEST_F(Symmetry, SpecialPlacesAreTakenOnce) {
