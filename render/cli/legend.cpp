@@ -95,6 +95,7 @@ void Legend::add_scale(const ParticleColors::Scale& scale) {
       border, top, bar_width, bar_height, gradients_++);
   add_ticks(border + bar_width, top, low, high);
   height_ = top + bar_height + text_size;
+  if (scale.missing > 0) add_species({{"missing", missing_color, scale.missing}});
 }
 
 void Legend::add_species(const std::vector<ParticleColors::Species>& all) {
@@ -109,8 +110,9 @@ void Legend::add_species(const std::vector<ParticleColors::Species>& all) {
         "stroke-width=\"0.75\"/>\n",
         left + dot_radius, y, dot_radius, hex_text(all[i].color));
     const double text = left + 2 * dot_radius + 8;
-    add_text(text, y, all[i].name);
-    right = std::max(right, text + width_of(all[i].name));
+    const std::string name = all[i].name.empty() ? "missing" : all[i].name;
+    add_text(text, y, name);
+    right = std::max(right, text + width_of(name));
   }
   height_ += static_cast<double>(rows) * row_height;
 }

@@ -33,13 +33,18 @@ Json species_info(const TextColumn& species) {
   return list;
 }
 
-/// Numbers with their range, texts with how many different ones there are.
+/// Numbers with their range and how many of them are missing or infinite, texts with how many
+/// different ones there are.
 Json columns_info(const ParticleFrame& frame) {
   Json list = Json::array();
   for (const NumberColumn& column : frame.numbers) {
     Json json = {{"name", column.name}};
-    const auto [least, largest] = std::minmax_element(column.values.begin(), column.values.end());
-    if (least != column.values.end()) json.update({{"least", *least}, {"largest", *largest}});
+    const ColumnExtent extent = extent_of(column);
+    if (extent.least <= extent.largest) {
+      json.update({{"least", extent.least}, {"largest", extent.largest}});
+    }
+    if (extent.missing > 0) json["missing"] = extent.missing;
+    if (extent.infinite > 0) json["infinite"] = extent.infinite;
     list.push_back(std::move(json));
   }
   for (const TextColumn& column : frame.texts) {
@@ -70,7 +75,9 @@ Json positions_info(const std::vector<Vec3d>& positions) {
 /// What colours mean: of species by their names, of numbers by the map's range.
 Json colors_info(const ParticleColors& colors) {
   if (colors.scale) {
-    return {{"by", colors.scale->by}, {"range", colors.scale->range}};
+    Json json = {{"by", colors.scale->by}, {"range", colors.scale->range}};
+    if (colors.scale->missing > 0) json["missing"] = shown(missing_color);
+    return json;
   }
   if (colors.species.empty()) return "of the file or the material";
   Json json = Json::object();
@@ -114,12 +121,7 @@ Result<Json> particle_info(const std::string& path, const LookOptions& look,
   if (!made) return made.error();
   const LoadedScene& loaded = made.value().loaded;
   const ParticleFacts& facts = loaded.particles.front();
-  // Once more, with all columns: a picture needs few of them.
-  ParticleFileOptions file_options = file_options_of(look);
-  file_options.format = facts.format;
-  auto file = ParticleFile::open(facts.file, file_options, options.parallel_for);
-  if (!file) return file.error();
-  const auto read = file.value().read(static_cast<long>(facts.frame), options.parallel_for);
+  const auto read = read_all_columns(look, facts, options.parallel_for);
   if (!read) return read.error();
   Json json = {{"schema", 1},
                {"file", facts.file},

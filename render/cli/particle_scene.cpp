@@ -7,8 +7,10 @@
 
 #include "core/base/ascii.h"
 #include "core/math/geometry.h"
+#include "render/file/mapped_text.h"
 #include "render/file/npy_header.h"
 #include "render/packed/packed_file.h"
+#include "render/particle_file/other_formats.h"
 #include "render/particle_file/particle_file.h"
 #include "render/prepare/shown_extremes.h"
 
@@ -92,11 +94,11 @@ Result<LoadedScene> load_known(const std::string& path, const LookOptions& look,
     return Diagnostic::in_file(
         path, "is a film by its name, not a scene: boule merge makes a picture of films");
   }
-  if (auto file = InputFile::open(path); !file) return file.error();
+  if (auto file = MappedText::open(path); !file) return file.error();
   return Diagnostic::in_file(
       path,
       "neither a scene nor particles by its name or content, expected .toml .nff .npy .boule or " +
-          known_particle_endings());
+          known_particle_endings() + advice_for(path));
 }
 
 ParticleFileOptions file_options_of(const LookOptions& look) {
@@ -105,6 +107,19 @@ ParticleFileOptions file_options_of(const LookOptions& look) {
   options.columns = look.columns;
   options.water = look.water;
   return options;
+}
+
+Result<ParticleFrame> read_all_columns(const LookOptions& look, const ParticleFacts& facts,
+                                       const ParallelFor& parallel_for) {
+  ParticleFileOptions options = file_options_of(look);
+  options.format = facts.format;
+  for (;;) {
+    auto file = ParticleFile::open(facts.file, options, parallel_for);
+    if (!file) return file.error();
+    auto read = file.value().read(static_cast<long>(facts.frame), parallel_for);
+    // A strict reader tells columns of texts from those of numbers better.
+    if (read || std::exchange(options.lenient, true)) return read;
+  }
 }
 
 bool is_particle_input(const std::string& path, const LookOptions& look) {

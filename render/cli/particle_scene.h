@@ -50,4 +50,9 @@ LookFloor floor_at(double lowest, const Vec3d& up, const Vec3d& origin);
 /// Puts the floor into a scene that has the text of one without it.
 void add_floor(const LookFloor& floor, LoadedScene& loaded);
 
+/// A frame of a particle file with all of its columns, of which a picture needs few: what is no
+/// finite number in one that the picture did not need is kept (ParticleFileOptions::lenient).
+Result<ParticleFrame> read_all_columns(const LookOptions& look, const ParticleFacts& facts,
+                                       const ParallelFor& parallel_for);
+
 }  // namespace boule::cli

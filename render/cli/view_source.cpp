@@ -126,28 +126,20 @@ Result<LoadedScene> ViewSource::read(const LookOptions& look, int frame) {
   if (facts_.kind != "particles") return load_scene(path, options_);
   auto made = load_particle_scene(command_.frames ? command_.scene : path, look, options_);
   if (!made) return made.error();
-  const ParticleFacts& facts = made.value().loaded.particles.front();
-  particle_file_ = facts.file;
-  particle_format_ = facts.format;
-  particle_frame_ = static_cast<long>(facts.frame);
+  particles_ = made.value().loaded.particles.front();
   return std::move(made).value().loaded;
 }
 
 /// Read once: a picture needs few of the columns, and another frame has the same ones.
 std::vector<view::NumberRange> ViewSource::columns() {
-  if (columns_ || particle_file_.empty())
-    return columns_.value_or(std::vector<view::NumberRange>{});
+  if (columns_ || !particles_) return columns_.value_or(std::vector<view::NumberRange>{});
   columns_.emplace();
-  ParticleFileOptions options = file_options_of(command_.look);
-  options.format = particle_format_;
-  auto file = ParticleFile::open(particle_file_, options, options_.parallel_for);
-  if (!file) return {};
-  const auto frame = file.value().read(particle_frame_, options_.parallel_for);
+  const auto frame = read_all_columns(command_.look, *particles_, options_.parallel_for);
   if (!frame) return {};
   for (const NumberColumn& column : frame.value().numbers) {
-    if (column.values.empty()) continue;
-    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-    columns_->push_back({column.name, *low, *high});
+    const ColumnExtent extent = extent_of(column);
+    if (extent.least <= extent.largest)
+      columns_->push_back({column.name, extent.least, extent.largest});
   }
   return *columns_;
 }

@@ -40,8 +40,7 @@ class ViewSource final : public view::SceneSource {
   view::SourceFacts facts_;
   std::optional<view::ParticleLook> last_look_;
   std::optional<std::vector<view::NumberRange>> columns_;
-  std::string particle_file_, particle_format_;
-  long particle_frame_ = 0;
+  std::optional<ParticleFacts> particles_;  ///< of the frame that was read
 };
 
 }  // namespace boule::cli

@@ -57,7 +57,7 @@ MappedText MappedText::of(std::string text) {
   return made;
 }
 
-Result<MappedText> MappedText::open(const std::string& path) {
+Result<MappedText> MappedText::open(const std::string& path, Cut cut) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
   const std::uint64_t size = file.value().size();
@@ -78,12 +78,18 @@ Result<MappedText> MappedText::open(const std::string& path) {
   }
   opened.text_ = without_mark(bytes);
   const Packing packing = packing_of(bytes);
-  if (packing == Packing::none) return opened;
+  if (packing == Packing::none) {
+    if (const auto other = check_packing(bytes)) return cannot_read(path, other->message);
+    return opened;
+  }
   auto unpacked = unpack(packing, bytes);
   if (!unpacked) return cannot_read(path, unpacked.error().message);
   MappedText text;
-  text.unpacked_ = std::move(unpacked).value();
+  text.cut_ = std::move(unpacked.value().cut);
+  if (text.cut_ && cut == Cut::refuse) return cannot_read(path, text.cut_->message);
+  text.unpacked_ = std::move(unpacked.value().bytes);
   text.text_ = without_mark({text.unpacked_.data(), text.unpacked_.size()});
+  if (text.cut_) text.text_ = text.text_.substr(0, text.text_.rfind('\n') + 1);  // npos + 1 is 0
   return text;
 }
 

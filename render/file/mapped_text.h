@@ -18,9 +18,12 @@ namespace boule {
 /// that reads what is gone (SIGBUS). What is appended meanwhile is not seen.
 class MappedText {
  public:
+  /// What is done with packed bytes that end too early.
+  enum class Cut { refuse, keep };
+
   /// Opens `path`, any name. An error if it cannot be read, if the build cannot unpack it, if it
   /// is damaged, or if what it holds does not fit into memory, as soon as that is known.
-  static Result<MappedText> open(const std::string& path);
+  static Result<MappedText> open(const std::string& path, Cut cut = Cut::refuse);
 
   /// A text of its own, for what is not in a file.
   static MappedText of(std::string text);
@@ -28,6 +31,9 @@ class MappedText {
   /// All bytes, unpacked, without a UTF-8 byte order mark. They stay where they are when this is
   /// moved.
   [[nodiscard]] std::string_view text() const { return text_; }
+
+  /// Why the text is only the whole lines of what the file held (Cut::keep): a message.
+  [[nodiscard]] const Status& cut() const { return cut_; }
 
   /// Says that a part of the text has been read. Where it is mapped, its memory goes back to the
   /// system; who asks for it once more reads it from the file.
@@ -46,6 +52,7 @@ class MappedText {
   std::unique_ptr<void, Unmap> map_;
   GrowingBytes unpacked_;
   std::string_view text_;
+  Status cut_;
 };
 
 }  // namespace boule

@@ -1,6 +1,7 @@
 #include "render/file/unpack.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <string>
@@ -38,11 +39,11 @@ class GzipUnpacker {
     do {
       if (auto wrong = member()) return wrong;
       inflateReset(&stream_);
-    } while (!only_zeros(rest_));
+    } while (!cut_ && !only_zeros(rest_));
     return std::nullopt;
   }
 
-  GrowingBytes take() { return std::move(text_); }
+  Unpacked take() { return {std::move(text_), std::move(cut_)}; }
 
  private:
   /// Unpacks one member and leaves `rest_` at what follows it.
@@ -54,7 +55,8 @@ class GzipUnpacker {
       const int answer = step();
       if (answer == Z_STREAM_END) return std::nullopt;
       if (answer == Z_BUF_ERROR && rest_.empty()) {
-        return damaged("gzip", "the file ends before them");
+        cut_ = damaged("gzip", "the file ends before them");
+        return std::nullopt;
       }
       if (answer != Z_OK && answer != Z_BUF_ERROR) {
         return damaged("gzip", stream_.msg != nullptr ? stream_.msg : "not what zlib expected");
@@ -79,16 +81,17 @@ class GzipUnpacker {
 
   std::string_view rest_;
   GrowingBytes text_;
+  Status cut_;
   z_stream stream_ = {};
 };
 
-Result<GrowingBytes> unpack_gzip(std::string_view packed) {
+Result<Unpacked> unpack_gzip(std::string_view packed) {
   GzipUnpacker unpacker(packed);
   if (auto wrong = unpacker.run()) return *wrong;
   return unpacker.take();
 }
 #else
-Result<GrowingBytes> unpack_gzip(std::string_view) {
+Result<Unpacked> unpack_gzip(std::string_view) {
   return Diagnostic::of(
       "it is packed by gzip, and this build cannot unpack it: it was made without zlib (package "
       "zlib1g-dev)");
@@ -109,7 +112,7 @@ Status reserve_frame(std::string_view packed, GrowingBytes& text) {
   return needed > text.capacity() && is_small ? text.grow() : text.reserve(needed);
 }
 
-Result<GrowingBytes> unpack_zstandard(std::string_view packed) {
+Result<Unpacked> unpack_zstandard(std::string_view packed) {
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                           &ZSTD_freeDStream);
   if (stream == nullptr) return Diagnostic::of("Zstandard has no memory");
@@ -118,7 +121,7 @@ Result<GrowingBytes> unpack_zstandard(std::string_view packed) {
   std::size_t answer = 0;  // 0: between two frames
   for (;;) {
     const std::string_view rest = packed.substr(in.pos);
-    if (answer == 0 && only_zeros(rest)) return text;
+    if (answer == 0 && only_zeros(rest)) return Unpacked{std::move(text), {}};
     if (answer == 0) {
       if (auto none = reserve_frame(rest, text)) return *none;
     }
@@ -130,12 +133,12 @@ Result<GrowingBytes> unpack_zstandard(std::string_view packed) {
     if (ZSTD_isError(answer) != 0) return damaged("Zstandard", ZSTD_getErrorName(answer));
     text.set_size(out.pos);
     if (answer != 0 && rest.empty() && out.pos < out.size) {
-      return damaged("Zstandard", "the file ends before them");
+      return Unpacked{std::move(text), damaged("Zstandard", "the file ends before them")};
     }
   }
 }
 #else
-Result<GrowingBytes> unpack_zstandard(std::string_view) {
+Result<Unpacked> unpack_zstandard(std::string_view) {
   return Diagnostic::of(
       "it is packed by Zstandard, and this build cannot unpack it: it was made without libzstd "
       "(package libzstd-dev)");
@@ -154,7 +157,27 @@ Packing packing_of(std::string_view bytes) {
   return skips && first >= 0x50 && first <= 0x5f ? Packing::zstandard : Packing::none;
 }
 
-Result<GrowingBytes> unpack(Packing packing, std::string_view packed) {
+Status check_packing(std::string_view bytes) {
+  using std::literals::operator""sv;
+  struct Other {
+    std::string_view start, name, program;
+  };
+  constexpr std::array others{Other{"BZh"sv, "bzip2", "bunzip2"},
+                              Other{"\xfd\x37zXZ\0"sv, "xz", "unxz"},
+                              Other{"\x5d\0\0"sv, "LZMA", "unlzma"},
+                              Other{"\x04\x22\x4d\x18"sv, "LZ4", "unlz4"},
+                              Other{"\x1f\x9d"sv, "compress", "uncompress"},
+                              Other{"7z\xbc\xaf\x27\x1c"sv, "7-Zip", "7z x"}};
+  for (const Other& other : others) {
+    if (!bytes.starts_with(other.start)) continue;
+    return Diagnostic::of("it is packed by " + std::string(other.name) +
+                          ", which is not read; unpack it first (" + std::string(other.program) +
+                          "), or pack it by gzip or zstd");
+  }
+  return std::nullopt;
+}
+
+Result<Unpacked> unpack(Packing packing, std::string_view packed) {
   return packing == Packing::gzip ? unpack_gzip(packed) : unpack_zstandard(packed);
 }
 

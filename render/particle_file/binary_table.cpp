@@ -138,7 +138,7 @@ std::optional<std::size_t> axis_of(const std::string& name) {
 }
 
 bool is_species(const std::string& name) {
-  return name == "element" || name == "species" || name == "symbol";
+  return name == "species" || is_atomic_number_name(name);
 }
 
 /// A column of numbers on its way into the frame.
@@ -152,8 +152,8 @@ struct NumberTask {
 class BinaryTableReader {
  public:
   BinaryTableReader(const BinaryTable& table, const char* first_row,
-                    const std::optional<std::vector<std::string>>& wanted)
-      : table_(table), first_row_(first_row), wanted_(wanted) {}
+                    const ParticleFileOptions& options)
+      : table_(table), first_row_(first_row), options_(options) {}
 
   Result<ParticleFrame> read(const ParallelFor& parallel_for) {
     if (auto bad = check_room()) return *bad;
@@ -161,6 +161,7 @@ class BinaryTableReader {
     frame_.numbers.reserve(table_.columns.size());  // tasks point into it
     for (const BinaryColumn& column : table_.columns) add_column(column);
     if (auto bad = read_numbers(parallel_for)) return *bad;
+    take_atomic_numbers_as_species();
     take_types_as_species(frame_, true);
     return std::move(frame_);
   }
@@ -170,8 +171,16 @@ class BinaryTableReader {
   using Place = std::pair<std::size_t, std::size_t>;
 
   [[nodiscard]] bool is_kept(const BinaryColumn& column) const {
-    if (!wanted_ || column.name == "type" || is_species(column.name)) return true;
-    return std::find(wanted_->begin(), wanted_->end(), column.name) != wanted_->end();
+    return column.name == "type" || is_species(column.name) ||
+           is_wanted(options_.wanted, column.name);
+  }
+
+  void take_atomic_numbers_as_species() {
+    for (const NumberColumn& column : frame_.numbers) {
+      if (frame_.species || !is_atomic_number_name(column.name)) continue;
+      TextColumn species = texts_of(column);
+      if (take_atomic_numbers(species)) frame_.species = std::move(species);
+    }
   }
 
   [[nodiscard]] Status check_room() const {
@@ -231,9 +240,11 @@ class BinaryTableReader {
     double* const to = task.first + begin * task.stride;
     const char* const from = first_row_ + begin * table_.row_bytes + column.offset;
     task.convert({from, table_.row_bytes, to, task.stride, end - begin}, column.divisor);
-    if (column.kind != BinaryKind::real) return;
+    const bool is_position = task.stride == 3;
+    if (column.kind != BinaryKind::real || (options_.lenient && !is_position)) return;
     for (std::size_t row = begin; row < end; ++row) {
-      if (std::isfinite(to[(row - begin) * task.stride])) continue;
+      const double number = to[(row - begin) * task.stride];
+      if (std::isfinite(number) || (std::isnan(number) && !is_position)) continue;
       worst = std::min(worst, {row, task_index});
       return;
     }
@@ -262,7 +273,7 @@ class BinaryTableReader {
 
   const BinaryTable& table_;
   const char* first_row_;
-  const std::optional<std::vector<std::string>>& wanted_;
+  const ParticleFileOptions& options_;
   ParticleFrame frame_;
   std::vector<NumberTask> tasks_;
 };
@@ -285,9 +296,9 @@ Status check_binary_columns(const BinaryTable& table) {
 }
 
 Result<ParticleFrame> read_binary_table(const BinaryTable& table, const char* first_row,
-                                        const std::optional<std::vector<std::string>>& wanted,
+                                        const ParticleFileOptions& options,
                                         const ParallelFor& parallel_for) {
-  return BinaryTableReader(table, first_row, wanted).read(parallel_for);
+  return BinaryTableReader(table, first_row, options).read(parallel_for);
 }
 
 }  // namespace boule

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "render/particle_file/particle_frame.h"
+#include "render/particle_file/particle_file.h"
 
 namespace boule {
 
@@ -42,11 +42,11 @@ Status check_binary_columns(const BinaryTable& table);
 
 /// Reads `table.rows` rows, which begin at `first_row`, in any alignment. The columns are kept
 /// under their names, texts called "element", "species" or "symbol" as the species; of the others
-/// only those in `wanted`, if there is such a list. Errors: a number that is not finite, with the
-/// column's name as key; what does not fit into memory. Precondition: check_binary_columns() has
-/// passed the table.
+/// only those in `options.wanted`, if there is such a list. Errors: a number that is not finite,
+/// with the column's name as key, unless it is missing (NaN) and no position; what does not fit
+/// into memory. Precondition: check_binary_columns() has passed the table.
 Result<ParticleFrame> read_binary_table(const BinaryTable& table, const char* first_row,
-                                        const std::optional<std::vector<std::string>>& wanted,
+                                        const ParticleFileOptions& options,
                                         const ParallelFor& parallel_for);
 
 }  // namespace boule

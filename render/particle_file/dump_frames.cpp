@@ -33,19 +33,46 @@ class DumpFrameFinder {
   explicit DumpFrameFinder(std::string_view text) : text_(text), lines_(text) {}
 
   Result<DumpFrames> run() {
-    for (lines_.skip_blank_lines(); !lines_.at_end(); lines_.skip_blank_lines()) {
-      if (auto wrong = section()) return *wrong;
+    Status wrong;
+    for (lines_.skip_blank_lines(); !wrong && !lines_.at_end(); lines_.skip_blank_lines()) {
+      wrong = section();
     }
-    if (auto wrong = finish_frame()) return *wrong;
+    if (!wrong) wrong = find_cut_row();
+    if (!wrong) wrong = finish_frame();
+    if (wrong && !is_cut(*wrong)) return *std::move(wrong);
+    found_.cut = std::move(wrong);
     return std::move(found_);
   }
 
  private:
+  /// An error at the end of the file is of a frame that was cut off, if there is a whole one
+  /// before.
+  bool is_cut(const Diagnostic& wrong) {
+    if (!lines_.at_end() || is_no_item_) return false;
+    const bool is_whole =
+        frame_.atoms.exists() && wrong.line >= place_number(frame_.atoms.end_line());
+    if (is_whole && finish_frame()) return false;
+    return !found_.frames.empty();
+  }
+
+  /// The last row of the last frame may be a part of one.
+  Status find_cut_row() const {
+    const DumpSection& atoms = frame_.atoms;
+    if (found_.frames.empty() || !atoms.exists() || atoms.rows == 0) return std::nullopt;
+    const std::size_t like = atoms.rows > 1 ? atoms.begin : found_.frames.back().atoms.begin;
+    const std::string_view rows = text_.substr(atoms.begin, atoms.end - atoms.begin);
+    if (atoms.end < text_.size() || !has_cut_row(rows, TextLines(text_.substr(like)).next())) {
+      return std::nullopt;
+    }
+    return error_at_line(atoms.end_line() - 1, "the file ends in the last row of its atoms");
+  }
+
   Status section() {
     DumpSection section{.header = lines_.offset()};
     const std::uint64_t header_line = lines_.line();
     const std::string_view header = lines_.next();
     if (!header.starts_with(item)) {
+      is_no_item_ = !item.starts_with(header);
       return error_at_line(header_line, "expected ITEM: and its name, found " + quote(header));
     }
     const Item kind = item_of(header);
@@ -54,6 +81,9 @@ class DumpFrameFinder {
       if (auto wrong = finish_frame()) return wrong;
     }
     seen = true;
+    if (kind == Item::other && lines_.at_end() && !text_.ends_with('\n')) {
+      return error_at_line(header_line, "the file ends in this header");
+    }
     section.begin = lines_.offset();
     section.line = lines_.line();
     if (auto wrong = skip_rows(kind, header_line, section)) return wrong;
@@ -133,6 +163,7 @@ class DumpFrameFinder {
   DumpFramePlace frame_;
   std::optional<std::uint64_t> count_;
   bool seen_[items] = {};
+  bool is_no_item_ = false;  ///< an error is of a line that is no part of "ITEM: " either
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ struct DumpSection {
   std::uint64_t line = 0;  ///< of the first line below; 0: the frame has no such section
   std::uint64_t rows = 0;  ///< lines below
   [[nodiscard]] bool exists() const { return line != 0; }
+  [[nodiscard]] std::uint64_t end_line() const { return line + rows; }  ///< the one behind it
 };
 
 /// Where a frame's sections are.
@@ -27,6 +28,7 @@ struct DumpFramePlace {
 struct DumpFrames {
   std::vector<DumpFramePlace> frames;  ///< at least one, each with atoms
   double length_in_angstrom = 1;       ///< what UNITS says
+  Status cut;                          ///< as ParticleReader::cut()
 };
 
 /// Finds all frames of a LAMMPS dump. Sections of a frame stand in any order; one that a frame has

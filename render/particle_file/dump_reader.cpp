@@ -163,6 +163,7 @@ class DumpReader : public ParticleReader {
       : bytes_(std::move(bytes)), options_(std::move(options)), found_(std::move(found)) {}
 
   [[nodiscard]] std::size_t frames() const override { return found_.frames.size(); }
+  [[nodiscard]] Status cut() const override { return found_.cut; }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
     const DumpFramePlace& place = found_.frames[frame];
@@ -181,6 +182,7 @@ class DumpReader : public ParticleReader {
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(atoms.rows),
                           .first_line = atoms.line,
+                          .lenient = options_.lenient,
                           .positive = options_.positive,
                           .file = &bytes_};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
@@ -277,6 +279,6 @@ bool starts_like_dump(std::string_view start) {
 }  // namespace
 
 constinit const ParticleFormat dump_format = {
-    "dump", {"dump", "lammpstrj"}, starts_like_dump, open_dump};
+    "dump", {"dump", "lammpstrj"}, starts_like_dump, open_dump, true};
 
 }  // namespace boule

@@ -2,12 +2,33 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
 #include "render/memory/available_memory.h"
+#include "render/particle_file/text_lines.h"
+#include "render/particle_file/text_number.h"
 
 namespace boule {
+
+/// The places of a trajectory's frames.
+template <class Place>
+struct FramePlaces {
+  std::vector<Place> frames;  ///< whole ones, at least one
+  Status cut;                 ///< as ParticleReader::cut()
+};
+
+/// True if the last of some rows, where the file ends without an end of line, is only a part of a
+/// row such as `whole`: it has fewer words, or no number where that one ends with a number.
+inline bool has_cut_row(std::string_view rows, std::string_view whole) {
+  if (rows.empty() || rows.back() == '\n') return false;
+  const auto words = words_of(rows.substr(rows.rfind('\n') + 1));  // npos + 1 is 0
+  const auto expected = words_of(whole);
+  if (words.size() < expected.size()) return true;
+  return !words.empty() && words.size() == expected.size() && number_in(expected.back()) &&
+         !number_in(words.back());
+}
 
 /// Appends the place of a frame to the list of a trajectory. An error if a longer list does not
 /// fit into memory: a file of tiny frames makes it longer than the file.

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "render/memory/available_memory.h"
+#include "render/particle_file/element_guess.h"
 #include "render/particle_file/gemmi_call.h"
 #include "render/particle_file/gemmi_particles.h"
 #include "render/particle_file/text_lines.h"
@@ -15,14 +17,14 @@
 #include <gemmi/numb.hpp>
 
 #include "render/particle_file/gemmi_cell.h"
+#include "render/particle_file/gemmi_symmetry.h"
 #endif
 
 namespace boule {
 
 #ifndef BOULE_HAS_GEMMI
 
-Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view, bool,
-                                                   const std::optional<std::vector<std::string>>&) {
+Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view, const ParticleFileOptions&) {
   return Diagnostic::of("no gemmi");
 }
 
@@ -76,11 +78,17 @@ double finite_or(const std::string& text, double other) {
   return std::isfinite(number) ? number : other;
 }
 
+/// A cell as gemmi has it, and as the frame gets it.
+struct CifCell {
+  gemmi::UnitCell gemmi;
+  ParticleCell particle;
+};
+
 /// The atoms of one block of the file.
 class CifAtoms {
  public:
-  CifAtoms(cif::Block& block, bool water, const std::optional<std::vector<std::string>>& wanted)
-      : block_(block), water_(water), wanted_(wanted) {}
+  CifAtoms(cif::Block& block, const ParticleFileOptions& options)
+      : block_(block), options_(options) {}
 
   /// The frames; none if the block has no atoms.
   Result<std::vector<ParticleFrame>> read() {
@@ -142,12 +150,12 @@ class CifAtoms {
     std::vector<MoleculeColumns> columns;
     for (Row row : table) {
       const auto [found, is_new] = models.try_emplace(text_at(row, model), columns.size());
-      if (is_new) columns.emplace_back(MoleculeKind::residues, water_);
+      if (is_new) columns.emplace_back(MoleculeKind::residues, options_.water);
       if (auto wrong = add_atom(table, row, columns[found->second])) return *wrong;
     }
     std::vector<ParticleFrame> frames;
     for (MoleculeColumns& each : columns) {
-      frames.push_back(each.finish(wanted_));
+      frames.push_back(each.finish(options_.wanted));
       if (cell.value()) frames.back().cell = cell.value()->particle;
     }
     return frames;
@@ -164,7 +172,8 @@ class CifAtoms {
                       residue_name = text_at(row, auth_residue, residue),
                       chain_name = text_at(row, auth_chain, chain),
                       location = text_at(row, alternative), code = text_at(row, insertion);
-    read.element = element_of(element.empty() ? name : element);
+    read.is_guessed = element.empty();
+    read.element = read.is_guessed ? element_of_atom(name, residue_name) : element_of(element);
     read.name = name;
     read.residue = residue_name;
     read.chain = chain_name;
@@ -185,8 +194,15 @@ class CifAtoms {
     if (!cell.value()) {
       return error_in(table, "its positions are fractions of a cell, which it does not have");
     }
+    auto symmetry = CifSymmetryReader(block_, cell.value()->gemmi).read();
+    if (!symmetry) return symmetry.error();
+    const std::size_t images = symmetry.value().operations.size();
+    if (auto no_room = check_memory(table.length() * images * MoleculeColumns::atom_bytes,
+                                    "the atoms of its cell need")) {
+      return *no_room;
+    }
     MoleculeColumns columns(MoleculeKind::sites, true);
-    std::size_t disordered = 0;
+    std::size_t disordered = 0, sites = 0;
     for (Row row : table) {
       MoleculeAtom read;
       if (auto wrong = read_position(table, row, read.position)) return *wrong;
@@ -196,45 +212,52 @@ class CifAtoms {
         ++disordered;
         continue;
       }
-      const Vec3d f = read.position;
-      const gemmi::Position p = cell.value()->gemmi.orthogonalize(gemmi::Fractional(f.x, f.y, f.z));
       const std::string name = text_at(row, label), element = text_at(row, site_symbol);
-      read.position = {p.x, p.y, p.z};
       read.element = element_of(element.empty() ? name : element);
       read.name = name;
       read.id = row.row_index + 1;
       read.occupancy = occupied.value();
-      columns.add(read);
+      add_images(read, *cell.value(), symmetry.value().operations, columns);
+      ++sites;
     }
     std::vector<ParticleFrame> frames;
-    frames.push_back(columns.finish(wanted_));
+    frames.push_back(columns.finish(options_.wanted));
     frames.back().cell = cell.value()->particle;
-    note_sites(disordered, frames.back().notes);
+    note_sites(sites, disordered, symmetry.value(), frames.back());
     return frames;
   }
 
-  void note_sites(std::size_t disordered, std::vector<std::string>& notes) {
-    if (has_symmetry()) notes.emplace_back("only the asymmetric unit is read");
+  /// Adds an atom, whose position is in fractions, wherever the operations put it. An atom without
+  /// images stays where the file has it.
+  static void add_images(MoleculeAtom atom, const CifCell& cell,
+                         const std::vector<gemmi::Op>& operations, MoleculeColumns& columns) {
+    const gemmi::Fractional site(atom.position.x, atom.position.y, atom.position.z);
+    const auto places =
+        operations.size() == 1 ? std::vector{site} : places_in_cell(site, operations, cell.gemmi);
+    for (const gemmi::Fractional& place : places) {
+      const gemmi::Position p = cell.gemmi.orthogonalize(place);
+      atom.position = {p.x, p.y, p.z};
+      columns.add(atom);
+    }
+  }
+
+  static void note_sites(std::size_t sites, std::size_t disordered, const CifSymmetry& symmetry,
+                         ParticleFrame& frame) {
+    const std::string group = symmetry.group.empty() ? "" : " " + quote(symmetry.group);
+    if (!symmetry.is_known) {
+      frame.notes.push_back("only the asymmetric unit is read: the space group" + group +
+                            " is unknown");
+    } else if (symmetry.operations.size() > 1) {
+      frame.notes.push_back("the " + std::to_string(frame.size()) +
+                            " atoms of the cell are made of " + std::to_string(sites) +
+                            " by the symmetry" + group);
+    }
     if (disordered == 0) return;
-    notes.push_back(std::to_string(disordered) + (disordered == 1 ? " atom" : " atoms") +
-                    " left out: other alternative locations");
+    frame.notes.push_back(std::to_string(disordered) + (disordered == 1 ? " atom" : " atoms") +
+                          " left out: other alternative locations");
   }
 
-  /// True if there are operations besides the identity.
-  bool has_symmetry() {
-    for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
-      if (const cif::Column column = block_.find_values(tag)) return column.length() > 1;
-    }
-    for (const char* tag : {"_space_group_name_H-M_alt", "_symmetry_space_group_name_H-M"}) {
-      const std::string* const name = block_.find_value(tag);
-      if (name == nullptr || cif::is_null(*name)) continue;
-      const std::string group = cif::as_string(*name);
-      return group != "P 1" && group != "P1";
-    }
-    return false;
-  }
-
-  [[nodiscard]] bool wants(const char* name) const { return is_wanted(wanted_, name); }
+  [[nodiscard]] bool wants(const char* name) const { return is_wanted(options_.wanted, name); }
 
   Diagnostic error_in(const cif::Table& table, std::string message, std::string key = {}) const {
     const int line = table.loop_item == nullptr ? 0 : table.loop_item->line_number;
@@ -247,7 +270,7 @@ class CifAtoms {
                            const char* name, std::optional<double> none) const {
     if (none && (!row.has2(column) || !wants(name))) return *none;
     const double number = cif::as_number(row[column]);
-    if (std::isfinite(number)) return number;
+    if (std::isfinite(number) || (none && options_.lenient)) return number;
     return error_in(table,
                     "expected a finite number in row " + std::to_string(row.row_index + 1) +
                         " of the atoms, found " + quote(row[column]),
@@ -264,12 +287,6 @@ class CifAtoms {
     }
     return std::nullopt;
   }
-
-  /// A cell as gemmi has it, and as the frame gets it.
-  struct CifCell {
-    gemmi::UnitCell gemmi;
-    ParticleCell particle;
-  };
 
   /// The cell; nothing where there is none, or one of edges 1, which stands for none.
   Result<std::optional<CifCell>> cell_of(const std::string& prefix) {
@@ -317,19 +334,18 @@ class CifAtoms {
   }
 
   cif::Block& block_;
-  bool water_;
-  const std::optional<std::vector<std::string>>& wanted_;
+  const ParticleFileOptions& options_;
 };
 
 }  // namespace
 
-Result<std::vector<ParticleFrame>> read_cif_frames(
-    std::string_view text, bool water, const std::optional<std::vector<std::string>>& wanted) {
+Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view text,
+                                                   const ParticleFileOptions& options) {
   std::vector<ParticleFrame> frames;
   auto wrong = call_gemmi([&]() -> Status {
     cif::Document document = cif::read_memory(text.data(), text.size(), "cif");
     for (cif::Block& block : document.blocks) {
-      auto read = CifAtoms(block, water, wanted).read();
+      auto read = CifAtoms(block, options).read();
       if (!read) return read.error();
       frames = std::move(read).value();
       if (!frames.empty()) return std::nullopt;

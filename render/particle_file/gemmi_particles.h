@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "render/particle_file/molecule_columns.h"
+#include "render/particle_file/particle_file.h"
 #include "render/particle_file/pdb_records.h"
 
 // What gemmi does for the readers of PDB and mmCIF. No other file sees its headers, which take long
@@ -26,7 +27,7 @@ Result<ParticleCell> read_pdb_cell(const std::string& records);
 
 /// The frames of a CIF file, macromolecules or small molecules; the Diagnostic has a line where
 /// gemmi tells it.
-Result<std::vector<ParticleFrame>> read_cif_frames(
-    std::string_view text, bool water, const std::optional<std::vector<std::string>>& wanted);
+Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view text,
+                                                   const ParticleFileOptions& options);
 
 }  // namespace boule

@@ -9,8 +9,10 @@
 
 #ifdef BOULE_HAS_GEMMI
 #include <gemmi/pdb.hpp>
+#include <gemmi/resinfo.hpp>
 
 #include "render/particle_file/gemmi_cell.h"
+#include "render/particle_file/text_number.h"
 #endif
 
 namespace boule {
@@ -40,7 +42,6 @@ std::vector<int> take_serials(std::string& records) {
 }
 
 struct AtomPlace {
-  const gemmi::Chain* chain = nullptr;
   const gemmi::Residue* residue = nullptr;
   const gemmi::Atom* atom = nullptr;
 };
@@ -53,7 +54,7 @@ std::vector<AtomPlace> atoms_in_order(const gemmi::Structure& structure, std::si
       for (const gemmi::Residue& residue : chain.residues) {
         for (const gemmi::Atom& atom : residue.atoms) {
           const auto place = static_cast<std::size_t>(atom.serial);
-          if (place < count) places[place] = {&chain, &residue, &atom};
+          if (place < count) places[place] = {&residue, &atom};
         }
       }
     }
@@ -65,7 +66,28 @@ std::string_view record_of(const std::string& records, std::size_t i) {
   return std::string_view(records).substr(i * record_bytes, record_bytes);
 }
 
-bool has_element(std::string_view record) { return record.substr(76, 2) != "  "; }
+gemmi::ResidueInfo residue_info(std::string_view name) {
+  return gemmi::find_tabulated_residue(std::string(name));
+}
+
+/// A residue and its chain, by columns 18 to 22. Column 21 is the fourth letter of a name, or the
+/// first of a chain of two behind the name of a residue that is known.
+struct RecordNames {
+  explicit RecordNames(std::string_view record)
+      : residue(without_blanks(record.substr(17, 4))), chain(without_blanks(record.substr(21, 1))) {
+    const std::string_view three = without_blanks(record.substr(17, 3));
+    if (record[20] == ' ' || chain.empty()) return;
+    if (record[17] != ' ' && !residue_info(three).found()) return;
+    residue = three;
+    chain = record.substr(20, 2);
+  }
+
+  std::string_view residue, chain;
+};
+
+bool has_element(std::string_view record) {
+  return record.substr(76, 2) != "  " && gemmi::find_element(record.data() + 76) != gemmi::El::X;
+}
 
 /// True for files whose names of atoms begin in column 13 whatever the element, as programs write
 /// them that leave the elements out, too. Elsewhere no single letter stands there.
@@ -75,6 +97,15 @@ bool has_unaligned_names(const std::string& records) {
     if (name[0] != ' ' && name.substr(1) == "   " && !has_element(record)) return true;
   }
   return false;
+}
+
+/// The symbol where the record has none. gemmi goes by the column where the name begins, which
+/// nobody needs whose residue tells what the atom can be.
+std::string_view guess_element(const gemmi::Atom& atom, const RecordNames& names, bool unaligned) {
+  if (const auto ion = ion_of_atom(atom.name, names.residue); !ion.empty()) return ion;
+  const bool by_name =
+      unaligned || residue_info(names.residue).found() || atom.element == gemmi::El::X;
+  return by_name ? element_of_atom(atom.name, names.residue) : atom.element.name();
 }
 
 std::string_view one_letter(const char& letter, char none) {
@@ -93,15 +124,18 @@ Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns) {
     const bool unaligned = has_unaligned_names(records.lines);
     const std::vector<AtomPlace> places = atoms_in_order(structure, serials.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto [chain, residue, atom] = places[i];
-      if (atom == nullptr) return Diagnostic::of("gemmi does not understand an atom's record");
+      const auto [residue, atom] = places[i];
+      if (residue == nullptr) return Diagnostic::of("gemmi does not understand an atom's record");
+      const std::string_view record = record_of(records.lines, i);
+      const RecordNames names(record);
+      const bool is_guessed = !has_element(record);
       columns.add({.position = records.numbers[i].position,
-                   .element = unaligned && !has_element(record_of(records.lines, i))
-                                  ? element_of_atom(atom->name, residue->name)
-                                  : atom->element.name(),
+                   .element = is_guessed ? guess_element(*atom, names, unaligned)
+                                         : std::string_view(atom->element.name()),
+                   .is_guessed = is_guessed,
                    .name = atom->name,
-                   .residue = residue->name,
-                   .chain = chain->name,
+                   .residue = names.residue,
+                   .chain = names.chain,
                    .insertion = one_letter(residue->seqid.icode, ' '),
                    .alternative = one_letter(atom->altloc, '\0'),
                    .residue_number = residue->seqid.num.has_value()

@@ -30,35 +30,50 @@ bool is_over(TextLines lines) {
   return lines.at_end();
 }
 
-Result<std::vector<GroFrame>> find_gro_frames(std::string_view text) {
-  std::vector<GroFrame> frames;
+/// The frame whose title is the next line. An error where the file ends before it does.
+Result<GroFrame> next_gro_frame(TextLines& lines) {
+  GroFrame frame{.title = lines.offset()};
+  lines.skip(1);
+  const std::uint64_t count_line = lines.line();
+  const std::string_view line = lines.next();
+  const auto count = count_in(without_blanks(line));
+  if (!count) {
+    return error_at_line(
+        count_line, "expected a count of atoms below the title, found " + quote(line), "count");
+  }
+  frame.count = *count;
+  frame.begin = lines.offset();
+  frame.row_line = lines.line();
+  const std::uint64_t rows = lines.skip(*count);
+  frame.end = lines.offset();
+  if (lines.skip(1) == 1) return frame;
+  return error_at_line(count_line,
+                       "it promises " + std::to_string(*count) +
+                           " atoms and a box, the file ends after " + std::to_string(rows) +
+                           " lines",
+                       "count");
+}
+
+/// Where the file ends in an error behind a whole frame, it was cut off.
+Result<FramePlaces<GroFrame>> find_gro_frames(std::string_view text) {
+  FramePlaces<GroFrame> found;
   TextLines lines(text);
   while (!is_over(lines)) {
-    GroFrame frame{.title = lines.offset()};
-    lines.skip(1);
-    const std::uint64_t count_line = lines.line();
-    const std::string_view line = lines.next();
-    const auto count = count_in(without_blanks(line));
-    if (!count) {
-      return error_at_line(
-          count_line, "expected a count of atoms below the title, found " + quote(line), "count");
+    auto frame = next_gro_frame(lines);
+    if (!frame && (found.frames.empty() || !lines.at_end())) return frame.error();
+    if (!frame) {
+      found.cut = frame.error();
+    } else if (lines.at_end() && !found.frames.empty() &&
+               has_cut_row(text.substr(frame.value().end),
+                           TextLines(text.substr(found.frames.back().end)).next())) {
+      found.cut = error_at_line(frame.value().row_line + frame.value().count,
+                                "the file ends in its box", "box");
+    } else if (auto no_room = add_frame_place(found.frames, frame.value())) {
+      return *no_room;
     }
-    frame.count = *count;
-    frame.begin = lines.offset();
-    frame.row_line = lines.line();
-    const std::uint64_t rows = lines.skip(*count);
-    frame.end = lines.offset();
-    if (lines.skip(1) == 0) {
-      return error_at_line(count_line,
-                           "it promises " + std::to_string(*count) +
-                               " atoms and a box, the file ends after " + std::to_string(rows) +
-                               " lines",
-                           "count");
-    }
-    if (auto no_room = add_frame_place(frames, frame)) return *no_room;
   }
-  if (frames.empty()) return Diagnostic::of("it holds no frames");
-  return frames;
+  if (found.frames.empty()) return Diagnostic::of("it holds no frames");
+  return found;
 }
 
 /// What stands behind "t=" in a title, if that is a number.
@@ -99,13 +114,14 @@ Result<std::optional<ParticleCell>> box_of(std::string_view line, std::uint64_t 
 
 class GroReader : public ParticleReader {
  public:
-  GroReader(MappedText bytes, ParticleFileOptions options, std::vector<GroFrame> places)
+  GroReader(MappedText bytes, ParticleFileOptions options, FramePlaces<GroFrame> places)
       : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
 
-  [[nodiscard]] std::size_t frames() const override { return places_.size(); }
+  [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
+  [[nodiscard]] Status cut() const override { return places_.cut; }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
-    const GroFrame& place = places_[frame];
+    const GroFrame& place = places_.frames[frame];
     const std::string_view text = bytes_.text();
     ParticleFrame read;
     read.length_in_angstrom = 10;
@@ -116,7 +132,8 @@ class GroReader : public ParticleReader {
     if (place.count == 0) return read;
     const GroRows rows{.text = text.substr(place.begin, place.end - place.begin),
                        .rows = static_cast<std::size_t>(place.count),
-                       .first_line = place.row_line};
+                       .first_line = place.row_line,
+                       .lenient = options_.lenient};
     if (auto wrong = read_gro_rows(rows, options_.wanted, read, parallel_for)) return *wrong;
     return read;
   }
@@ -124,7 +141,7 @@ class GroReader : public ParticleReader {
  private:
   MappedText bytes_;
   ParticleFileOptions options_;
-  std::vector<GroFrame> places_;
+  FramePlaces<GroFrame> places_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_gro(MappedText bytes,
@@ -149,6 +166,6 @@ bool starts_like_gro(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat gro_format = {"gro", {"gro"}, starts_like_gro, open_gro};
+constinit const ParticleFormat gro_format = {"gro", {"gro"}, starts_like_gro, open_gro, true};
 
 }  // namespace boule

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -22,10 +23,10 @@ struct GroField {
   std::string name;
   std::size_t begin = 0, width = 5;  ///< bytes of the line
   double* numbers = nullptr;         ///< where its numbers go, `stride` apart,
-  std::size_t stride = 1;
-  std::uint32_t* texts = nullptr;  ///< or its texts,
-  std::size_t interner = 0;        ///< by this interner
-  bool optional = false;           ///< a blank number is 0
+  std::size_t stride = 1;            ///< 3 of positions, which are never missing
+  std::uint32_t* texts = nullptr;    ///< or its texts,
+  std::size_t interner = 0;          ///< by this interner
+  bool optional = false;             ///< a blank number is 0
 };
 
 struct GroPlan {
@@ -139,6 +140,10 @@ class GroPieceReader {
                   field.name);
     }
     const auto number = number_in(token);
+    const bool is_missing = number ? std::isnan(*number) : rows_.lenient;
+    if (field.stride == 1 && (is_missing || (number && rows_.lenient))) {
+      return value = number.value_or(std::numeric_limits<double>::quiet_NaN()), true;
+    }
     if (!number) return fail(token, "expected a number, found " + quote(token), field.name);
     if (!std::isfinite(*number)) {
       return fail(token, "expected a finite number, found " + quote(token), field.name);
@@ -220,6 +225,7 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
     merge_texts(pieces, i, frame.texts[i], parallel_for);
   }
   frame.species = elements_of(frame.texts[0], frame.texts[1]);
+  frame.notes.emplace_back(elements_are_guessed);
   std::erase_if(frame.texts, [&](const TextColumn& column) {
     const bool unread = !is_wanted(wanted, column.name);
     if (unread) frame.unread.push_back(column.name);

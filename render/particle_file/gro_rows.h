@@ -19,6 +19,7 @@ struct GroRows {
   std::string_view text;         ///< whole lines, as many as rows
   std::size_t rows = 0;          ///< at least 1
   std::uint64_t first_line = 1;  ///< in the file, from 1
+  bool lenient = false;          ///< as ParticleFileOptions
 };
 
 /// Reads rows into `frame`: positions, the species "element" that names tell (element_guess.h), the

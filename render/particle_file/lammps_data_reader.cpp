@@ -15,11 +15,12 @@
 namespace boule {
 namespace {
 
-TextRows rows_of(const DataSection& section) {
+TextRows rows_of(const DataSection& section, bool lenient) {
   return {.text = section.text,
           .rows = static_cast<std::size_t>(section.rows),
           .first_line = section.line,
-          .comments = true};
+          .comments = true,
+          .lenient = lenient};
 }
 
 class LammpsDataReader : public ParticleReader {
@@ -60,7 +61,7 @@ class LammpsDataReader : public ParticleReader {
     if (auto wrong = columns.check_positions()) {
       return error_at_line(atoms.line, wrong->message, wrong->key);
     }
-    TextRows rows = rows_of(atoms);
+    TextRows rows = rows_of(atoms, options_.lenient);
     rows.positive = options_.positive;
     if (auto wrong = read_text_rows(rows, columns.columns(), read, parallel_for)) return wrong;
     return sort_by_id(read, atoms.line, parallel_for);
@@ -78,8 +79,8 @@ class LammpsDataReader : public ParticleReader {
       names.insert(names.end(), {"wx", "wy", "wz"});
     }
     for (const std::string& name : names) columns.add(name, "0");
-    if (auto wrong =
-            read_text_rows(rows_of(section), columns.columns(), velocities, parallel_for)) {
+    if (auto wrong = read_text_rows(rows_of(section, options_.lenient), columns.columns(),
+                                    velocities, parallel_for)) {
       return wrong;
     }
     if (auto twice = sort_by_id(velocities, section.line, parallel_for)) return twice;

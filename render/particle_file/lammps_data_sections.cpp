@@ -37,8 +37,20 @@ double units_of(std::string_view first_line) {
   return 1;
 }
 
-bool is_box_keyword(std::string_view word) {
-  return word == "xlo" || word == "ylo" || word == "zlo" || word == "xy";
+/// A line of the header that tells something of the box: so many numbers, then this word.
+struct BoxLine {
+  std::string_view keyword;
+  std::size_t numbers;
+};
+constexpr std::array box_lines{BoxLine{"xlo", 2},  BoxLine{"ylo", 2},  BoxLine{"zlo", 2},
+                               BoxLine{"xy", 3},   BoxLine{"avec", 3}, BoxLine{"bvec", 3},
+                               BoxLine{"cvec", 3}, BoxLine{"abc", 3}};
+constexpr std::size_t tilts_line = 3, first_edge_line = 4, origin_line = 7;
+
+std::size_t box_line_of(std::string_view word) {
+  const auto* const found = std::find_if(box_lines.begin(), box_lines.end(),
+                                         [&](const BoxLine& l) { return l.keyword == word; });
+  return static_cast<std::size_t>(found - box_lines.begin());
 }
 
 class SectionFinder {
@@ -76,9 +88,11 @@ class SectionFinder {
     const std::uint64_t number = lines_.line();
     const std::string_view line = lines_.next();
     const auto words = words_of(without_comment(line));
-    const auto keyword = std::find_if(words.begin(), words.end(), is_box_keyword);
+    const auto keyword = std::find_if(words.begin(), words.end(), [](std::string_view word) {
+      return box_line_of(word) < box_lines.size();
+    });
     if (keyword != words.end()) {
-      return box_line(number, line, {words.begin(), keyword}, std::string(*keyword));
+      return box_line(number, line, {words.begin(), keyword}, box_line_of(*keyword));
     }
     const std::size_t names = static_cast<std::size_t>(
         std::find_if(words.begin(), words.end(), [](auto w) { return is_letter(w.front()); }) -
@@ -96,49 +110,68 @@ class SectionFinder {
   }
 
   Status box_line(std::uint64_t number, std::string_view line,
-                  const std::vector<std::string_view>& words, const std::string& name) {
-    double LammpsBox::*tilts[] = {&LammpsBox::xy, &LammpsBox::xz, &LammpsBox::yz};
-    double Vec3d::*axes[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
-    constexpr std::array lows{"xlo", "ylo", "zlo"};
-    const auto axis = std::find(lows.begin(), lows.end(), name) - lows.begin();
-    const bool is_tilt = name == "xy";
-    std::array<double, 3> numbers{};
-    const std::size_t count = is_tilt ? 3 : 2;
+                  const std::vector<std::string_view>& words, std::size_t which) {
+    const std::string name(box_lines[which].keyword);
+    const std::size_t count = box_lines[which].numbers;
+    Vec3d found;
+    const std::array<double*, 3> numbers{&found.x, &found.y, &found.z};
     for (std::size_t i = 0; i < std::min(count, words.size()); ++i) {
       const auto value = number_in(words[i]);
       if (!value || !std::isfinite(*value)) {
         return error_at_word(number, line, words[i],
                              "expected a finite number, found " + quote(words[i]), name);
       }
-      numbers[i] = *value;
+      *numbers[i] = *value;
     }
     if (words.size() != count) {
       return error_at_line(
           number, "expected " + std::to_string(count) + " numbers before " + quote(name), name);
     }
-    if (is_tilt) {
-      for (std::size_t i = 0; i < 3; ++i) box_.*tilts[i] = numbers[i];
-    } else {
-      if (numbers[1] < numbers[0]) {
-        return error_at_line(number, "the box has a negative length along " + name.substr(0, 1),
-                             name);
-      }
-      has_bounds_[static_cast<std::size_t>(axis)] = true;
-      box_.lo.*axes[axis] = numbers[0];
-      box_.hi.*axes[axis] = numbers[1];
+    if (which < tilts_line && found.y < found.x) {
+      return error_at_line(number, "the box has a negative length along " + name.substr(0, 1),
+                           name);
     }
+    has_box_line_[which] = true;
+    take_box_line(which, found);
     return std::nullopt;
   }
 
-  /// Makes the cell of the box. What the header leaves out is as LAMMPS takes it.
-  Status keep_box() {
-    if (std::count(has_bounds_.begin(), has_bounds_.end(), true) == 0) return std::nullopt;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (has_bounds_[axis]) continue;
-      const std::string name(1, static_cast<char>('x' + axis));
-      found_.notes.push_back("it has no line " + name + "lo " + name + "hi, taken as -0.5 0.5");
+  void take_box_line(std::size_t which, const Vec3d& numbers) {
+    constexpr std::array axes{&Vec3d::x, &Vec3d::y, &Vec3d::z};
+    constexpr std::array edges{&ParticleCell::a, &ParticleCell::b, &ParticleCell::c};
+    if (which < tilts_line) {
+      box_.lo.*axes[which] = numbers.x;
+      box_.hi.*axes[which] = numbers.y;
+    } else if (which == tilts_line) {
+      box_.xy = numbers.x, box_.xz = numbers.y, box_.yz = numbers.z;
+    } else if (which == origin_line) {
+      general_.origin = numbers;
+    } else {
+      general_.*edges[which - first_edge_line] = numbers;
     }
-    found_.cell = cell_of(box_);
+  }
+
+  [[nodiscard]] bool has_any(std::size_t first, std::size_t count) const {
+    return std::any_of(has_box_line_.begin() + static_cast<std::ptrdiff_t>(first),
+                       has_box_line_.begin() + static_cast<std::ptrdiff_t>(first + count),
+                       [](bool has) { return has; });
+  }
+
+  /// Makes the cell of the box, by its edges or by its bounds. What the header leaves out is as
+  /// LAMMPS takes it.
+  Status keep_box() {
+    const bool by_edges = has_any(first_edge_line, 4);
+    if (!by_edges && !has_any(0, 3)) return std::nullopt;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string bound(1, static_cast<char>('x' + axis));
+      const std::string edge(1, static_cast<char>('a' + axis));
+      if (by_edges && !has_box_line_[first_edge_line + axis]) {
+        found_.notes.push_back("it has no line " + edge + "vec, taken as 1 along " + bound);
+      } else if (!by_edges && !has_box_line_[axis]) {
+        found_.notes.push_back("it has no line " + bound + "lo " + bound + "hi, taken as -0.5 0.5");
+      }
+    }
+    found_.cell = by_edges ? general_ : cell_of(box_);
     if (is_finite(*found_.cell)) return std::nullopt;
     return error_at_line(lines_.line(), "the box is larger than the largest number", "xlo");
   }
@@ -204,7 +237,9 @@ class SectionFinder {
   DataSections found_;
   std::vector<std::string> elements_;
   LammpsBox box_;
-  std::array<bool, 3> has_bounds_{};
+  ParticleCell general_{
+      .a = {1, 0, 0}, .b = {0, 1, 0}, .c = {0, 0, 1}, .origin = {}, .periodic = {true, true, true}};
+  std::array<bool, box_lines.size()> has_box_line_{};
   bool has_count_ = false;  ///< of atoms
 };
 

@@ -56,7 +56,7 @@ Result<std::unique_ptr<ParticleReader>> open_mmcif(MappedText bytes,
   if (auto no_room = check_memory(document_bytes(bytes.text()), "reading it needs")) {
     return *no_room;
   }
-  auto frames = read_cif_frames(bytes.text(), options.water, options.wanted);
+  auto frames = read_cif_frames(bytes.text(), options);
   if (!frames) return frames.error();
   return std::unique_ptr<ParticleReader>(std::make_unique<MmcifReader>(std::move(frames).value()));
 }

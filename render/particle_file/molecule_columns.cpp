@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "render/particle_file/element_guess.h"
+
 namespace boule {
 namespace {
 
@@ -58,6 +60,12 @@ std::uint32_t MoleculeColumns::Texts::add(std::string_view text) {
   return found->second;
 }
 
+MoleculeColumns::MoleculeColumns(MoleculeKind kind, bool water) : kind_(kind), keeps_water_(water) {
+  if (kind != MoleculeKind::charges) return;
+  occupancies_.name = "charge";
+  b_factors_.name = "radius";
+}
+
 void MoleculeColumns::reserve(std::size_t atoms) {
   positions_.reserve(atoms);
   for (NumberColumn* column : {&ids_, &residue_numbers_, &occupancies_, &b_factors_}) {
@@ -103,6 +111,7 @@ void MoleculeColumns::add(const MoleculeAtom& atom) {
   b_factors_.values.push_back(atom.b_factor);
   is_water_.push_back(is_water(atom.residue));
   if (is_water_.back()) ++water_;
+  if (atom.is_guessed) ++guessed_;
 }
 
 void MoleculeColumns::leave_out_water(ParticleFrame& frame) const {
@@ -137,6 +146,7 @@ ParticleFrame MoleculeColumns::finish(const std::optional<std::vector<std::strin
   keep(frame.texts, residues_.column, MoleculeKind::residues);
   keep(frame.texts, chains_.column, MoleculeKind::residues);
   if (!keeps_water_ && water_ > 0 && water_ < frame.size()) leave_out_water(frame);
+  if (guessed_ > 0) frame.notes.emplace_back(elements_are_guessed);
   if (alternatives_ > 0) {
     frame.notes.push_back(count_of(alternatives_) + " left out: other alternative locations");
   }

@@ -16,7 +16,9 @@ namespace boule {
 /// An atom of a molecule. The texts are views of memory that must last as long as the call.
 struct MoleculeAtom {
   Vec3d position;
-  std::string_view element, name;
+  std::string_view element;
+  bool is_guessed = false;  ///< the file does not tell the element
+  std::string_view name;
   std::string_view residue, chain;  ///< names
   std::string_view insertion;       ///< residue's insertion code; empty: none
   std::string_view alternative;     ///< location; empty: the only one
@@ -27,13 +29,14 @@ struct MoleculeAtom {
 enum class MoleculeKind {
   residues,  ///< of proteins: "id", "resid", "occupancy", "bfactor"; "name", "resname", "chain"
   sites,     ///< of small molecules: "id", "occupancy"; "name"
+  charges,   ///< as residues, with "charge" and "radius" in place of occupancy and B factor
 };
 
 /// A frame of molecules that grows atom by atom. Only the first of alternative locations is kept:
 /// of an atom, and of residues that have one place in the chain.
 class MoleculeColumns {
  public:
-  MoleculeColumns(MoleculeKind kind, bool water) : kind_(kind), keeps_water_(water) {}
+  MoleculeColumns(MoleculeKind kind, bool water);
 
   void reserve(std::size_t atoms);
   void add(const MoleculeAtom& atom);
@@ -64,7 +67,7 @@ class MoleculeColumns {
   Texts elements_{{"element", {}, {}}}, names_{{"name", {}, {}}}, residues_{{"resname", {}, {}}},
       chains_{{"chain", {}, {}}};
   std::vector<bool> is_water_;
-  std::size_t water_ = 0, alternatives_ = 0;
+  std::size_t water_ = 0, alternatives_ = 0, guessed_ = 0;
 
   // The residue that the last atom belongs to.
   std::string place_;                   // chain, number, insertion code

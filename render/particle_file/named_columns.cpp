@@ -3,19 +3,39 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
+#include "render/particle_file/element_guess.h"
 #include "render/particle_file/text_number.h"
 
 namespace boule {
 namespace {
 
-/// The shortest text of a number: 1 is "1".
 std::string shortest_text(double value) {
+  if (std::isnan(value)) return {};
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
+}
+
+}  // namespace
+
+bool is_atomic_number_name(std::string_view name) {
+  constexpr std::array names{"element", "symbol", "atomic_number", "atomic_numbers"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool take_atomic_numbers(TextColumn& species) {
+  std::vector<std::string> symbols;
+  for (const std::string& text : species.texts) {
+    const auto number = count_in(text);
+    if (!number || *number > last_element) return false;
+    symbols.emplace_back(element_of_number(static_cast<std::size_t>(*number)));
+  }
+  species.texts = std::move(symbols);
+  return true;
 }
 
 TextColumn texts_of(const NumberColumn& numbers) {
@@ -26,8 +46,10 @@ TextColumn texts_of(const NumberColumn& numbers) {
   std::uint32_t last_index = 0;
   for (const double value : numbers.values) {
     if (column.texts.empty() || value != last) {
+      // No NaN is the same as another; infinity is no value of a column.
+      const double key = std::isnan(value) ? HUGE_VAL : value;
       const auto [found, is_new] =
-          known.try_emplace(value, static_cast<std::uint32_t>(column.texts.size()));
+          known.try_emplace(key, static_cast<std::uint32_t>(column.texts.size()));
       if (is_new) column.texts.push_back(shortest_text(value));
       last = value;
       last_index = found->second;
@@ -37,14 +59,12 @@ TextColumn texts_of(const NumberColumn& numbers) {
   return column;
 }
 
-}  // namespace
-
 void NamedColumns::add(const std::string& name, std::string_view example) {
   constexpr std::array axes{"x", "y", "z"};
   const auto axis = std::find(axes.begin(), axes.end(), name);
   if (axis != axes.end()) {
     add_position(name, static_cast<std::size_t>(axis - axes.begin()));
-  } else if (name == "element" || name == "species") {
+  } else if (name == "species" || (is_atomic_number_name(name) && name != "symbol")) {
     add_species(name);
   } else if (name == "-") {
     add_skipped(name);
@@ -94,6 +114,9 @@ Status NamedColumns::check_positions() const {
 }
 
 void NamedColumns::finish() {
+  if (frame_.species && is_atomic_number_name(frame_.species->name)) {
+    take_atomic_numbers(*frame_.species);
+  }
   take_types_as_species(frame_, wants("type"));
   const auto is_unwanted = [this](const auto& column) { return !wants(column.name); };
   std::erase_if(frame_.texts, is_unwanted);

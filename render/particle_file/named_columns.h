@@ -13,8 +13,8 @@
 
 namespace boule {
 
-/// Columns that are known by their names: "x", "y", "z" are the position, "element" or "species"
-/// the species, "-" is skipped, and all others are kept under their names.
+/// Columns that are known by their names: "x", "y", "z" are the position, "element", "species" or
+/// "atomic_number" the species, "-" is skipped, and all others are kept under their names.
 class NamedColumns {
  public:
   /// `wanted` as in ParticleFileOptions; `frame` gets the columns.
@@ -34,8 +34,8 @@ class NamedColumns {
   void add_kept(const std::string& name, ColumnUse use);  ///< number, logical or text
   void add_skipped(const std::string& name) { columns_.push_back({name, ColumnUse::skipped, 0}); }
 
-  /// What is to be done when the rows are read: takes types as species, and drops what was
-  /// read for such ends only.
+  /// What is to be done when the rows are read: makes atomic numbers elements, takes types as
+  /// species, and drops what was read for such ends only.
   void finish();
 
   /// True if a column of this name is to be kept.
@@ -51,6 +51,16 @@ class NamedColumns {
   ParticleFrame& frame_;
   std::vector<TextRowColumn> columns_;
 };
+
+/// True for the names under which atomic numbers stand: "element", "atomic_numbers", ...
+bool is_atomic_number_name(std::string_view name);
+
+/// Makes atomic numbers, all of them whole and from 0 (which is "X") to 118, symbols of elements.
+/// False, and nothing changes, for other texts.
+bool take_atomic_numbers(TextColumn& species);
+
+/// The shortest texts of numbers: 1 is "1". What is missing is "".
+TextColumn texts_of(const NumberColumn& numbers);
 
 /// A name that stands twice among names of columns, if one does; "" and "-" may.
 std::optional<std::string> find_repeated(std::vector<std::string> names);

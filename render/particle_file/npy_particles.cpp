@@ -15,23 +15,23 @@ namespace {
 class NpyReader : public ParticleReader {
  public:
   NpyReader(MappedText bytes, std::size_t header_bytes, BinaryTable table,
-            std::optional<std::vector<std::string>> wanted)
+            ParticleFileOptions options)
       : bytes_(std::move(bytes)),
         header_bytes_(header_bytes),
         table_(std::move(table)),
-        wanted_(std::move(wanted)) {}
+        options_(std::move(options)) {}
 
   [[nodiscard]] std::size_t frames() const override { return 1; }
 
   Result<ParticleFrame> read(std::size_t, const ParallelFor& parallel_for) override {
-    return read_binary_table(table_, bytes_.text().data() + header_bytes_, wanted_, parallel_for);
+    return read_binary_table(table_, bytes_.text().data() + header_bytes_, options_, parallel_for);
   }
 
  private:
   MappedText bytes_;
   std::size_t header_bytes_;
   BinaryTable table_;
-  std::optional<std::vector<std::string>> wanted_;
+  ParticleFileOptions options_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_npy(MappedText bytes,
@@ -47,7 +47,7 @@ Result<std::unique_ptr<ParticleReader>> open_npy(MappedText bytes,
   if (auto bad = check_binary_columns(table.value())) return *bad;
   const auto header_bytes = static_cast<std::size_t>(header.value().size);
   return std::unique_ptr<ParticleReader>(std::make_unique<NpyReader>(
-      std::move(bytes), header_bytes, std::move(table).value(), options.wanted));
+      std::move(bytes), header_bytes, std::move(table).value(), options));
 }
 
 bool starts_like_npy(std::string_view start) { return start.starts_with("\x93NUMPY"); }

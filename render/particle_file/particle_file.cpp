@@ -6,9 +6,11 @@
 
 #include "core/base/ascii.h"
 #include "core/base/float_environment.h"
+#include "render/file/input_file.h"
 #include "render/file/mapped_text.h"
 #include "render/file/npz_member.h"
 #include "render/particle_file/named_columns.h"
+#include "render/particle_file/other_formats.h"
 #include "render/particle_file/particle_format.h"
 
 namespace boule {
@@ -85,13 +87,13 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
   return Diagnostic::in_file(path,
                              "neither its ending nor its content tells a format of particle files, "
                              "expected one of " +
-                                 known_particle_endings());
+                                 known_particle_endings() + advice_for(path));
 }
 
 /// An error about names for columns, if the format leaves nothing to be named, or if one of them
 /// occurs twice.
 Status check_columns(const std::vector<std::string>& columns, std::string_view format) {
-  constexpr std::array fixed{"ply", "gro", "pdb", "mmcif"};
+  constexpr std::array fixed{"ply", "gro", "pdb", "pqr", "mmcif"};
   if (!columns.empty() && std::count(fixed.begin(), fixed.end(), format) > 0) {
     return Diagnostic::about("columns",
                              "a file of the format " + quote(format) + " names its columns itself");
@@ -103,7 +105,7 @@ Status check_columns(const std::vector<std::string>& columns, std::string_view f
 
 Result<MappedText> open_bytes(const std::string& path) {
   const auto in_archive = npz_name(path);
-  if (!in_archive) return MappedText::open(path);
+  if (!in_archive) return MappedText::open(path, MappedText::Cut::keep);
   auto bytes = read_npz_array(*in_archive);
   if (!bytes) return bytes.error();
   return MappedText::of(std::move(bytes).value());
@@ -171,23 +173,41 @@ Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleF
   const auto format = find_format(path, bytes.value().text(), options.format);
   if (!format) return in_file(format.error(), path);
   if (auto wrong = check_columns(options.columns, format.value()->name)) return *wrong;
+  const Status cut = bytes.value().cut();
   auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
+  if (cut && !(reader && format.value()->is_trajectory)) return cannot_read(path, cut->message);
   if (!reader) return in_file(reader.error(), path);
-  return ParticleFile(path, format.value()->name, std::move(reader).value());
+  ParticleFile opened(path, format.value()->name, std::move(reader).value());
+  opened.cut_ = cut;
+  return opened;
+}
+
+std::string ParticleFile::cut_text() const {
+  const Status cut = reader_->cut();
+  if (!cut && cut_) {
+    return "the file is cut off behind frame " + std::to_string(frames() - 1) + ": " +
+           cut_->message;
+  }
+  if (!cut) return {};
+  return "the file is cut off in frame " + std::to_string(frames()) + " (line " +
+         std::to_string(cut->line) + ": " + cut->message + ")";
 }
 
 Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
   const auto count = static_cast<long>(frames());
   if (frame < -count || frame >= count) {
+    const std::string cut = frame == count ? cut_text() : std::string();
     return Diagnostic{.message = "there is no frame " + std::to_string(frame) + ", it has " +
-                                 std::to_string(count) + (count == 1 ? " frame" : " frames"),
+                                 std::to_string(count) + (count == 1 ? " frame" : " frames") +
+                                 (cut.empty() ? "" : ": ") + cut,
                       .key = "frame",
                       .file = path_};
   }
   auto read =
       reader_->read(static_cast<std::size_t>(frame < 0 ? frame + count : frame), parallel_for);
   if (!read) return in_file(read.error(), path_);
+  if (std::string cut = cut_text(); !cut.empty()) read.value().notes.push_back(std::move(cut));
   return read;
 }
 

@@ -25,6 +25,9 @@ struct ParticleFileOptions {
   /// A column whose numbers must be above 0: the first that is not is an error with its place, in
   /// formats of text rows (xyz, dump, data, table). Empty: none.
   std::string positive{};
+  /// What is no finite number in a column besides the positions is an error, but for missing ones.
+  /// With this it is kept: infinite, or missing where it is no number at all.
+  bool lenient = false;
 };
 
 /// The names of all formats ("xyz", "dump", ...), and the list of their endings for messages.
@@ -46,8 +49,12 @@ class ParticleReader {
   ParticleReader& operator=(const ParticleReader&) = delete;
   virtual ~ParticleReader() = default;
 
-  /// How many frames the file has, >= 1.
+  /// How many whole frames the file has, >= 1.
   [[nodiscard]] virtual std::size_t frames() const = 0;
+
+  /// What is wrong with the frame behind these, where the file was cut off in one: a message and
+  /// a line. None: the file ends with a whole frame.
+  [[nodiscard]] virtual Status cut() const { return std::nullopt; }
 
   /// Frame `frame`, from 0. The Diagnostic has line, column and, as its key, the column's name
   /// where they are known; its file is set by ParticleFile. Precondition: frame < frames().
@@ -67,8 +74,11 @@ class ParticleFile {
 
   [[nodiscard]] std::size_t frames() const { return reader_->frames(); }
 
+  /// "the file is cut off in frame 2 (line 13: it ...)"; empty if it is not.
+  [[nodiscard]] std::string cut_text() const;
+
   /// A frame, from 0; negative numbers count from the end, -1 is the last. An error if there is no
-  /// such frame.
+  /// such frame. Where the file was cut off behind its whole frames, a note says so.
   Result<ParticleFrame> read(long frame = -1, const ParallelFor& parallel_for = serial_for);
 
   /// The name of the format that was found.
@@ -80,6 +90,7 @@ class ParticleFile {
   std::string path_;
   std::string_view format_;
   std::unique_ptr<ParticleReader> reader_;
+  Status cut_;  ///< of the packed bytes
 };
 
 }  // namespace boule

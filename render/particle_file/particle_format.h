@@ -27,6 +27,8 @@ struct ParticleFormat {
   Result<std::unique_ptr<ParticleReader>> (*open)(MappedText bytes,
                                                   const ParticleFileOptions& options,
                                                   const ParallelFor& parallel_for);
+  /// Whether files hold many frames, of which the whole ones are read where the file is cut off.
+  bool is_trajectory = false;
 };
 
 /// All formats, in the order in which a file's content is compared with them.

@@ -1,6 +1,8 @@
 #include "render/particle_file/particle_frame.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/math/geometry.h"
 
@@ -18,6 +20,22 @@ const Column* find_column(const std::vector<Column>& columns, const std::string&
 
 bool is_finite(const ParticleCell& cell) {
   return is_finite(cell.a) && is_finite(cell.b) && is_finite(cell.c) && is_finite(cell.origin);
+}
+
+ColumnExtent extent_of(const NumberColumn& column) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  ColumnExtent extent{inf, -inf};
+  for (const double value : column.values) {
+    if (std::isnan(value)) {
+      ++extent.missing;
+    } else if (std::isinf(value)) {
+      ++extent.infinite;
+    } else {
+      extent.least = std::min(extent.least, value);
+      extent.largest = std::max(extent.largest, value);
+    }
+  }
+  return extent;
 }
 
 const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name) {

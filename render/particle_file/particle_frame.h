@@ -22,11 +22,20 @@ struct ParticleCell {
 /// True if all of the cell's numbers are finite.
 bool is_finite(const ParticleCell& cell);
 
-/// A number of every particle, under its name in the file; whole numbers are exact up to 2^53.
+/// A number of every particle, under its name in the file; whole numbers are exact up to 2^53. NaN
+/// stands for a missing one.
 struct NumberColumn {
   std::string name;
   std::vector<double> values;  ///< by particle
 };
+
+/// The extent of a column's numbers.
+struct ColumnExtent {
+  double least = 0,
+         largest = 0;  ///< of the finite ones; least > largest if all are missing or infinite
+  std::size_t missing = 0, infinite = 0;
+};
+ColumnExtent extent_of(const NumberColumn& column);
 
 /// A text of every particle, such as the name of a residue: an index into the list of different
 /// texts.
@@ -37,7 +46,8 @@ struct TextColumn {
 };
 
 /// One frame of a particle file, in the units of the file (lengths of GROMACS files: nm). All
-/// lists by particle have as many entries as `positions`, and all numbers are finite.
+/// lists by particle have as many entries as `positions`, which are finite. So are all numbers that
+/// are there, unless the file was read with ParticleFileOptions::lenient.
 struct ParticleFrame {
   std::vector<Vec3d> positions;
   /// The particles' kinds: elements ("C", "Fe") if the file has them, otherwise types ("1"). Empty

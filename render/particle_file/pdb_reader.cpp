@@ -16,13 +16,14 @@ namespace {
 
 class PdbReader : public ParticleReader {
  public:
-  PdbReader(MappedText bytes, ParticleFileOptions options, std::vector<PdbFrame> frames)
+  PdbReader(MappedText bytes, ParticleFileOptions options, FramePlaces<PdbFrame> frames)
       : bytes_(std::move(bytes)), options_(std::move(options)), frames_(std::move(frames)) {}
 
-  [[nodiscard]] std::size_t frames() const override { return frames_.size(); }
+  [[nodiscard]] std::size_t frames() const override { return frames_.frames.size(); }
+  [[nodiscard]] Status cut() const override { return frames_.cut; }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
-    const PdbFrame& place = frames_[frame];
+    const PdbFrame& place = frames_.frames[frame];
     const auto atoms = static_cast<std::size_t>(place.atoms);
     if (auto no_room = check_memory(place.atoms * MoleculeColumns::atom_bytes,
                                     std::to_string(atoms) + " atoms need")) {
@@ -54,7 +55,8 @@ class PdbReader : public ParticleReader {
   /// Gives gemmi so many records at once that its own structures stay small.
   Status read_atoms(const PdbFrame& place, MoleculeColumns& columns) const {
     constexpr std::size_t most_at_once = 10000;
-    const PdbFields fields{.occupancy = wants("occupancy"), .b_factor = wants("bfactor")};
+    const PdbFields fields{
+        .occupancy = wants("occupancy"), .b_factor = wants("bfactor"), .lenient = options_.lenient};
     TextLines lines(bytes_.text().substr(place.begin, place.end - place.begin));
     PdbRecords records;
     const auto flush = [&] { return add_pdb_atoms(std::exchange(records, {}), columns); };
@@ -71,14 +73,14 @@ class PdbReader : public ParticleReader {
 
   MappedText bytes_;
   ParticleFileOptions options_;
-  std::vector<PdbFrame> frames_;
+  FramePlaces<PdbFrame> frames_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_pdb(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
   if (!has_gemmi()) return Diagnostic::of("this build of Boule lacks gemmi's reader of PDB files");
-  auto frames = find_pdb_frames(bytes.text());
+  auto frames = find_pdb_frames(bytes.text(), bytes.cut().has_value());
   if (!frames) return frames.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<PdbReader>(std::move(bytes), options, std::move(frames).value()));
@@ -97,6 +99,7 @@ bool starts_like_pdb(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat pdb_format = {"pdb", {"pdb", "ent"}, starts_like_pdb, open_pdb};
+constinit const ParticleFormat pdb_format = {
+    "pdb", {"pdb", "ent"}, starts_like_pdb, open_pdb, true};
 
 }  // namespace boule

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/particle_file/text_lines.h"
 #include "render/particle_file/text_number.h"
@@ -16,6 +17,7 @@ struct PdbField {
   std::size_t begin, width;
 };
 constexpr std::array positions{PdbField{"x", 30, 8}, PdbField{"y", 38, 8}, PdbField{"z", 46, 8}};
+constexpr std::size_t positions_end = 54;
 constexpr PdbField occupancy{"occupancy", 54, 6}, b_factor{"bfactor", 60, 6};
 constexpr std::array cell_fields{PdbField{"a", 6, 9},     PdbField{"b", 15, 9},
                                  PdbField{"c", 24, 9},    PdbField{"alpha", 33, 7},
@@ -33,7 +35,7 @@ std::string_view field_text(std::string_view line, const PdbField& field) {
   return without_blanks(line.substr(std::min(field.begin, line.size()), field.width));
 }
 
-constexpr std::size_t width = 80, id_begin = 72, element_end = 78;
+constexpr std::size_t width = 80, id_begin = 72, element_begin = 76, element_end = 78;
 
 /// Adds a line that has the first bytes of this one, blanks for what cannot be printed.
 void add_line(std::string_view line, std::size_t bytes, std::string& records) {
@@ -46,10 +48,16 @@ void add_line(std::string_view line, std::size_t bytes, std::string& records) {
   }
 }
 
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
 /// True for lines of files from before 1996, which end with the entry's name and a number: their
-/// letters are no elements.
+/// letters are no elements. A digit in the last column alone may be a charge.
 bool has_line_number(std::string_view line) {
-  return line.size() >= width && is_digit(line[79]) && (is_digit(line[78]) || line[78] == ' ');
+  const auto is_number = [&](std::size_t i) { return is_digit(line[i]) || line[i] == ' '; };
+  return line.size() >= width && is_digit(line[id_begin]) && is_digit(line[79]) && is_number(78) &&
+         std::all_of(line.begin() + id_begin, line.begin() + element_begin,
+                     [](char c) { return is_digit(c) || is_letter(c); }) &&
+         is_number(77);
 }
 
 Result<double> number_of(std::string_view line, std::uint64_t line_number, const PdbField& field,
@@ -75,9 +83,9 @@ Result<double> number_of(std::string_view line, std::uint64_t line_number, const
 
 class PdbFrameFinder {
  public:
-  explicit PdbFrameFinder(std::string_view text) : lines_(text) {}
+  PdbFrameFinder(std::string_view text, bool is_cut) : text_(text), lines_(text), is_cut_(is_cut) {}
 
-  Result<std::vector<PdbFrame>> run() {
+  Result<FramePlaces<PdbFrame>> run() {
     begin_frame();
     while (!lines_.at_end()) {
       const std::size_t offset = lines_.offset();
@@ -85,15 +93,17 @@ class PdbFrameFinder {
       const std::string_view line = lines_.next();
       if (is_pdb_atom(line)) {
         ++frame_.atoms;
+        is_part_ = lines_.at_end() && line.size() < positions_end && !text_.ends_with('\n');
       } else if (is_record(line, "CRYST1")) {
         frame_.cell = offset;
         frame_.cell_line = number;
       } else if (is_record(line, "MODEL") || is_record(line, "END")) {
         finish_frame(offset);
+        in_model_ = is_record(line, "MODEL");
       }
     }
-    finish_frame(lines_.offset());
-    if (!frames_.empty()) return std::move(frames_);
+    if (!find_cut()) finish_frame(lines_.offset());
+    if (!found_.frames.empty()) return std::move(found_);
     return Diagnostic::of("it holds no atoms: no record begins with ATOM or HETATM");
   }
 
@@ -107,19 +117,44 @@ class PdbFrameFinder {
 
   void finish_frame(std::size_t end) {
     frame_.end = end;
-    if (frame_.atoms > 0) frames_.push_back(frame_);
+    if (frame_.atoms > 0) {
+      found_.frames.push_back(frame_);
+      are_alike_ = are_alike_ && frame_.atoms == found_.frames.front().atoms;
+    }
     begin_frame();
   }
 
+  /// Notes if what is left at the end of the file is a part of a frame.
+  bool find_cut() {
+    if (frame_.atoms == 0) return false;
+    if (is_cut_) {
+      found_.cut = error_at_line(lines_.line() - 1, "the file ends in it");
+      return true;
+    }
+    if (found_.frames.empty()) return false;
+    const std::uint64_t before = found_.frames.back().atoms;
+    const bool is_trajectory = in_model_ || (are_alike_ && found_.frames.size() > 1);
+    if (!is_part_ && !(is_trajectory && frame_.atoms < before)) return false;
+    found_.cut = error_at_line(lines_.line() - 1,
+                               "the file ends after " + std::to_string(frame_.atoms) +
+                                   " of its atoms, the frame before has " + std::to_string(before));
+    return true;
+  }
+
+  std::string_view text_;
   TextLines lines_;
+  bool is_cut_;
   PdbFrame frame_;
-  std::vector<PdbFrame> frames_;
+  bool in_model_ = false;
+  bool are_alike_ = true;  ///< frames have the same number of atoms
+  bool is_part_ = false;   ///< the last record
+  FramePlaces<PdbFrame> found_;
 };
 
 }  // namespace
 
-Result<std::vector<PdbFrame>> find_pdb_frames(std::string_view text) {
-  return PdbFrameFinder(text).run();
+Result<FramePlaces<PdbFrame>> find_pdb_frames(std::string_view text, bool is_cut) {
+  return PdbFrameFinder(text, is_cut).run();
 }
 
 bool is_pdb_atom(std::string_view line) {
@@ -138,14 +173,24 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
   if (auto wrong = read(positions[0], numbers.position.x)) return wrong;
   if (auto wrong = read(positions[1], numbers.position.y)) return wrong;
   if (auto wrong = read(positions[2], numbers.position.z)) return wrong;
-  if (fields.occupancy && !field_text(line, occupancy).empty()) {
-    if (auto wrong = read(occupancy, numbers.occupancy)) return wrong;
-  }
-  if (fields.b_factor && !field_text(line, b_factor).empty()) {
-    if (auto wrong = read(b_factor, numbers.b_factor)) return wrong;
-  }
+  // May be missing, and blank.
+  const auto read_factor = [&](bool is_wanted, const PdbField& field, double& target) -> Status {
+    const std::string_view text = field_text(line, field);
+    if (!is_wanted || text.empty()) return std::nullopt;
+    const auto number = number_in(text);
+    const bool is_missing = number ? std::isnan(*number) : fields.lenient;
+    if (!is_missing && !(number && fields.lenient)) return read(field, target);
+    target = number.value_or(std::numeric_limits<double>::quiet_NaN());
+    return std::nullopt;
+  };
+  if (auto wrong = read_factor(fields.occupancy, occupancy, numbers.occupancy)) return wrong;
+  if (auto wrong = read_factor(fields.b_factor, b_factor, numbers.b_factor)) return wrong;
   const std::size_t first = records.lines.size() + positions[0].begin;
   add_line(line, has_line_number(line) ? id_begin : element_end, records.lines);
+  for (std::size_t i = element_begin; i < element_end; ++i) {  // a charge may stand there
+    char& c = records.lines[records.lines.size() - 1 - width + i];
+    if (!is_letter(c)) c = ' ';
+  }
   const std::size_t count = b_factor.begin + b_factor.width - positions[0].begin;
   records.lines.replace(first, count, count, ' ');
   records.numbers.push_back(numbers);
@@ -155,17 +200,18 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
 Result<std::string> pdb_cell_records(std::string_view text, std::uint64_t line_number) {
   TextLines lines(text);
   const std::string_view line = lines.next();
-  constexpr PdbField all{"CRYST1", 6, 48};
-  if (field_text(line, all).empty()) return std::string();
+  constexpr PdbField all_edges{"CRYST1", 6, 27};
+  if (field_text(line, all_edges).empty()) return std::string();
   std::array<double, 3> edges{};
   for (std::size_t i = 0; i < cell_fields.size(); ++i) {
+    for (const double none : {0.0, 1.0}) {
+      const bool has_edges = i == edges.size();
+      if (has_edges && std::count(edges.begin(), edges.end(), none) == 3) return std::string();
+    }
     const PdbField& field = cell_fields[i];
     const auto number = number_of(line, line_number, field, std::string("CRYST1.") + field.name);
     if (!number) return number.error();
     if (i < edges.size()) edges[i] = number.value();
-  }
-  for (const double none : {0.0, 1.0}) {
-    if (std::count(edges.begin(), edges.end(), none) == 3) return std::string();
   }
   std::string records;
   add_line(line, width, records);

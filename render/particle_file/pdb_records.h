@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/math/vec.h"
+#include "render/particle_file/frame_places.h"
 
 namespace boule {
 
@@ -21,8 +22,10 @@ struct PdbFrame {
 };
 
 /// Finds the frames that have atoms, at least one. A frame's cell is its own, else that of the
-/// file.
-Result<std::vector<PdbFrame>> find_pdb_frames(std::string_view text);
+/// file. The file was cut off in its last frame if that has no end, and ends with a part of a
+/// record or, in a trajectory, has fewer atoms than the frame before; with `is_cut`, if it has no
+/// end.
+Result<FramePlaces<PdbFrame>> find_pdb_frames(std::string_view text, bool is_cut);
 
 /// True if this line is of an atom.
 bool is_pdb_atom(std::string_view line);
@@ -30,6 +33,7 @@ bool is_pdb_atom(std::string_view line);
 /// Which fields of atoms are read.
 struct PdbFields {
   bool occupancy = true, b_factor = true;
+  bool lenient = false;  ///< as ParticleFileOptions
 };
 
 /// Records of atoms.
@@ -39,7 +43,7 @@ struct PdbRecords {
     Vec3d position;
     double occupancy = 1, b_factor = 0;
   };
-  std::vector<Numbers> numbers;  ///< of each: all finite, the nearest doubles
+  std::vector<Numbers> numbers;  ///< of each: the nearest doubles, positions finite
 };
 
 /// Reads the numbers of an atom's line and adds the line as every reader understands it: printable
@@ -49,7 +53,7 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
                       PdbRecords& records);
 
 /// The records CRYST1 and SCALE that begin with this line, in lines of 80 bytes; nothing if they
-/// give no cell, or edges of 0 or 1, which stand for none. `text` begins with CRYST1.
+/// give no edges, or edges of 0 or 1, which stand for none. `text` begins with CRYST1.
 Result<std::string> pdb_cell_records(std::string_view text, std::uint64_t line_number);
 
 }  // namespace boule

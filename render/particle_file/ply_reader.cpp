@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "render/particle_file/named_columns.h"
@@ -17,10 +16,9 @@ namespace {
 
 class PlyReader : public ParticleReader {
  public:
-  PlyReader(MappedText bytes, std::optional<std::vector<std::string>> wanted, PlyHeader header,
-            PlyVertices vertices)
+  PlyReader(MappedText bytes, ParticleFileOptions options, PlyHeader header, PlyVertices vertices)
       : bytes_(std::move(bytes)),
-        wanted_(std::move(wanted)),
+        options_(std::move(options)),
         header_(std::move(header)),
         vertices_(std::move(vertices)) {}
 
@@ -30,7 +28,7 @@ class PlyReader : public ParticleReader {
     auto frame = header_.encoding == PlyEncoding::ascii
                      ? read_text(parallel_for)
                      : read_binary_table(vertices_.table, bytes_.text().data() + vertices_.begin,
-                                         wanted_, parallel_for);
+                                         options_, parallel_for);
     if (frame) tell_what_is_left_out(frame.value());
     return frame;
   }
@@ -38,7 +36,7 @@ class PlyReader : public ParticleReader {
  private:
   Result<ParticleFrame> read_text(const ParallelFor& parallel_for) {
     ParticleFrame frame;
-    NamedColumns columns(wanted_, frame);
+    NamedColumns columns(options_.wanted, frame);
     for (const BinaryColumn& column : vertices_.table.columns) {
       const bool is_axis = column.name == "x" || column.name == "y" || column.name == "z";
       if (is_axis) {
@@ -51,6 +49,7 @@ class PlyReader : public ParticleReader {
     const TextRows rows{.text = bytes_.text().substr(vertices_.begin, size),
                         .rows = vertices_.table.rows,
                         .first_line = vertices_.line,
+                        .lenient = options_.lenient,
                         .file = &bytes_};
     if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
     for (const BinaryColumn& column : vertices_.table.columns) {
@@ -68,7 +67,7 @@ class PlyReader : public ParticleReader {
     if (found == frame.numbers.end()) return std::nullopt;
     for (std::size_t row = 0; row < found->values.size(); ++row) {
       double& value = found->values[row];
-      if (value < 0 || value > column.divisor) {
+      if (!options_.lenient && (value < 0 || value > column.divisor)) {
         const auto largest = static_cast<std::uint64_t>(column.divisor);
         return error_at_line(vertices_.line + row,
                              "expected a number from 0 to " + std::to_string(largest), column.name);
@@ -88,7 +87,7 @@ class PlyReader : public ParticleReader {
   }
 
   MappedText bytes_;
-  std::optional<std::vector<std::string>> wanted_;
+  ParticleFileOptions options_;
   PlyHeader header_;
   PlyVertices vertices_;
 };
@@ -101,7 +100,7 @@ Result<std::unique_ptr<ParticleReader>> open_ply(MappedText bytes,
   auto vertices = find_ply_vertices(bytes.text(), header.value());
   if (!vertices) return vertices.error();
   return std::unique_ptr<ParticleReader>(std::make_unique<PlyReader>(
-      std::move(bytes), options.wanted, std::move(header).value(), std::move(vertices).value()));
+      std::move(bytes), options, std::move(header).value(), std::move(vertices).value()));
 }
 
 bool starts_like_ply(std::string_view start) {

@@ -50,7 +50,45 @@ std::string_view without_comment_mark(std::string_view line) {
 struct Separation {
   char separator = 0;       ///< as TableHead has it
   std::size_t columns = 0;  ///< between tabs: how many there are; else 0
+  bool decimal_comma = false;
 };
+
+/// True for "0,5", "-1,25e3": a number whose only sign between digits is a comma.
+bool has_decimal_comma(std::string_view text) {
+  return std::count(text.begin(), text.end(), ',') == 1 && number_in(with_decimal_point(text)) &&
+         text.find('.') == std::string_view::npos;
+}
+
+/// True if these texts, some of them at least, are numbers with a decimal comma, and none has a
+/// point.
+bool have_decimal_commas(const std::vector<std::vector<std::string_view>>& lines) {
+  bool any = false;
+  for (const auto& line : lines) {
+    for (const std::string_view text : line) {
+      if (text.find('.') != std::string_view::npos && number_in(text)) return false;
+      any = any || has_decimal_comma(text);
+    }
+  }
+  return any;
+}
+
+/// The columns of all of these lines.
+std::vector<std::vector<std::string_view>> split_all(const std::vector<PlacedLine>& lines,
+                                                     char separator) {
+  std::vector<std::vector<std::string_view>> texts;
+  texts.reserve(lines.size());
+  for (const PlacedLine& line : lines) texts.push_back(split_table_line(line.text, separator));
+  return texts;
+}
+
+/// True if blanks divide numbers with decimal commas: "0,5 1,0 2,25". The last line is a row.
+bool is_of_blanks_and_commas(const std::vector<PlacedLine>& lines) {
+  const auto row = split_table_line(lines.back().text, 0);
+  return std::count_if(row.begin(), row.end(), has_decimal_comma) >= 2 && row.size() >= 3 &&
+         std::all_of(row.begin(), row.end(), [](std::string_view text) {
+           return number_in(with_decimal_point(text)).has_value();
+         });
+}
 
 /// True if all lines have the same number of columns between these, three at least.
 bool separates(char separator, const std::vector<PlacedLine>& lines) {
@@ -89,28 +127,37 @@ bool are_aligned(const std::vector<std::vector<std::string_view>>& lines, std::s
 
 /// The columns between tabs; 0 if tabs are no separator.
 std::size_t find_tab_columns(const std::vector<PlacedLine>& lines) {
-  std::vector<std::vector<std::string_view>> texts;
-  texts.reserve(lines.size());
-  for (const PlacedLine& line : lines) texts.push_back(split_table_line(line.text, '\t'));
+  const auto texts = split_all(lines, '\t');
   const std::size_t columns = count_tab_columns(texts);
   return columns >= 3 && !are_aligned(texts, columns) ? columns : 0;
 }
 
-Separation separation_of(const std::vector<PlacedLine>& lines) {
-  if (const std::size_t columns = find_tab_columns(lines)) return {'\t', columns};
+char separator_of(const std::vector<PlacedLine>& lines) {
   for (const char separator : {';', ','}) {
-    if (separates(separator, lines)) return {separator};
+    if (separates(separator, lines)) return separator;
   }
   const auto count = [&](char separator) {
     return split_table_line(lines.front().text, separator).size();
   };
   for (const char separator : {';', ','}) {  // a row may be too short or too long
-    if (count(separator) >= 3) return {separator};
+    if (count(separator) >= 3) return separator;
   }
   for (const char separator : {';', ','}) {  // a column may be missing
-    if (count(separator) == 2 && count(0) < 3) return {separator};
+    if (count(separator) == 2 && count(0) < 3) return separator;
   }
-  return {};
+  return 0;
+}
+
+Separation separation_of(const std::vector<PlacedLine>& lines) {
+  Separation found;
+  if (const std::size_t columns = find_tab_columns(lines)) {
+    found = {'\t', columns};
+  } else if (!is_of_blanks_and_commas(lines)) {
+    found.separator = separator_of(lines);
+  }
+  if (found.separator == ',') return found;
+  found.decimal_comma = have_decimal_commas(split_all(lines, found.separator));
+  return found;
 }
 
 /// The columns of one of the first lines.
@@ -120,10 +167,11 @@ std::vector<std::string_view> columns_of(const PlacedLine& line, const Separatio
   return columns;
 }
 
-std::size_t count_numbers(const std::vector<std::string_view>& columns) {
-  return static_cast<std::size_t>(
-      std::count_if(columns.begin(), columns.end(),
-                    [](std::string_view text) { return number_in(text).has_value(); }));
+std::size_t count_numbers(const std::vector<std::string_view>& columns, bool decimal_comma) {
+  const auto is_number = [&](std::string_view text) {
+    return number_in(text) || (decimal_comma && has_decimal_comma(text));
+  };
+  return static_cast<std::size_t>(std::count_if(columns.begin(), columns.end(), is_number));
 }
 
 /// The names in a comment, if it has one for each of the columns: numpy.savetxt writes such.
@@ -174,18 +222,35 @@ std::vector<std::string_view> split_table_line(std::string_view line, char separ
   return columns;
 }
 
+std::vector<std::string_view> example_texts(std::string_view text, const TableHead& head) {
+  constexpr int enough = 1000;
+  std::vector<std::string_view> examples = head.first_row;
+  TextLines lines(text.substr(head.begin));
+  for (int i = 0; i < enough && !lines.at_end(); ++i) {
+    if (std::none_of(examples.begin(), examples.end(), is_missing_text)) break;
+    const std::string_view line = lines.next();
+    if (is_table_gap(line)) continue;
+    const auto row = split_table_line(line, head.separator);
+    for (std::size_t k = 0; k < std::min(row.size(), examples.size()); ++k) {
+      if (is_missing_text(examples[k])) examples[k] = row[k];
+    }
+  }
+  return examples;
+}
+
 Result<TableHead> parse_table_head(std::string_view text) {
   const FirstLines first = first_lines(text);
   if (first.lines.empty()) return Diagnostic::of("it holds no rows");
   TableHead head;
   const Separation separation = separation_of(first.lines);
   head.separator = separation.separator;
+  head.decimal_comma = separation.decimal_comma;
   std::size_t row = 0;
   head.first_row = columns_of(first.lines[0], separation);
   if (head.first_row.size() > most_text_columns) {
     return error_at_line(first.lines[0].line, too_many_columns().message);
   }
-  if (count_numbers(head.first_row) < 3) {
+  if (count_numbers(head.first_row, head.decimal_comma) < 3) {
     head.names.assign(head.first_row.begin(), head.first_row.end());
     head.names_line = first.lines[0].line;
     if (first.lines.size() == 1) {

@@ -1,9 +1,13 @@
 #include "render/particle_file/text_number.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
+
+#include "core/base/ascii.h"
 
 namespace boule {
 namespace {
@@ -52,6 +56,21 @@ std::optional<std::uint64_t> count_in(std::string_view token) {
   const auto read = parse(token, value);
   if (read.ec != std::errc() || read.ptr != token.data() + token.size()) return std::nullopt;
   return value;
+}
+
+bool is_missing_text(std::string_view token) {
+  constexpr std::size_t longest = 5;
+  constexpr std::array<std::string_view, 13> texts{
+      "", "nan", "-nan", "<na>", "null", "na", "n/a", "#n/a", "#na", "none", "--", "-", "\\n"};
+  if (token.size() > longest) return false;
+  return std::find(texts.begin(), texts.end(), ascii_lower(token)) != texts.end();
+}
+
+std::string with_decimal_point(std::string_view token) {
+  std::string text(token);
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos && text.find('.') == std::string::npos) text[comma] = '.';
+  return text;
 }
 
 std::optional<double> logical_in(std::string_view token) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -204,7 +205,8 @@ class PieceReader {
     }
     const RowToken read = token();
     if (column.use == ColumnUse::logical) {
-      const auto value = logical_in(read.text);
+      auto value = logical_in(read.text);
+      if (!value && rows_.lenient) value = std::numeric_limits<double>::quiet_NaN();
       if (!value) return fail(i, "expected T or F, found " + quote(read.text));
       column.numbers.first[row_ * column.numbers.stride] = *value;
     } else if (is_text(column.use)) {
@@ -217,20 +219,34 @@ class PieceReader {
   bool read_number(std::size_t i) {
     const NumberTarget& target = planned_[i].numbers;
     double& value = target.first[row_ * target.stride];
-    const char* const stop = read_short_number(at_, end_, value);
+    const bool has_comma = is_table && rows_.decimal_comma;
+    const char* const stop = has_comma ? nullptr : read_short_number(at_, end_, value);
     if (stop != nullptr && ends_token(stop)) {
       at_ = stop;
       return true;
     }
     const RowToken read = token();
-    const auto number = number_in(read.text);
-    if (!number) return fail(i, "expected a number, found " + quote(read.text));
-    if (!std::isfinite(*number)) {
-      return fail(i, "expected a finite number, found " + quote(read.text));
+    const auto number = has_comma ? number_with_comma(read.text) : number_in(read.text);
+    if (!may_be(i, number, read.text)) {
+      const std::string expected =
+          !number ? has_comma ? "a number with a decimal comma" : "a number" : "a finite number";
+      return fail(i, "expected " + expected + ", found " + quote(read.text));
     }
-    value = *number;
+    value = number.value_or(std::numeric_limits<double>::quiet_NaN());
     at_ = read.end;
     return true;
+  }
+
+  static std::optional<double> number_with_comma(std::string_view text) {
+    if (text.find('.') != std::string_view::npos) return std::nullopt;
+    return number_in(with_decimal_point(text));
+  }
+
+  /// True for what column `i` can hold: a finite number or, but for positions, a missing one.
+  bool may_be(std::size_t i, const std::optional<double>& number, std::string_view text) const {
+    if (number && std::isfinite(*number)) return true;
+    if (planned_[i].use == ColumnUse::position) return false;
+    return rows_.lenient || (number ? std::isnan(*number) : is_table && is_missing_text(text));
   }
 
   bool read_positive_number(std::size_t i) {

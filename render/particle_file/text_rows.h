@@ -47,6 +47,9 @@ struct TextRows {
   bool is_table = false;
   /// Of tables: what stands between columns, beside blanks around it; 0: blanks alone.
   char separator = 0;
+  /// Of tables: numbers have a decimal comma, never a point.
+  bool decimal_comma = false;
+  bool lenient = false;  ///< as ParticleFileOptions
   std::string_view
       positive{};  ///< the name of a column of numbers that must be above 0; empty: none
   const MappedText* file = nullptr;  ///< holds the text, and lets go of what is read; null: neither
@@ -55,7 +58,8 @@ struct TextRows {
 /// Reads rows into the columns of `frame`: makes room for all that `columns` names, refusing what
 /// does not fit into memory, and fills it. Errors have the line, the column, and the name of the
 /// column as their key: a row that is too short or too long, what is no number, and what is not
-/// finite. The numbers are the nearest doubles.
+/// finite. NaN, and in tables an empty text, "null" and the like, is a missing number in all
+/// columns but the positions. The numbers are the nearest doubles.
 Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> columns,
                       ParticleFrame& frame, const ParallelFor& parallel_for);
 

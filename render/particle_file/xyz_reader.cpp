@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "render/particle_file/element_guess.h"
 #include "render/particle_file/frame_places.h"
 #include "render/particle_file/named_columns.h"
+#include "render/particle_file/other_formats.h"
+#include "render/particle_file/table_reader.h"
 #include "render/particle_file/text_lines.h"
 #include "render/particle_file/text_number.h"
 #include "render/particle_file/text_rows.h"
@@ -24,7 +27,6 @@ struct XyzFrame {
   std::uint64_t row_line = 0;  ///< line of the first row
 };
 
-/// The count of particles that a frame's first line is.
 /// Skips so many lines, or as many as there are, and returns how many. What is behind is let go.
 std::uint64_t skip_rows(std::uint64_t count, TextLines& lines, const MappedText& bytes) {
   constexpr std::uint64_t portion = std::uint64_t{1} << 16;
@@ -39,8 +41,22 @@ std::uint64_t skip_rows(std::uint64_t count, TextLines& lines, const MappedText&
   return skipped;
 }
 
-Result<std::vector<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
-  std::vector<XyzFrame> frames;
+/// What is wrong with a frame at the end of the file: it lacks rows, or a part of its last one.
+Status find_cut(const XyzFrame& frame, std::uint64_t rows, std::string_view text,
+                const std::vector<XyzFrame>& before) {
+  const std::string promise = "it promises " + std::to_string(frame.count) + " particles, ";
+  if (rows < frame.count || frame.begin == frame.comment) {
+    return Diagnostic::of(promise + "the file ends after " + std::to_string(rows));
+  }
+  if (before.empty()) return std::nullopt;  // its rows are read, and tell what is wrong
+  const std::string_view own = text.substr(frame.begin, frame.end - frame.begin);
+  const std::size_t like = rows > 1 ? frame.begin : before.back().begin;
+  if (!has_cut_row(own, TextLines(text.substr(like)).next())) return std::nullopt;
+  return Diagnostic::of(promise + "the file ends in the last of them");
+}
+
+Result<FramePlaces<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
+  FramePlaces<XyzFrame> found;
   const std::string_view text = bytes.text();
   TextLines lines(text);
   for (lines.skip_blank_lines(); !lines.at_end(); lines.skip_blank_lines()) {
@@ -52,21 +68,19 @@ Result<std::vector<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
                            "count");
     }
     XyzFrame frame{.comment = lines.offset(), .count = *count};
-    const bool has_comment = lines.skip(1) == 1;
+    lines.skip(1);
     frame.begin = lines.offset();
     frame.row_line = lines.line();
     const std::uint64_t rows = skip_rows(*count, lines, bytes);
     frame.end = lines.offset();
-    if (!has_comment || rows < *count) {
-      return error_at_line(first_line,
-                           "it promises " + std::to_string(*count) +
-                               " particles, the file ends after " + std::to_string(rows),
-                           "count");
+    if (auto cut = lines.at_end() ? find_cut(frame, rows, text, found.frames) : std::nullopt) {
+      found.cut = error_at_line(first_line, cut->message, "count");
+      break;
     }
-    if (auto no_room = add_frame_place(frames, frame)) return *no_room;
+    if (auto no_room = add_frame_place(found.frames, frame)) return *no_room;
   }
-  if (frames.empty()) return Diagnostic::of("it holds no frames");
-  return frames;
+  if (!found.frames.empty()) return found;
+  return found.cut ? *found.cut : Diagnostic::of("it holds no frames");
 }
 
 bool is_velocity(const std::string& name) {
@@ -86,6 +100,14 @@ std::vector<std::string> names_of(const XyzProperty& property) {
                     (property.count == 3 ? std::string(axes[i]) : "_" + std::to_string(i + 1)));
   }
   return names;
+}
+
+/// True for atomic numbers, as ASE and QUIP write them.
+bool is_atomic_number(const XyzProperty& property) {
+  constexpr std::array names{"Z", "numbers"};
+  return property.count == 1 && property.type == 'I' &&
+         (is_atomic_number_name(property.name) ||
+          std::count(names.begin(), names.end(), property.name) > 0);
 }
 
 bool is_species(const XyzProperty& property) {
@@ -114,13 +136,16 @@ void add_property(const XyzProperty& property, NamedColumns& columns) {
 
 class XyzReader : public ParticleReader {
  public:
-  XyzReader(MappedText bytes, ParticleFileOptions options, std::vector<XyzFrame> places)
-      : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
+  XyzReader(MappedText bytes, ParticleFileOptions options, FramePlaces<XyzFrame> places)
+      : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {
+    has_numbers_ = has_atomic_numbers();
+  }
 
-  [[nodiscard]] std::size_t frames() const override { return places_.size(); }
+  [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
+  [[nodiscard]] Status cut() const override { return places_.cut; }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
-    const XyzFrame& place = places_[frame];
+    const XyzFrame& place = places_.frames[frame];
     const std::string_view text = bytes_.text();
     auto comment = parse_xyz_comment(TextLines(text.substr(place.comment)).next());
     if (!comment) {
@@ -144,16 +169,39 @@ class XyzReader : public ParticleReader {
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(place.count),
                           .first_line = place.row_line,
+                          .lenient = options_.lenient,
                           .positive = options_.positive,
                           .file = &bytes_};
     if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
     columns.finish();
+    name_elements(comment.value(), read);
     return read;
   }
 
  private:
+  /// Makes atomic numbers elements.
+  void name_elements(const XyzComment& comment, ParticleFrame& read) const {
+    if (!read.species || !options_.columns.empty()) return;
+    const auto& all = comment.properties;
+    const bool by_name = std::any_of(all.begin(), all.end(), [&](const XyzProperty& property) {
+      return property.name == read.species->name && is_atomic_number(property);
+    });
+    if (!by_name && !has_numbers_) return;
+    if (!take_atomic_numbers(*read.species) || by_name) return;
+    read.notes.emplace_back(
+        "the species are taken as atomic numbers; columns named type,x,y,z make them types");
+  }
+
   Status plan(const XyzComment& comment, std::string_view first_row, NamedColumns& columns) const {
-    for (const XyzProperty& property : comment.properties) add_property(property, columns);
+    const auto& all = comment.properties;
+    const bool tells_species = std::any_of(all.begin(), all.end(), is_species);
+    for (const XyzProperty& property : all) {
+      if (!tells_species && is_atomic_number(property)) {
+        columns.add_species(property.name);
+      } else {
+        add_property(property, columns);
+      }
+    }
     if (!comment.properties.empty()) return std::nullopt;
     const auto words = words_of(first_row);
     if (words.size() > most_text_columns) return too_many_columns();
@@ -170,14 +218,71 @@ class XyzReader : public ParticleReader {
     return std::nullopt;
   }
 
+  /// True if the first words of the first frame's rows are atomic numbers. Types are numbered from
+  /// 1 on without a gap; so they are in what LAMMPS writes ("Atoms. Timestep: 0") even with gaps.
+  [[nodiscard]] bool has_atomic_numbers() const {
+    const auto has_rows = [](const XyzFrame& frame) { return frame.count > 0; };
+    const auto& all = places_.frames;
+    const auto first = std::find_if(all.begin(), all.end(), has_rows);
+    if (first == all.end()) return false;
+    const std::string_view text = bytes_.text();
+    if (TextLines(text.substr(first->comment)).next().starts_with("Atoms")) return false;
+    std::array<bool, last_element + 1> occurs{};
+    TextLines lines(text.substr(first->begin, first->end - first->begin));
+    while (!lines.at_end()) {
+      const std::string_view row = without_blanks(lines.next());
+      const auto number = count_in(row.substr(0, row.find_first_of(" \t")));
+      if (!number || *number > last_element) return false;
+      occurs[static_cast<std::size_t>(*number)] = true;
+    }
+    const auto kinds = std::count(occurs.begin(), occurs.end(), true);
+    const auto end = std::min<std::ptrdiff_t>(kinds + 1, last_element + 1);
+    return std::count(occurs.begin() + 1, occurs.begin() + end, true) < kinds;
+  }
+
   MappedText bytes_;
   ParticleFileOptions options_;
-  std::vector<XyzFrame> places_;
+  FramePlaces<XyzFrame> places_;
+  bool has_numbers_ = false;  ///< in place of the species
 };
+
+/// A row of Tinker: "1 O 0.0 0.0 0.0 1 2 3", number, name, position, type, bonds.
+bool is_tinker_row(std::string_view line) {
+  const auto words = words_of(line);
+  return words.size() >= 6 && words[0] == "1" && !number_in(words[1]) && number_in(words[2]) &&
+         number_in(words[3]) && number_in(words[4]) && count_in(words[5]);
+}
+
+/// What Tinker calls .xyz: a count and a title in one line, perhaps a box, and its rows.
+bool is_of_tinker(TextLines lines) {
+  const auto words = words_of(lines.next());
+  if (words.empty() || !count_in(words.front())) return false;
+  return is_tinker_row(lines.next()) || is_tinker_row(lines.next());
+}
+
+/// The reader of a file that does not begin with a count, if it is one of points.
+Result<std::unique_ptr<ParticleReader>> open_without_count(MappedText bytes,
+                                                           const ParticleFileOptions& options,
+                                                           const ParallelFor& parallel_for,
+                                                           const TextLines& lines) {
+  if (bytes.cut()) return *bytes.cut();  // nobody knows how many points there were
+  if (looks_like_points(bytes.text())) return open_points(std::move(bytes), options, parallel_for);
+  return error_at_line(lines.line(), "expected a count of particles, found " + quote(lines.peek()),
+                       "count");
+}
 
 Result<std::unique_ptr<ParticleReader>> open_xyz(MappedText bytes,
                                                  const ParticleFileOptions& options,
-                                                 const ParallelFor&) {
+                                                 const ParallelFor& parallel_for) {
+  TextLines lines(bytes.text());
+  lines.skip_blank_lines();
+  if (is_of_tinker(lines)) {
+    return error_at_line(lines.line(),
+                         "it is of Tinker, whose .xyz files are not read" + advice_for("a.txyz"));
+  }
+  if (!lines.at_end() && !count_in(without_blanks(lines.peek()))) {
+    return open_without_count(std::move(bytes), options, parallel_for, lines);
+  }
   auto places = find_xyz_frames(bytes);
   if (!places) return places.error();
   return std::unique_ptr<ParticleReader>(
@@ -196,6 +301,7 @@ bool starts_like_xyz(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat xyz_format = {"xyz", {"xyz", "extxyz"}, starts_like_xyz, open_xyz};
+constinit const ParticleFormat xyz_format = {
+    "xyz", {"xyz", "extxyz"}, starts_like_xyz, open_xyz, true};
 
 }  // namespace boule

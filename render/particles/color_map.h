@@ -32,6 +32,9 @@ class ColorMap {
   std::vector<SrgbColor> colors_;
 };
 
+/// The colour of particles without a number.
+inline constexpr SrgbColor missing_color{0xa0, 0xa0, 0xa0};
+
 /// The position of a number between the ends of a range, for a colour map: 0 at the least, 1 at the
 /// largest, 0.5 if the ends are equal. All are finite; their difference may be too large for a
 /// double.

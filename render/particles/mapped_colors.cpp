@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/base/chunks.h"
@@ -23,6 +24,7 @@ std::array<double, 2> choose_range(const ColoredFrame& colored, const ParticleNu
   const std::string name = "the colours of " + quote(by);
   if (colored.frame.size() == 0) return {0, 1};
   auto range = percentiles(numbers, colored.frame.size(), colored.parallel_for);
+  if (range[0] > range[1]) return {0, 1};  // all are missing
   if (!(range[0] < range[1])) {
     notes.push_back(name + " are those of one number, " + number_text(range[0]));
     return range_around(range[0]);
@@ -47,14 +49,25 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
   made.colors.scale = {mapped.by, mapped.map, range};
   made.materials.values.resize(colored.frame.size());
   const RangePlace place(range);
+  std::vector<std::size_t> missing(chunks_of(made.materials.values.size()));
   in_chunks(colored.parallel_for, made.materials.values.size(),
-            [&](std::size_t, std::size_t begin, std::size_t end) {
+            [&](std::size_t chunk, std::size_t begin, std::size_t end) {
               std::vector<double> block(end - begin);
               numbers.value().read(begin, end, block.data());
               for (std::size_t i = begin; i < end; ++i) {
-                made.materials.values[i] = colored.in(mapped.map.color(place(block[i - begin])));
+                const double number = block[i - begin];
+                const bool is_missing = std::isnan(number);
+                missing[chunk] += is_missing ? 1 : 0;
+                made.materials.values[i] =
+                    colored.in(is_missing ? missing_color : mapped.map.color(place(number)));
               }
             });
+  made.colors.scale->missing = std::accumulate(missing.begin(), missing.end(), std::size_t{0});
+  if (const std::size_t count = made.colors.scale->missing; count > 0) {
+    made.notes.push_back(std::to_string(count) +
+                         (count == 1 ? " particle has" : " particles have") + " no number in " +
+                         quote(mapped.by) + ", the colour of that is " + hex_text(missing_color));
+  }
   return made;
 }
 

@@ -20,6 +20,7 @@ constexpr std::size_t select_block = 2048;
 struct FoundStep {
   SelectStep::Kind kind = SelectStep::Kind::compare;
   Comparison comparison{};
+  bool with_missing = false;  ///< whether the left numbers are missing, by == or !=
   std::optional<ParticleNumbers> left, right;
   const std::uint32_t* texts = nullptr;
   std::vector<std::uint8_t> answers;
@@ -54,6 +55,8 @@ class Finder {
     found.kind = step.kind;
     found.comparison = step.comparison;
     if (step.kind != SelectStep::Kind::compare) return found;
+    if (is_missing_word(step.right)) return find_missing(step, step.left, found);
+    if (is_missing_word(step.left)) return find_missing(step, step.right, found);
     const auto* const left_text = std::get_if<std::string>(&step.left);
     const auto* const right_text = std::get_if<std::string>(&step.right);
     if (left_text != nullptr) return find_texts(step, *left_text, step.right, found);
@@ -70,6 +73,38 @@ class Finder {
  private:
   static Diagnostic error_at(std::size_t place, const std::string& message) {
     return Diagnostic::about("select", message + " (character " + std::to_string(place) + ")");
+  }
+
+  /// True for the word that stands for what is missing, unless a column has this name.
+  [[nodiscard]] bool is_missing_word(const SelectValue& value) const {
+    const auto* const word = std::get_if<ColumnName>(&value);
+    if (word == nullptr) return false;
+    if (word->name != "missing" && word->name != "null" && word->name != "nan") return false;
+    return find_number_column(frame_, word->name) == nullptr &&
+           find_particle_texts(frame_, word->name) == nullptr;
+  }
+
+  Result<FoundStep> find_missing(const SelectStep& step, const SelectValue& value,
+                                 FoundStep found) const {
+    if (step.comparison != Comparison::equal && step.comparison != Comparison::not_equal) {
+      return error_at(step.place, "what is missing is only asked for by == and !=");
+    }
+    const auto* const column = std::get_if<ColumnName>(&value);
+    if (column == nullptr) return error_at(step.place, "only a column can have missing values");
+    const TextColumn* const texts = find_particle_texts(frame_, column->name);
+    if (texts == nullptr || find_number_column(frame_, column->name) != nullptr) {
+      auto left = numbers(value);
+      if (!left) return left.error();
+      found.left = std::move(left).value();
+      found.with_missing = true;
+      return found;
+    }
+    found.texts = texts->indices.data();
+    for (const std::string& text : texts->texts) {
+      const bool holds = is_missing_text(text) == (step.comparison == Comparison::equal);
+      found.answers.push_back(holds ? 1 : 0);
+    }
+    return found;
   }
 
   Result<ParticleNumbers> numbers(const SelectValue& value) const {
@@ -156,6 +191,11 @@ class Block {
       return;
     }
     step.left->read(begin, end, left_.data());
+    if (step.with_missing) {
+      const bool asked = step.comparison == Comparison::equal;
+      for (std::size_t i = 0; i < count; ++i) out[i] = std::isnan(left_[i]) == asked ? 1 : 0;
+      return;
+    }
     step.right->read(begin, end, right_.data());
     for (std::size_t i = 0; i < count; ++i) {
       out[i] = holds(step.comparison, left_[i], right_[i]) ? 1 : 0;

@@ -1,8 +1,10 @@
 #include "render/particles/percentiles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/base/chunks.h"
@@ -13,7 +15,7 @@ namespace {
 constexpr std::size_t bins = 4096;
 constexpr std::size_t binning_block = 2048;
 
-/// Calls body(number) for each number of begin .. end - 1.
+/// Calls body(number) for each number of begin .. end - 1 that is not missing.
 template <class Body>
 void for_numbers(const ParticleNumbers& numbers, std::size_t begin, std::size_t end,
                  const Body& body) {
@@ -21,7 +23,9 @@ void for_numbers(const ParticleNumbers& numbers, std::size_t begin, std::size_t 
   for (; begin < end; begin += binning_block) {
     const std::size_t stop = std::min(begin + binning_block, end);
     numbers.read(begin, stop, block.data());
-    std::for_each_n(block.begin(), stop - begin, body);
+    std::for_each_n(block.begin(), stop - begin, [&](double number) {
+      if (!std::isnan(number)) body(number);
+    });
   }
 }
 
@@ -130,8 +134,10 @@ std::array<double, 2> percentiles(const ParticleNumbers& numbers, std::size_t co
   if (!(range.least < range.largest)) return {range.least, range.largest};
   const Binning binning(range);
   const Counts counts = count_bins(numbers, count, binning, parallel_for);
-  const std::size_t low = (count - 1) / 100;
-  const std::array<Place, 2> places{place_of(low, counts), place_of(count - 1 - low, counts)};
+  const std::size_t last =
+      std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) - 1;  // those that are there
+  const std::size_t low = last / 100;
+  const std::array<Place, 2> places{place_of(low, counts), place_of(last - low, counts)};
   auto in_bins = numbers_in(places, numbers, count, binning, counts, parallel_for);
   std::array<double, 2> found{};
   parallel_for(found.size(), [&](std::size_t k) {

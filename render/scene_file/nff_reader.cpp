@@ -46,6 +46,7 @@ class NffReader {
   void read_fill();
   void read_sphere();
   void read_polygon(const char* key, bool has_normals);
+  void read_cone();
   bool read_vertices(const char* key, bool has_normals, int count);
   void add_plane(TextPlace place, const char* key);
   std::uint32_t material();
@@ -94,6 +95,7 @@ void NffReader::read_entity(std::string_view name) {
   if (name == "s") return read_sphere();
   if (name == "p") return read_polygon("p", false);
   if (name == "pp") return read_polygon("pp", true);
+  if (name == "c") return read_cone();
   if (name == "f") return read_fill();
   if (name == "l") return read_light();
   if (name == "b") return read_background();
@@ -194,6 +196,28 @@ bool NffReader::read_vertices(const char* key, bool has_normals, int count) {
     vertices_.push_back(vertex);
   }
   return true;
+}
+
+/// A cone or a cylinder: two lines with a centre and a radius each, which are skipped as polygons
+/// are.
+void NffReader::read_cone() {
+  if (policy_ != PolygonPolicy::skip) {
+    error_.report(line_.place(), "c",
+                  "cones and cylinders are not read, only left out where polygons are "
+                  "(--polygons skip)");
+  }
+  if (!line_.take_line_end("c")) return;
+  for (int i = 0; i < 2; ++i) {
+    Vec3f center;
+    float radius = 0;
+    if (!line_.next_line()) {
+      return error_.report(line_.end_place(), "c",
+                           "the file ends after " + std::to_string(i) + " of 2 ends of a cone");
+    }
+    const bool is_complete = line_.take("c.center", center) && line_.take("c.radius", radius) &&
+                             line_.take_line_end("c");
+    if (!is_complete) return;
+  }
 }
 
 void NffReader::add_plane(TextPlace place, const char* key) {

@@ -64,7 +64,7 @@ class ParticleTable {
   std::optional<ParticleFrame> read_frame();
   Status find_wrong_radius() const;
   std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
-  std::optional<std::size_t> choose_frame(std::size_t frames);
+  std::optional<std::size_t> choose_frame(const ParticleFile& file);
   void report_file(const Diagnostic& error);
   void report_key(const Diagnostic& error);
 
@@ -135,7 +135,7 @@ std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& fil
 std::optional<ParticleFrame> ParticleTable::read_frame() {
   const std::shared_ptr<ParticleFile> file = open(keys_.file);
   if (!file) return std::nullopt;
-  const auto number = choose_frame(file->frames());
+  const auto number = choose_frame(*file);
   if (!number) return std::nullopt;
   auto frame = file->read(static_cast<long>(*number), options_.parallel_for);
   if (!frame) {
@@ -170,18 +170,21 @@ Status ParticleTable::find_wrong_radius() const {
 }
 
 /// The frame that the keys or the series ask for, from 0.
-std::optional<std::size_t> ParticleTable::choose_frame(std::size_t frames) {
+std::optional<std::size_t> ParticleTable::choose_frame(const ParticleFile& file) {
+  const std::size_t frames = file.frames();
   const bool of_series = !keys_.frame && options_.frame && frames > 1 && !keys_.has_slot;
   const long asked = of_series ? *options_.frame : keys_.frame.value_or(-1);
   const long count = static_cast<long>(frames);
   if (asked >= -count && asked < count) {
     return static_cast<std::size_t>(asked < 0 ? asked + count : asked);
   }
+  const std::string cut = asked == count ? file.cut_text() : std::string();
   table_.report(
       keys_.frame ? "frame" : "file",
       quote(keys_.name) + " has no frame " + std::to_string(asked) + ", it has " +
           (count == 1 ? "one frame, number 0"
-                      : std::to_string(count) + " frames, from 0 to " + std::to_string(count - 1)));
+                      : std::to_string(count) + " frames, from 0 to " + std::to_string(count - 1)) +
+          (cut.empty() ? "" : ": ") + cut);
   return std::nullopt;
 }
 

@@ -18,7 +18,7 @@ using fuzz::require;
 /// Bits 0 to 3: the format, 0: by content. Bit 4: few columns are wanted. Bit 5: names are given.
 ParticleFileOptions options_of(std::uint8_t byte) {
   constexpr std::array formats{"",    "npy",   "ply", "dump",  "data", "xyz",  "table", "gro",
-                               "pdb", "mmcif", "",    "table", "xyz",  "data", "dump",  "ply"};
+                               "pdb", "mmcif", "pqr", "table", "xyz",  "data", "dump",  "ply"};
   ParticleFileOptions options;
   options.format = formats[byte % formats.size()];
   if ((byte & 16) != 0) options.wanted = std::vector<std::string>{"radius", "name", "vx"};
@@ -41,7 +41,7 @@ void check_frame(const ParticleFrame& frame) {
   for (const NumberColumn& column : frame.numbers) {
     require(column.values.size() == frame.size(), "a number for each particle: " + column.name);
     for (const double value : column.values) {
-      require(std::isfinite(value), "numbers are finite: " + column.name);
+      require(!std::isinf(value), "numbers are finite or missing: " + column.name);
     }
   }
   for (const TextColumn& column : frame.texts) check_texts(column, frame.size());

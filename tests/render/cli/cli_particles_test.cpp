@@ -177,6 +177,40 @@ TEST_F(Particles, AreDescribed) {
                               HasSubstr("\n  name speed, least 0.5, largest 2.5\n")));
 }
 
+TEST_F(Particles, WithNumbersThatAreNoneAreDescribedAsTheyAreDrawn) {
+  const std::string file = write("forces.xyz",
+                                 "3\nProperties=species:S:1:pos:R:3:f:R:1:g:R:1:h:L:1\n"
+                                 "Ar 1 1 1 nan inf T\nAr 4 4 4 2 3 maybe\nAr 1 4 4 nan x F\n");
+  render(file, "a.ppm");
+  const ProgramRun run = boule_run({"info", file, "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto info = nlohmann::json::parse(run.out);
+  EXPECT_EQ(info["columns"], nlohmann::json::parse(R"([
+      {"name":"f","least":2.0,"largest":2.0,"missing":2},
+      {"name":"g","least":3.0,"largest":3.0,"missing":1,"infinite":1},
+      {"name":"h","least":0.0,"largest":1.0,"missing":1}])"));
+  EXPECT_THAT(refused_run({"render", file, "--color", "g", "-o", path("b.ppm")}, 3).err,
+              HasSubstr("forces.xyz:3:14: error: expected a finite number, found 'inf'"));
+  const ProgramRun colored = render(file, "c.ppm", {"--color", "f", "--legend", path("f.svg")});
+  EXPECT_THAT(colored.err, HasSubstr("2 particles have no number in 'f'"));
+  EXPECT_THAT(read("f.svg"), HasSubstr(">missing</text>"));
+}
+
+TEST_F(Particles, OfAFileThatIsCutOffAreThoseOfItsWholeFrames) {
+  const std::string frame = "2\n\nC 0 0 0\nC 1 0 0\n";
+  const std::string file = write("run.xyz", frame + frame + "2\n\nC 0 0 0\n");
+  const std::string cut = "the file is cut off in frame 2 (line 9: it promises 2 particles";
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--frame", "0"}, {"--frames", "0-1"}}) {
+    const bool is_series = !options.empty() && options[0] == "--frames";
+    const ProgramRun run = render(file, is_series ? "a#.ppm" : "a.ppm", options);
+    EXPECT_EQ(run.err.find(cut), run.err.rfind(cut)) << run.err;  // once
+    EXPECT_THAT(run.err, HasSubstr(cut));
+  }
+  const ProgramRun none = refused_run({"render", file, "--frame", "2", "-o", path("b.ppm")}, 2);
+  EXPECT_THAT(none.err, HasSubstr("has no frame 2, it has 2 frames, from 0 to 1: " + cut));
+}
+
 TEST_F(Particles, HaveALegend) {
   render(water(), "a.ppm", {"--color", "speed", "--legend", path("scale.svg")});
   EXPECT_THAT(read("scale.svg"), AllOf(HasSubstr(">speed</text>"), HasSubstr("</svg>\n")));

@@ -54,6 +54,19 @@ TEST(Legend, OfAMapIsABarWithTicks) {
   EXPECT_EQ(count(svg, "<text"), count(svg, "</text>"));
 }
 
+TEST(Legend, TellsTheColorOfWhatIsMissing) {
+  ParticleColors colors;
+  colors.scale = ParticleColors::Scale{"q", ColorMap({{255, 0, 0}, {0, 0, 255}}), {0, 10}};
+  EXPECT_THAT(legend_svg({colors}), Not(HasSubstr(">missing<")));
+  colors.scale->missing = 3;
+  const std::string svg = legend_svg({colors});
+  EXPECT_THAT(svg, HasSubstr(">missing</text>"));
+  EXPECT_THAT(svg, HasSubstr("fill=\"#a0a0a0\""));
+  ParticleColors kinds;
+  kinds.species = {{"", {1, 2, 3}, 1}};
+  EXPECT_THAT(legend_svg({kinds}), HasSubstr(">missing</text>"));
+}
+
 TEST(Legend, OfSpeciesIsAList) {
   ParticleColors colors;
   colors.species = {{"Au", {255, 209, 35}, 405}, {"C\xff\n", {144, 144, 144}, 2}};

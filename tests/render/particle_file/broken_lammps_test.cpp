@@ -159,6 +159,10 @@ std::vector<BrokenFile> broken_headers() {
        "7:3: expected a finite number, found '8,5' (ylo)"},
       {"BoxBeyondDouble", with(good_data, "0 8 ylo", "-1e308 1e308 ylo"),
        "the box is larger than the largest number"},
+      {"EdgeOfTwo", with(good_data, "\n\nAtoms", "\n1 2 avec\n\nAtoms"),
+       "9:1: expected 3 numbers before 'avec' (avec)"},
+      {"OriginOfWords", with(good_data, "\n\nAtoms", "\n1 2 z abc origin\n\nAtoms"),
+       "9:5: expected a finite number, found 'z' (abc)"},
       {"TiltsOfTwo", with(good_data, "\n\nAtoms", "\n1 2 xy xz yz\n\nAtoms"),
        "9:1: expected 3 numbers before 'xy' (xy)"},
   };

@@ -44,6 +44,34 @@ TEST(Dump, SortsByIdAndTakesTypesAsSpecies) {
   EXPECT_THAT(frame.cell->periodic, ElementsAre(true, false, true));
 }
 
+TEST(Dump, NumbersOfElementsAreAtomicNumbers) {
+  const auto read = read_particles(
+      "melt.dump", dump_head + "ITEM: ATOMS id element x y z\n1 26 1 2 3\n2 8 4 5 6\n");
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  EXPECT_THAT(read.value().species->texts, ElementsAre("Fe", "O"));
+}
+
+TEST(Data, HasABoxOfAnyEdges) {
+  const std::string rows = "\nAtoms # atomic\n\n1 1 0 0 0\n2 1 2.2 2.2 2.2\n";
+  const std::string edges = "4.0 0.5 0.0 avec\n-1 4.0 0.5 bvec\n0.5 0.0 4.0 cvec\n";
+  const auto read =
+      read_particles("a.data", "title\n\n2 atoms\n" + edges + "1 2 3 abc origin\n" + rows);
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
+  ASSERT_TRUE(read.value().cell.has_value());
+  EXPECT_EQ(read.value().cell->a, (Vec3d{4, 0.5, 0}));
+  EXPECT_EQ(read.value().cell->b, (Vec3d{-1, 4, 0.5}));
+  EXPECT_EQ(read.value().cell->c, (Vec3d{0.5, 0, 4}));
+  EXPECT_EQ(read.value().cell->origin, (Vec3d{1, 2, 3}));
+  EXPECT_THAT(read.value().cell->periodic, ElementsAre(true, true, true));
+  EXPECT_TRUE(read.value().notes.empty());
+  const auto some = read_particles("a.data", "title\n\n2 atoms\n3 0 1 bvec\n" + rows);
+  ASSERT_TRUE(some.ok()) << format_diagnostic(some.error());
+  EXPECT_EQ(some.value().cell->a, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(some.value().cell->b, (Vec3d{3, 0, 1}));
+  EXPECT_THAT(some.value().notes, ElementsAre("it has no line avec, taken as 1 along x",
+                                              "it has no line cvec, taken as 1 along z"));
+}
+
 TEST(Dump, ScalesFractionsOfTheBox) {
   const auto upright =
       read_particles("d.dump", dump_head + "ITEM: ATOMS xs ys z\n0.5 0.25 3\n0 1 2\n");

@@ -63,7 +63,7 @@ TEST(ParticleFile, FormatOverridesTheName) {
 }
 
 TEST(ParticleFile, NamesForColumnsThatHaveOnesAreRefused) {
-  for (const char* name : {"a.gro", "a.pdb", "a.cif", "a.ply"}) {
+  for (const char* name : {"a.gro", "a.pdb", "a.pqr", "a.cif", "a.ply"}) {
     EXPECT_THAT(particle_error(name, "", {.columns = {"x", "y", "z"}}),
                 HasSubstr("names its columns itself (columns)"));
   }
@@ -102,6 +102,22 @@ TEST(ParticleFile, PackedFilesAreUnpackedOrToldDamaged) {
                   HasSubstr("are damaged: the file ends before"));
     }
   }
+}
+
+TEST(ParticleFile, ErrorsSayWhatHelpsWithOtherFormats) {
+  const auto error = [](const char* name) { return particle_error(name, "\x01\x02"); };
+  EXPECT_THAT(error("conf"), HasSubstr("boule.from_ase of Python shows what ASE reads"));
+  EXPECT_THAT(error("POSCAR"), HasSubstr("boule.from_ase"));
+  EXPECT_THAT(error("run.xtc"), HasSubstr("MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"));
+  EXPECT_THAT(error("scan.LAS"), HasSubstr("CloudCompare makes a .ply of it"));
+  EXPECT_THAT(error("sky.fits"), HasSubstr("boule.from_particles"));
+}
+
+TEST(ParticleFile, OtherPackersAreNamed) {
+  EXPECT_THAT(particle_error("a.xyz.bz2", "BZh91AY&SY"),
+              HasSubstr("it is packed by bzip2, which is not read; unpack it first (bunzip2)"));
+  EXPECT_THAT(particle_error("a.xyz", std::string("\xfd\x37zXZ\0\0", 7)),
+              HasSubstr("it is packed by xz, which is not read; unpack it first (unxz)"));
 }
 
 TEST(ParticleFile, ErrorsNameTheFile) {

@@ -64,7 +64,7 @@ TEST(Table, EachTabEndsAColumn) {
   const auto missing = read_particles("a.tsv", "\tx\ty\tz\tq\n0\t4\t2\t1\t\n1\t3\t2\t1\t\n");
   ASSERT_TRUE(missing.ok()) << format_diagnostic(missing.error());
   EXPECT_THAT(missing.value().positions, ElementsAre(Vec3d{4, 2, 1}, Vec3d{3, 2, 1}));
-  EXPECT_THAT(texts(missing.value(), "q"), ElementsAre("", ""));
+  EXPECT_THAT(numbers(missing.value(), "q"), ElementsAre(testing::IsNan(), testing::IsNan()));
 }
 
 TEST(Table, TabsBehindTheLastColumnMakeNone) {
@@ -141,13 +141,34 @@ TEST(Table, QuotesHoldSeparators) {
   EXPECT_TRUE(frame.numbers.empty());
 }
 
-TEST(Table, ColumnsOfParaviewAndDecimalCommasBesideSemicolons) {
+TEST(Table, ColumnsOfParaview) {
   const auto read =
       read_particles("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\",\"diameter\"\n1,2,3,4\n");
   ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
   EXPECT_EQ(read.value().positions[0], (Vec3d{1, 2, 3}));
-  EXPECT_THAT(test::particle_error("a.csv", "x;y;z\n1,5;2,5;3,5\n"),
+}
+
+TEST(Table, NumbersMayHaveDecimalCommas) {
+  for (const std::string text :
+       {"x;y;z;q;name\n1,5;-2,5e1;3;0,25;a\n0,0;,5;1,0;;b\n",
+        "x\ty\tz\tq\tname\n1,5\t-2,5e1\t3\t0,25\ta\n0,0\t,5\t1,0\tNA\tb\n",
+        "x y z q name\n1,5 -2,5e1 3 0,25 5\n0,0 ,5 1,0 null 6\n",
+        "# x y z q name\n1,5;-2,5e1;3;0,25;\"a\"\n\"0,0\";,5;1,0;--;b\n"}) {
+    const auto read = read_particles("a.txt", text);
+    ASSERT_TRUE(read.ok()) << text << format_diagnostic(read.error());
+    EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{1.5, -25, 3}, Vec3d{0, 0.5, 1})) << text;
+    EXPECT_THAT(numbers(read.value(), "q"), ElementsAre(0.25, testing::IsNan())) << text;
+    EXPECT_THAT(read.value().notes, ElementsAre("its numbers have decimal commas"));
+  }
+  const auto plain = read_particles("a.csv", "1,5;2,5;3,5;0,5\n0;1;2;3\n");
+  ASSERT_TRUE(plain.ok()) << format_diagnostic(plain.error());
+  EXPECT_THAT(numbers(plain.value(), "radius"), ElementsAre(0.5, 3));
+  EXPECT_THAT(test::particle_error("a.csv", "x;y;z\n1,5;2,5;3.5\n"),
               HasSubstr("2:1: expected a number, found '1,5' (x)"));
+  std::string late = "x;y;z\n";
+  for (int i = 0; i < 20; ++i) late += "1,5;2,5;3\n";
+  EXPECT_THAT(test::particle_error("a.csv", late + "1;2;3.5\n"),
+              HasSubstr("22:5: expected a number with a decimal comma, found '3.5' (z)"));
 }
 
 TEST(Table, TextsOfOtherFormatsAreKnownByTheirContent) {
@@ -183,7 +204,7 @@ std::vector<BrokenFile> broken_values() {
       {"OnlyNames", "x,y,z\n", "1:1: no rows follow the line that names the columns"},
       {"NoZ", "x,y,w\n1,2,3\n",
        "1:0: there is no column of positions for z; 'columns' can name it (z)"},
-      {"TwoX", "x,X,y,z\n1,1,2,3\n2,\n", "3:3: expected a number, found '' (X)"},
+      {"TwoX", "x,X,y,z\n1,1,2,3\n2,\n", "3:3: the row ends before this column"},
       {"TwoNames", "x,y,z,q,q\n1,2,3,4,5\n", "1:0: two columns have the name 'q' (q)"},
       {"TwoPositions", "x,y,z,Points:0\n1,2,3,4\n1,2\n", "3:4: the row ends before this column"},
       {"TextPosition", "x,y,z\n1,2,up\n", "2:5: expected a number, found 'up' (z)"},

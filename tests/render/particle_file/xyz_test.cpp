@@ -54,6 +54,72 @@ TEST(Xyz, ReadsPropertiesAndCell) {
   EXPECT_EQ(frame.time, 2.5);
 }
 
+std::vector<std::string> species(const Result<ParticleFrame>& read) {
+  EXPECT_TRUE(read.ok()) << format_diagnostic(read.error());
+  std::vector<std::string> found;
+  if (!read || !read.value().species) return found;
+  for (const std::uint32_t i : read.value().species->indices) {
+    found.push_back(read.value().species->texts[i]);
+  }
+  return found;
+}
+
+TEST(Xyz, NumbersAreElementsUnlessTheyAreTypes) {
+  const std::string note =
+      "the species are taken as atomic numbers; columns named type,x,y,z make them types";
+  const std::string rows = "8 0 0 0\n1 1 0 0\n26 3 0 0\n0 4 0 0\n";
+  const auto elements = read_particles("a.xyz", "4\n\n" + rows);
+  EXPECT_THAT(species(elements), ElementsAre("O", "H", "Fe", "X"));
+  EXPECT_THAT(elements.value().notes, ElementsAre(note));
+  const auto of_lammps = read_particles("a.xyz", "4\nAtoms. Timestep: 0\n" + rows);
+  EXPECT_THAT(species(of_lammps), ElementsAre("8", "1", "26", "0"));
+  EXPECT_TRUE(of_lammps.value().notes.empty());
+  const auto types = read_particles("a.xyz", "3\n\n2 0 0 0\n1 1 0 0\n2 3 0 0\n");
+  EXPECT_THAT(species(types), ElementsAre("2", "1", "2"));
+  const auto named = read_particles("a.xyz", "4\n\n" + rows, {.columns = {"type", "x", "y", "z"}});
+  EXPECT_THAT(species(named), ElementsAre("8", "1", "26", "0"));
+  for (const std::string row : {"119 0 0 0\n", "Fe 0 0 0\n", "8.5 0 0 0\n", "-1 0 0 0\n"}) {
+    EXPECT_EQ(species(read_particles("a.xyz", "2\n\n8 0 0 0\n" + row))[0], "8") << row;
+  }
+  // All frames go by the first.
+  EXPECT_THAT(species(read_particles("a.xyz", "2\n\n6 0 0 0\n8 1 0 0\n1\n\n1 0 0 0\n")),
+              ElementsAre("H"));
+}
+
+TEST(Xyz, AtomicNumbersHaveNamesInExtendedFiles) {
+  for (const std::string name : {"Z", "numbers", "atomic_numbers", "element"}) {
+    const auto read =
+        read_particles("a.xyz", "2\nProperties=pos:R:3:" + name + ":I:1\n0 0 0 1\n1 0 0 2\n");
+    EXPECT_THAT(species(read), ElementsAre("H", "He")) << name;
+    EXPECT_TRUE(read.value().notes.empty());
+  }
+  const auto both = read_particles("a.xyz", "1\nProperties=species:S:1:pos:R:3:Z:I:1\nC 0 0 0 8\n");
+  EXPECT_THAT(species(both), ElementsAre("C"));
+  EXPECT_NE(find_number_column(both.value(), "Z"), nullptr);
+}
+
+TEST(Xyz, PointsNeedNoCount) {
+  const std::string note = "it has no count of particles: each of its lines is one";
+  for (const std::string text :
+       {"# corners\n#\n 0.5 1.5 2.5\n 3 4 -5e0\n", "\n0.5 1.5 2.5\n\n3 4 -5\n",
+        "0.5,1.5,2.5\n3,4,-5\n", "x y z\n0.5 1.5 2.5\n3 4 -5",
+        "//X Y Z\n0.5\t1.5\t2.5\r\n3\t4\t-5\r\n"}) {
+    const auto read = read_particles("a.xyz", text);
+    ASSERT_TRUE(read.ok()) << text << format_diagnostic(read.error());
+    EXPECT_THAT(read.value().positions, ElementsAre(Vec3d{0.5, 1.5, 2.5}, Vec3d{3, 4, -5})) << text;
+    EXPECT_THAT(read.value().notes, ElementsAre(note));
+  }
+  const auto more = read_particles("a.xyz", "1 2 3 4 5 6\n7 8 9 10 11 12\n");
+  ASSERT_TRUE(more.ok()) << format_diagnostic(more.error());
+  EXPECT_EQ(find_number_column(more.value(), "radius"), nullptr);  // colours, normals, intensities
+  EXPECT_THAT(find_number_column(more.value(), "c4")->values, ElementsAre(4, 10));
+  EXPECT_THAT(species(read_particles("a.xyz", "C 0 0 0\nO 1 0 0\n")), ElementsAre("C", "O"));
+  const auto named = read_particles("a.xyz", "1 2 3 4\n", {.columns = {"x", "y", "z", "radius"}});
+  EXPECT_THAT(find_number_column(named.value(), "radius")->values, ElementsAre(4));
+  EXPECT_EQ(particle_error("a.xyz", "0.5 1.5 2.5\n3 4 x\n"),
+            "2:5: expected a number, found 'x' (z)");
+}
+
 TEST(Xyz, KeepsWantedColumnsOnly) {
   ParticleFileOptions options;
   options.wanted = std::vector<std::string>{"c5"};

@@ -48,6 +48,31 @@ TEST(Colors, AreOneColor) {
               ElementsAre("#010203", "#010203"));
 }
 
+TEST(Colors, OfWhatIsMissingAreGrey) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const ParticleStyle grey{.color = MappedColors{"q", ColorMap(NamedColorMap::grey), {}}};
+  std::vector<double> values;
+  for (int i = 0; i <= 100; ++i) {
+    values.push_back(i);
+    values.push_back(none);
+  }
+  const ParticleFrame frame = row_with("q", values);
+  const auto colors = colors_of(frame, grey);
+  EXPECT_EQ(colors[0], "#000000");
+  EXPECT_EQ(colors[200], "#ffffff");
+  for (std::size_t i = 1; i < colors.size(); i += 2) EXPECT_EQ(colors[i], "#a0a0a0");
+  // The range is that of the numbers that are there.
+  EXPECT_THAT(meaning_of(frame, grey).scale->range, ElementsAre(1, 99));
+  EXPECT_EQ(meaning_of(frame, grey).scale->missing, 101U);
+  const std::string told = "101 particles have no number in 'q', the colour of that is #a0a0a0";
+  EXPECT_THAT(notes_of(frame, grey), HasSubstr(told));
+  const ParticleFrame nothing = row_with("q", {none, none});
+  EXPECT_THAT(colors_of(nothing, grey), ElementsAre("#a0a0a0", "#a0a0a0"));
+  EXPECT_THAT(meaning_of(nothing, grey).scale->range, ElementsAre(0, 1));
+  EXPECT_THAT(error_of(row_with("radius", {1, none}), {}),
+              HasSubstr("the radius of particle 2 of 2 is nan, expected a finite number above 0"));
+}
+
 TEST(Colors, AreThoseOfElementsAndOfThePalette) {
   const ParticleFrame frame = row_of({"C", "bead", "H", "1", "bead", "D"});
   const std::vector<std::string> expected{"#909090", "#e69f00", "#ffffff",

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "render/particles/select_expression.h"
 #include "tests/render/particles/particle_frames.h"
 
@@ -55,6 +57,37 @@ TEST(Select, ComparesNumbers) {
   EXPECT_EQ(shown("|v| >= 1 \n\t&& |v| < 5"), "13");
   EXPECT_EQ(shown("|v|>4||x==4"), "04");
   EXPECT_EQ(shown("1 == 1"), "01234");
+}
+
+TEST(Select, AsksForWhatIsMissing) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  ParticleFrame frame = row_of({"Fe", "C", "O", "C"});
+  frame.numbers = {{"q", {1, none, 3, none}}};
+  frame.texts = {text_column("note", {"a", "", "null", "b"})};
+  const auto places = [&](const std::string& select) {
+    EXPECT_EQ(error_of(frame, {.select = select}), "") << select;
+    std::string found;
+    for (const Sphere& sphere : spheres_of(frame, {.select = select})) {
+      found += std::to_string(static_cast<int>(sphere.center.x));
+    }
+    return found;
+  };
+  EXPECT_EQ(places("q == missing"), "13");
+  EXPECT_EQ(places("missing != q && x < 9"), "02");
+  EXPECT_EQ(places("q == null || q == 3"), "123");
+  EXPECT_EQ(places("!(q == nan)"), "02");
+  EXPECT_EQ(places("note == missing"), "12");
+  EXPECT_EQ(places("note != missing"), "03");
+  EXPECT_EQ(places("x == missing"), "");
+  EXPECT_EQ(places("q < 9"), "02");  // what is missing is not less, equal or more
+  EXPECT_EQ(places("q != 1"), "123");
+  EXPECT_THAT(error_of(frame, {.select = "q > missing"}),
+              HasSubstr("what is missing is only asked for by == and != (character 3)"));
+  EXPECT_THAT(error_of(frame, {.select = "1 == missing"}),
+              HasSubstr("only a column can have missing values (character 3)"));
+  EXPECT_THAT(error_of(frame, {.select = "w == missing"}), HasSubstr("there is no column 'w'"));
+  frame.numbers.push_back({"missing", {7, 8, 7, 8}});  // a column comes first
+  EXPECT_EQ(places("missing == 7"), "02");
 }
 
 TEST(Select, ComparesTexts) {

@@ -53,7 +53,8 @@ const Refusal views[] = {
 INSTANTIATE_TEST_SUITE_P(Views, NffErrors, testing::ValuesIn(views), test::refusal_name);
 
 const Refusal entities[] = {
-    {"Cone", scene("c\n0 0 0 1\n"), 7, 1, "c", "unknown entity 'c', expected 'v', 'b', 'l', 'f'"},
+    {"Cone", scene("c\n0 0 0 1\n0 0 1 0.5\n"), 7, 1, "c",
+     "cones and cylinders are not read, only left out where polygons are (--polygons skip)"},
     {"Unknown", scene("\n  sphere 0 0 0 1\n"), 8, 3, "sphere", "unknown entity 'sphere'"},
     {"ControlBytes", scene("\x1b[2J\n"), 7, 1, "\\x1b[2J", "'\\x1b[2J'"},
     {"BackgroundTwo", scene("b 0 0\n"), 7, 6, "b.color", "the line ends here"},

@@ -90,6 +90,18 @@ TEST(NffScene, SkippedPolygonsLeaveNoTrace) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(NffScene, ConesAreSkippedAsPolygonsAre) {
+  const std::string cone = "c\n0 0 1 0.2\n0 0 2 0.1\n", sphere = "s 5 5 5 1\n";
+  const LoadedScene loaded = load(balls + cone + sphere, PolygonPolicy::skip);
+  EXPECT_EQ(dump(loaded.scene), dump(load(balls + sphere, PolygonPolicy::skip).scene));
+  const auto error = [&](const std::string& text) {
+    const auto broken = SceneFolder{}.load("a.nff", balls + text, {PolygonPolicy::skip});
+    return broken.ok() ? "no error" : broken.error().message;
+  };
+  EXPECT_EQ(error("c\n0 0 1 0.2\n"), "the file ends after 1 of 2 ends of a cone");
+  EXPECT_THAT(error("c\n0 0 1\n0 0 2 0.1\n"), testing::HasSubstr("the line ends here"));
+}
+
 TEST(NffScene, RefusedPolygonsAreErrors) {
   const auto loaded = SceneFolder{}.load("a.nff", balls, {PolygonPolicy::error});
   ASSERT_FALSE(loaded.ok());
