@@ -29,7 +29,7 @@ double largest_component(const Vec3d& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-Vec3d rounded(const Vec3d& v) {
+Vec3d as_floats(const Vec3d& v) {
   return {float32_or_inf(v.x), float32_or_inf(v.y), float32_or_inf(v.z)};
 }
 
@@ -141,7 +141,7 @@ double OriginSearch::rounding(const Vec3d& origin) const {
     double most = reach(part, origin) * float_error;
     if (part.low == part.high) {
       const Vec3d center = part.low - origin;
-      most = largest_component(center - rounded(center));
+      most = largest_component(center - as_floats(center));
     } else if (origin == Vec3d{}) {
       most = std::min(most, part.rounding);
     }
@@ -188,7 +188,7 @@ std::string point_text(const Vec3d& point) {
 
 void SphereExtent::add(const Vec3d& center, double r) {
   if (!is_finite(center) || !std::isfinite(r) || !(r > 0)) return;
-  add({center, center, r, largest_component(center - rounded(center))});
+  add({center, center, r, largest_component(center - as_floats(center))});
 }
 
 void SphereExtent::add(const SphereExtent& other) {
