@@ -153,7 +153,7 @@ double OriginSearch::rounding(const Vec3d& origin) const {
 /// The point of a box with the fewest decimal digits, such as [1000000, 0, 0], if points with so
 /// few are so rare that it is hardly there by chance.
 std::optional<Vec3d> OriginSearch::round_point(const OriginBox& box) const {
-  constexpr double rare = 8;
+  constexpr double rare = 4;
   for (double step = largest_step; step > rare * box.width(); step /= 10) {
     const Vec3d point = to_multiple(box.middle(), step);
     if (box.contains(point) && gains(point)) return point;

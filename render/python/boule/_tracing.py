@@ -33,7 +33,7 @@ class Tracer(Strict):
 
     Tracer(centers, radii): N x 3 and N (or one number), float32 or float64, read where they are and
         rounded once; origin ("auto" or a point) is subtracted before, and from rays too.
-    Tracer(scene): a Scene or the name of a scene file.
+    Tracer(scene): a Scene or the name of a scene file. Rays are given as if it had no origin.
     solver: "robust", "fast" or "reference". threads: 0 to 1024, 0 is all. isa: see `boule isa`.
 
     The arrays may be changed or dropped afterwards. Any threads may call a Tracer; one call at a

@@ -61,6 +61,7 @@ TEST(SceneOrigin, IsTheRoundNumberThatAllWasMovedBy) {
       {box({0, 0, 0}, {1, 1, 1}, 0.003)},
       {box({-2, -2, -2}, {2, 2, 2}, 0.05)},
       {ball({0, -1000, 0}, 1000), box({-10, 0.2, -10}, {10, 1, 10}, 0.2)},  // on a ground
+      {box({-10, -1000, -10}, {10, 1, 10}, 0.2)},                           // the same in one file
   };
   for (const SceneExtents& scene : scenes) {
     for (int power = 4; power <= 9; ++power) {
