@@ -46,7 +46,18 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 }  // namespace
 
+void refuse_masked(const py::object& argument, const std::string& name) {
+  if (!py::hasattr(argument, "mask") || !py::hasattr(argument, "filled")) return;
+  const auto masked =
+      py::module_::import("numpy").attr("count_nonzero")(argument.attr("mask")).cast<long>();
+  if (masked == 0) return;
+  throw_error(name, "is a masked array, and " + std::to_string(masked) +
+                        " of its values are masked: leave them out (compressed()) or fill them "
+                        "(filled())");
+}
+
 py::array to_array(const py::object& argument, const std::string& name) {
+  refuse_masked(argument, name);
   try {
     return py::array::ensure(py::module_::import("numpy").attr("asarray")(argument));
   } catch (py::error_already_set& error) {

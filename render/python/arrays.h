@@ -56,7 +56,11 @@ class Numbers {
   bool is_one_ = false;
 };
 
-/// The argument as an array of whatever numpy makes of it; an Error if that is none.
+/// An Error about an array of numpy.ma that masks something: any other array of it would show what
+/// is masked.
+void refuse_masked(const pybind11::object& argument, const std::string& name);
+
+/// The argument as an array of whatever numpy makes of it; an Error if that is none, or masked.
 pybind11::array to_array(const pybind11::object& argument, const std::string& name);
 
 /// "float32 of shape (5, 3)".

@@ -30,14 +30,17 @@ std::string of_row(std::size_t row, const std::string& message) {
   return "row " + std::to_string(row) + ": " + message;
 }
 
-/// Numbers of each particle, finite.
+/// Numbers of each particle, finite or missing: NaN, and what an array of numpy.ma masks.
 std::vector<double> column_of(const py::object& argument, const std::string& name,
                               std::size_t rows) {
-  const Numbers numbers(argument, name, {.rows = rows});
+  const bool is_masked = py::hasattr(argument, "mask") && py::hasattr(argument, "filled");
+  const Numbers numbers(
+      is_masked ? argument.attr("astype")("float64").attr("filled")(std::nan("")) : argument, name,
+      {.rows = rows});
   std::vector<double> values(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     values[i] = numbers.at(i);
-    if (std::isfinite(values[i])) continue;
+    if (std::isfinite(values[i]) || std::isnan(values[i])) continue;
     throw_error(name, of_row(i, "must be finite, is " + number_text(values[i])));
   }
   return values;
@@ -118,6 +121,7 @@ std::string cell_text(const py::object& value, const std::string& name, std::siz
 
 /// As many texts as there are particles, as something that can be gone through.
 py::object sequence_of(const py::object& argument, const std::string& name, std::size_t rows) {
+  refuse_masked(argument, name);
   const bool is_array = py::hasattr(argument, "tolist") && py::hasattr(argument, "shape");
   // First: what is too large is not copied.
   const bool is_text = py::isinstance<py::str>(argument) || py::isinstance<py::bytes>(argument);

@@ -121,7 +121,8 @@ def from_particles(
 
     positions: N x 3, finite. species: N symbols, as text or bytes, or atomic numbers, whole from 0
         (ASE's X) to 118; other texts are species that are not elements.
-    columns: a dictionary of N numbers or texts by name, which color, radius and select may name.
+    columns: a dictionary of N numbers or texts by name, which color, radius and select may name. A
+        number is missing if it is NaN, or masked by numpy.ma; other masked arrays are refused.
     cell: 3 x 3, its edges; periodic: along which of them, three bools, or one for all.
     angstrom: how many one unit of length has (10 for nm), finite and above 0.
     look: as for load().

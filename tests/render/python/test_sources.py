@@ -151,6 +151,35 @@ def test_what_does_not_tell_which_edges_are_periodic(periodic):
     assert caught.value.key == "periodic"
 
 
+def test_masked_values_are_missing_or_refused():
+    numbers = np.ma.masked_array([1.0, 2.0, 4.0], mask=[False, True, False])
+    positions = [[0, 0, 0], [2, 0, 0], [4, 0, 0]]
+    for column in (numbers, [1.0, np.nan, 4.0], numbers.astype("float32")):
+        scene = boule.from_particles(positions, columns={"q": column}, color="q", select="x > -1")
+        assert [note for note in scene.notes if "1 particle has no number in 'q'" in note]
+        shown = boule.from_particles(positions, columns={"q": column}, select="q != missing")
+        assert len(shown.spheres[0].radii) == 2
+    whole = np.ma.masked_array([1.0, 2.0, 4.0])
+    assert not boule.from_particles(positions, columns={"q": whole}, radius="q").warnings
+    hidden = np.ma.masked_array(positions, mask=[[0, 0, 0], [1, 1, 1], [0, 0, 0]], dtype=float)
+    calls = {
+        "positions": lambda: boule.from_particles(hidden),
+        "species": lambda: boule.from_particles(
+            positions, species=np.ma.masked_array([1, 6, 8], mask=[0, 1, 0])
+        ),
+        "name": lambda: boule.from_particles(
+            positions, columns={"name": np.ma.masked_array(["a", "b", "c"], mask=[0, 1, 0])}
+        ),
+        "centers": lambda: boule.Tracer(hidden, 1.0),
+        "radii": lambda: boule.Tracer(np.asarray(hidden), numbers),
+        "org": lambda: boule.Tracer(np.asarray(positions, float), 1.0).closest(hidden, (0, 0, 1)),
+    }
+    for key, call in calls.items():
+        with pytest.raises(boule.Error, match="is a masked array, and") as caught:
+            call()
+        assert caught.value.key == key
+
+
 def test_a_unit_of_length_scales_radii():
     nm = boule.from_particles(np.zeros((1, 3)), species=["C"], angstrom=10)
     assert nm.spheres[0].radii[0] == np.float32(CARBON.spheres[0].radii[0] / np.float32(10))
