@@ -20,7 +20,15 @@ double percent_to_tenths(double share) { return std::floor(share * 1000) / 10; }
 
 /// The blocks that are rendered: all of them, or those of the shard.
 std::vector<PixelRect> blocks_of(const RenderCommand& command, const Renderer& renderer) {
-  return blocks_of_shard(renderer.rect(), renderer.options().tile, command.shard.value_or(Shard{}));
+  const RenderOptions& options = renderer.options();
+  std::vector<PixelRect> blocks =
+      blocks_of_shard(renderer.rect(), options.tile, command.shard.value_or(Shard{}));
+  if (command.partial && options.order == PixelOrder::rows) {
+    std::sort(blocks.begin(), blocks.end(), [](const PixelRect& a, const PixelRect& b) {
+      return a.y0 != b.y0 ? a.y0 < b.y0 : a.x0 < b.x0;
+    });
+  }
+  return blocks;
 }
 
 /// The tile of a picture that a team renders: the same on all its ranks, whatever machines they

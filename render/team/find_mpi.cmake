@@ -9,8 +9,8 @@ function(boule_mpi_wrappers name result)
   endforeach()
   string(REPLACE ":" ";" path "$ENV{PATH}")
   list(APPEND folders ${path})
-  file(GLOB usual LIST_DIRECTORIES true /usr/lib64/${name}*/bin /usr/lib/${name}*/bin
-    /usr/local/${name}*/bin /usr/local/*/${name}*/bin /opt/${name}*/bin /opt/*/${name}*/bin)
+  file(GLOB usual LIST_DIRECTORIES true
+    /usr/lib64/*/bin /usr/local/*/bin /usr/local/*/*/bin /opt/*/bin /opt/*/*/bin)
   list(SORT usual COMPARE NATURAL ORDER DESCENDING)
   list(APPEND folders ${usual})
   set(found)

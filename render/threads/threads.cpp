@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -22,9 +23,14 @@ std::size_t stack_size() { return std::max(default_stack(), least_stack); }
 
 std::atomic<unsigned> thread_limit{0};
 
-unsigned own_quota() {
-  std::ifstream file("/proc/self/cgroup");
-  return quota_threads({std::istreambuf_iterator<char>(file), {}}, "/sys/fs/cgroup");
+/// None where there is no memory to read it: destructors ask, too.
+unsigned own_quota() noexcept {
+  try {
+    std::ifstream file("/proc/self/cgroup");
+    return quota_threads({std::istreambuf_iterator<char>(file), {}}, "/sys/fs/cgroup");
+  } catch (const std::exception&) {
+    return 0;
+  }
 }
 
 }  // namespace
