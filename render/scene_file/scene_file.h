@@ -23,10 +23,8 @@ struct SceneFileOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
   /// Of a series: selects the camera's position, the data files and the frame of a trajectory.
   std::optional<int> frame{};
-  /// Of a series: what the ends of colour maps stand for where the scene file does not say it.
-  ColorRanges color_ranges{};
-  /// Of a series: the colours that species and other texts have already.
-  KindColors kind_colors{};
+  /// Of a series: what all its frames choose where the scene file does not say it.
+  SeriesChoices choices{};
   /// Of a series: the origin, where the scene file leaves it to be chosen.
   std::optional<Vec3d> origin{};
   /// Of a series: keeps trajectories open for the next frame; null: none. Not for several threads

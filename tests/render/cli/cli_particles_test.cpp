@@ -1,4 +1,5 @@
 // Pictures of particle files without a scene: one command, the scene that it makes, series.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/render/cli/program.h"
@@ -321,6 +322,31 @@ TEST_F(Particles, OfASceneAreASeriesToo) {
   EXPECT_TRUE(read("f1.ppm") == read("last.ppm"));
   render(path("one.toml"), "g#.ppm", {"--frames", "0"});
   EXPECT_FALSE(read("f0.ppm") == read("g0.ppm"));
+}
+
+/// A process that renders one frame alone chooses what the others do, and tells it once.
+TEST_F(Particles, OfASeriesChooseOnceWhoeverRendersThem) {
+  std::string text = "0\n\n";
+  for (const char* side : {"2", "1", "4"})
+    text += "3\n\nA 0 0 0\nA " + std::string(side) + " 0 0\nA 0 " + side + " 0\n";
+  const std::string file = write("grow.xyz", text);
+  const std::vector<std::string> claim = {"--quick", "--frames", "0-3", "--claim"};
+  const ProgramRun run = render(file, "c#.ppm", claim);
+  for (const char* note : {"grow.xyz: the radius is half the typical distance to the nearest "
+                           "neighbour, 0.5, the smallest of all 4 frames\n",
+                           "the camera is fitted to all 4 frames\n"}) {
+    EXPECT_THAT(run.err, HasSubstr(note));
+    EXPECT_EQ(run.err.find(note), run.err.rfind(note)) << note;
+  }
+  const std::string third = read("c3.ppm");
+  std::filesystem::remove(path("c3.ppm"));
+  EXPECT_THAT(render(file, "c#.ppm", claim).err, HasSubstr("the smallest of all 4 frames"));
+  EXPECT_TRUE(read("c3.ppm") == third);
+  // With that radius for all nothing changes.
+  render(file, "r#.ppm", {"--quick", "--frames", "0-3", "--radius", "0.5"});
+  for (const char* number : {"0", "1", "2", "3"})
+    EXPECT_TRUE(read(std::string("c") + number + ".ppm") ==
+                read(std::string("r") + number + ".ppm"));
 }
 
 TEST_F(Particles, OfASeriesMakeAMovie) {
