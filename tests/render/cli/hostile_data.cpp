@@ -79,7 +79,7 @@ std::vector<HostileData> hostile_lenses_and_pictures() {
   return {
       {"LensEmpty", l, just(""), ""},
       {"LensBinary", l, binary, "line 1: "},
-      {"LensUtf16", l, [] { return utf16("1 1 1 1\n"); }, "is UTF-16 text"},
+      {"LensUtf16", l, [] { return utf16("1 1 1 1\n"); }, "line 1:1: is UTF-16 text"},
       {"LensNul", l, just(std::string("1 1\0 1 1\n", 9)), "line 1:4: holds a NUL"},
       {"LensLongLine", l, [] { return repeated("1 ", 16 * mebibyte); }, "line 1: "},
       {"LensManyElements", l, [] { return repeated("1 1 1 1\n", 4 * mebibyte); },
