@@ -14,6 +14,7 @@ namespace {
 constexpr const char* paper = R"(
 [background]
 color = [0.45, 0.45, 0.45]    # light from everywhere
+ambient = [0.3, 0.3, 0.3]     # what stands for it by method whitted
 backdrop = "#ffffff"          # what is seen where nothing is
 
 [[light]]                     # a soft one at the camera's upper left
@@ -63,6 +64,7 @@ max_depth = 0
 constexpr const char* dark = R"(
 [background]
 color = [0.18, 0.19, 0.2]     # light from everywhere
+ambient = [0.2, 0.2, 0.2]     # what stands for it by method whitted
 backdrop = "#14161a"          # what is seen where nothing is
 
 [[light]]                     # a soft one at the camera's upper left

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -77,7 +78,12 @@ void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
   for (const std::string& note : loaded.notes) note_once("boule: note: " + printable(note));
   const Scene& scene = loaded.scene;
   const PrimitiveCount count = count_primitives(scene);
-  if (count.total() == 0) note_once("boule: note: no objects in the scene: nothing to be hit");
+  // Where particles are there and none is selected, that is told already.
+  const bool has_particles =
+      std::any_of(loaded.particles.begin(), loaded.particles.end(),
+                  [](const ParticleFacts& facts) { return facts.particles > 0; });
+  if (count.total() == 0 && !has_particles)
+    note_once("boule: note: no objects in the scene: nothing to be hit");
   detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", options_.scene,
                      counted(count.spheres, "sphere"), counted(count.planes, "plane"),
                      counted(scene.lights.size(), "light"),

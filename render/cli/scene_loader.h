@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "render/cli/exit_code.h"
 #include "render/cli/options.h"
 #include "render/cli/particle_look.h"
+#include "render/cli/series_survey.h"
 #include "render/frame/scheduler.h"
 #include "render/scene_file/particle_file_cache.h"
 #include "render/scene_file/scene_file.h"
@@ -16,46 +18,66 @@
 namespace boule::cli {
 
 /// Reads the scene that a command names, or makes that of a particle file; in a series anew for
-/// each frame. What the scene leaves to be chosen is chosen once for a series, so that nothing
-/// jumps from frame to frame: the camera, which is fitted to all frames, what colours mean, the
-/// origin of coordinates, the floor.
+/// each frame. What the scene leaves to be chosen is chosen once for a series, from all of its
+/// frames, so that nothing jumps from frame to frame: radii, what colours mean, the origin of
+/// coordinates, the floor, the camera.
 class SceneLoader {
  public:
-  explicit SceneLoader(const RenderCommand& command);
+  /// How much of a series is read for its choices: about ten seconds.
+  static constexpr std::uint64_t most_spheres = 50'000'000;
+
+  /// `files`, if not null, keeps the files of particles open, and outlives the loader.
+  explicit SceneLoader(const RenderCommand& command, ParticleFileCache* files = nullptr,
+                       std::uint64_t most = most_spheres);
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  /// The scene of a frame, or that of a single picture. Where a series does not begin with its
-  /// first frame, because other processes share it, that is read first: all make the same choices.
+  /// The scene of a frame, or that of a single picture. Whichever frame comes first, the choices
+  /// are those of all: processes that share a series make the same ones.
   Result<LoadedScene> load(std::optional<int> frame);
+  /// The same where particles look otherwise from now on, unless that is an error.
+  Result<LoadedScene> load_as(const LookOptions& look, std::optional<int> frame);
 
   /// Whether a scene was made for a particle file.
   [[nodiscard]] bool is_made() const { return is_made_; }
   /// What colours mean, one for each table of particles: those of a series include what is only in
-  /// its other frames.
-  [[nodiscard]] const std::vector<ParticleColors>& colors() const { return colors_; }
+  /// some of its frames.
+  [[nodiscard]] const std::vector<ParticleColors>& colors() const { return choices_.colors; }
+  /// What was chosen for the tables of a series.
+  [[nodiscard]] const SeriesChoices& particle_choices() const { return choices_.particles; }
 
  private:
+  /// What is chosen once.
+  struct Choices {
+    bool are_made = false;
+    std::optional<Vec3d> origin;
+    SeriesChoices particles;
+    std::vector<ParticleColors> colors;
+    std::optional<LookFloor> floor;  ///< of a particle file
+    std::optional<Camera> camera;    ///< if the scene has none
+    std::vector<std::string> notes;  ///< that are still to be told
+  };
+
   Result<LoadedScene> read(std::optional<int> frame);
   Result<LoadedScene> read_file(std::optional<int> frame);
-  Result<LoadedScene> choose_for_series(LoadedScene first);
-  void keep_choices(const LoadedScene& loaded);
+  Result<LoadedScene> choose_for_series();
+  [[nodiscard]] std::uint64_t find_shown(const LoadedScene& first);
   [[nodiscard]] bool needs_others(const LoadedScene& first) const;
-  void look_at_others(LoadedScene& first, const std::vector<int>& frames);
-  void use_choices(LoadedScene& loaded) const;
+  SeriesSurvey look_at(const std::vector<int>& frames);
+  void keep_floor_and_camera(const SeriesSurvey& survey, std::size_t frames);
+  void keep_colors(const LoadedScene& shown);
+  void use_choices(LoadedScene& loaded);
 
   const std::string path_;  ///< with a slot for the frame's number
-  const LookOptions look_;
+  LookOptions look_;
   const std::string camera_keys_;
   const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
   const std::optional<Size> size_;
+  const std::uint64_t most_;
   Scheduler scheduler_;
-  ParticleFileCache files_;
+  ParticleFileCache own_files_;
   SceneFileOptions options_;
-  std::optional<LookFloor> floor_;  ///< of a series of a particle file
-  std::optional<Camera> camera_;    ///< of a series whose scene has none
-  std::vector<ParticleColors> colors_;
-  bool is_first_ = true;
+  Choices choices_;
   bool is_made_ = false;
 };
 

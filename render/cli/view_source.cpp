@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/cli/camera_option.h"
 #include "render/cli/look_values.h"
 #include "render/cli/particle_scene.h"
 #include "render/packed/packed_file.h"
@@ -51,10 +50,6 @@ std::string fixed_options(const LookOptions& look) {
 
 ViewSource::ViewSource(const RenderCommand& command)
     : command_(command), scheduler_(command.threads) {
-  options_.polygons = command.polygons;
-  options_.trust = command.trust;
-  options_.parallel_for = scheduler_.parallel_for();
-  options_.particle_files = &files_;
   facts_.path = command.scene;
 }
 
@@ -70,12 +65,28 @@ Status ViewSource::open() {
   facts_.kind = kind_of(path, particles);
   facts_.look = {command_.look.color, command_.look.map, command_.look.range};
   if (particles) facts_.shared_options = fixed_options(command_.look);
-  return particles && !command_.frames ? find_frames() : std::nullopt;
+  if (auto bad = particles && !command_.frames ? find_frames() : std::nullopt) return bad;
+  make_loader();
+  return std::nullopt;
+}
+
+void ViewSource::make_loader() {
+  constexpr std::uint64_t most_spheres = 5'000'000;  // read in about a second
+  RenderCommand command = command_;
+  if (facts_.frames) {
+    const auto [first, last, step] = *facts_.frames;
+    command.frames = FrameRange{first, last, step};
+    command.look.frame.reset();  // it is shown first, and is one of them
+  }
+  loader_ = std::make_unique<SceneLoader>(command, &files_, most_spheres);
 }
 
 /// A trajectory becomes a series of all its frames, which begins with the one that was asked for.
 Status ViewSource::find_frames() {
-  auto made = load_particle_scene(command_.scene, command_.look, options_);
+  SceneFileOptions options;
+  options.parallel_for = scheduler_.parallel_for();
+  options.particle_files = &files_;
+  auto made = load_particle_scene(command_.scene, command_.look, options);
   if (!made) return made.error();
   const ParticleFacts& facts = made.value().loaded.particles.front();
   if (facts.frames < 2) return std::nullopt;
@@ -86,6 +97,7 @@ Status ViewSource::find_frames() {
 
 Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const {
   LookOptions options = command_.look;
+  if (facts_.frames) options.frame.reset();
   if (!look.color.empty() && !parse_particle_color(look.color))
     return Diagnostic::about("color", "expected element, #rrggbb or a column");
   if (!look.map.empty() && !parse_map(look.map))
@@ -102,39 +114,17 @@ Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const 
 Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) {
   auto options = look_with(look);
   if (!options) return options.error();
-  const ColorRanges before = options_.color_ranges;
-  if (last_look_ && !(*last_look_ == look)) options_.color_ranges.clear();
-  auto loaded = read(options.value(), frame);
-  if (!loaded) {
-    options_.color_ranges = before;
-    return loaded;
-  }
-  if (!options_.origin) options_.origin = loaded.value().origin;
-  if (options_.color_ranges.empty()) {
-    KindColors ignored;  // a command for one frame could not tell them
-    keep_colors(loaded.value().particles, options_.color_ranges, ignored);
-  }
-  last_look_ = look;
-  if (auto bad = use_camera(command_.camera, options_.frame, loaded.value())) return *bad;
+  auto loaded =
+      loader_->load_as(options.value(), facts_.frames ? std::optional(frame) : std::nullopt);
+  if (loaded && facts_.kind == "particles") particles_ = loaded.value().particles.front();
   return loaded;
-}
-
-Result<LoadedScene> ViewSource::read(const LookOptions& look, int frame) {
-  const bool is_series = facts_.frames.has_value();
-  const std::string path = command_.frames ? frame_name(command_.scene, frame) : command_.scene;
-  options_.frame = is_series ? std::optional(frame) : std::nullopt;
-  if (facts_.kind != "particles") return load_scene(path, options_);
-  auto made = load_particle_scene(command_.frames ? command_.scene : path, look, options_);
-  if (!made) return made.error();
-  particles_ = made.value().loaded.particles.front();
-  return std::move(made).value().loaded;
 }
 
 /// Read once: a picture needs few of the columns, and another frame has the same ones.
 std::vector<view::NumberRange> ViewSource::columns() {
   if (columns_ || !particles_) return columns_.value_or(std::vector<view::NumberRange>{});
   columns_.emplace();
-  const auto frame = read_all_columns(command_.look, *particles_, options_.parallel_for);
+  const auto frame = read_all_columns(command_.look, *particles_, scheduler_.parallel_for());
   if (!frame) return {};
   for (const NumberColumn& column : frame.value().numbers) {
     const ColumnExtent extent = extent_of(column);
@@ -152,13 +142,24 @@ std::string ViewSource::options_of(const view::ParticleLook& look, int frame) co
     text += fmt::format(" --frame {}", frame);
   }
   if (facts_.kind != "particles") return text;
+  text += radius_option();
   if (!look.color.empty()) text += " --color " + shell_word(look.color);
   if (!has_color_map(look.color)) return text;
   if (!look.map.empty()) text += " --map " + shell_word(look.map);
   if (look.range) return text + fmt::format(" --range {},{}", (*look.range)[0], (*look.range)[1]);
-  for (const auto& [table, range] : options_.color_ranges)
-    return text + fmt::format(" --range {},{}", range[0], range[1]);
-  return text;
+  const auto& colors = loader_->colors();
+  if (!facts_.frames || colors.empty() || !colors.front().scale) return text;
+  const auto& range = colors.front().scale->range;
+  return text + fmt::format(" --range {},{}", range[0], range[1]);
+}
+
+/// The radius that a series has chosen for all particles: a frame by itself might choose another.
+std::string ViewSource::radius_option() const {
+  const SeriesChoices& all = loader_->particle_choices();
+  if (all.empty() || !command_.look.radius.empty()) return {};
+  const ParticleChoices& chosen = all.begin()->second;
+  if (chosen.particles == 0 || chosen.most_are_elements()) return {};
+  return fmt::format(" --radius {}", chosen.typical_radius());
 }
 
 }  // namespace boule::cli

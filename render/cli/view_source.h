@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/math/vec.h"
 #include "render/cli/options.h"
+#include "render/cli/scene_loader.h"
 #include "render/frame/scheduler.h"
 #include "render/scene_file/particle_file_cache.h"
 #include "render/scene_file/scene_file.h"
@@ -14,8 +16,8 @@
 namespace boule::cli {
 
 /// The file that `boule view` shows: a scene, a series of them, or particles, for which a scene is
-/// made as by `boule render`. What is chosen for the first frame stays for the others: the origin
-/// and the range of colours.
+/// made as by `boule render`. A series chooses once, as there (SceneLoader), but from fewer frames
+/// where it is large: somebody is waiting.
 class ViewSource final : public view::SceneSource {
  public:
   explicit ViewSource(const RenderCommand& command);
@@ -29,16 +31,16 @@ class ViewSource final : public view::SceneSource {
   [[nodiscard]] std::string options_of(const view::ParticleLook& look, int frame) const override;
 
  private:
-  Result<LoadedScene> read(const LookOptions& look, int frame);
   Status find_frames();
+  void make_loader();
+  [[nodiscard]] std::string radius_option() const;
   [[nodiscard]] Result<LookOptions> look_with(const view::ParticleLook& look) const;
 
   const RenderCommand command_;
   Scheduler scheduler_;
   ParticleFileCache files_;
-  SceneFileOptions options_;
+  std::unique_ptr<SceneLoader> loader_;  ///< once it is open
   view::SourceFacts facts_;
-  std::optional<view::ParticleLook> last_look_;
   std::optional<std::vector<view::NumberRange>> columns_;
   std::optional<ParticleFacts> particles_;  ///< of the frame that was read
 };

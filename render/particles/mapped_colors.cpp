@@ -1,37 +1,28 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/base/chunks.h"
-#include "core/scene/number_text.h"
 #include "render/particles/particle_colors.h"
 #include "render/particles/percentiles.h"
 
 namespace boule {
 namespace {
 
-/// A range around what is the same for all particles.
-std::array<double, 2> range_around(double number) {
-  const double half = std::max(std::fabs(number), 1.0) / 2;
-  constexpr double most = std::numeric_limits<double>::max();
-  return {std::max(number - half, -most), std::min(number + half, most)};
-}
-
+/// The range that the series has, or the frame by itself.
 std::array<double, 2> choose_range(const ColoredFrame& colored, const ParticleNumbers& numbers,
-                                   const std::string& by, std::vector<std::string>& notes) {
-  const std::string name = "the colours of " + quote(by);
-  if (colored.frame.size() == 0) return {0, 1};
-  auto range = percentiles(numbers, colored.frame.size(), colored.parallel_for);
-  if (range[0] > range[1]) return {0, 1};  // all are missing
-  if (!(range[0] < range[1])) {
-    notes.push_back(name + " are those of one number, " + number_text(range[0]));
-    return range_around(range[0]);
+                                   const std::string& by, ParticleMaterials& made) {
+  auto& own = made.own.range;
+  const bool of_series = colored.chosen != nullptr && colored.chosen->range;
+  if (!of_series && colored.frame.size() > 0) {
+    own = percentiles(numbers, colored.frame.size(), colored.parallel_for);
+    if ((*own)[0] > (*own)[1]) own.reset();  // all are missing
   }
-  notes.push_back(name + " go from " + number_text(range[0]) + " to " + number_text(range[1]) +
-                  ", the 1st and 99th percentile");
-  return range;
+  const auto& ends = of_series ? colored.chosen->range : own;
+  if (!ends) return {0, 1};
+  made.notes.push_back(range_note(by, *ends, of_series ? colored.chosen->of_frames : ""));
+  return map_range(*ends);
 }
 
 }  // namespace
@@ -42,7 +33,7 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
   if (!numbers) return numbers.error();
   ParticleMaterials made;
   const std::array<double, 2> range =
-      mapped.range ? *mapped.range : choose_range(colored, numbers.value(), mapped.by, made.notes);
+      mapped.range ? *mapped.range : choose_range(colored, numbers.value(), mapped.by, made);
   if (!(range[0] < range[1]) || !std::isfinite(range[0]) || !std::isfinite(range[1])) {
     return Diagnostic::about("color.range", "expected two finite numbers, the larger one last");
   }

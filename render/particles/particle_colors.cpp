@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "render/particles/elements.h"
@@ -33,8 +34,10 @@ ColorRule default_rule(const ParticleFrame& frame) {
 /// The colours of rules for one frame.
 class Coloring {
  public:
-  Coloring(const ColoredFrame& colored, const KnownKinds& known)
-      : colored_(colored), frame_(colored.frame), known_(known) {}
+  explicit Coloring(const ColoredFrame& colored)
+      : colored_(colored),
+        frame_(colored.frame),
+        known_(colored.chosen != nullptr ? colored.chosen->kinds : KnownKinds()) {}
 
   Materials operator()(std::monostate) const {
     return ParticleMaterials{{{MaterialRef(colored_.material)}}};
@@ -50,8 +53,10 @@ class Coloring {
     const auto unknown = std::count_if(texts.begin(), texts.end(), [](const std::string& text) {
       return find_element(text) == nullptr;
     });
-    return of_groups(*frame_.species, species_colors(texts, known_),
-                     static_cast<std::size_t>(unknown));
+    ParticleMaterials made = of_groups(*frame_.species, species_colors(texts, known_),
+                                       static_cast<std::size_t>(unknown));
+    made.own.are_species = true;
+    return made;
   }
 
   Materials operator()(const ColorColumns& columns) const {
@@ -102,10 +107,11 @@ class Coloring {
     ParticleMaterials made{by_text(texts, colors)};
     std::vector<std::size_t> counts(colors.size());
     for (const std::uint32_t index : texts.indices) ++counts[index];
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      if (counts[i] == 0) continue;
-      made.colors.species.push_back({texts.texts[i], colors[i], counts[i]});
-    }
+    auto& kinds = made.own.kinds;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      kinds.push_back({texts.texts[i], colors[i], counts[i]});
+    std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(made.colors.species),
+                 [](const auto& kind) { return kind.count > 0; });
     if (from_palette > palette_size) {
       made.notes.push_back("the column " + quote(texts.name) + " has " +
                            std::to_string(from_palette) + " kinds and the palette " +
@@ -132,7 +138,7 @@ class Coloring {
 
   ColoredFrame colored_;
   const ParticleFrame& frame_;
-  const KnownKinds& known_;
+  const KnownKinds known_;
 };
 
 }  // namespace
@@ -148,8 +154,7 @@ Result<ParticleMaterials> make_materials(const ParticleFrame& frame, const Parti
                                              std::to_string(MaterialRef::max_colored) +
                                              " materials can be given colours");
   }
-  return std::visit(Coloring({frame, style.material, name_of, parallel_for}, style.known_kinds),
-                    rule);
+  return std::visit(Coloring({frame, style.material, name_of, style.chosen, parallel_for}), rule);
 }
 
 }  // namespace boule

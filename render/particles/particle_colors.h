@@ -20,6 +20,7 @@ struct ParticleMaterials {
   ParticleValues<MaterialRef> materials;
   ParticleColors colors{};
   std::vector<std::string> notes{};
+  ParticleChoices own{};  ///< what the frame by itself has for that: of numbers and kinds
 };
 
 /// What is to be coloured, and in which material.
@@ -27,12 +28,17 @@ struct ColoredFrame {
   const ParticleFrame& frame;
   std::uint32_t material = 0;  ///< < MaterialRef::max_colored
   const ParticleNamer& name_of;
+  const ParticleChoices* chosen = nullptr;  ///< as ParticleStyle
   const ParallelFor& parallel_for;
 
   [[nodiscard]] MaterialRef in(const SrgbColor& color) const {
     return MaterialRef::colored(material, color);
   }
 };
+
+/// Where colours come from one column of numbers that are kinds, in the series or else in the
+/// frame, makes it a column of texts. `own` gets what the frame by itself has for that.
+void make_kinds(ParticleFrame& frame, const ParticleStyle& style, ParticleChoices& own);
 
 /// The materials in the colours of a rule. An error, about "color" or "color.by", if there is no
 /// such column or it holds something else, and about "material" if that one cannot be coloured.

@@ -30,8 +30,9 @@ double table_radius(RadiusTable table, const std::string& species) {
 /// Decides rules for one frame.
 class Decision {
  public:
-  Decision(const ParticleFrame& frame, const ParallelFor& parallel_for)
-      : frame_(frame), parallel_for_(parallel_for) {}
+  Decision(const ParticleFrame& frame, const ParticleChoices* chosen, ParticleChoices& own,
+           const ParallelFor& parallel_for)
+      : frame_(frame), chosen_(chosen), own_(own), parallel_for_(parallel_for) {}
 
   Result<RadiusSource> operator()(double radius) const {
     RadiusSource source;
@@ -61,7 +62,8 @@ class Decision {
   Result<RadiusSource> operator()(std::monostate) const {
     if (find_number_column(frame_, "radius") != nullptr) return from_column("radius", 1);
     if (find_number_column(frame_, "diameter") != nullptr) return from_column("diameter", 0.5);
-    if (most_are_elements()) {
+    count_elements();
+    if ((chosen_ != nullptr ? *chosen_ : own_).most_are_elements()) {
       RadiusSource source = from_table(RadiusTable::vdw);
       source.notes.push_back("the radii are " + source.text);
       return source;
@@ -69,7 +71,7 @@ class Decision {
     RadiusSource source;
     source.all = typical_radius();
     source.text = "half the typical distance to the nearest neighbour";
-    source.notes.push_back("the radius is " + source.text + ", " + number_text(source.all));
+    source.notes.push_back("the radius is " + source.text + typical_text(source.all));
     return source;
   }
 
@@ -90,18 +92,23 @@ class Decision {
                   (unit == 1    ? "angstrom"
                    : unit == 10 ? "nm"
                                 : number_text(unit) + " angstrom");
-    std::vector<std::string_view> unknown;
-    for (const std::string& species : frame_.species->texts) {
-      source.by_species.push_back(table_radius(table, species) / unit);
-      if (source.by_species.back() == 0) unknown.push_back(species);
+    if (frame_.species) {
+      for (const std::string& species : frame_.species->texts) {
+        source.by_species.push_back(table_radius(table, species) / unit);
+        if (source.by_species.back() == 0) own_.unlisted.push_back(species);
+      }
     }
-    if (unknown.empty()) return source;
-    const double typical = typical_radius();
+    // In a series whose other frames have elements.
+    if (source.by_species.empty()) source.all = typical_radius();
+    const double typical = own_.unlisted.empty() ? 0 : typical_radius();
     std::replace(source.by_species.begin(), source.by_species.end(), 0.0, typical);
+    const std::vector<std::string>& unlisted = (chosen_ != nullptr ? *chosen_ : own_).unlisted;
+    if (unlisted.empty()) return source;
+    const double told = chosen_ != nullptr ? chosen_->typical_radius() : typical;
     source.notes.push_back("the table of " + std::string(table_text(table)) +
-                           " lacks the species " + short_list(unknown) + ": their radius is half" +
-                           " the typical distance to the nearest neighbour, " +
-                           number_text(typical));
+                           " lacks the species " + short_list({unlisted.begin(), unlisted.end()}) +
+                           ": their radius is half the typical distance to the nearest neighbour" +
+                           typical_text(told));
     return source;
   }
 
@@ -116,24 +123,36 @@ class Decision {
   }
 
   /// Some may be none: the fourth point of water molecules, for instance.
-  [[nodiscard]] bool most_are_elements() const {
-    if (!frame_.species) return false;
+  void count_elements() const {
+    own_.particles = frame_.size();
+    if (!frame_.species) return;
     std::vector<bool> is_element;
     for (const std::string& text : frame_.species->texts) {
       is_element.push_back(find_element(text) != nullptr);
     }
     const auto& indices = frame_.species->indices;
-    const auto elements =
-        std::count_if(indices.begin(), indices.end(), [&](auto i) { return is_element[i]; });
-    return static_cast<std::size_t>(elements) > frame_.size() / 2;
+    own_.elements = static_cast<std::size_t>(
+        std::count_if(indices.begin(), indices.end(), [&](auto i) { return is_element[i]; }));
   }
 
   [[nodiscard]] double typical_radius() const {
+    if (chosen_ != nullptr && chosen_->distance) return chosen_->typical_radius();
     const double distance = typical_distance(frame_.positions, parallel_for_);
-    return distance > 0 ? distance / 2 : 1;
+    if (distance > 0) own_.distance = distance;
+    return own_.typical_radius();
+  }
+
+  /// ", 0.5", and of which frames.
+  [[nodiscard]] std::string typical_text(double radius) const {
+    const std::string text = ", " + number_text(radius);
+    return chosen_ != nullptr && chosen_->distance
+               ? text + ", the smallest of " + chosen_->of_frames
+               : text;
   }
 
   const ParticleFrame& frame_;
+  const ParticleChoices* chosen_;
+  ParticleChoices& own_;
   const ParallelFor& parallel_for_;
 };
 
@@ -207,8 +226,9 @@ std::vector<float> radii_of_species(const std::vector<double>& by_species, doubl
 }  // namespace
 
 Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const RadiusRule& rule,
+                                        const ParticleChoices* chosen, ParticleChoices& own,
                                         const ParallelFor& parallel_for) {
-  return std::visit(Decision(frame, parallel_for), rule);
+  return std::visit(Decision(frame, chosen, own, parallel_for), rule);
 }
 
 Result<ParticleRadii> make_radii(const ParticleFrame& frame, const RadiusSource& source,

@@ -23,9 +23,11 @@ struct RadiusSource {
   std::vector<std::string> notes;
 };
 
-/// Decides a rule. The typical distance is that of all particles of the frame. An error, about
-/// "radius", if there is no such column or, for tables, no species.
+/// Decides a rule. The typical distance is that of all particles of the frame, or what `chosen` has
+/// if it is not null; `own` gets what the frame by itself has for that. An error, about "radius",
+/// if there is no such column or, for tables, no species.
 Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const RadiusRule& rule,
+                                        const ParticleChoices* chosen, ParticleChoices& own,
                                         const ParallelFor& parallel_for);
 
 /// The radii of a frame's particles.

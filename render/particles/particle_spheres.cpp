@@ -17,6 +17,7 @@
 #include "render/particles/particle_columns.h"
 #include "render/particles/particle_radii.h"
 #include "render/particles/particle_select.h"
+#include "render/particles/select_expression.h"
 
 namespace boule {
 namespace {
@@ -142,16 +143,25 @@ void append(std::vector<std::string>& notes, std::vector<std::string> more) {
 }
 
 /// The frame without the particles that are not selected; returns which were, or nothing for all.
-Result<std::vector<std::uint8_t>> apply_select(ParticleFrame& frame, const std::string& select,
+Result<std::vector<std::uint8_t>> apply_select(ParticleFrame& frame, const ParticleStyle& style,
                                                const ParallelFor& parallel_for) {
+  const std::string& select = style.select;
   if (select.empty()) return std::vector<std::uint8_t>();
+  if (frame.size() == 0) {
+    const auto expression = parse_select(select, "select");
+    if (!expression) return expression.error();
+    return std::vector<std::uint8_t>();
+  }
   if (auto full = check_memory(frame.size(), "selecting particles needs", "select")) return *full;
   const std::size_t count = frame.size();
   auto selected = select_particles(frame, select, parallel_for);
   if (!selected) return selected;
   keep_particles(frame, selected.value(), parallel_for);
-  if (frame.positions.empty() && count > 0) {
-    frame.notes.push_back("none of " + std::to_string(count) + " particles meets the selection");
+  if (frame.positions.empty()) {
+    frame.notes.push_back(style.chosen != nullptr  // a series tells it once
+                              ? "in some frames no particle meets the selection"
+                              : "none of " + std::to_string(count) +
+                                    " particles meets the selection");
   }
   return selected;
 }
@@ -190,18 +200,23 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   const std::size_t count = frame.size();
   if (auto wrong = check_style(style)) return *std::move(wrong);
   if (auto wrong = check_cell(frame, style, frame.notes)) return *std::move(wrong);
-  auto source = find_radius_source(frame, style.radius, parallel_for);
+  auto source = find_radius_source(frame, style.radius, style.chosen, made.own_, parallel_for);
+  // A frame without particles may lack the columns that the others of its series have.
+  if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
-  auto selected = apply_select(frame, style.select, parallel_for);
+  auto selected = apply_select(frame, style, parallel_for);
   if (!selected) return selected.error();
   if (auto full = check_room(frame.size(), style)) return *std::move(full);
   const ParticleNamer name_of = [&](std::size_t shown) {
     return particle_text(place_of(shown, selected.value()), count);
   };
+  make_kinds(frame, style, made.own_);
   auto radii = make_radii(frame, source.value(), style.scale, name_of, parallel_for);
   if (!radii) return radii.error();
   auto materials = make_materials(frame, style, name_of, parallel_for);
+  if (!materials && count == 0) materials = ParticleMaterials{};
   if (!materials) return materials.error();
+  made.keep_own(std::move(materials.value().own));
   if (auto wrong = made.place(style, parallel_for)) return *std::move(wrong);
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
@@ -212,6 +227,13 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   append(frame.notes, std::move(materials.value().notes));
   drop_columns(frame, made.radii_, made.materials_);
   return made;
+}
+
+/// Adds what the colours depend on to what the radii do.
+void ParticleSpheres::keep_own(ParticleChoices colors) {
+  if (colors.range) own_.range = colors.range;
+  if (own_.column.empty()) own_.kinds = std::move(colors.kinds);
+  own_.are_species = colors.are_species;
 }
 
 bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {

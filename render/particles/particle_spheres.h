@@ -16,6 +16,7 @@
 #include "render/particle_file/particle_frame.h"
 #include "render/particles/cell_images.h"
 #include "render/particles/color_meaning.h"
+#include "render/particles/particle_choices.h"
 #include "render/particles/particle_style.h"
 #include "render/particles/particle_values.h"
 
@@ -45,6 +46,8 @@ class ParticleSpheres {
   /// How radii were chosen: "the column radius", "van der Waals radii, in angstrom", ...
   [[nodiscard]] const std::string& radius_source() const { return radius_source_; }
   [[nodiscard]] const std::optional<ParticleCell>& cell() const { return frame_->cell; }
+  /// What the frame by itself has for what is chosen: the frames of a series are added up.
+  [[nodiscard]] const ParticleChoices& own_choices() const { return own_; }
   /// What was decided for the user, a sentence each; the frame's own are among them.
   [[nodiscard]] const std::vector<std::string>& notes() const { return frame_->notes; }
 
@@ -69,6 +72,7 @@ class ParticleSpheres {
     std::size_t begin = 0, end = 0;
   };
 
+  void keep_own(ParticleChoices colors);
   Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
   Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
                           const ParallelFor& parallel_for);
@@ -85,6 +89,7 @@ class ParticleSpheres {
   double smallest_radius_ = 0;
   ParticleColors colors_;
   std::string radius_source_;
+  ParticleChoices own_;
 };
 
 }  // namespace boule

@@ -10,7 +10,7 @@
 #include "core/math/srgb.h"
 #include "core/scene/names.h"
 #include "render/particles/color_map.h"
-#include "render/particles/color_meaning.h"
+#include "render/particles/particle_choices.h"
 
 namespace boule {
 
@@ -36,8 +36,9 @@ struct SpeciesColors {};
 
 /// Columns that hold a colour each: one of texts "#rrggbb", or three of numbers from 0 to 1 on the
 /// sRGB curve (or, with a note, whole ones to 255). One column may also be of numbers, or "|NAME|":
-/// then it is MappedColors by it. If it is the species', they are SpeciesColors; other texts, such
-/// as names of residues, have a colour of the palette each.
+/// then it is MappedColors by it, unless its numbers are few and whole, as types are
+/// (most_kinds()): those are like texts. If it is the species', they are SpeciesColors; other
+/// texts, such as names of residues, have a colour of the palette each.
 struct ColorColumns {
   /// One or three. One name of three words, where no column has it, is the names of three columns.
   std::vector<std::string> names;
@@ -66,8 +67,8 @@ struct ParticleStyle {
   RadiusRule radius{};
   double scale = 1;  ///< the radii times that, > 0
   ColorRule color{};
-  /// Of a series: the colours that species, or other texts, have in its other frames.
-  std::vector<ParticleColors::Species> known_kinds{};
+  /// Of a series: what all its frames choose; null: the frame chooses by itself. A view.
+  const ParticleChoices* chosen = nullptr;
   /// The index of the spheres' material; below MaterialRef::max_colored, unless they keep its
   /// colour.
   std::uint32_t material = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "core/math/geometry.h"
@@ -13,55 +15,82 @@ namespace {
 /// Together a little more than 1, so that what faces both is nearly as bright as its colour.
 constexpr float key_intensity = 0.95F, fill_intensity = 0.15F;
 
-/// Whether a background counts as light. A constant one and an image do so for path tracing only.
-bool is_light(const Background& background, Method method) {
-  if (const auto* gradient = std::get_if<GradientBackground>(&background)) {
-    return !is_black(gradient->bottom) || !is_black(gradient->top);
-  }
-  if (method == Method::whitted) return false;
-  if (const auto* constant = std::get_if<ConstantBackground>(&background)) {
-    return !is_black(constant->color);
-  }
-  const auto& pixels = std::get<EnvironmentBackground>(background).pixels;
+bool shines(const GradientBackground& background) {
+  return !is_black(background.bottom) || !is_black(background.top);
+}
+bool shines(const ConstantBackground& background) { return !is_black(background.color); }
+bool shines(const EnvironmentBackground& background) {
+  const auto& pixels = background.pixels;
   return !std::all_of(pixels.begin(), pixels.end(), is_black);
 }
 
-/// Whether any object gives light. Looks at the objects only if a material gives light, which is so
-/// in few scenes.
-bool has_emitter(const Scene& scene) {
-  std::vector<bool> emits;
-  for (const NamedMaterial& named : scene.materials) {
-    const auto* emissive = std::get_if<Emissive>(&named.material);
-    emits.push_back(emissive != nullptr && !is_black(emissive->radiance));
-  }
-  if (std::find(emits.begin(), emits.end(), true) == emits.end()) return false;
-  const auto gives = [&emits](const auto& object) -> bool {
-    return emits[object.material.index()];
+/// Whether a background gives light to paths.
+bool is_light(const Background& background) {
+  return std::visit([](const auto& kind) { return shines(kind); }, background);
+}
+
+bool has_gradient(const Scene& scene) {
+  const auto* gradient = std::get_if<GradientBackground>(&scene.background);
+  return gradient != nullptr && shines(*gradient);
+}
+
+bool gives_light(const Material& material) {
+  const auto* emissive = std::get_if<Emissive>(&material);
+  return emissive != nullptr && !is_black(emissive->radiance);
+}
+
+/// Whether a material is black where no light comes from a light.
+bool needs_light(const Material& material) {
+  if (const auto* phong = std::get_if<Phong>(&material)) return phong->kd > 0 && !(phong->ka > 0);
+  return std::holds_alternative<Matte>(material) || std::holds_alternative<Plastic>(material);
+}
+
+/// Whether any object has a material that is `wanted`. Looks at the objects only if there is such a
+/// material.
+template <class Wanted>
+bool any_object(const Scene& scene, const Wanted& wanted) {
+  std::vector<bool> is_wanted;
+  for (const NamedMaterial& named : scene.materials) is_wanted.push_back(wanted(named.material));
+  if (std::find(is_wanted.begin(), is_wanted.end(), true) == is_wanted.end()) return false;
+  const auto any = [&is_wanted](const auto& objects) {
+    return std::any_of(objects.begin(), objects.end(), [&](const auto& object) -> bool {
+      return is_wanted[object.material.index()];
+    });
   };
-  const auto any_gives = [&gives](const auto& objects) {
-    return std::any_of(objects.begin(), objects.end(), gives);
-  };
-  bool found =
-      any_gives(scene.packed ? scene.packed->emissive : scene.spheres) || any_gives(scene.planes);
+  bool found = any(scene.spheres) || any(scene.planes);
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
     if (found) return;
-    found = shown.material ? emits[*shown.material] : any_gives(scene.groups[shown.group].spheres);
+    found = shown.material ? is_wanted[*shown.material] : any(scene.groups[shown.group].spheres);
   });
   return found;
+}
+
+bool has_emitter(const Scene& scene) {
+  if (scene.packed && !scene.packed->emissive.empty()) return true;
+  return any_object(scene, gives_light);
 }
 
 }  // namespace
 
 bool lacks_light(const Scene& scene, Method method) {
-  return scene.lights.empty() && !is_light(scene.background, method) && !has_emitter(scene);
+  if (!scene.lights.empty()) return false;
+  if (method == Method::path) return !is_light(scene.background) && !has_emitter(scene);
+  if (!has_gradient(scene) && !has_emitter(scene)) return true;
+  // Those are seen, but by Whitted's method light nothing: what is matte would be black.
+  return is_black(scene.ambient) && (scene.packed || any_object(scene, needs_light));
 }
 
-const char* light_note(const Scene& scene, Method method) {
-  const bool unused =
-      method == Method::whitted && std::holds_alternative<EnvironmentBackground>(scene.background);
-  return unused ? "no light in the scene, and by method whitted its environment is none: lit from "
-                  "the upper left, and weakly from the eye"
-                : "no light in the scene: lit from the upper left, and weakly from the eye";
+std::string light_note(const Scene& scene, Method method) {
+  std::string text = "no light in the scene";
+  if (method == Method::whitted) {
+    const char* const unused = std::holds_alternative<EnvironmentBackground>(scene.background)
+                                   ? "its environment is"
+                               : has_gradient(scene) ? "its gradient is"
+                               : has_emitter(scene)  ? "its emissive objects are"
+                                                     : nullptr;
+    if (unused != nullptr) text += std::string(", and by method whitted ") + unused + " none";
+  }
+  return text + ": lit from the upper left, and weakly from the eye";
 }
 
 std::vector<Light> default_lights(const Camera& camera) {

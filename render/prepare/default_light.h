@@ -1,15 +1,17 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene/scene.h"
 
 namespace boule {
 
-/// True if nothing in the scene gives light: it has no light, no object of an emissive material,
-/// and no gradient as its background. For Method::path a constant background and an environment
-/// give light too. What is black gives none. Preconditions: the scene is valid, and its instances
-/// show no planes (expand_instances(), expand_planes()).
+/// True if nothing in the scene gives light. Lights do; for Method::path objects of an emissive
+/// material and a background too. By Method::whitted these are seen, but light nothing: a gradient
+/// and emissive objects count as light there only if no object needs one, being a mirror, glass or
+/// emissive, or if there is ambient light. What is black gives none. Preconditions: the scene is
+/// valid, and its instances show no planes (expand_instances(), expand_planes()).
 bool lacks_light(const Scene& scene, Method method);
 
 /// The lights that such a scene is given: a white directional one from the camera's upper left,
@@ -18,6 +20,6 @@ bool lacks_light(const Scene& scene, Method method);
 std::vector<Light> default_lights(const Camera& camera);
 
 /// The sentence that tells the user of it.
-const char* light_note(const Scene& scene, Method method);
+std::string light_note(const Scene& scene, Method method);
 
 }  // namespace boule

@@ -13,6 +13,7 @@
 #include "render/prepare/fold_spheres.h"
 #include "render/prepare/placed_lights.h"
 #include "render/prepare/scene_geometry.h"
+#include "render/prepare/view_notes.h"
 #include "simd/abi/stream.h"
 
 namespace boule {
@@ -145,6 +146,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
+  const std::vector<Sphere> sample = sample_spheres(scene, groups);
   PreparedScene prepared{.geometry = geometry_of(scene, groups, scene.planes, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
                          .materials = flatten_all(scene, method),
@@ -161,6 +163,8 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .notes = std::move(notes)};
   if (auto bad = reframe(prepared, *scene.camera, width, height)) return *bad;
+  for (std::string& note : view_notes(prepared.camera_view, width, height, sample))
+    prepared.notes.push_back(std::move(note));
   return prepared;
 }
 

@@ -12,6 +12,7 @@
 #include "render/python/errors.h"
 #include "render/python/presence.h"
 #include "render/python/values.h"
+#include "render/scene_file/lens_file.h"
 
 namespace py = pybind11;
 
@@ -48,7 +49,7 @@ Data lens_of(const py::object& argument) {
   auto surfaces = std::make_shared<std::vector<LensSurface>>(numbers.rows());
   for (std::size_t i = 0; i < numbers.rows(); ++i) {
     const auto at = [&](std::size_t k) { return static_cast<float>(numbers.at(i, k)); };
-    (*surfaces)[i] = {at(0), at(1), at(2), at(3)};
+    (*surfaces)[i] = {at(0), at(1), air_if_none(at(2)), at(3)};
   }
   return Data{std::shared_ptr<const std::vector<LensSurface>>(surfaces)};
 }

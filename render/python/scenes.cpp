@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -41,9 +42,11 @@ cli::RenderCommand command_of(const std::string& path, const py::dict& keys) {
   return command;
 }
 
-/// A loader of the frames of a series. One thread at a time uses it; the others wait.
+/// A loader of the frames of a series, which tell each note once. One thread at a time uses it; the
+/// others wait.
 struct Series {
   std::mutex mutex;
+  std::set<std::string> told;
   cli::RenderCommand command;
   std::unique_ptr<cli::SceneLoader> loader;
 };
@@ -60,7 +63,12 @@ std::shared_ptr<Series> open_series(const std::string& path, int first, int last
 py::dict next_of_series(const std::shared_ptr<Series>& series, int frame) {
   return values_of(take(interruptible([series, frame](Call&) {
     const std::lock_guard lock(series->mutex);
-    return series->loader->load(frame);
+    auto loaded = series->loader->load(frame);
+    if (loaded) {
+      std::erase_if(loaded.value().notes,
+                    [&](const std::string& note) { return !series->told.insert(note).second; });
+    }
+    return loaded;
   })));
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "core/scene/problem_finder.h"
 #include "render/file/float32.h"
 #include "render/file/input_file.h"
 
@@ -38,7 +41,16 @@ std::optional<LensSurface> surface_of(std::string_view line) {
     has_numbers = has_numbers && number;
     out = number.value_or(0);
   });
+  surface.index = air_if_none(surface.index);
   return has_numbers && take_word(line).empty() ? std::optional(surface) : std::nullopt;
+}
+
+/// What is wrong with a surface, beside the last one.
+std::optional<std::string> fault_of(const LensSurface& surface, const LensSurface& last) {
+  if (const auto bad = first_problem(surface)) return bad->field + " " + bad->message;
+  const bool narrow = double{surface.aperture} < least_width * double{last.aperture};
+  return narrow ? std::optional<std::string>("aperture is less than a 500th of the last one's")
+                : std::nullopt;
 }
 
 }  // namespace
@@ -47,6 +59,7 @@ Result<std::vector<LensSurface>> read_lens(const std::string& path) {
   const auto text = read_text(path);
   if (!text) return text.error();
   std::vector<LensSurface> surfaces;
+  std::vector<int> lines;
   std::string_view rest = text.value();
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -61,6 +74,14 @@ Result<std::vector<LensSurface>> read_lens(const std::string& path) {
                         .line = number};
     }
     surfaces.push_back(*surface);
+    lines.push_back(number);
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (const auto fault = fault_of(surfaces[i], surfaces.back())) {
+      return Diagnostic{.message = "surface " + std::to_string(i + 1) + ": its " + *fault,
+                        .file = path,
+                        .line = lines[i]};
+    }
   }
   return surfaces;
 }

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "render/particle_file/particle_frame.h"
 #include "render/particles/color_meaning.h"
+#include "render/particles/particle_choices.h"
 
 namespace boule {
 
@@ -27,30 +25,16 @@ struct ParticleFacts {
   std::string radius_source{};   ///< as ParticleSpheres
   ParticleColors colors{};
   std::optional<ParticleCell> cell{};
+  ParticleChoices own{};  ///< what the frame by itself has for what is chosen
 };
 
-/// The numbers at the ends of colour maps, by ParticleFacts::table.
-using ColorRanges = std::map<std::string, std::array<double, 2>>;
+/// The choices of all frames of a series, by ParticleFacts::table.
+using SeriesChoices = std::map<std::string, ParticleChoices>;
 
-/// The colours of species and other texts, by ParticleFacts::table.
-using KindColors = std::map<std::string, std::vector<ParticleColors::Species>>;
-
-/// Keeps the chosen colours: with them as SceneFileOptions::color_ranges and kind_colors, the other
-/// frames of a series have the colours of this one. Entries that exist stay as they are. A table
-/// that shows nothing adds no entry.
-inline void keep_colors(const std::vector<ParticleFacts>& all, ColorRanges& ranges,
-                        KindColors& kinds) {
-  for (const ParticleFacts& facts : all) {
-    if (facts.spheres == 0) continue;
-    const auto [known, is_new] = kinds.try_emplace(facts.table);
-    if (is_new && facts.colors.scale) ranges.emplace(facts.table, facts.colors.scale->range);
-    auto& species = known->second;
-    for (const ParticleColors::Species& one : facts.colors.species) {
-      const bool is_known = std::any_of(species.begin(), species.end(),
-                                        [&](const auto& kind) { return kind.name == one.name; });
-      if (!is_known) species.push_back(one);
-    }
-  }
+/// The choices for a table, or null.
+inline const ParticleChoices* find_choices(const SeriesChoices& all, const std::string& table) {
+  const auto found = all.find(table);
+  return found == all.end() ? nullptr : &found->second;
 }
 
 }  // namespace boule

@@ -24,10 +24,8 @@ struct SceneFileOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
   /// Of a series: selects the camera's position, the data files and the frame of a trajectory.
   std::optional<int> frame{};
-  /// Of a series: the numbers at the ends of colour maps, where the scene file leaves them open.
-  ColorRanges color_ranges{};
-  /// Of a series: the colours that species and other texts already have.
-  KindColors kind_colors{};
+  /// Of a series: the choices of all its frames, where the scene file leaves them open.
+  SeriesChoices choices{};
   /// Of a series: the origin, where the scene file leaves it open.
   std::optional<Vec3d> origin{};
   /// Of a series: keeps trajectories open for the next frame; null: off. For one thread at a time.

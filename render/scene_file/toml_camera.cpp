@@ -111,9 +111,10 @@ void read_camera_kind(TomlTable& table, LensCamera& camera) {
   if (!table.ok()) return;
   auto surfaces = read_surfaces(table, name);
   if (!surfaces) {
-    const Diagnostic& error = surfaces.error();
-    const std::string line = error.line > 0 ? "line " + std::to_string(error.line) + ": " : "";
-    return table.report("file", quote(name) + ": " + line + error.message);
+    Diagnostic error = surfaces.error();
+    if (error.line == 0) return table.report("file", quote(name) + ": " + error.message);
+    error.key = table.path() + ".file";
+    return table.report(error);
   }
   camera.surfaces = std::move(surfaces).value();
   stop_down(table, f_number, camera);

@@ -1,5 +1,6 @@
 #include "render/scene_file/toml_entities.h"
 
+#include <string>
 #include <utility>
 
 #include "core/scene/problem_finder.h"
@@ -15,6 +16,17 @@ void read_entity(TomlTable& table, Kind& kind) {
   read_fields(table, kind);
   table.finish();
   table.check(first_problem(kind));
+}
+
+/// Nothing in a picture tells which map of directions it is, but its shape may tell that it is not
+/// the one that is expected. One pixel is the same in any.
+void note_shape(TomlTable& table, const std::string& name, const EnvironmentBackground& image) {
+  const double ratio = static_cast<double>(image.width) / image.height;
+  if ((ratio > 1.9 && ratio < 2.1) || image.pixels.size() == 1) return;
+  table.note("file", quote(name) + " has " + std::to_string(image.width) + " x " +
+                         std::to_string(image.height) +
+                         " pixels and is taken as latitude-longitude, which is twice as wide as "
+                         "high: convert light probes and cube maps first");
 }
 
 /// Reads the file only if all keys are right.
@@ -33,8 +45,9 @@ void read_entity(TomlTable& table, EnvironmentBackground& background) {
   background.pixels = std::move(image).value().pixels;
   if (const auto problem = first_problem(background)) {
     const bool of_file = problem->field == "file";
-    table.report(problem->field, (of_file ? quote(name) + ": " : "") + problem->message);
+    return table.report(problem->field, (of_file ? quote(name) + ": " : "") + problem->message);
   }
+  note_shape(table, name, background);
 }
 
 }  // namespace

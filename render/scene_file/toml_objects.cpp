@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/scene/instances.h"
-#include "core/scene/number_text.h"
 #include "render/file/float32.h"
 #include "render/file/nearest_name.h"
 #include "render/file/sphere_room.h"
@@ -218,19 +217,17 @@ void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
 
 void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
                              std::span<Sphere> spheres) {
-  const auto scale = color_spheres(table, colors, spheres, options_);
-  if (!scale) return;
+  auto mapped = color_spheres(table, colors, spheres, options_);
+  if (!mapped) return;
   facts_.push_back({.table = table.path(),
                     .file = path,
                     .format = "npy",
                     .particles = spheres.size(),
                     .spheres = spheres.size(),
                     .radius_source = table.has("radius") ? "the key radius" : "column 3"});
-  facts_.back().colors.scale = *scale;
-  if (colors.map.range || options_.color_ranges.contains(table.path())) return;
-  notes_.push_back("colours of " + printable(scale->by) + " go from " +
-                   number_text(scale->range[0]) + " to " + number_text(scale->range[1]) +
-                   ", the 1st and the 99th percentile");
+  facts_.back().colors.scale = std::move(mapped->scale);
+  facts_.back().own = std::move(mapped->own);
+  if (!mapped->note.empty()) notes_.push_back(std::move(mapped->note));
 }
 
 void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {

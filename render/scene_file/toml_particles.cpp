@@ -17,9 +17,9 @@ namespace {
 
 /// What the keys of a table say.
 struct ParticleKeys {
-  std::string name;  ///< of the file, in the scene file
+  std::string written;  ///< the name of the file in the scene file, with a place for the number
+  std::string name;     ///< with the frame's number
   std::string path;
-  bool has_slot = false;     ///< the name has a place for the frame's number
   std::optional<int> frame;  ///< of the file
   ParticleFileOptions file;
   ParticleStyle style;
@@ -35,9 +35,7 @@ void check_format(TomlTable& table, const std::string& format) {
 
 ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
   ParticleKeys keys;
-  std::string as_written;
-  table.read("file", as_written);
-  keys.has_slot = has_frame_slot(as_written);
+  table.read("file", keys.written);
   table.read_file_name("file", keys.name);
   if (table.has("frame")) table.read("frame", keys.frame.emplace());
   table.read("format", keys.file.format);
@@ -59,8 +57,6 @@ class ParticleTable {
   std::optional<TomlParticles> read();
 
  private:
-  void keep_series_colors();
-  void fix_color_range();
   std::optional<ParticleFrame> read_frame();
   Status find_wrong_radius() const;
   std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
@@ -74,33 +70,12 @@ class ParticleTable {
   ParticleFacts facts_;
 };
 
-/// Gives the particles the colours that they have in the rest of the series.
-void ParticleTable::keep_series_colors() {
-  fix_color_range();
-  const auto known = options_.kind_colors.find(table_.path());
-  if (known != options_.kind_colors.end()) keys_.style.known_kinds = known->second;
-}
-
-/// Gives colour maps the range that the series has for them. A column by itself is mapped if that
-/// is how the first frame had it.
-void ParticleTable::fix_color_range() {
-  const auto known = options_.color_ranges.find(table_.path());
-  if (known == options_.color_ranges.end()) return;
-  ColorRule& color = keys_.style.color;
-  if (const auto* columns = std::get_if<ColorColumns>(&color);
-      columns && columns->names.size() == 1) {
-    color = MappedColors{.by = std::string(columns->names.front())};
-  }
-  if (auto* mapped = std::get_if<MappedColors>(&color); mapped && !mapped->range) {
-    mapped->range = known->second;
-  }
-}
-
 std::optional<TomlParticles> ParticleTable::read() {
-  keep_series_colors();
+  keys_.style.chosen = find_choices(options_.choices, table_.path());
   keys_.file.wanted = columns_of(keys_.style);
   auto frame = read_frame();
   if (!frame) return std::nullopt;
+  const std::size_t of_file = frame->notes.size();
   auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
   if (!made) {
     const Status place = made.error().key == "radius" ? find_wrong_radius() : std::nullopt;
@@ -113,8 +88,11 @@ std::optional<TomlParticles> ParticleTable::read() {
   particles.facts.radius_source = spheres.radius_source();
   particles.facts.colors = spheres.colors();
   particles.facts.cell = spheres.cell();
-  for (const std::string& note : spheres.notes()) {
-    particles.notes.push_back(printable(keys_.name) + ": " + note);
+  particles.facts.own = spheres.own_choices();
+  // What is decided is told once for all files of a series.
+  for (std::size_t i = 0; i < spheres.notes().size(); ++i) {
+    const std::string& name = i < of_file ? keys_.name : keys_.written;
+    particles.notes.push_back(printable(name) + ": " + spheres.notes()[i]);
   }
   return particles;
 }
@@ -172,7 +150,8 @@ Status ParticleTable::find_wrong_radius() const {
 /// The frame that the keys or the series ask for, from 0.
 std::optional<std::size_t> ParticleTable::choose_frame(const ParticleFile& file) {
   const std::size_t frames = file.frames();
-  const bool of_series = !keys_.frame && options_.frame && frames > 1 && !keys_.has_slot;
+  const bool of_series =
+      !keys_.frame && options_.frame && frames > 1 && !has_frame_slot(keys_.written);
   const long asked = of_series ? *options_.frame : keys_.frame.value_or(-1);
   const long count = static_cast<long>(frames);
   if (asked >= -count && asked < count) {

@@ -10,33 +10,43 @@
 namespace boule {
 namespace {
 
-/// From the 1st to the 99th percentile of the numbers.
-std::array<double, 2> usual_range(const std::vector<double>& numbers,
-                                  const ParallelFor& parallel_for) {
-  if (numbers.empty()) return {0, 1};
-  return percentiles(ParticleNumbers(numbers.data(), 1), numbers.size(), parallel_for);
+/// The map and its range: that of the keys, of the series, or of the numbers.
+MappedSpheres choose_range(const TomlTable& table, const SphereColors& keys,
+                           const std::vector<double>& numbers, const SceneFileOptions& options) {
+  MappedSpheres mapped{.scale = {keys.scalar, keys.map.map, {0, 1}}};
+  if (keys.map.range) {
+    mapped.scale.range = *keys.map.range;
+    return mapped;
+  }
+  const ParticleChoices* const chosen = find_choices(options.choices, table.path());
+  const bool of_series = chosen != nullptr && chosen->range;
+  if (!of_series && !numbers.empty()) {
+    const ParticleNumbers view(numbers.data(), 1);
+    mapped.own.range = percentiles(view, numbers.size(), options.parallel_for);
+  }
+  const auto& ends = of_series ? chosen->range : mapped.own.range;
+  if (!ends) return mapped;
+  mapped.scale.range = map_range(*ends);
+  mapped.note = range_note(keys.written, *ends, of_series ? chosen->of_frames : "");
+  return mapped;
 }
 
-std::optional<ParticleColors::Scale> map_numbers(TomlTable& table, const SphereColors& keys,
-                                                 std::span<Sphere> spheres,
-                                                 const SceneFileOptions& options) {
+std::optional<MappedSpheres> map_numbers(TomlTable& table, const SphereColors& keys,
+                                         std::span<Sphere> spheres,
+                                         const SceneFileOptions& options) {
   auto numbers = read_npy_scalars(table.file_path(keys.scalar), spheres.size());
   if (!numbers) {
     table.report("scalar", quote(keys.scalar) + ": " + numbers.error().message);
     return std::nullopt;
   }
-  const auto known = options.color_ranges.find(table.path());
-  const auto range = keys.map.range ? *keys.map.range
-                     : known != options.color_ranges.end()
-                         ? known->second
-                         : usual_range(numbers.value(), options.parallel_for);
-  const RangePlace place(range);
+  MappedSpheres mapped = choose_range(table, keys, numbers.value(), options);
+  const RangePlace place(mapped.scale.range);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     MaterialRef& material = spheres[i].material;
     material =
         MaterialRef::colored(material.index(), keys.map.map.color(place(numbers.value()[i])));
   }
-  return ParticleColors::Scale{keys.scalar, keys.map.map, range};
+  return mapped;
 }
 
 }  // namespace
@@ -45,7 +55,10 @@ SphereColors read_sphere_colors(TomlTable& table) {
   SphereColors keys;
   if (table.has("colors")) table.read_file_name("colors", keys.colors);
   keys.space = static_cast<ColorSpace>(table.choose("color_space", names<ColorSpace>));
-  if (table.has("scalar")) table.read_file_name("scalar", keys.scalar);
+  if (table.has("scalar")) {
+    table.read("scalar", keys.written);
+    table.read_file_name("scalar", keys.scalar);
+  }
   keys.map = read_color_map(table);
   for (const char* key : {"colors", "scalar"}) {
     if (!table.has(key)) continue;
@@ -68,9 +81,9 @@ SphereColors read_sphere_colors(TomlTable& table) {
   return keys;
 }
 
-std::optional<ParticleColors::Scale> color_spheres(TomlTable& table, const SphereColors& keys,
-                                                   std::span<Sphere> spheres,
-                                                   const SceneFileOptions& options) {
+std::optional<MappedSpheres> color_spheres(TomlTable& table, const SphereColors& keys,
+                                           std::span<Sphere> spheres,
+                                           const SceneFileOptions& options) {
   if (!keys.scalar.empty()) return map_numbers(table, keys, spheres, options);
   if (auto bad = color_by_npy(table.file_path(keys.colors), keys.space, spheres)) {
     table.report("colors", quote(keys.colors) + ": " + bad->message);

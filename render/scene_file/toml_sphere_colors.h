@@ -18,10 +18,18 @@ namespace boule {
 struct SphereColors {
   std::string colors;  ///< name of the file, or empty
   ColorSpace space = ColorSpace::srgb;
-  std::string scalar;  ///< likewise
+  std::string scalar;     ///< likewise
+  std::string written{};  ///< that name with the place for a frame's number
   ColorMapKeys map;
 
   [[nodiscard]] bool any() const { return !colors.empty() || !scalar.empty(); }
+};
+
+/// What a map has made of numbers.
+struct MappedSpheres {
+  ParticleColors::Scale scale;
+  ParticleChoices own{};  ///< the numbers' range, if it was chosen
+  std::string note{};     ///< if it was chosen
 };
 
 /// Reads the keys `colors`, `color_space`, `scalar`, `map` and `range`. Errors are reported through
@@ -29,10 +37,9 @@ struct SphereColors {
 SphereColors read_sphere_colors(TomlTable& table);
 
 /// Colours the spheres of a table; they keep their material, which is one that can be coloured.
-/// The map of numbers, with the range that was chosen, if there is one. Errors are reported through
-/// the table.
-std::optional<ParticleColors::Scale> color_spheres(TomlTable& table, const SphereColors& keys,
-                                                   std::span<Sphere> spheres,
-                                                   const SceneFileOptions& options);
+/// The map of numbers, if there is one. Errors are reported through the table.
+std::optional<MappedSpheres> color_spheres(TomlTable& table, const SphereColors& keys,
+                                           std::span<Sphere> spheres,
+                                           const SceneFileOptions& options);
 
 }  // namespace boule

@@ -247,9 +247,12 @@ void TomlTable::read(std::string_view key, Color& out) {
   out = {rgb.x, rgb.y, rgb.z};
   const auto codes = key == "color" ? codes_like(rgb) : std::nullopt;
   if (!codes) return;
-  error_->add_note(printable(path_of(key)) +
-                   ": colours are linear and 1 is white; codes up to 255 are " + "written \"" +
-                   hex_text(*codes) + "\"");
+  note(key, "colours are linear and 1 is white; codes up to 255 are written \"" + hex_text(*codes) +
+                "\"");
+}
+
+void TomlTable::note(std::string_view key, const std::string& text) {
+  error_->add_note(printable(path_of(key)) + ": " + text);
 }
 
 void TomlTable::read(std::string_view key, std::string& out) {

@@ -91,6 +91,9 @@ class TomlTable {
   /// Reports an error of another file.
   void report(const Diagnostic& error) { error_->report(error); }
 
+  /// Keeps a note for the user about `key`.
+  void note(std::string_view key, const std::string& text);
+
   /// What the file may name besides files, or null.
   [[nodiscard]] const SceneData* data() const { return error_->data(); }
   /// True if nothing was reported about the file so far.

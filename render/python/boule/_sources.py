@@ -73,9 +73,9 @@ def frames(source, frames=None, *, polygons="plane", **look):
 
     frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
 
-    Boule makes its choices once for all of them, as `boule render --frames` does: the camera is
-    fitted to all frames, colour maps have the range of the first. A file of one frame without ####
-    in its name shows it under every number, as there.
+    Boule makes its choices once, from all of them, as `boule render --frames` does: radii, the ranges
+    of colour maps, the colours of kinds, the floor, the camera. A file of one frame without #### in
+    its name shows it under every number, as there.
     """
     path = path_of(source)
     keys = {**look_keys(**look), "polygons": polygons}

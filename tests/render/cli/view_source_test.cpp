@@ -82,7 +82,23 @@ TEST_F(ViewSourceTest, ColoursKeepTheirRangeFromFrameToFrame) {
   EXPECT_EQ(range_in(look, 1), range);
   const std::array<double, 2> wide{-5, 50};
   EXPECT_EQ(range_in({"q", "magma", wide}, 1), wide);
-  EXPECT_NE(range_in({"q", "viridis", {}}, 0), range);
+  EXPECT_EQ(range_in({"q", "viridis", {}}, 0), range);
+  EXPECT_NE(range_in({"x", "viridis", {}}, 0), range);
+}
+
+TEST_F(ViewSourceTest, ASeriesChoosesOnceFromAllFrames) {
+  std::string text;
+  for (const std::string side : {"1", "2", "4"}) text += "2\n\nA 0 0 0\nA " + side + " 0 0\n";
+  ViewSource source(command_for(write("grow.xyz", text)));
+  ASSERT_FALSE(source.open());
+  const auto one = source.load({}, 2), other = source.load({}, 0);
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(one.value().scene.spheres[0].radius, 0.5F);
+  EXPECT_EQ(other.value().scene.spheres[0].radius, 0.5F);
+  ASSERT_TRUE(one.value().scene.camera && other.value().scene.camera);
+  EXPECT_EQ(std::get<PinholeCamera>(*one.value().scene.camera).pose.eye,
+            std::get<PinholeCamera>(*other.value().scene.camera).pose.eye);
+  EXPECT_EQ(source.options_of({}, 2), " --frame 2 --radius 0.5");
 }
 
 TEST_F(ViewSourceTest, ColumnsHaveRanges) {

@@ -116,10 +116,49 @@ TEST(Colors, OfTypesGoByTheirNumbers) {
 
 TEST(Colors, OfKnownKindsStay) {
   const ParticleFrame frame = row_of({"new", "bead", "C", "wall"});
-  const ParticleStyle style{.known_kinds = {{"C", {0x90, 0x90, 0x90}},
-                                            {"wall", {0xe6, 0x9f, 0x00}},
-                                            {"bead", {0x00, 0x9e, 0x73}}}};
-  EXPECT_THAT(colors_of(frame, style), ElementsAre("#56b4e9", "#009e73", "#909090", "#e69f00"));
+  ParticleChoices chosen;
+  chosen.kinds = {{"C", {0x90, 0x90, 0x90}, 1},
+                  {"wall", {0xe6, 0x9f, 0x00}, 1},
+                  {"bead", {0x00, 0x9e, 0x73}, 1}};
+  EXPECT_THAT(colors_of(frame, {.chosen = &chosen}),
+              ElementsAre("#56b4e9", "#009e73", "#909090", "#e69f00"));
+}
+
+TEST(Colors, FewWholeNumbersAreKinds) {
+  const ParticleStyle style{.radius = 1.0, .color = ColorColumns{{"q"}}};
+  EXPECT_THAT(colors_of(row_with("q", {10, 2, 10, -1}), style),
+              ElementsAre("#009e73", "#56b4e9", "#009e73", "#e69f00"));
+  const auto meaning = meaning_of(row_with("q", {10, 2, 10}), style);
+  EXPECT_FALSE(meaning.scale);
+  ASSERT_EQ(meaning.species.size(), 2U);
+  EXPECT_EQ(meaning.species[1].name, "10");
+  EXPECT_EQ(meaning.species[1].count, 2U);
+  EXPECT_TRUE(meaning_of(row_with("q", {1, 2.5}), style).scale);
+  EXPECT_TRUE(meaning_of(row_with("q", {0, 0}), style).scale);  // at rest
+  EXPECT_TRUE(meaning_of(row_with("q", {1, 2, 3, 4, 5, 6, 7, 8, 9}), style).scale);
+  // A map is asked for.
+  EXPECT_TRUE(meaning_of(row_with("q", {1, 2}), {.radius = 1.0, .color = MappedColors{"q"}}).scale);
+}
+
+TEST(Colors, ColumnsOfKindsMayHaveMore) {
+  std::vector<double> numbers;
+  for (int i = 0; i < 256; ++i) numbers.push_back(i);
+  for (const char* name : {"type", "mol", "c_cluster", "MolID"}) {
+    const ParticleStyle style{.radius = 1.0, .color = ColorColumns{{name}}};
+    EXPECT_EQ(meaning_of(row_with(name, numbers), style).species.size(), 256U) << name;
+    EXPECT_THAT(notes_of(row_with(name, numbers), style), HasSubstr("so they repeat"));
+  }
+  numbers.push_back(256);
+  const ParticleStyle by_type{.radius = 1.0, .color = ColorColumns{{"type"}}};
+  EXPECT_TRUE(meaning_of(row_with("type", numbers), by_type).scale);
+  EXPECT_EQ(meaning_of(row_with("type", {2, 2}), by_type).species.size(), 1U);
+}
+
+TEST(Colors, OfTypesThatAreTheSpeciesAreTheirs) {
+  ParticleFrame frame = row_of({"3", "1"});
+  frame.species->name = "type";
+  frame.numbers = {{"type", {3, 1}}};
+  EXPECT_EQ(colors_of(frame, {.color = ColorColumns{{"type"}}}), colors_of(frame));
 }
 
 TEST(Colors, AreThoseOfTexts) {
@@ -164,18 +203,18 @@ TEST(Colors, ThreeWordsAreOneColumnWhereTheFileHasIt) {
   frame.numbers = {{"red", {0, 1}}, {"green", {0.5, 0.25}}, {"blue", {1, 0}}};
   const ParticleStyle style{.color = ColorColumns{{"red green blue"}}};
   EXPECT_THAT(colors_of(frame, style), ElementsAre("#0080ff", "#ff4000"));
-  frame.numbers.push_back({"red green blue", {2, 4}});
+  frame.numbers.push_back({"red green blue", {2.5, 4}});
   ASSERT_TRUE(meaning_of(frame, style).scale.has_value());
-  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(2, 4));
+  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(2.5, 4));
   frame.numbers.pop_back();
   frame.texts = {text_column("red green blue", {"#102030", "#ffffff"})};
   EXPECT_THAT(colors_of(frame, style), ElementsAre("#102030", "#ffffff"));
 }
 
 TEST(Colors, ANameMayHaveBlanks) {
-  const ParticleFrame frame = row_with("Velocity Magnitude", {1, 3});
+  const ParticleFrame frame = row_with("Velocity Magnitude", {1.5, 3});
   const ParticleStyle style{.color = ColorColumns{{"Velocity Magnitude"}}};
-  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(1, 3));
+  EXPECT_THAT(meaning_of(frame, style).scale->range, ElementsAre(1.5, 3));
   EXPECT_EQ(error_of(frame, {.color = ColorColumns{{"Velocity Magnitud"}}}),
             "color: there is no column 'Velocity Magnitud'; did you mean 'Velocity Magnitude'?");
 }
@@ -211,7 +250,7 @@ TEST(Colors, AreMapped) {
 }
 
 TEST(Colors, AreMappedByPositionsNormsAndTypes) {
-  ParticleFrame frame = row_with("v_x", {3, 0, 0});
+  ParticleFrame frame = row_with("v_x", {3, 0, 0.5});
   frame.numbers.push_back({"v_y", {4, 0, 1}});
   frame.numbers.push_back({"v_z", {0, 0, 0}});
   frame.species = text_column("type", {"1", "3", "2"});

@@ -133,6 +133,9 @@ TEST(Select, NoneIsNoError) {
   EXPECT_EQ(shown("x > 100"), "");
   EXPECT_THAT(notes_of(example(), {.select = "x > 100"}),
               HasSubstr("none of 5 particles meets the selection"));
+  const ParticleChoices series;
+  EXPECT_THAT(notes_of(example(), {.chosen = &series, .select = "x > 100"}),
+              HasSubstr("in some frames no particle meets the selection"));
   const auto made = ParticleSpheres::make(example(), {.select = "x > 100"});
   EXPECT_EQ(made.value().size(), 0U);
   EXPECT_EQ(made.value().center_bounds()[0], made.value().center_bounds()[1]);

@@ -80,6 +80,38 @@ TEST(Prepare, DefaultLightOnlyWhereNothingShines) {
   EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());
 }
 
+/// By Whitted's method a gradient and what is emissive are seen, but light nothing: what is matte
+/// would be black. Where nothing is, or ambient light is there, they stay as they are.
+TEST(Prepare, WhittedGivesMatteObjectsADefaultLight) {
+  Scene gradient = empty_scene(10, 10);
+  gradient.background = GradientBackground{};
+  Scene lamp = empty_scene(10, 10);
+  add_material(lamp, Emissive{});
+  lamp.spheres = {{{0, 0, 0}, 1, 0}};
+  for (const auto& [scene, words] :
+       {std::pair{&gradient, "its gradient is none"}, {&lamp, "its emissive objects are none"}}) {
+    for (const Material& material :
+         {Material{Matte{}}, Material{Plastic{}}, Material{Phong{}}, Material{Metal{}},
+          Material{Glass{}}, Material{Phong{{1, 1, 1}, 0.5F, 1, 0, 0, 0, 1}}}) {
+      Scene with = *scene;
+      const auto index = static_cast<std::uint32_t>(with.materials.size());
+      add_material(with, material);
+      const bool needs =
+          material.index() < 2 || (material.index() == 5 && !(std::get<Phong>(material).ka > 0));
+      EXPECT_TRUE(prepare(with, 10, 10).value().lights.empty());  // no object has it
+      with.spheres.push_back({{3, 0, 0}, 1, index});
+      const auto prepared = prepare(with, 10, 10);
+      EXPECT_EQ(prepared.value().lights.size(), needs ? 2U : 0U) << material.index();
+      const auto& notes = prepared.value().notes;
+      EXPECT_EQ(notes.size(), needs ? 1U : 0U);
+      if (needs) EXPECT_NE(notes.back().find(words), std::string::npos);
+      EXPECT_TRUE(prepare(with, 10, 10, serial_for, Method::path).value().lights.empty());
+      with.ambient = gray(0.1F);
+      EXPECT_TRUE(prepare(with, 10, 10).value().lights.empty());
+    }
+  }
+}
+
 TEST(Prepare, NonBlackBackgroundsLightPathTracing) {
   Scene scene;
   const auto lights = [&] {

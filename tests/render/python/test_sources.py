@@ -226,6 +226,17 @@ def test_frames_of_a_trajectory(movie, tmp_path):
     assert not np.array_equal(pixels(boule.load(movie, frame=0)), pixels(last))
 
 
+def test_frames_choose_once(tmp_path):
+    frames = [f"2\n\nA 0 0 0\nA {distance} 0 0\n" for distance in (2, 1, 4)]
+    (tmp_path / "grow.xyz").write_text("0\n\n" + "".join(frames))
+    scenes = list(boule.frames(tmp_path / "grow.xyz"))
+    for scene in scenes[1:]:
+        assert list(scene.spheres[0].radii) == [0.5, 0.5]
+    notes = [note for scene in scenes for note in scene.notes]
+    assert len(notes) == len(set(notes)) == 2
+    assert notes[0].endswith("nearest neighbour, 0.5, the smallest of all 4 frames")
+
+
 def test_a_file_of_one_frame_shows_it_under_every_number(water, tmp_path):
     scenes = list(boule.frames(water, range(3, 5)))
     assert len(scenes) == 2

@@ -154,13 +154,14 @@ TEST_F(TomlParticlesTest, HaveColorsFromAMap) {
 TEST_F(TomlParticlesTest, ShareTheRangeOfAnotherFrame) {
   const std::string keys = "frame = 1\n[particles.color]\nby = \"v\"\n";
   SceneFileOptions options;
-  options.color_ranges["particles[0]"] = {0, 40};
+  options.choices["particles[0]"].range = {0, 40};
+  options.choices["particles[0]"].of_frames = "all 5 frames";
   const LoadedScene scene = with(keys, "run.xyz", options);
   EXPECT_THAT(colors(scene), ElementsAre(hex_text(ColorMap().color(0.25))));
-  ColorRanges ranges;
-  KindColors kinds;
-  keep_colors(scene.particles, ranges, kinds);
-  EXPECT_THAT(ranges, ElementsAre(testing::Pair("particles[0]", std::array<double, 2>{0, 40})));
+  EXPECT_THAT(scene.particles[0].colors.scale->range, ElementsAre(0, 40));
+  EXPECT_THAT(scene.notes,
+              testing::Contains(HasSubstr("'v' go from 0 to 40, the lowest 1st and the "
+                                          "highest 99th percentile of all 5 frames")));
   // What the file says comes first.
   EXPECT_THAT(colors(with(keys + "range = [10, 20]\n", "run.xyz", options)),
               ElementsAre(hex_text(ColorMap().color(0))));

@@ -106,14 +106,15 @@ TEST_F(SphereColorsTest, HaveTheRangeOfMostNumbers) {
   EXPECT_THAT(loaded.value().data_files,
               testing::ElementsAre(files_.path("many.npy"), files_.path("many_v.npy")));
   EXPECT_THAT(loaded.value().notes,
-              testing::ElementsAre(testing::HasSubstr("many_v.npy go from 2 to 198")));
+              testing::ElementsAre(testing::HasSubstr("'many_v.npy' go from 2 to 198")));
   // Another frame has the same range.
   SceneFileOptions options;
-  keep_colors(facts, options.color_ranges, options.kind_colors);
+  options.choices["spheres[0]"] = facts[0].own;
+  options.choices["spheres[0]"].finish("all 2 frames");
   write("v.npy", npy_of<float>("'<f4'", "(2,)", {100, 1000}));
   const auto next = load("scalar = \"v.npy\"\n", "two.npy", options);
   ASSERT_TRUE(next.ok());
-  EXPECT_THAT(next.value().notes, testing::IsEmpty());
+  EXPECT_THAT(next.value().notes, testing::ElementsAre(testing::HasSubstr("of all 2 frames")));
   EXPECT_EQ(next.value().scene.spheres[0].material.color(), ColorMap().color(0.5));
 }
 
