@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -138,7 +140,7 @@ class MessageKeys {
     report(key, "expected a number from " + number_words(low) + " to " + number_words(high));
     return std::nullopt;
   }
-  static std::string number_words(double number) { return Json(number).dump(); }
+  static std::string number_words(double number) { return fmt::format("{}", number); }
 
   const Json& json_;
   const std::string path_;
