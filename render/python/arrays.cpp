@@ -46,6 +46,8 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 }  // namespace
 
+void need_numpy() { py::module_::import("numpy"); }
+
 py::array to_array(const py::object& argument, const std::string& name) {
   try {
     return py::array::ensure(py::module_::import("numpy").attr("asarray")(argument));
