@@ -14,9 +14,9 @@ namespace boule {
 /// Functions that can fail return a Diagnostic in a Result or a Status. Unless they say so, the
 /// only exception they throw is std::bad_alloc, where there is no memory even for the Diagnostic.
 struct Diagnostic {
-  std::string message;  ///< what is wrong, and what was expected; may repeat bytes of a file
-  std::string key{};    ///< dotted path of the offending key ("camera.fov"), or empty
-  std::string file{};   ///< file it was read from, or empty
+  std::string message{};  ///< what is wrong, and what was expected; may repeat bytes of a file
+  std::string key{};      ///< dotted path of the offending key ("camera.fov"), or empty
+  std::string file{};     ///< file it was read from, or empty
   int line = 0;
   int column = 0;
   bool of_memory = false;  ///< there is too little memory
@@ -51,6 +51,9 @@ std::string printable(std::string_view text, std::size_t longest = std::string_v
 /// printable() in quotation marks. Throws std::bad_alloc.
 std::string quote(std::string_view text, std::size_t longest = 40);
 
+/// Throws std::runtime_error with format_diagnostic(), or std::bad_alloc.
+[[noreturn]] void throw_text(const Diagnostic& diagnostic);
+
 /// A value, or the Diagnostic that explains why there is none.
 template <class T>
 class [[nodiscard]] Result {
@@ -62,15 +65,29 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value. Throws std::bad_variant_access where not ok().
-  T& value() & { return std::get<0>(state_); }
-  const T& value() const& { return std::get<0>(state_); }
-  T&& value() && { return std::get<0>(std::move(state_)); }
+  /// The value. Throws std::runtime_error with the text of the Diagnostic (format_diagnostic())
+  /// where not ok(): a program that does not catch it ends with that text.
+  T& value() & {
+    check();
+    return std::get<0>(state_);
+  }
+  const T& value() const& {
+    check();
+    return std::get<0>(state_);
+  }
+  T&& value() && {
+    check();
+    return std::get<0>(std::move(state_));
+  }
 
   /// The Diagnostic. Throws std::bad_variant_access where ok().
   [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
 
  private:
+  void check() const {
+    if (!ok()) throw_text(error());
+  }
+
   std::variant<T, Diagnostic> state_;
 };
 

@@ -8,8 +8,8 @@ namespace boule {
 /// find_problem() takes any values, NaN and infinities among them, and lists of any length. The
 /// only exception it throws is std::bad_alloc.
 struct Problem {
-  std::string field;
-  std::string message;
+  std::string field{};
+  std::string message{};
 };
 
 }  // namespace boule

@@ -18,8 +18,10 @@ enum class PictureContent { colors, numbers };
 /// frame (EXR's data window) is refused, and so is a picture that does not fit into memory. Takes
 /// any file. The Diagnostic says "cannot read it: REASON", and its file is `path`.
 ///
-/// OpenImageIO is loaded as by write_image(), where more is said of that. libpng may write a line
-/// to standard error about a PNG file that has nonsense in it under correct checksums.
+/// OpenImageIO is loaded as by write_image(), where more is said of that. It ends the process by
+/// std::terminate() where an allocation fails in functions of its own that must not throw. libpng
+/// may write a line to standard error about a PNG file that has nonsense in it under correct
+/// checksums.
 Result<Image> read_image(const std::string& path, PictureContent content);
 
 }  // namespace boule

@@ -18,11 +18,11 @@ struct RecordedRay {
   RayKind kind = RayKind::primary;
   int parent = -1;  ///< an earlier ray's index; -1: none
   int depth = 0;    ///< bounces before it
-  Ray ray;
-  Hit hit;           ///< of a shadow ray: what is in its way
-  Color weight;      ///< in the light that its parent returns
-  Color throughput;  ///< in the sample
-  Color own;         ///< what it found by itself; of a shadow ray: the light that it lets through
+  Ray ray{};
+  Hit hit{};           ///< of a shadow ray: what is in its way
+  Color weight{};      ///< in the light that its parent returns
+  Color throughput{};  ///< in the sample
+  Color own{};         ///< what it found by itself; of a shadow ray: the light that it lets through
   std::size_t light = 0;  ///< of a shadow ray: which light it goes to
 };
 

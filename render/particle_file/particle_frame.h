@@ -15,8 +15,8 @@ namespace boule {
 /// The parallelepiped in which a simulation runs: the points origin + x a + y b + z c with x, y, z
 /// in [0, 1].
 struct ParticleCell {
-  Vec3d a, b, c;
-  Vec3d origin;
+  Vec3d a{}, b{}, c{};
+  Vec3d origin{};
   std::array<bool, 3> periodic{};  ///< along a, b, c
 };
 
@@ -26,34 +26,34 @@ bool is_finite(const ParticleCell& cell);
 /// A number of every particle, under the name that the file gives it; whole numbers are exact up
 /// to 2^53.
 struct NumberColumn {
-  std::string name;
-  std::vector<double> values;  ///< by particle
+  std::string name{};
+  std::vector<double> values{};  ///< by particle
 };
 
 /// A text of every particle, such as the name of a residue: an index into the texts that occur.
 struct TextColumn {
-  std::string name;
-  std::vector<std::string> texts;      ///< in the order of their first use
-  std::vector<std::uint32_t> indices;  ///< by particle
+  std::string name{};
+  std::vector<std::string> texts{};      ///< in the order of their first use
+  std::vector<std::uint32_t> indices{};  ///< by particle
 };
 
 /// One frame of a particle file, in the units of the file (lengths of GROMACS files: nm). All
 /// lists by particle have as many entries as `positions`, and all numbers are finite.
 struct ParticleFrame {
-  std::vector<Vec3d> positions;
+  std::vector<Vec3d> positions{};
   /// The particles' kinds: elements ("C", "Fe") where the file tells them, else types ("1").
   /// Empty where it tells neither.
-  std::optional<TextColumn> species;
-  std::vector<NumberColumn> numbers;  ///< in the order of the file, without the positions
-  std::vector<TextColumn> texts;      ///< likewise, without the species
+  std::optional<TextColumn> species{};
+  std::vector<NumberColumn> numbers{};  ///< in the order of the file, without the positions
+  std::vector<TextColumn> texts{};      ///< likewise, without the species
   /// The names of columns that the file has and nobody wanted: for what asks for a name like them.
-  std::vector<std::string> unread;
-  std::optional<ParticleCell> cell;
-  std::optional<double> time;
+  std::vector<std::string> unread{};
+  std::optional<ParticleCell> cell{};
+  std::optional<double> time{};
   /// How many angstrom the file's unit of length has (10 for nm); 1 where nothing tells it. Tables
   /// of radii need it.
   double length_in_angstrom = 1;
-  std::vector<std::string> notes;  ///< what was left out or decided, a sentence each
+  std::vector<std::string> notes{};  ///< what was left out or decided, a sentence each
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };

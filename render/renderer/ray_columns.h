@@ -36,9 +36,9 @@ struct RayNumbers {
 /// interval are rounded to float once, numbers that are too large for one to infinity.
 struct RayColumns {
   std::size_t size = 0;
-  RayNumbers org, dir;    ///< three components each
-  RayNumbers tmin, tmax;  ///< one component
-  Vec3d zero{};           ///< subtracted from the origins
+  RayNumbers org{}, dir{};    ///< three components each
+  RayNumbers tmin{}, tmax{};  ///< one component
+  Vec3d zero{};               ///< subtracted from the origins
 };
 
 /// Where hits go: `size` numbers each, three of each normal.

@@ -41,20 +41,20 @@ struct RenderOptions {
   /// For teaching: shadow rays start by the lecture's epsilon, in units of length, 0 (no remedy
   /// against false shadows) or more; none: they know which surface they leave.
   std::optional<float> shadow_epsilon{};
-  float outline = 0;              ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: none
-  std::optional<PixelRect> crop;  ///< the pixels of the frame to render; all if there is none
-  AovSelection aovs;              ///< which AOVs render_aovs() finds
-  bool in_bands = false;          ///< what is rendered needs memory for render_bands() only
+  float outline = 0;                ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: none
+  std::optional<PixelRect> crop{};  ///< the pixels of the frame to render; all if there is none
+  AovSelection aovs{};              ///< which AOVs render_aovs() finds
+  bool in_bands = false;            ///< what is rendered needs memory for render_bands() only
   PixelOrder order = PixelOrder::tiles;  ///< of all but render_bands()
   int tile = 0;              ///< side of a block in pixels, 1 .. 1024; 0: fitting_tile()
   unsigned threads = 0;      ///< 1024 at most; 0: as many as the hardware runs at once
   std::string isa = "auto";  ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;  ///< true stops rendering; must outlive the renderer
-  std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
-  LiveProgress* live = nullptr;                   ///< kept up to date; must outlive the renderer
+  std::function<void(const Progress&)> progress{};  ///< called often, on the thread that renders
+  LiveProgress* live = nullptr;                     ///< kept up to date; must outlive the renderer
   /// Called by render_live() after each pass, on the thread that renders. partial_picture() makes a
   /// picture of the film. What this throws reaches the caller.
-  std::function<void(const Film&)> update;
+  std::function<void(const Film&)> update{};
 };
 
 /// The options that a scene asks for. Takes any scene.
