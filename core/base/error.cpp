@@ -1,5 +1,7 @@
 #include "core/base/error.h"
 
+#include <stdexcept>
+
 namespace boule {
 
 std::string printable(std::string_view text, std::size_t longest) {
@@ -34,6 +36,10 @@ std::string format_diagnostic(const Diagnostic& diagnostic) {
 
 std::string quote(std::string_view text, std::size_t longest) {
   return "'" + printable(text, longest) + "'";
+}
+
+void throw_text(const Diagnostic& diagnostic) {
+  throw std::runtime_error(format_diagnostic(diagnostic));
 }
 
 }  // namespace boule

@@ -16,9 +16,9 @@ namespace boule {
 /// others, the only exception they throw is std::bad_alloc, when there is no memory even for the
 /// Diagnostic.
 struct Diagnostic {
-  std::string message;  ///< the error and the expected value; may repeat bytes of a file
-  std::string key{};    ///< dotted path of the offending key ("camera.fov"), or empty
-  std::string file{};   ///< the file that was read, or empty
+  std::string message{};  ///< the error and the expected value; may repeat bytes of a file
+  std::string key{};      ///< dotted path of the offending key ("camera.fov"), or empty
+  std::string file{};     ///< the file that was read, or empty
   int line = 0;
   int column = 0;
   bool of_memory = false;  ///< too little memory is the cause
@@ -53,6 +53,9 @@ std::string printable(std::string_view text, std::size_t longest = std::string_v
 /// printable() in quotation marks. Throws std::bad_alloc.
 std::string quote(std::string_view text, std::size_t longest = 40);
 
+/// Throws std::runtime_error with format_diagnostic(), or std::bad_alloc.
+[[noreturn]] void throw_text(const Diagnostic& diagnostic);
+
 /// A value, or the Diagnostic that explains its absence.
 template <class T>
 class [[nodiscard]] Result {
@@ -64,15 +67,29 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value. Throws std::bad_variant_access if not ok().
-  T& value() & { return std::get<0>(state_); }
-  const T& value() const& { return std::get<0>(state_); }
-  T&& value() && { return std::get<0>(std::move(state_)); }
+  /// The value. Throws std::runtime_error with the text of the Diagnostic (format_diagnostic()) if
+  /// not ok(): a program that does not catch it ends with that text.
+  T& value() & {
+    check();
+    return std::get<0>(state_);
+  }
+  const T& value() const& {
+    check();
+    return std::get<0>(state_);
+  }
+  T&& value() && {
+    check();
+    return std::get<0>(std::move(state_));
+  }
 
   /// The Diagnostic. Throws std::bad_variant_access if ok().
   [[nodiscard]] const Diagnostic& error() const { return std::get<1>(state_); }
 
  private:
+  void check() const {
+    if (!ok()) throw_text(error());
+  }
+
   std::variant<T, Diagnostic> state_;
 };
 

@@ -12,7 +12,7 @@ namespace boule {
 struct Similarity {
   Vec3d row_x{1, 0, 0}, row_y{0, 1, 0}, row_z{0, 0, 1};  ///< of R
   double scale = 1;
-  Vec3d shift;
+  Vec3d shift{};
 
   /// R v, for directions.
   [[nodiscard]] Vec3d rotate(const Vec3d& v) const {

@@ -13,7 +13,7 @@ namespace boule {
 
 /// One colour for every ray that misses (the lecture's).
 struct ConstantBackground {
-  Color color;
+  Color color{};
 };
 
 template <>
@@ -36,8 +36,8 @@ inline constexpr auto fields<GradientBackground> =
 /// A latitude-longitude image of the surroundings of the scene. Its top row is up (+y); its middle
 /// is in direction -z, or `rotation` degrees to the right of that.
 struct EnvironmentBackground {
-  int width = 0, height = 0;  ///< >= 1
-  std::vector<Color> pixels;  ///< radiance, row by row, the top one first
+  int width = 0, height = 0;    ///< >= 1
+  std::vector<Color> pixels{};  ///< radiance, row by row, the top one first
   float rotation = 0;
 };
 

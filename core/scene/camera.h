@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 3> names<FovAxis>{"x", "y", "max"}
 
 /// All rays from the eye (lecture "Pinhole camera"); fov in degrees, 0 < fov < 180.
 struct PinholeCamera {
-  CameraPose pose;
+  CameraPose pose{};
   float fov = 45;
   FovAxis fov_axis = FovAxis::x;
 };
@@ -30,7 +30,7 @@ inline constexpr auto fields<PinholeCamera> =
 
 /// All rays along L (lecture "Orthographic camera"); height of the film in world units, > 0.
 struct OrthographicCamera {
-  CameraPose pose;
+  CameraPose pose{};
   float height = 2;
 };
 
@@ -42,7 +42,7 @@ inline constexpr auto fields<OrthographicCamera> =
 /// All rays from the eye, at angles from the view direction in proportion to the distance from the
 /// middle of the film (equidistant projection); fov in degrees, 0 < fov <= 360.
 struct FisheyeCamera {
-  CameraPose pose;
+  CameraPose pose{};
   float fov = 180;
   FovAxis fov_axis = FovAxis::x;
 };
@@ -55,7 +55,7 @@ inline constexpr auto fields<FisheyeCamera> = field_list(
 /// A pinhole opened to a disc (Cook, Porter, Carpenter, "Distributed ray tracing", SIGGRAPH 1984).
 /// Points at the distance `focus` along L are sharp; fov as in PinholeCamera.
 struct ThinLensCamera {
-  CameraPose pose;
+  CameraPose pose{};
   float fov = 45;
   FovAxis fov_axis = FovAxis::x;
   float aperture = 0;            ///< radius of the lens in world units, >= 0; 0 is a pinhole

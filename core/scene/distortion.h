@@ -17,7 +17,7 @@ struct DistortionMap {
   /// s and t of each pixel, row 0 on top: s runs from 0 at the left edge of the film to 1 at the
   /// right, t from 0 at the bottom to 1 at the top. Finite; numbers outside of 0..1 are points
   /// beyond the film's edges, which cameras see as well.
-  std::vector<float> st;
+  std::vector<float> st{};
 };
 
 template <>

@@ -16,11 +16,11 @@ namespace boule {
 /// then rotated, then moved.
 struct Instance {
   std::uint32_t group = 0;  ///< index in Scene::groups
-  Vec3f translate;
-  Vec3f rotate;     ///< degrees about x, then y, then z (rotation())
+  Vec3f translate{};
+  Vec3f rotate{};   ///< degrees about x, then y, then z (rotation())
   float scale = 1;  ///< above 0
   /// Replaces every material in the group and in the groups inside it, with its colour.
-  std::optional<std::uint32_t> material;
+  std::optional<std::uint32_t> material{};
 };
 
 template <>
@@ -33,10 +33,10 @@ inline constexpr auto fields<Instance> =
 
 /// Spheres, planes and other groups under a name, with a coordinate system of their own.
 struct Group {
-  std::string name;
-  std::vector<Sphere> spheres;
-  std::vector<Plane> planes;
-  std::vector<Instance> instances;
+  std::string name{};
+  std::vector<Sphere> spheres{};
+  std::vector<Plane> planes{};
+  std::vector<Instance> instances{};
 };
 
 template <>

@@ -16,9 +16,10 @@ inline constexpr std::size_t max_nesting = 256;
 
 /// A Problem of one instance of a scene.
 struct InstanceProblem {
-  std::optional<std::size_t> group;  ///< the group that the instance is in; none: the scene itself
-  std::size_t instance = 0;          ///< its index there
-  Problem problem;
+  /// The group that the instance is in; none: the scene itself.
+  std::optional<std::size_t> group{};
+  std::size_t instance = 0;  ///< its index there
+  Problem problem{};
 };
 
 /// The first Problem of a scene's instances: one of an instance by itself, an unknown group or
@@ -58,9 +59,9 @@ void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& fu
 /// The spheres of a group, without those of its instances, at the place where an instance shows
 /// them.
 struct ShownGroup {
-  std::uint32_t group = 0;                ///< index in Scene::groups
-  Similarity transform;                   ///< for transformed()
-  std::optional<std::uint32_t> material;  ///< for transformed()
+  std::uint32_t group = 0;                  ///< index in Scene::groups
+  Similarity transform{};                   ///< for transformed()
+  std::optional<std::uint32_t> material{};  ///< for transformed()
 };
 /// Calls the function for every group that has spheres and is shown, as often as it is shown, in
 /// the order of the spheres' ids.

@@ -37,11 +37,11 @@ inline constexpr double least_width = 1.0 / 500;
 /// computer graphics", SIGGRAPH 1995). The eye is the middle of its first surface. The film moves
 /// such that points at the distance `focus` from there along L are sharp.
 struct LensCamera {
-  CameraPose pose;
-  std::vector<LensSurface> surfaces;  ///< not empty, in any unit of length
-  float film_width = 36;              ///< in that unit, > 0
-  float scale = 0.001f;               ///< world units per such unit, > 0
-  std::optional<float> focus{};       ///< in world units, > 0; none: the distance of look_at
+  CameraPose pose{};
+  std::vector<LensSurface> surfaces{};  ///< not empty, in any unit of length
+  float film_width = 36;                ///< in that unit, > 0
+  float scale = 0.001f;                 ///< world units per such unit, > 0
+  std::optional<float> focus{};         ///< in world units, > 0; none: the distance of look_at
 };
 
 template <>

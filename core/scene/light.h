@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, 2> names<LightFrame>{"scene", "cam
 
 /// Light from one point in all directions.
 struct PointLight {
-  Vec3f position;
+  Vec3f position{};
   Color intensity{1, 1, 1};
   Falloff falloff = Falloff::none;
   LightFrame relative_to = LightFrame::scene;
@@ -51,7 +51,7 @@ inline constexpr auto fields<DirectionalLight> =
 
 /// A sphere that radiates equally in all directions. It is not an object: rays pass through it.
 struct SphereLight {
-  Vec3f center;
+  Vec3f center{};
   float radius = 1;
   Color radiance{1, 1, 1};
   LightFrame relative_to = LightFrame::scene;

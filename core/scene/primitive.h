@@ -12,7 +12,7 @@ namespace boule {
 
 /// A sphere of positive radius; `material` is one of Scene::materials, possibly in another colour.
 struct Sphere {
-  Vec3f center;
+  Vec3f center{};
   float radius = 1;
   MaterialRef material{};
 };
@@ -26,7 +26,7 @@ inline constexpr auto fields<Sphere> = field_list("sphere",
 
 /// An infinite plane through `point`; `normal` (any length but 0) points to its outside.
 struct Plane {
-  Vec3f point;
+  Vec3f point{};
   Vec3f normal{0, 1, 0};
   MaterialRef material{};
 };

@@ -8,8 +8,8 @@ namespace boule {
 /// takes any values, NaN and infinities included, and lists of any length. The only exception it
 /// throws is std::bad_alloc.
 struct Problem {
-  std::string field;
-  std::string message;
+  std::string field{};
+  std::string message{};
 };
 
 }  // namespace boule

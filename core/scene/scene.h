@@ -86,8 +86,8 @@ std::optional<Problem> find_problem(const ImageSettings& image);
 std::optional<Problem> find_problem(const RenderSettings& render);
 
 struct NamedMaterial {
-  std::string name;
-  Material material;
+  std::string name{};
+  Material material{};
 };
 
 template <>
@@ -98,23 +98,23 @@ inline constexpr auto fields<NamedMaterial> = field_list(
 /// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
 /// likewise. If there are packed spheres, they are the only ones.
 struct Scene {
-  ImageSettings image;
-  RenderSettings render;
-  std::optional<Camera> camera;             ///< none: fitted to the objects
-  CameraFit fit;                            ///< the settings of the fitted camera
-  std::optional<DistortionMap> distortion;  ///< of the camera's film
+  ImageSettings image{};
+  RenderSettings render{};
+  std::optional<Camera> camera{};             ///< none: fitted to the objects
+  CameraFit fit{};                            ///< the settings of the fitted camera
+  std::optional<DistortionMap> distortion{};  ///< of the camera's film
   Background background = ConstantBackground{};
-  Color ambient;  ///< light that every surface receives from all directions
+  Color ambient{};  ///< light that every surface receives from all directions
   /// The colour for camera rays that miss; none: the background. Mirrors, glass and paths always
   /// see the background.
-  std::optional<Color> backdrop;
-  std::vector<NamedMaterial> materials;
-  std::vector<Light> lights;
-  std::vector<Sphere> spheres;
-  std::vector<Plane> planes;
-  std::vector<Group> groups;  ///< shown by instances only
-  std::vector<Instance> instances;
-  std::shared_ptr<const PackedSpheres> packed;  ///< null: none
+  std::optional<Color> backdrop{};
+  std::vector<NamedMaterial> materials{};
+  std::vector<Light> lights{};
+  std::vector<Sphere> spheres{};
+  std::vector<Plane> planes{};
+  std::vector<Group> groups{};  ///< shown by instances only
+  std::vector<Instance> instances{};
+  std::shared_ptr<const PackedSpheres> packed{};  ///< null: none
 };
 
 template <>

@@ -36,7 +36,7 @@ struct PixelPick {
 /// One step of a picture that is shown as it grows: each picked pixel gets samples until it has
 /// `until` of them.
 struct LivePass {
-  PixelPick pick;
+  PixelPick pick{};
   int until = 1;
   double share = 1;  ///< the approximate fraction of all samples that are done after this pass
 };

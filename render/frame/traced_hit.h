@@ -13,7 +13,7 @@ struct TracedHit {
   double t =
       std::numeric_limits<double>::infinity();  ///< double, in units of the direction's length
   std::int32_t id = no_primitive;               ///< of the primitive: spheres in order, then planes
-  Vec3f normal;  ///< geometric, unit length, against the ray; miss: 0
+  Vec3f normal{};  ///< geometric, unit length, against the ray; miss: 0
 };
 
 }  // namespace boule

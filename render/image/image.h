@@ -16,7 +16,7 @@ enum class Alpha { none, coverage };
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<Color> pixels;
+  std::vector<Color> pixels{};
   std::vector<float> alpha{};  ///< by pixel, 0..1; empty: no alpha
 
   Image() = default;

@@ -18,8 +18,9 @@ enum class PictureContent { colors, numbers };
 /// (EXR's data window) is refused, and so is a picture that exceeds the available memory. Takes any
 /// file. The Diagnostic says "cannot read it: REASON", and its file is `path`.
 ///
-/// The first call may load OpenImageIO: see write_image(). libpng may write a line to standard
-/// error about a PNG file that holds nonsense under correct checksums.
+/// The first call may load OpenImageIO: see write_image(). OpenImageIO ends the process by
+/// std::terminate() if an allocation fails in functions of its own that must not throw. libpng may
+/// write a line to standard error about a PNG file that holds nonsense under correct checksums.
 Result<Image> read_image(const std::string& path, PictureContent content);
 
 }  // namespace boule

@@ -30,8 +30,8 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 /// One more value per pixel, beside R, G and B: "Z", "N.X", "id", ... Row 0 on top, as in Image.
 struct ImageChannel {
-  std::string name;
-  std::variant<std::vector<float>, std::vector<std::uint32_t>> samples;
+  std::string name{};
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> samples{};
 };
 
 /// The frame that a cropped picture is a part of, and the place of the picture's upper left pixel
@@ -45,15 +45,15 @@ struct CropWindow {
 struct ImageFileOptions {
   Compression compression = Compression::zip;  ///< EXR only
   float exposure_stops = 0;  ///< LDR formats: colours are multiplied by 2^stops before the curve
-  CropWindow crop;           ///< formats without channels store the pixels only, not the window
-  std::vector<ImageChannel> channels;             ///< formats without channels refuse them
+  CropWindow crop{};         ///< formats without channels store the pixels only, not the window
+  std::vector<ImageChannel> channels{};           ///< formats without channels refuse them
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, in EXIF notation
-  Metadata metadata;           ///< an entry replaces the standard one of its name
-  int threads = 1;             ///< for compression, 1 .. 256; others are clamped to this range
-  std::function<bool()> stop;  ///< called from time to time; true cancels the writing
+  Metadata metadata{};           ///< an entry replaces the standard one of its name
+  int threads = 1;               ///< for compression, 1 .. 256; others are clamped to this range
+  std::function<bool()> stop{};  ///< called from time to time; true cancels the writing
   /// Called with the temporary file's name once that file exists, and with an empty name once it is
   /// complete and will be renamed. So a signal handler can remove the file without waiting.
-  std::function<void(const std::string&)> temporary;
+  std::function<void(const std::string&)> temporary{};
 };
 
 /// Writes a picture in the format of its extension: HDR formats as linear RGB float, LDR formats

@@ -18,13 +18,13 @@ inline constexpr std::uint32_t no_aov_id = 4294967295;
 struct Aovs {
   /// Euclidean distance of the hit from the ray's origin; finite for every hit.
   float depth = std::numeric_limits<float>::infinity();
-  Vec3f normal;    ///< geometric, unit length, towards the viewer, as for shading; miss: 0
-  Vec3f position;  ///< the hit's point, rounded to float; miss: 0
+  Vec3f normal{};    ///< geometric, unit length, towards the viewer, as for shading; miss: 0
+  Vec3f position{};  ///< the hit's point, rounded to float; miss: 0
   std::uint32_t id = no_aov_id;  ///< the primitive's: spheres in order, then planes
   /// The fraction of light that the surface sends on: the diffuse colour plus the weights of the
   /// reflected and the refracted ray, at most 1. Highlights, ambient light and emission are left
   /// out. Miss: 0.
-  Color albedo;
+  Color albedo{};
   /// The hit's distance from the eye along the camera's view direction L, which is L.(P - E). A
   /// fisheye also sees points behind the eye; there it is negative.
   float along = std::numeric_limits<float>::infinity();

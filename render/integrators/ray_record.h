@@ -18,12 +18,12 @@ struct RecordedRay {
   RayKind kind = RayKind::primary;
   int parent = -1;  ///< an earlier ray's index; -1: none
   int depth = 0;    ///< bounces before it
-  Ray ray;
-  Hit hit;           ///< of a shadow ray: the hit that blocks it
-  Color weight;      ///< in the light that its parent returns
-  Color throughput;  ///< in the sample
-  Color own;         ///< light found by the ray itself; of a shadow ray: the light that it lets
-                     ///< through
+  Ray ray{};
+  Hit hit{};           ///< of a shadow ray: the hit that blocks it
+  Color weight{};      ///< in the light that its parent returns
+  Color throughput{};  ///< in the sample
+  Color own{};         ///< light found by the ray itself; of a shadow ray: the light that it lets
+                       ///< through
   std::size_t light = 0;  ///< of a shadow ray: index of its light
 };
 

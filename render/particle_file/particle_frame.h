@@ -14,8 +14,8 @@ namespace boule {
 
 /// The parallelepiped of a simulation: the points origin + x a + y b + z c with x, y, z in [0, 1].
 struct ParticleCell {
-  Vec3d a, b, c;
-  Vec3d origin;
+  Vec3d a{}, b{}, c{};
+  Vec3d origin{};
   std::array<bool, 3> periodic{};  ///< along a, b, c
 };
 
@@ -25,8 +25,8 @@ bool is_finite(const ParticleCell& cell);
 /// A number of every particle, under its name in the file; whole numbers are exact up to 2^53. NaN
 /// stands for a missing one.
 struct NumberColumn {
-  std::string name;
-  std::vector<double> values;  ///< by particle
+  std::string name{};
+  std::vector<double> values{};  ///< by particle
 };
 
 /// The extent of a column's numbers.
@@ -40,30 +40,30 @@ ColumnExtent extent_of(const NumberColumn& column);
 /// A text of every particle, such as the name of a residue: an index into the list of different
 /// texts.
 struct TextColumn {
-  std::string name;
-  std::vector<std::string> texts;      ///< in the order of their first use
-  std::vector<std::uint32_t> indices;  ///< by particle
+  std::string name{};
+  std::vector<std::string> texts{};      ///< in the order of their first use
+  std::vector<std::uint32_t> indices{};  ///< by particle
 };
 
 /// One frame of a particle file, in the units of the file (lengths of GROMACS files: nm). All
 /// lists by particle have as many entries as `positions`, which are finite. So are all numbers that
 /// are there, unless the file was read with ParticleFileOptions::lenient.
 struct ParticleFrame {
-  std::vector<Vec3d> positions;
+  std::vector<Vec3d> positions{};
   /// The particles' kinds: elements ("C", "Fe") if the file has them, otherwise types ("1"). Empty
   /// if it has neither.
-  std::optional<TextColumn> species;
-  std::vector<NumberColumn> numbers;  ///< in the order of the file, without the positions
-  std::vector<TextColumn> texts;      ///< likewise, without the species
+  std::optional<TextColumn> species{};
+  std::vector<NumberColumn> numbers{};  ///< in the order of the file, without the positions
+  std::vector<TextColumn> texts{};      ///< likewise, without the species
   /// The names of columns that the file has and that were not requested, for messages about similar
   /// names.
-  std::vector<std::string> unread;
-  std::optional<ParticleCell> cell;
-  std::optional<double> time;
+  std::vector<std::string> unread{};
+  std::optional<ParticleCell> cell{};
+  std::optional<double> time{};
   /// The file's unit of length in angstrom (10 for nm); 1 if it is unknown. Tables of radii need
   /// it.
   double length_in_angstrom = 1;
-  std::vector<std::string> notes;  ///< omissions and automatic choices, a sentence each
+  std::vector<std::string> notes{};  ///< omissions and automatic choices, a sentence each
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };

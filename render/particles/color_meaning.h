@@ -14,13 +14,13 @@ namespace boule {
 /// The meaning of the particles' colours: one entry for each species, or a map of numbers.
 struct ParticleColors {
   struct Species {
-    std::string name;
-    SrgbColor color;
+    std::string name{};
+    SrgbColor color{};
     std::size_t count = 0;  ///< number of shown particles, without periodic images
   };
   struct Scale {
-    std::string by;  ///< as MappedColors
-    ColorMap map;
+    std::string by{};  ///< as MappedColors
+    ColorMap map{};
     std::array<double, 2> range{};  ///< the chosen range
     std::size_t missing = 0;        ///< particles without a number, of missing_color
   };

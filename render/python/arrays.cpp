@@ -46,6 +46,8 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 }  // namespace
 
+void need_numpy() { py::module_::import("numpy"); }
+
 void refuse_masked(const py::object& argument, const std::string& name) {
   if (!py::hasattr(argument, "mask") || !py::hasattr(argument, "filled")) return;
   const auto masked =

@@ -66,9 +66,14 @@ pybind11::array to_array(const pybind11::object& argument, const std::string& na
 /// "float32 of shape (5, 3)".
 std::string describe(const pybind11::array& array);
 
+/// Loads numpy. pybind11 does it otherwise, inside the lock of a static variable: of two threads
+/// that make their first arrays, one would wait for that lock, the other for the GIL.
+void need_numpy();
+
 /// An array without initial values. Throws MemoryError.
 template <class Number>
 pybind11::array_t<Number> empty_array(std::vector<pybind11::ssize_t> shape) {
+  need_numpy();
   return pybind11::array_t<Number>(std::move(shape));
 }
 
@@ -76,6 +81,7 @@ pybind11::array_t<Number> empty_array(std::vector<pybind11::ssize_t> shape) {
 template <class Number>
 pybind11::array view_of(const Number* data, std::vector<pybind11::ssize_t> shape,
                         std::vector<pybind11::ssize_t> strides, const pybind11::handle& owner) {
+  need_numpy();
   pybind11::array view(pybind11::dtype::of<Number>(), std::move(shape), std::move(strides), data,
                        owner);
   view.attr("flags").attr("writeable") = false;

@@ -36,9 +36,9 @@ struct RayNumbers {
 /// the interval are rounded to float once, and numbers beyond the range of float become infinite.
 struct RayColumns {
   std::size_t size = 0;
-  RayNumbers org, dir;    ///< three components each
-  RayNumbers tmin, tmax;  ///< one component
-  Vec3d zero{};           ///< subtracted from the origins
+  RayNumbers org{}, dir{};    ///< three components each
+  RayNumbers tmin{}, tmax{};  ///< one component
+  Vec3d zero{};               ///< subtracted from the origins
 };
 
 /// The output columns for hits: `size` numbers each, three of each normal.

@@ -41,20 +41,20 @@ struct RenderOptions {
   /// For teaching: the lecture's epsilon at which shadow rays start, in units of length, 0 (without
   /// a remedy for false shadows) or more. Without it, shadow rays know the surface that they leave.
   std::optional<float> shadow_epsilon{};
-  float outline = 0;              ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: off
-  std::optional<PixelRect> crop;  ///< the pixels of the frame to render; empty: all
-  AovSelection aovs;              ///< the AOVs that render_aovs() computes
-  bool in_bands = false;          ///< the rendering needs memory for render_bands() only
+  float outline = 0;                ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: off
+  std::optional<PixelRect> crop{};  ///< the pixels of the frame to render; empty: all
+  AovSelection aovs{};              ///< the AOVs that render_aovs() computes
+  bool in_bands = false;            ///< the rendering needs memory for render_bands() only
   PixelOrder order = PixelOrder::tiles;  ///< of all but render_bands()
   int tile = 0;              ///< side of a block in pixels, 1 .. 1024; 0: fitting_tile()
   unsigned threads = 0;      ///< at most 1024; 0: as many as the hardware runs at once
   std::string isa = "auto";  ///< a name that select_kernels() knows
   const std::atomic<bool>* cancel = nullptr;  ///< true stops rendering; must outlive the renderer
-  std::function<void(const Progress&)> progress;  ///< called often, on the thread that renders
-  LiveProgress* live = nullptr;                   ///< kept up to date; must outlive the renderer
+  std::function<void(const Progress&)> progress{};  ///< called often, on the thread that renders
+  LiveProgress* live = nullptr;                     ///< kept up to date; must outlive the renderer
   /// Called by render_live() after each pass, on the thread that renders. partial_picture() makes a
   /// picture of the film. Exceptions propagate to the caller.
-  std::function<void(const Film&)> update;
+  std::function<void(const Film&)> update{};
 };
 
 /// The options that a scene asks for. Takes any scene.

@@ -29,8 +29,8 @@ struct TraceOptions {
   Solver solver = Solver::robust;
   unsigned threads = 0;      ///< at most 1024; 0: as many as the hardware runs at once
   std::string isa = "auto";  ///< a name that select_kernels() knows
-  const std::atomic<bool>* cancel = nullptr;      ///< true stops tracing; must outlive the tracer
-  std::function<void(const Progress&)> progress;  ///< called often, on the thread that traces
+  const std::atomic<bool>* cancel = nullptr;        ///< true stops tracing; must outlive the tracer
+  std::function<void(const Progress&)> progress{};  ///< called often, on the thread that traces
 };
 
 /// The cost of tracing, over all calls so far.

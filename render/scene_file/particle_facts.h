@@ -14,9 +14,9 @@ namespace boule {
 /// The facts about one table of a scene, [[particles]] or a [[spheres]] with colours: for `boule
 /// info` and for legends.
 struct ParticleFacts {
-  std::string table;             ///< its path in the scene file: "particles[0]", "spheres[2]"
-  std::string file;              ///< as LoadedScene::data_files
-  std::string format;            ///< a name of particle_formats(): "xyz"
+  std::string table{};           ///< its path in the scene file: "particles[0]", "spheres[2]"
+  std::string file{};            ///< as LoadedScene::data_files
+  std::string format{};          ///< a name of particle_formats(): "xyz"
   std::size_t frames = 1;        ///< number of frames in the file
   std::size_t frame = 0;         ///< the frame that was read, from 0
   std::optional<double> time{};  ///< of that frame, if the file has it

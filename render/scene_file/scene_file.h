@@ -42,8 +42,8 @@ struct SceneFileOptions {
 /// A scene that has passed validate(), warnings for the user, and the paths of the data files that
 /// were read besides the scene file.
 struct LoadedScene {
-  Scene scene;
-  std::vector<std::string> warnings;  ///< each "FILE:LINE: warning: TEXT"
+  Scene scene{};
+  std::vector<std::string> warnings{};  ///< each "FILE:LINE: warning: TEXT"
   std::vector<std::string> data_files{};
   std::vector<std::string> notes{};        ///< automatic choices, a sentence each
   std::vector<ParticleFacts> particles{};  ///< of each file of particles

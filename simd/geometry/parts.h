@@ -16,9 +16,9 @@ class Geometry;
 
 /// A tree of spheres at some place in a scene.
 struct GeometryPart {
-  std::shared_ptr<const Geometry> tree;   ///< without planes and parts; parts may share it
-  std::optional<Similarity> transform;    ///< none: the spheres keep their places
-  std::optional<std::uint32_t> material;  ///< replaces all materials, with their colours
+  std::shared_ptr<const Geometry> tree{};   ///< without planes and parts; parts may share it
+  std::optional<Similarity> transform{};    ///< none: the spheres keep their places
+  std::optional<std::uint32_t> material{};  ///< replaces all materials, with their colours
 };
 
 /// Several parts laid out for the kernels, and a tree over their boxes. Throws std::bad_alloc, and

@@ -1,6 +1,9 @@
 #include "core/base/error.h"
 
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +36,32 @@ TEST(FormatDiagnostic, IsOnePrintableLine) {
                            .column = 9};
   EXPECT_EQ(format_diagnostic(hostile),
             "a\\x0ab.toml:3:9: error: saw 'f\\x03\\x0a\\x1b[31m' (key 'k\\x7f')");
+}
+
+/// What value() throws.
+template <class AnyResult>
+std::string thrown_by(AnyResult&& result) {
+  try {
+    static_cast<void>(std::forward<AnyResult>(result).value());
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Result, TheValueOfAnErrorIsItsText) {
+  Result<int> wrong = Diagnostic::about("camera.fov", "is wrong");
+  const Result<int> also_wrong = wrong;
+  const std::string text = "error: is wrong (key 'camera.fov')";
+  EXPECT_EQ(thrown_by(wrong), text);
+  EXPECT_EQ(thrown_by(also_wrong), text);
+  EXPECT_EQ(thrown_by(Result<int>(wrong)), text);
+  EXPECT_EQ(thrown_by(Result<int>(3)), "nothing");
+}
+
+TEST(ResultDeathTest, AProgramThatDoesNotLookEndsWithTheText) {
+  const auto end = [] { static_cast<void>(Result<int>(Diagnostic::of("no such scene")).value()); };
+  EXPECT_DEATH([&]() noexcept { end(); }(), "error: no such scene");
 }
 
 struct QuoteCase {

@@ -254,3 +254,25 @@ if child == 0:
 assert os.waitpid(child, 0)[1] == 0
 """
     assert run(code) == (0, "child True\n", "")
+
+
+@pytest.mark.parametrize("call", ["to_srgb()", "alpha", "channels"])
+def test_threads_may_make_their_first_arrays_at_once(call):
+    """numpy is loaded by whichever is first."""
+    code = f"""
+import threading, boule
+scene = boule.Scene()
+scene.add_sphere()
+picture = boule.render(scene, size=(40, 30), aov="depth", background="transparent")
+begin = threading.Barrier(4)
+def call():
+    begin.wait()
+    picture.{call}
+threads = [threading.Thread(target=call) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+"""
+    for _ in range(5):
+        subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
