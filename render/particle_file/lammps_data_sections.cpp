@@ -12,8 +12,6 @@
 namespace boule {
 namespace {
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
 std::vector<std::string_view> comment_words(std::string_view line) {

@@ -48,8 +48,6 @@ void add_line(std::string_view line, std::size_t bytes, std::string& records) {
   }
 }
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-
 /// True for lines of files from before 1996, which end with the entry's name and a number: their
 /// letters are no elements. A digit in the last column alone may be a charge.
 bool has_line_number(std::string_view line) {

@@ -10,6 +10,7 @@ namespace boule {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Without the blanks at its ends.
 inline std::string_view without_blanks(std::string_view text) {

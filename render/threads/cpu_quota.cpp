@@ -9,7 +9,7 @@
 namespace boule {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double no_quota = std::numeric_limits<double>::infinity();
 
 /// The first number of a file; 0 if there is none, or it is not positive.
 double first_number(const std::string& path) {
@@ -25,7 +25,7 @@ double processors_of(const std::string& folder) {
     quota = first_number(folder + "/cpu.cfs_quota_us");
     period = first_number(folder + "/cpu.cfs_period_us");
   }
-  return quota > 0 && period > 0 ? quota / period : unlimited;
+  return quota > 0 && period > 0 ? quota / period : no_quota;
 }
 
 /// Whether a line "NUMBER:CONTROLLERS:/GROUP" is of processors; one of version 2 has no
@@ -37,7 +37,7 @@ bool has_processors(const std::string& controllers) {
 }  // namespace
 
 unsigned quota_threads(const std::string& groups, const std::string& root) {
-  double least = unlimited;
+  double least = no_quota;
   std::istringstream lines(groups);
   for (std::string number, controllers, group; std::getline(lines, number, ':') &&
                                                std::getline(lines, controllers, ':') &&
