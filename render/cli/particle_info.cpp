@@ -39,7 +39,7 @@ Json columns_info(const ParticleFrame& frame) {
   Json list = Json::array();
   for (const NumberColumn& column : frame.numbers) {
     Json json = {{"name", column.name}};
-    const ColumnExtent extent = extent_of(column);
+    const ColumnExtent extent = column_extent(column);
     if (extent.least <= extent.largest) {
       json.update({{"least", extent.least}, {"largest", extent.largest}});
     }

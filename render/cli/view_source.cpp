@@ -127,7 +127,7 @@ std::vector<view::NumberRange> ViewSource::columns() {
   const auto frame = read_all_columns(command_.look, *particles_, scheduler_.parallel_for());
   if (!frame) return {};
   for (const NumberColumn& column : frame.value().numbers) {
-    const ColumnExtent extent = extent_of(column);
+    const ColumnExtent extent = column_extent(column);
     if (extent.least <= extent.largest)
       columns_->push_back({column.name, extent.least, extent.largest});
   }

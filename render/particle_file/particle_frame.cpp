@@ -22,7 +22,7 @@ bool is_finite(const ParticleCell& cell) {
   return is_finite(cell.a) && is_finite(cell.b) && is_finite(cell.c) && is_finite(cell.origin);
 }
 
-ColumnExtent extent_of(const NumberColumn& column) {
+ColumnExtent column_extent(const NumberColumn& column) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   ColumnExtent extent{inf, -inf};
   for (const double value : column.values) {

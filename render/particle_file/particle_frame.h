@@ -35,7 +35,7 @@ struct ColumnExtent {
          largest = 0;  ///< of the finite ones; least > largest if all are missing or infinite
   std::size_t missing = 0, infinite = 0;
 };
-ColumnExtent extent_of(const NumberColumn& column);
+ColumnExtent column_extent(const NumberColumn& column);
 
 /// A text of every particle, such as the name of a residue: an index into the list of different
 /// texts.

@@ -66,7 +66,7 @@ run render || status=$?
 ((status == 3)) || fail "with sudo it ends with $status, not with cmake's 3"
 grep -q '^sudo$' "$folder/calls/log" || fail "sudo is there and has not been used"
 grep -q '^apt-get install .*g++' "$folder/calls/log" || fail "nothing was installed"
-grep -q '^bootstrap: compiles Boule .*; about [0-9]* minutes here' "$folder/out" || fail "it does not say what it will do"
+grep -q '^bootstrap: compiles the program .*; about [0-9]* minutes here' "$folder/out" || fail "it does not say what it will do"
 
 rm "$folder/tools/apt-get"
 status=0

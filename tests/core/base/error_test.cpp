@@ -49,7 +49,7 @@ std::string thrown_by(AnyResult&& result) {
   return "nothing";
 }
 
-TEST(Result, TheValueOfAnErrorIsItsText) {
+TEST(Result, ValueOfAnErrorThrowsItsText) {
   Result<int> wrong = Diagnostic::about("camera.fov", "is wrong");
   const Result<int> also_wrong = wrong;
   const std::string text = "error: is wrong (key 'camera.fov')";
@@ -59,7 +59,7 @@ TEST(Result, TheValueOfAnErrorIsItsText) {
   EXPECT_EQ(thrown_by(Result<int>(3)), "nothing");
 }
 
-TEST(ResultDeathTest, AProgramThatDoesNotLookEndsWithTheText) {
+TEST(ResultDeathTest, UncheckedProgramsEndWithTheText) {
   const auto end = [] { static_cast<void>(Result<int>(Diagnostic::of("no such scene")).value()); };
   EXPECT_DEATH([&]() noexcept { end(); }(), "error: no such scene");
 }

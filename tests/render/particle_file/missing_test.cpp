@@ -109,7 +109,7 @@ TEST(Missing, ALenientReaderKeepsWhatIsNoFiniteNumber) {
                           const std::string& of) {
     const auto read = read_particles(name, bytes, lenient);
     EXPECT_TRUE(read.ok()) << name << format_diagnostic(read.error());
-    return read ? extent_of(*find_number_column(read.value(), of)) : ColumnExtent{};
+    return read ? column_extent(*find_number_column(read.value(), of)) : ColumnExtent{};
   };
   const ColumnExtent xyz =
       column("a.xyz", "4\n\nC 1 2 3 inf\nC 1 2 3 4\nC 1 2 3 nan\nC 1 2 3 x\n", "c4");
