@@ -66,6 +66,7 @@ Result<LoadedScene> SceneLoader::load_as(const LookOptions& look, std::optional<
 Result<LoadedScene> SceneLoader::choose_for_series() {
   const auto count = static_cast<std::size_t>(frames_->count());
   std::vector<int> frames;
+  SeriesSurvey survey(size_);
   {
     auto first = read(frames_->first);
     if (!first) return first;
@@ -75,10 +76,12 @@ Result<LoadedScene> SceneLoader::choose_for_series() {
       return first;
     }
     frames = surveyed_frames(*frames_, spheres, most_);
+    // If it shows some, its origin is that of all.
+    if (shows_particles(first.value())) survey.add(frames_->first, first.value(), choices_.floor);
   }
-  SeriesSurvey survey = look_at(frames);
+  survey = look_at(frames, std::move(survey));
   choices_.particles = survey.choices(count);
-  if (survey.radii_differ()) survey = look_at(frames);  // with the radii of all
+  if (survey.radii_differ()) survey = look_at(frames, SeriesSurvey(size_));  // with those of all
   keep_floor_and_camera(survey, frames.size());
   auto first = read(frames_->first);
   if (!first) return first;
@@ -141,14 +144,13 @@ bool SceneLoader::needs_others(const LoadedScene& first) const {
   });
 }
 
-/// Reads these frames. One that cannot be read ends that: its error is told when its picture is
-/// made.
-SeriesSurvey SceneLoader::look_at(const std::vector<int>& frames) {
-  SeriesSurvey survey(size_);
-  for (const int number : frames) {
-    const auto one = read(number);
+/// Reads those of these frames that a survey has not got yet. One that cannot be read ends that:
+/// its error is told when its picture is made.
+SeriesSurvey SceneLoader::look_at(const std::vector<int>& frames, SeriesSurvey survey) {
+  for (std::size_t i = survey.size(); i < frames.size(); ++i) {
+    const auto one = read(frames[i]);
     if (!one) break;
-    survey.add(number, one.value(), choices_.floor);
+    survey.add(frames[i], one.value(), choices_.floor);
   }
   return survey;
 }

@@ -63,7 +63,7 @@ class SceneLoader {
   Result<LoadedScene> choose_for_series();
   [[nodiscard]] std::uint64_t find_shown(const LoadedScene& first);
   [[nodiscard]] bool needs_others(const LoadedScene& first) const;
-  SeriesSurvey look_at(const std::vector<int>& frames);
+  SeriesSurvey look_at(const std::vector<int>& frames, SeriesSurvey survey);
   void keep_floor_and_camera(const SeriesSurvey& survey, std::size_t frames);
   void keep_colors(const LoadedScene& shown);
   void use_choices(LoadedScene& loaded);

@@ -45,4 +45,9 @@ inline Number npy_number(const unsigned char* bytes) {
   return std::bit_cast<Number>(bits);
 }
 
+/// The same of a number of `width` bytes: 4, a float, or 8.
+inline double npy_number_of(const unsigned char* bytes, std::size_t width) {
+  return width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
+}
+
 }  // namespace boule

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "core/base/error.h"
+#include "render/particle_file/frame_places.h"
 
 namespace boule {
 
@@ -25,10 +25,8 @@ struct DumpFramePlace {
   DumpSection box, time, atoms;
 };
 
-struct DumpFrames {
-  std::vector<DumpFramePlace> frames;  ///< at least one, each with atoms
-  double length_in_angstrom = 1;       ///< what UNITS says
-  Status cut;                          ///< as ParticleReader::cut()
+struct DumpFrames : FramePlaces<DumpFramePlace> {
+  double length_in_angstrom = 1;  ///< the unit that UNITS names
 };
 
 /// Finds all frames of a LAMMPS dump. Sections of a frame stand in any order; one that a frame has

@@ -157,16 +157,15 @@ bool is_upright(const ParticleCell& cell) {
          cell.c.y == 0;
 }
 
-class DumpReader : public ParticleReader {
+class DumpReader : public PlacedReader<DumpFramePlace> {
  public:
-  DumpReader(MappedText bytes, ParticleFileOptions options, DumpFrames found)
-      : bytes_(std::move(bytes)), options_(std::move(options)), found_(std::move(found)) {}
-
-  [[nodiscard]] std::size_t frames() const override { return found_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return found_.cut; }
+  DumpReader(MappedText bytes, ParticleFileOptions options, FramePlaces<DumpFramePlace> places,
+             double length_in_angstrom)
+      : PlacedReader(std::move(bytes), std::move(options), std::move(places)),
+        length_in_angstrom_(length_in_angstrom) {}
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
-    const DumpFramePlace& place = found_.frames[frame];
+    const DumpFramePlace& place = places_.frames[frame];
     ParticleFrame read;
     if (auto wrong = read_header(place, read)) return *wrong;
     const DumpSection& atoms = place.atoms;
@@ -198,7 +197,7 @@ class DumpReader : public ParticleReader {
 
  private:
   Status read_header(const DumpFramePlace& place, ParticleFrame& read) const {
-    read.length_in_angstrom = found_.length_in_angstrom;
+    read.length_in_angstrom = length_in_angstrom_;
     if (place.box.exists()) {
       auto cell = BoxReader(bytes_.text(), place.box).read();
       if (!cell) return cell.error();
@@ -256,9 +255,7 @@ class DumpReader : public ParticleReader {
                          positions.names[0]);
   }
 
-  MappedText bytes_;
-  ParticleFileOptions options_;
-  DumpFrames found_;
+  double length_in_angstrom_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_dump(MappedText bytes,
@@ -266,8 +263,9 @@ Result<std::unique_ptr<ParticleReader>> open_dump(MappedText bytes,
                                                   const ParallelFor&) {
   auto found = find_dump_frames(bytes.text());
   if (!found) return found.error();
+  const double length = found.value().length_in_angstrom;
   return std::unique_ptr<ParticleReader>(
-      std::make_unique<DumpReader>(std::move(bytes), options, std::move(found).value()));
+      std::make_unique<DumpReader>(std::move(bytes), options, std::move(found).value(), length));
 }
 
 bool starts_like_dump(std::string_view start) {

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
+#include "render/file/mapped_text.h"
 #include "render/memory/available_memory.h"
+#include "render/particle_file/particle_file.h"
 #include "render/particle_file/text_lines.h"
 #include "render/particle_file/text_number.h"
 
@@ -17,6 +20,22 @@ template <class Place>
 struct FramePlaces {
   std::vector<Place> frames;  ///< whole ones, at least one
   Status cut;                 ///< as ParticleReader::cut()
+};
+
+/// A reader of a text whose frames' places are found.
+template <class Place>
+class PlacedReader : public ParticleReader {
+ public:
+  PlacedReader(MappedText bytes, ParticleFileOptions options, FramePlaces<Place> places)
+      : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
+
+  [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
+  [[nodiscard]] Status cut() const override { return places_.cut; }
+
+ protected:
+  MappedText bytes_;
+  ParticleFileOptions options_;
+  FramePlaces<Place> places_;
 };
 
 /// True if the last of some rows, where the file ends without an end of line, is only a part of a

@@ -112,13 +112,9 @@ Result<std::optional<ParticleCell>> box_of(std::string_view line, std::uint64_t 
                                     .periodic = {true, true, true}});
 }
 
-class GroReader : public ParticleReader {
+class GroReader : public PlacedReader<GroFrame> {
  public:
-  GroReader(MappedText bytes, ParticleFileOptions options, FramePlaces<GroFrame> places)
-      : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
-
-  [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return places_.cut; }
+  using PlacedReader::PlacedReader;
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
     const GroFrame& place = places_.frames[frame];
@@ -137,11 +133,6 @@ class GroReader : public ParticleReader {
     if (auto wrong = read_gro_rows(rows, options_.wanted, read, parallel_for)) return *wrong;
     return read;
   }
-
- private:
-  MappedText bytes_;
-  ParticleFileOptions options_;
-  FramePlaces<GroFrame> places_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_gro(MappedText bytes,

@@ -14,16 +14,12 @@
 namespace boule {
 namespace {
 
-class PdbReader : public ParticleReader {
+class PdbReader : public PlacedReader<PdbFrame> {
  public:
-  PdbReader(MappedText bytes, ParticleFileOptions options, FramePlaces<PdbFrame> frames)
-      : bytes_(std::move(bytes)), options_(std::move(options)), frames_(std::move(frames)) {}
-
-  [[nodiscard]] std::size_t frames() const override { return frames_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return frames_.cut; }
+  using PlacedReader::PlacedReader;
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
-    const PdbFrame& place = frames_.frames[frame];
+    const PdbFrame& place = places_.frames[frame];
     const auto atoms = static_cast<std::size_t>(place.atoms);
     if (auto no_room = check_memory(place.atoms * MoleculeColumns::atom_bytes,
                                     std::to_string(atoms) + " atoms need")) {
@@ -70,10 +66,6 @@ class PdbReader : public ParticleReader {
     }
     return !records.numbers.empty() ? flush() : std::nullopt;
   }
-
-  MappedText bytes_;
-  ParticleFileOptions options_;
-  FramePlaces<PdbFrame> frames_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_pdb(MappedText bytes,

@@ -82,16 +82,12 @@ PqrWords words_of_atom(std::string_view line) {
   return blanks && !are_numbers(columns.numbers) ? *blanks : columns;
 }
 
-class PqrReader : public ParticleReader {
+class PqrReader : public PlacedReader<PdbFrame> {
  public:
-  PqrReader(MappedText bytes, ParticleFileOptions options, FramePlaces<PdbFrame> frames)
-      : bytes_(std::move(bytes)), options_(std::move(options)), frames_(std::move(frames)) {}
-
-  [[nodiscard]] std::size_t frames() const override { return frames_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return frames_.cut; }
+  using PlacedReader::PlacedReader;
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
-    const PdbFrame& place = frames_.frames[frame];
+    const PdbFrame& place = places_.frames[frame];
     const auto atoms = static_cast<std::size_t>(place.atoms);
     if (auto no_room = check_memory(place.atoms * MoleculeColumns::atom_bytes,
                                     std::to_string(atoms) + " atoms need")) {
@@ -152,10 +148,6 @@ class PqrReader : public ParticleReader {
                  .b_factor = n[4]});
     return std::nullopt;
   }
-
-  MappedText bytes_;
-  ParticleFileOptions options_;
-  FramePlaces<PdbFrame> frames_;
 };
 
 Result<std::unique_ptr<ParticleReader>> open_pqr(MappedText bytes,

@@ -134,15 +134,12 @@ void add_property(const XyzProperty& property, NamedColumns& columns) {
   for (const std::string& name : names_of(property)) columns.add_kept(name, use);
 }
 
-class XyzReader : public ParticleReader {
+class XyzReader : public PlacedReader<XyzFrame> {
  public:
   XyzReader(MappedText bytes, ParticleFileOptions options, FramePlaces<XyzFrame> places)
-      : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {
+      : PlacedReader(std::move(bytes), std::move(options), std::move(places)) {
     has_numbers_ = has_atomic_numbers();
   }
-
-  [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return places_.cut; }
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
     const XyzFrame& place = places_.frames[frame];
@@ -240,9 +237,6 @@ class XyzReader : public ParticleReader {
     return std::count(occurs.begin() + 1, occurs.begin() + end, true) < kinds;
   }
 
-  MappedText bytes_;
-  ParticleFileOptions options_;
-  FramePlaces<XyzFrame> places_;
   bool has_numbers_ = false;  ///< in place of the species
 };
 

@@ -45,8 +45,8 @@ bool needs_light(const Material& material) {
   return std::holds_alternative<Matte>(material) || std::holds_alternative<Plastic>(material);
 }
 
-/// Whether any object has a material that is `wanted`. Looks at the objects only if there is such a
-/// material.
+/// Whether any object has a material that is `wanted`; of packed spheres the emissive ones are
+/// asked alone. Looks at the objects only if there is such a material.
 template <class Wanted>
 bool any_object(const Scene& scene, const Wanted& wanted) {
   std::vector<bool> is_wanted;
@@ -57,7 +57,7 @@ bool any_object(const Scene& scene, const Wanted& wanted) {
       return is_wanted[object.material.index()];
     });
   };
-  bool found = any(scene.spheres) || any(scene.planes);
+  bool found = any(scene.packed ? scene.packed->emissive : scene.spheres) || any(scene.planes);
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
     if (found) return;
     found = shown.material ? is_wanted[*shown.material] : any(scene.groups[shown.group].spheres);
@@ -65,10 +65,7 @@ bool any_object(const Scene& scene, const Wanted& wanted) {
   return found;
 }
 
-bool has_emitter(const Scene& scene) {
-  if (scene.packed && !scene.packed->emissive.empty()) return true;
-  return any_object(scene, gives_light);
-}
+bool has_emitter(const Scene& scene) { return any_object(scene, gives_light); }
 
 }  // namespace
 

@@ -48,8 +48,12 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 void need_numpy() { py::module_::import("numpy"); }
 
+bool is_masked(const py::object& argument) {
+  return py::hasattr(argument, "mask") && py::hasattr(argument, "filled");
+}
+
 void refuse_masked(const py::object& argument, const std::string& name) {
-  if (!py::hasattr(argument, "mask") || !py::hasattr(argument, "filled")) return;
+  if (!is_masked(argument)) return;
   const auto masked =
       py::module_::import("numpy").attr("count_nonzero")(argument.attr("mask")).cast<long>();
   if (masked == 0) return;

@@ -56,6 +56,9 @@ class Numbers {
   bool is_one_ = false;
 };
 
+/// Whether the argument is an array of numpy.ma.
+bool is_masked(const pybind11::object& argument);
+
 /// An Error about an array of numpy.ma that masks something: any other array of it would show what
 /// is masked.
 void refuse_masked(const pybind11::object& argument, const std::string& name);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/scene/number_text.h"
-#include "render/particles/elements.h"
+#include "render/particle_file/element_guess.h"
 #include "render/python/arguments.h"
 #include "render/python/arrays.h"
 #include "render/python/errors.h"
@@ -33,10 +33,10 @@ std::string of_row(std::size_t row, const std::string& message) {
 /// Numbers of each particle, finite or missing: NaN, and what an array of numpy.ma masks.
 std::vector<double> column_of(const py::object& argument, const std::string& name,
                               std::size_t rows) {
-  const bool is_masked = py::hasattr(argument, "mask") && py::hasattr(argument, "filled");
-  const Numbers numbers(
-      is_masked ? argument.attr("astype")("float64").attr("filled")(std::nan("")) : argument, name,
-      {.rows = rows});
+  const Numbers numbers(is_masked(argument)
+                            ? argument.attr("astype")("float64").attr("filled")(std::nan(""))
+                            : argument,
+                        name, {.rows = rows});
   std::vector<double> values(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     values[i] = numbers.at(i);
@@ -46,27 +46,12 @@ std::vector<double> column_of(const py::object& argument, const std::string& nam
   return values;
 }
 
-/// Elements that Jmol has no colour for, and so all_elements() neither, by atomic number from 110.
-constexpr std::array<std::string_view, 9> heaviest{"Ds", "Rg", "Cn", "Nh", "Fl",
-                                                   "Mc", "Lv", "Ts", "Og"};
-constexpr int first_heaviest = 110;
-constexpr int last_element = 118;
-
-/// The symbol of an element by its atomic number; 0 is "X", as ASE names what is none.
-std::string symbol_of(int number) {
-  if (number == 0) return "X";
-  const auto elements = all_elements();
-  const auto place = static_cast<std::size_t>(number - 1);
-  if (place < elements.size()) return std::string(elements[place].symbol);
-  return std::string(heaviest[static_cast<std::size_t>(number - first_heaviest)]);
-}
-
-/// The atomic number that a number of Python is, if it is one: whole, from 0 to 118.
-std::optional<int> atomic_number(const py::object& value) {
+/// The atomic number that a number of Python is, if it is one: whole, from 0 (ASE's X) to 118.
+std::optional<std::size_t> atomic_number(const py::object& value) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() != nullptr) PyErr_Clear();  // it is too large: -1 came
   if (!(number >= 0 && number <= last_element) || number != std::floor(number)) return {};
-  return static_cast<int>(number);
+  return static_cast<std::size_t>(number);
 }
 
 bool is_number(const py::object& value) {
@@ -106,7 +91,7 @@ std::optional<std::string> text_of(const py::object& value, const std::string& n
 std::string species_of(const py::object& value, const std::string& name, std::size_t row) {
   if (auto text = text_of(value, name)) return *text;
   if (is_number(value)) {
-    if (const auto number = atomic_number(value)) return symbol_of(*number);
+    if (const auto number = atomic_number(value)) return std::string(element_of_number(*number));
   }
   throw_error(name, of_row(row, "expected a symbol or an atomic number from 0 to " +
                                     std::to_string(last_element) + ", got " + came(value)));

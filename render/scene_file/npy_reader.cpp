@@ -65,8 +65,7 @@ std::array<double, 4> numbers_of(const unsigned char* row, const RowLayout& layo
                                  const NpySpheres& request) {
   std::array<double, 4> numbers{0, 0, 0, double{request.radius.value_or(0)}};
   for (std::size_t i = 0; i < layout.columns; ++i) {
-    const unsigned char* bytes = row + i * layout.width;
-    numbers[i] = layout.width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
+    numbers[i] = npy_number_of(row + i * layout.width, layout.width);
   }
   return numbers;
 }

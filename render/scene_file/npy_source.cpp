@@ -15,18 +15,14 @@ namespace {
 
 constexpr const char* sphere_columns[] = {"center x", "center y", "center z", "radius"};
 
-/// A number of a row.
-double number_at(const unsigned char* row, std::size_t column, std::size_t width) {
-  const unsigned char* const bytes = row + column * width;
-  return width == 8 ? npy_number<double>(bytes) : double{npy_number<float>(bytes)};
-}
-
 using Row = std::array<double, 4>;
 
 /// The numbers of a row, the centre counted from `origin`.
 Row numbers_of(const unsigned char* row, std::size_t width, const Vec3d& origin) {
-  return {number_at(row, 0, width) - origin.x, number_at(row, 1, width) - origin.y,
-          number_at(row, 2, width) - origin.z, number_at(row, 3, width)};
+  const auto number = [&](std::size_t column) {
+    return npy_number_of(row + column * width, width);
+  };
+  return {number(0) - origin.x, number(1) - origin.y, number(2) - origin.z, number(3)};
 }
 
 /// The sphere of a row, each number rounded once; an invalid one if a number is too large.

@@ -165,8 +165,9 @@ Vec3d OriginSearch::run() const {
   const bool fit = std::all_of(parts_.begin(), parts_.end(), [](const SphereExtent& part) {
     return fits_float32(reach(part, {}));  // those that do not are refused
   });
-  if (parts_.empty() || !fit || within(near_enough).contains({})) return {};
-  if (const OriginBox near = within(near_enough); !near.is_empty()) {
+  const OriginBox near = within(near_enough);  // all of space without spheres
+  if (!fit || near.contains({})) return {};
+  if (!near.is_empty()) {
     if (const auto origin = round_point(near)) return *origin;
   }
   constexpr double around = 2.5;  // where the scene is, and its corners

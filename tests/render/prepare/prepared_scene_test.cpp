@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <tuple>
 
 #include "core/reference.h"
 #include "render/prepare/default_camera.h"
+#include "render/prepare/default_light.h"
 #include "tests/support/test_scenes.h"
 
 namespace boule::test {
@@ -78,6 +80,18 @@ TEST(Prepare, DefaultLightOnlyWhereNothingShines) {
   EXPECT_EQ(lit().size(), 1u);
   EXPECT_TRUE(std::holds_alternative<DirectionalLight>(lit()[0]));
   EXPECT_TRUE(prepare(scene, 10, 10).value().notes.empty());
+}
+
+TEST(Prepare, PackedEmissiveSpheresAreLightUnlessBlack) {
+  Scene scene = empty_scene(10, 10);
+  add_material(scene, Emissive{});
+  PackedSpheres spheres;
+  spheres.count = 1;
+  spheres.emissive = {{{0, 0, 0}, 1, 0}};
+  scene.packed = std::make_shared<PackedSpheres>(spheres);
+  EXPECT_FALSE(lacks_light(scene, Method::path));
+  scene.materials[0].material = Emissive{gray(0)};
+  EXPECT_TRUE(lacks_light(scene, Method::path));
 }
 
 /// By Whitted's method a gradient and what is emissive are seen, but light nothing: what is matte
