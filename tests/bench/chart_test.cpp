@@ -70,7 +70,7 @@ TEST(Chart, AloneNamesEachThingOnce) {
   }
 }
 
-TEST(Chart, OfTheRepositoryHaveTheirColorsInAttributes) {
+TEST(Chart, ShippedChartsKeepColorsInAttributes) {
   std::size_t charts = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BOULE_REPORT)) {
     if (entry.path().extension() != ".svg") continue;

@@ -126,7 +126,7 @@ TEST(BadInput, EveryDoorRefusesAnInvalidScene) {
   }
 }
 
-TEST(BadInput, PreparingForAPictureThatIsNoneIsAnError) {
+TEST(BadInput, PreparingForAnEmptyPictureFails) {
   for (const auto& [width, height] :
        {std::pair{0, 8}, {8, 0}, {-1, 8}, {65536, 8}, {8, INT_MIN}, {INT_MAX, INT_MAX}}) {
     const auto prepared = prepare(mixed_scene(8, 8), width, height);
@@ -204,7 +204,7 @@ TEST(BadInput, ATracerThatWasMovedAwayRefuses) {
   EXPECT_FALSE(third.any(rays, met));
 }
 
-TEST(BadInput, AFilmThatWasMovedAwayIsEmptyAndForeign) {
+TEST(BadInput, MovedFromFilmIsEmpty) {
   const Scene scene = mixed_scene(8, 8);
   Renderer renderer = Renderer::create(scene, options_of(scene)).value();
   Film film(renderer.rect());
@@ -244,7 +244,7 @@ TEST(BadInput, FilmsAndPicturesWithoutPixelsHaveNone) {
   }
 }
 
-TEST(BadInput, WhatNoMemoryHoldsIsRefusedAndNothingIsLost) {
+TEST(BadInput, TooLargeRequestsFailAndLoseNothing) {
   const PixelRect all{INT_MIN, INT_MIN, INT_MAX, INT_MAX};
   EXPECT_EQ(all.area(), std::uint64_t{UINT_MAX} * UINT_MAX);
   EXPECT_THROW(Film{all}, std::length_error);
@@ -256,7 +256,7 @@ TEST(BadInput, WhatNoMemoryHoldsIsRefusedAndNothingIsLost) {
   EXPECT_EQ(film.samples(1, 1), 1);
 }
 
-TEST(BadInput, TilesAndSamplesCountAsTheNearestLegalOnes) {
+TEST(BadInput, TilesAndSamplesAreClamped) {
   const PixelRect rect{0, 0, 3, 2};
   for (const int tile : {INT_MIN, -1, 0}) {
     EXPECT_EQ(BlockOrder(rect, tile, PixelOrder::tiles).size(), 6U);
@@ -334,7 +334,7 @@ TEST(BadInput, WhatCallbacksThrowIsADiagnostic) {
   EXPECT_EQ(Tracer::create(scene, tracing).error().message, "not to be copied");
 }
 
-TEST(BadInput, WhatUpdateThrowsReachesTheCallerAndHarmsNothing) {
+TEST(BadInput, ExceptionsOfUpdateReachTheCaller) {
   const Scene scene = mixed_scene(8, 8);
   RenderOptions options = options_of(scene);
   int calls = 0;

@@ -67,7 +67,7 @@ LensOptics optics_of_the_middle(LensCamera camera) {
   return optics;
 }
 
-TEST_P(LensLight, AWhiteWorldIsOneInTheMiddleAtEveryAperture) {
+TEST_P(LensLight, WhiteWorldIsOneAtTheCentre) {
   for (int i = 0; i < apertures; ++i) {
     const LensCamera camera = stopped(i / (apertures - 1.0));
     const LensOptics optics = optics_of_the_middle(camera);
@@ -83,7 +83,7 @@ TEST_P(LensLight, AWhiteWorldIsOneInTheMiddleAtEveryAperture) {
 }
 
 /// A lens that its fault once left without a centre: of a medium that there is, it is whole.
-TEST(LensLightBeyond, ANarrowPupilBeforeAWideRimIsFound) {
+TEST(LensLightBeyond, NarrowPupilBehindWideRimIsFound) {
   LensCamera camera = shipped_lens("double_gauss_50mm.lens", "film_width = 20\n");
   camera.surfaces[8] = {-13.68F, 0.5F, 0.1875F, 26};
   const LensOptics optics = make_optics(camera, 64, 48);
@@ -101,7 +101,7 @@ TEST(LensLightBeyond, ANarrowPupilBeforeAWideRimIsFound) {
 
 /// In the middle of the film the middle of the lens is on its axis; from there its place goes on
 /// without a step, or AOVs would show rings.
-TEST_P(LensLight, ItsMiddleIsOnTheAxisAndMovesWithoutSteps) {
+TEST_P(LensLight, CentreIsOnAxisAndMovesSmoothly) {
   for (const double share : {0.0, 0.5}) {
     const LensCamera camera = stopped(share);
     const LensOptics optics = make_optics(camera, width, height);

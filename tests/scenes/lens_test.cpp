@@ -39,7 +39,7 @@ TEST(Lens, FocalLengthsAreThePublishedOnes) {
 
 /// The whole of a beam of that width, from far away along the axis, passes; what is a little wider
 /// is stopped.
-TEST(Lens, AnFNumberIsTheFocalLengthOverTheBeam) {
+TEST(Lens, FNumberIsFocalLengthOverBeam) {
   for (const auto& [name, keys] : {std::pair{"double_gauss_50mm.lens", "film_width = 20\n"},
                                    {"wide_angle_22mm.lens", "film_width = 30\n"}}) {
     const LensCamera open = shipped_lens(name, keys);
@@ -177,7 +177,7 @@ TEST(Lens, RaysTracedBackwardsReturn) {
   }
 }
 
-TEST(Lens, WhatIsInFocusIsSharpNearTheAxis) {
+TEST(Lens, FocusIsSharpNearTheAxis) {
   for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
     const LensOptics optics = make_optics(camera, 64, 48);
     for (const double p : {-0.01, 0.005, 0.01}) {
@@ -248,7 +248,7 @@ double light_at(const LensCamera& camera, double x, double y) {
   return sum / static_cast<double>(samples.size());
 }
 
-TEST(Lens, AWhiteWorldIsOneInTheMiddleAndDarkerTowardsTheCorners) {
+TEST(Lens, WhiteWorldDarkensTowardsTheCorners) {
   for (const LensCamera& camera : {double_gauss(), wide_angle()}) {
     EXPECT_NEAR(light_at(camera, 32, 24), 1, 0.01);
     const double half_way = light_at(camera, 48, 36), corner = light_at(camera, 63.5, 47.5);

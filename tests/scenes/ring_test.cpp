@@ -16,7 +16,7 @@ ProgramRun run_ring(const std::string& count, const std::string& file) {
   return run_program(BOULE_RING, {{count, file}, {}});
 }
 
-TEST(Ring, HasAPlanetAndParticlesInItsRings) {
+TEST(Ring, HasAPlanetAndRingParticles) {
   const TempDir dir;
   const std::string path = (dir.path() / "ring.npy").string();
   ASSERT_EQ(run_ring("5000", path).exit_code, 0);

@@ -65,7 +65,7 @@ TEST_P(ShippedScene, LoadsAndRendersCompletely) {
   EXPECT_FALSE(is_flat);
 }
 
-TEST_P(ShippedScene, HasASmallPictureAndAPlaceInTheGallery) {
+TEST_P(ShippedScene, HasASmallPictureInTheGallery) {
   const std::string picture = read_bytes(file_of(GetParam(), ".jpg"));
   EXPECT_THAT(picture, testing::StartsWith("\xff\xd8\xff"));
   EXPECT_LE(picture.size(), 200U * 1024U);

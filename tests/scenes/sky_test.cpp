@@ -36,7 +36,7 @@ TEST(Sky, MakesTheShippedPicture) {
 
 /// Looked at as an environment, the sky shows the sun straight ahead at the height asked for, is
 /// blue straight up, pale at the horizon, and the same on both sides.
-TEST(Sky, TheSunIsWhereItWasAskedFor) {
+TEST(Sky, SunIsWhereAsked) {
   for (const int elevation : {1, 35, 89}) {
     const Image image = sky_of(std::to_string(elevation), "64");
     const EnvironmentBackground sky{image.width, image.height, image.pixels, 0};

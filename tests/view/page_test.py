@@ -178,7 +178,7 @@ class Page(unittest.TestCase):
         left = browser.driver.switch_to.active_element  # a headless window begins again, backwards
         self.assertEqual(left.tag_name, "summary" if back else "body")
 
-    def test_the_picture_at_rest_is_that_of_render(self):
+    def test_resting_picture_matches_render(self):
         browser = self.browser
         browser.drag(90, 35)
         browser.rest()
@@ -231,7 +231,7 @@ class Page(unittest.TestCase):
         self.assertEqual(browser.pixels(0), browser.pixels(1))
         self.assertNotEqual(browser.pixels(0), finished)
 
-    def test_an_epsilon_shows_and_so_does_the_difference(self):
+    def test_epsilon_and_difference_show(self):
         browser = self.browser
         browser.choose("#compare", "shadow_epsilon")
         browser.wait("bouleView.session.state.settings.panes.length === 2", "two panes")
@@ -265,7 +265,7 @@ class Page(unittest.TestCase):
         browser.keys(Keys.ESCAPE)
         self.assertFalse(browser.find("#rays").is_displayed())
 
-    def test_a_click_sets_the_focus_of_a_lens(self):
+    def test_click_sets_lens_focus(self):
         browser = self.browser
         self.assertFalse(browser.find("#click-focus").is_enabled())
         browser.choose("#camera-type", "thin_lens")
@@ -290,7 +290,7 @@ class Page(unittest.TestCase):
         field.clear()
         field.send_keys(text, Keys.ENTER)
 
-    def test_every_refused_field_has_words_until_it_is_right(self):
+    def test_refused_fields_keep_words_until_right(self):
         browser = self.browser
         browser.choose("#camera-type", "thin_lens")
         browser.wait("bouleView.session.camera.focus !== undefined", "a thin lens")
@@ -317,7 +317,7 @@ class Page(unittest.TestCase):
             self.assertEqual(browser.driver.find_elements("css selector", "#spp-wrong"), [])
         browser.wait("!document.querySelector('.wrong, [aria-invalid]')", "that the state is shown")
 
-    def test_an_alert_goes_when_the_value_is_right_again(self):
+    def test_alert_goes_when_value_is_right(self):
         browser = self.browser
         for name, wrong, right, key in (("width", "1000000", "256", "size[0]"),
                                         ("spp", "99999999999", "2", "spp"),
@@ -381,7 +381,7 @@ class Page(unittest.TestCase):
             driver.close()
             driver.switch_to.window(first)
 
-    def test_it_says_when_the_server_goes_away_and_comes_back(self):
+    def test_tells_when_the_server_returns(self):
         browser = self.browser
         server = hands.Server(PROGRAM, ["first_light.toml", "--size", "64x36"], SCENES)
         try:

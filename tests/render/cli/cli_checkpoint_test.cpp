@@ -31,7 +31,7 @@ class CheckpointRuns : public PartTest {
   }
 };
 
-TEST_F(CheckpointRuns, APictureIsThatOfARunWithoutAndNothingIsLeft) {
+TEST_F(CheckpointRuns, LeavesTheSamePictureAndNoFile) {
   const std::string whole = whole_picture();
   for (const char* interval : {"1ms", "60s"}) {
     const ProgramRun run =
@@ -42,7 +42,7 @@ TEST_F(CheckpointRuns, APictureIsThatOfARunWithoutAndNothingIsLeft) {
   }
 }
 
-TEST_F(CheckpointRuns, APictureWhoseNoiseIsAskedForGoesOnToo) {
+TEST_F(CheckpointRuns, ResumesANoiseTarget) {
   ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
   const std::vector<std::string> saved = {"--checkpoint", path("run.film"), "--resume"};
   std::vector<std::string> stopped = saved;
@@ -71,7 +71,7 @@ TEST_F(CheckpointRuns, ATimeLimitSavesToo) {
   EXPECT_THAT(files(), ElementsAre("run.film", "scene.toml"));
 }
 
-TEST_F(CheckpointRuns, WhatIsThereIsNotReplacedWithoutResume) {
+TEST_F(CheckpointRuns, ExistingCheckpointNeedsResume) {
   stopped_run(SIGTERM);
   const std::string before = read("run.film");
   const ProgramRun run = refused_run(long_run(), 2);
@@ -114,7 +114,7 @@ TEST_F(CheckpointRuns, ADamagedOneIsRefused) {
   EXPECT_THAT(refused_run(long_run({"--resume"}), 3).err, HasSubstr("was changed"));
 }
 
-TEST_F(CheckpointRuns, TheSecondOfTwoIsRefusedByTheLock) {
+TEST_F(CheckpointRuns, LockRefusesASecondRun) {
   RunningProgram first(long_run());
   while (!std::filesystem::exists(path("run.film")))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -127,7 +127,7 @@ TEST_F(CheckpointRuns, TheSecondOfTwoIsRefusedByTheLock) {
   EXPECT_THAT(third.err, Not(HasSubstr("is held")));
 }
 
-TEST_F(CheckpointRuns, OptionsThatDoNotGoTogetherAreRefused) {
+TEST_F(CheckpointRuns, ConflictingOptionsAreRefused) {
   EXPECT_THAT(refused_run(render("a.exr", {"--resume"}), 2).err, HasSubstr("needs --checkpoint"));
   EXPECT_THAT(refused_run(render("a.exr", {"--checkpoint", ",60s"}), 2).err,
               HasSubstr("expected FILE or FILE,TIME"));
@@ -160,7 +160,7 @@ class ShownRuns : public CheckpointRuns {
   }
 };
 
-TEST_F(ShownRuns, ThePictureIsThatOfTheCheckpointAndGoesOnToThatOfOneRun) {
+TEST_F(ShownRuns, MatchesTheCheckpointThenTheWholeRun) {
   const std::string whole = whole_picture();
   for (const char* const order : {"rows", "tiles", "progressive", "frameless"}) {
     const ProgramRun run = stopped_early(shown("100000", {"--partial", "--order", order}));
@@ -229,7 +229,7 @@ TEST_F(ShownRuns, PicturesWhoseNoiseIsAskedForToo) {
   EXPECT_EQ(read("out.exr"), read("whole.exr"));
 }
 
-TEST_F(ShownRuns, MoreSamplesHaveTheBitsOfOneRun) {
+TEST_F(ShownRuns, MoreSamplesMatchOneRun) {
   const std::string whole = whole_picture("20");
   const auto keep = [&](const std::string& spp) {
     std::filesystem::remove(path("run.film"));
@@ -251,7 +251,7 @@ TEST_F(ShownRuns, MoreSamplesHaveTheBitsOfOneRun) {
 }
 
 /// The film of a share is its own checkpoint.
-TEST_F(ShownRuns, AShardGetsMoreSamplesInItsPlace) {
+TEST_F(ShownRuns, AShardTakesMoreSamples) {
   const std::string whole = whole_picture("20");
   for (const char* const shard : {"1/2", "2/2"}) {
     const std::string film = std::string("part") + shard[0] + ".film";
@@ -268,7 +268,7 @@ TEST_F(ShownRuns, AShardGetsMoreSamplesInItsPlace) {
 }
 
 /// By hand with BOULE_KILLS=50. A run may end before its kill: then the next begins anew.
-TEST_F(CheckpointRuns, KilledAtAnyTimeThePictureIsTheSame) {
+TEST_F(CheckpointRuns, KilledRunsGiveTheSamePicture) {
   const char* const wanted = std::getenv("BOULE_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 6;
   const std::string spp = "400", whole = whole_picture(spp);

@@ -46,14 +46,14 @@ TEST_F(ClaimTest, AGoneOwnersIsTakenOver) {
 }
 
 /// The number is in use again, by a process that started at another time.
-TEST_F(ClaimTest, AnotherProcessOfTheSameNumberIsNotTheOwner) {
+TEST_F(ClaimTest, ReusedProcessNumberIsNotTheOwner) {
   FileOwner gone = FileOwner::self();
   gone.started = "1";
   write("a.png.claim", gone.text());
   EXPECT_TRUE(Claims().take(picture()).value());
 }
 
-TEST_F(ClaimTest, AnotherMachinesIsLeftAloneWhileItIsTouched) {
+TEST_F(ClaimTest, FreshClaimOfAnotherMachineIsKept) {
   FileOwner other = FileOwner::self();
   other.processes = "another boot";
   for (const std::string& text : {other.text(), std::string("no owner"), std::string()}) {
@@ -63,7 +63,7 @@ TEST_F(ClaimTest, AnotherMachinesIsLeftAloneWhileItIsTouched) {
   }
 }
 
-TEST_F(ClaimTest, ATakenOverClaimIsNotRemovedByItsFirstOwner) {
+TEST_F(ClaimTest, FirstOwnerKeepsATakenOverClaim) {
   auto claim = Claims().take(picture());
   FileOwner other = FileOwner::self();
   other.processes = "another boot";
@@ -102,7 +102,7 @@ TEST_F(SharedSeries, NeedsASeriesOfFiles) {
 
 /// By hand with BOULE_FRAMES=200. A killed process may have written its picture and not yet its
 /// statistics, or be counted for a frame that another one renders again: one frame each.
-TEST_F(SharedSeries, EightProcessesOfWhichThreeAreKilledRenderEachFrameOnce) {
+TEST_F(SharedSeries, KilledProcessesLeaveEachFrameRenderedOnce) {
   const char* const wanted = std::getenv("BOULE_FRAMES");
   const int frames = wanted != nullptr ? std::atoi(wanted) : 24, processes = 8, killed = 3;
   small_scene();

@@ -102,27 +102,27 @@ TEST_F(Errors, ABadOptionValueIsWrongUsage) {
   }
 }
 
-TEST_F(Errors, AnEmptyOrUnknownExtensionIsWrongUsageBeforeTheSceneIsRead) {
+TEST_F(Errors, ExtensionIsCheckedBeforeTheScene) {
   for (const char* name : {"picture", "picture.", "picture.xyz", "png", ".png"}) {
     SCOPED_TRACE(name);
     refused({path("missing.toml"), "-o", path(name)}, 2);
   }
 }
 
-TEST_F(Errors, AnUnknownIsaInTheEnvironmentIsWrongUsage) {
+TEST_F(Errors, UnknownIsaInTheEnvironmentIsRefused) {
   const ProgramRun run = refused({small_scene(), "-o", path("x.png")}, 2, {"BOULE_ISA=sse9"});
   EXPECT_THAT(run.err, HasSubstr("BOULE_ISA: 'sse9'"));
   EXPECT_EQ(boule_run({"isa"}, {"BOULE_ISA=sse9"}).exit_code, 2);
 }
 
-TEST_F(Errors, AovsNeedAFormatWithRoomForThem) {
+TEST_F(Errors, AovsNeedAFormatThatHoldsThem) {
   for (const char* name : {"x.png", "x.jpg", "x.hdr", "x.tif", "x.ppm"}) {
     const ProgramRun run = refused({path("missing.toml"), "-o", path(name), "--aov", "id"}, 2);
     EXPECT_THAT(run.err, HasSubstr("(key '--aov')"));
   }
 }
 
-TEST_F(Errors, PartialPicturesThatDoNotSaySoCannotBeSkipped) {
+TEST_F(Errors, SkippingNeedsMarkedPartialPictures) {
   for (const char* name : {"x.ppm", "x.bmp", "x.hdr", "x.webp"}) {
     const ProgramRun run =
         refused({path("missing.toml"), "-o", path(name), "--partial", "--skip-existing"}, 2);
@@ -130,7 +130,7 @@ TEST_F(Errors, PartialPicturesThatDoNotSaySoCannotBeSkipped) {
   }
 }
 
-TEST_F(Errors, AnOutputDoesNotReplaceWhatItIsMadeOf) {
+TEST_F(Errors, OutputNeverReplacesAnInput) {
   const std::string map = path("map.exr"), link = path("link.exr"), sky = path("sky.png");
   ASSERT_EQ(boule_run({"render", small_scene(), "-o", map, "-q"}).exit_code, 0);
   ASSERT_EQ(boule_run({"render", small_scene(), "-o", sky, "-q"}).exit_code, 0);
@@ -149,7 +149,7 @@ TEST_F(Errors, AnOutputDoesNotReplaceWhatItIsMadeOf) {
   refused({small_scene(), "-o", path("scene.png"), "-q"}, 2);
 }
 
-TEST_F(Errors, OptionsThatDoNotAgreeAreNamedAsTheyAreGiven) {
+TEST_F(Errors, ConflictsNameTheOptionsAsGiven) {
   const auto error = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {small_scene(), "-o", path("x.ppm"), "-q"});
     return refused(options, 2).err;
@@ -159,7 +159,7 @@ TEST_F(Errors, OptionsThatDoNotAgreeAreNamedAsTheyAreGiven) {
   EXPECT_THAT(error({"--aov", "noise"}), HasSubstr("(key '--aov')"));
 }
 
-TEST_F(Errors, CropsThatCannotSayWhichTheyAreCannotBeSkipped) {
+TEST_F(Errors, SkippingNeedsMarkedCrops) {
   for (const char* name : {"x.png", "x.tif"}) {
     const ProgramRun run = refused(
         {path("missing.toml"), "-o", path(name), "--crop", "0,0,4,4", "--skip-existing"}, 2);
@@ -180,18 +180,18 @@ TEST_F(Errors, QuietAndVerboseExcludeEachOther) {
   refused({small_scene(), "-o", path("x.png"), "-q", "-v"}, 2);
 }
 
-TEST_F(Errors, AnUnknownMethodOfTheSceneIsInvalidInput) {
+TEST_F(Errors, UnknownMethodInASceneIsRefused) {
   refused({write("path.toml", "schema = 1\n[render]\nmethod = \"paths\"\n"), "-o", path("x.png")},
           3);
 }
 
-TEST_F(Errors, AMissingSceneIsInvalidInputWithTheSystemsReason) {
+TEST_F(Errors, MissingSceneGivesTheSystemsReason) {
   const ProgramRun run = refused({path("none.toml"), "-o", path("x.png")}, 3);
   EXPECT_THAT(run.err, HasSubstr("none.toml"));
   EXPECT_THAT(run.err, HasSubstr("No such file or directory"));
 }
 
-TEST_F(Errors, ABadSceneNamesFileLineColumnAndKey) {
+TEST_F(Errors, BadSceneNamesItsPlaceAndKey) {
   const std::string scene = write("bad.toml",
                                   "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"
                                   "fov = 190\n");
@@ -201,7 +201,7 @@ TEST_F(Errors, ABadSceneNamesFileLineColumnAndKey) {
 }
 
 /// Once for each table and each kind of thing that has keys; the readers' own tests have every key.
-TEST_F(Errors, EveryTableNamesFileLineColumnAndKey) {
+TEST_F(Errors, EveryTableNamesItsPlaceAndKey) {
   const std::string camera = "schema = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
   const std::string background = "schema = 1\n[background]\ntype = \"environment\"\n";
   const std::string instance = "schema = 1\n[[group.a.sphere]]\n[[instance]]\ngroup = \"a\"\n";
@@ -239,7 +239,7 @@ TEST_F(Errors, AnOldPictureSurvivesABadScene) {
   EXPECT_EQ(read("x.png"), "old");
 }
 
-TEST_F(Errors, AnOutputThatCannotBeWrittenGivesTheSystemsReason) {
+TEST_F(Errors, UnwritableOutputGivesTheSystemsReason) {
   const std::string scene = small_scene();
   const ProgramRun missing = refused({scene, "-o", path("no/such/x.png"), "-q"}, 1);
   EXPECT_THAT(missing.err, HasSubstr("cannot write '"));
@@ -249,7 +249,7 @@ TEST_F(Errors, AnOutputThatCannotBeWrittenGivesTheSystemsReason) {
   EXPECT_THAT(folder.err, HasSubstr("Is a directory"));
 }
 
-TEST_F(Errors, ATargetThatIsFullIsAnError) {
+TEST_F(Errors, FullTargetIsAnError) {
   std::filesystem::create_symlink("/dev/full", path("full.png"));
   const ProgramRun run = refused({small_scene(), "-o", path("full.png"), "-q"}, 1);
   EXPECT_THAT(run.err, HasSubstr("No space left on device"));
@@ -269,7 +269,7 @@ TEST_F(Errors, QuotedInputIsCutAndEscaped) {
   EXPECT_THAT(flag.err, testing::Not(HasSubstr("\x1b")));
 }
 
-TEST_F(Errors, StandardOutputThatCannotBeWrittenIsAnError) {
+TEST_F(Errors, UnwritableStandardOutputIsAnError) {
   for (const char* command : {"isa", "--help", "--version", "isa --json", "info scene.toml"}) {
     small_scene();
     const std::string line =

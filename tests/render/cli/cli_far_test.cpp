@@ -157,7 +157,7 @@ class Far : public Trace, public testing::WithParamInterface<std::string> {
   const std::vector<Ball> balls_ = balls();
 };
 
-TEST_P(Far, HasTheHitsAndThePictureThatItHasAtZero) {
+TEST_P(Far, HitsAndPictureMatchThoseAtZero) {
   const std::string near = make(GetParam(), {});
   const std::string near_picture = picture(near), near_hits = hits_of(near, {});
   for (int power = 4; power <= 9; ++power) {

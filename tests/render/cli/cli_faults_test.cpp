@@ -80,7 +80,7 @@ class FaultsWhileWorking : public Faults {
   void expect_old_or_new_hits() const { expect_old_or_new("hits.npy", trace_of_small_scene()); }
 };
 
-TEST_P(FaultsWhileWorking, KeepTheOldFileOrFinishTheNewOne) {
+TEST_P(FaultsWhileWorking, OldFileStaysOrNewIsWhole) {
   expect_old_or_new_picture("picture.exr");
   expect_old_or_new_picture("picture.png");
   expect_old_or_new_hits();
@@ -112,7 +112,7 @@ class FaultsWithNames : public FaultsWhileWorking {
   ~FaultsWithNames() override { ::unsetenv("BOULE_ONLY_NAMED_FILES"); }
 };
 
-TEST_P(FaultsWithNames, KeepTheOldFileOrFinishTheNewOne) {
+TEST_P(FaultsWithNames, OldFileStaysOrNewIsWhole) {
   expect_old_or_new_picture("picture.ppm");
   expect_old_or_new_hits();
 }
@@ -142,7 +142,7 @@ TEST_F(FaultsWithNames, ASignalRemovesTheFile) {
 
 /// Pictures are read where a scene has a map or an environment, and where finished ones are
 /// skipped; OpenImageIO and the libraries below it would end the program without their threads.
-TEST_F(Faults, PicturesAreReadOnlyWhereTheThreadsForThatCanBeHad) {
+TEST_F(Faults, PicturesAreReadOnlyWithEnoughThreads) {
   const Fault no_thread{"NoThread", "thread", EAGAIN};
   for (const std::string extension : {"exr", "png", "jpg", "tif"}) {
     const std::string name = "map." + extension, old = path("old." + extension);
@@ -182,7 +182,7 @@ TEST_F(Faults, PicturesAreReadOnlyWhereTheThreadsForThatCanBeHad) {
 }
 
 /// One thread that cannot be had, whichever: what cannot go on without it says so before the work.
-TEST_F(Faults, AThreadThatCannotBeHadIsToldBeforeTheWork) {
+TEST_F(Faults, MissingThreadIsToldBeforeTheWork) {
   const std::vector<std::string> arguments{
       "render", small_scene(), "-o", path("picture.exr"), "-t", "2", "--progress=json"};
   int refused = 0;
@@ -204,7 +204,7 @@ TEST_F(Faults, AThreadThatCannotBeHadIsToldBeforeTheWork) {
 }
 
 /// What looks at the clock then is the reading that has ended.
-TEST_F(Faults, ReadingIsLimitedWithoutAThreadForIt) {
+TEST_F(Faults, ReadingIsLimitedWithoutAThread) {
   std::vector<std::string> arguments = trace_of_small_scene();
   arguments.insert(arguments.end(), {"--load-limit", "0.000001ms"});
   const auto run = run_with_fault(arguments, {"NoThread", "thread", EAGAIN}, 1);

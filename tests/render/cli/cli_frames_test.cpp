@@ -47,7 +47,7 @@ TEST_F(Frames, EachIsTheSingleRenderOfIt) {
   EXPECT_EQ(read("m9.exr"), read("k.exr"));
 }
 
-TEST_F(Frames, SceneAndStatisticsHaveTheNumberInTheirNamesToo) {
+TEST_F(Frames, SceneAndStatisticsNamesHaveTheNumber) {
   write("a.0007.toml", scene_text("eye = [0, 0, 4]\n"));
   write("a.0008.toml", scene_text("eye = [0, 2, 4]\n"));
   const ProgramRun run = boule_run({"render", path("a.####.toml"), "-o", path("b.###.ppm"),
@@ -59,7 +59,7 @@ TEST_F(Frames, SceneAndStatisticsHaveTheNumberInTheirNamesToo) {
   EXPECT_EQ(read("b.008.ppm"), read("c.ppm"));
 }
 
-TEST_F(Frames, AnErrorNamesTheFrameAndEndsTheSeries) {
+TEST_F(Frames, ErrorNamesTheFrameAndEndsThere) {
   write("a.1.toml", scene_text("eye = [0, 0, 4]\n"));
   write("a.2.toml", scene_text("eye = [0, 0, 0]\n"));
   write("a.3.toml", scene_text("eye = [0, 0, 4]\n"));
@@ -85,7 +85,7 @@ TEST_F(Frames, ASignalLeavesTheFramesBefore) {
   EXPECT_EQ(read("o1.ppm"), first);
 }
 
-TEST_F(Frames, WhatIsThereIsSkippedOnRequestIfItIsFinished) {
+TEST_F(Frames, FinishedFramesAreSkippedOnRequest) {
   for (const char* extension : {"exr", "png", "jpg", "ppm"}) {
     const std::string name = std::string("o#.") + extension;
     const auto frame = [&](int i) { return "o" + std::to_string(i) + "." + extension; };
@@ -132,7 +132,7 @@ TEST_F(Frames, APartialPictureIsNotSkipped) {
   }
 }
 
-TEST_F(Frames, AnotherCropOrOtherChannelsAreNotSkipped) {
+TEST_F(Frames, OtherCropsOrChannelsAreNotSkipped) {
   const std::vector<std::vector<std::string>> shapes = {{"--crop", "0,0,4,4"},
                                                         {"--crop", "0,1,4,5"},
                                                         {"--crop", "0,1,4,5", "--aov", "depth"},

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Others, HostileDataFiles, testing::ValuesIn(hostile_len
 INSTANTIATE_TEST_SUITE_P(Npy, HostileRays, testing::ValuesIn(hostile_rays()), name_of);
 
 /// What is no regular file: as the scene, as the rays, and as each kind of data file.
-TEST_F(HostileFiles, WhatIsNoFileIsRefusedWhereverItIsNamed) {
+TEST_F(HostileFiles, NonFilesAreRefusedEverywhere) {
   ASSERT_EQ(::mkfifo(path("fifo").c_str(), 0600), 0);
   std::filesystem::create_directory(path("folder"));
   std::filesystem::create_symlink("itself", path("itself"));
@@ -181,7 +181,7 @@ TEST_F(HostileFiles, WhatMayNotBeReadIsRefused) {
   }
 }
 
-TEST_F(HostileFiles, AByteOrderMarkAndLinesOfWindowsAreWelcome) {
+TEST_F(HostileFiles, ByteOrderMarksAndWindowsLinesWork) {
   const std::string mark = "\xef\xbb\xbf";
   write("d.lens", mark + "# flat glass\r\n30 4 1.5 20\r\n-30 0 1 20\r\n");
   const std::string toml = write("a.toml", mark + "schema = 1\r\n[[sphere]]\r\nradius = 2\r\n");

@@ -177,7 +177,7 @@ TEST_F(Info, EveryCameraIsDescribed) {
   EXPECT_EQ(info(write("focus.toml", lens + "focus = 2.5\n")).at("camera").at("focus"), 2.5);
 }
 
-TEST_F(Info, WhatTheSceneLeavesOutIsThereAndNoted) {
+TEST_F(Info, DefaultsAreListedAndNoted) {
   const json found = info(write("bare.toml",
                                 "schema = 1\n[[sphere]]\ncenter = [1, 2, 3]\n"
                                 "radius = 0.5\n"));

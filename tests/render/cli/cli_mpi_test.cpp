@@ -131,7 +131,7 @@ void wait_for_file(const std::string& path) {
   while (!std::filesystem::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-TEST_P(MpiTest, AnyNumberOfRanksMakesTheSamePicture) {
+TEST_P(MpiTest, AllRankCountsGiveTheSamePicture) {
   const std::string whole = whole_picture();
   for (const int n : {1, 2, 3, 4, 7}) {
     const ProgramRun run = mpirun(ranks(n, render("out.exr", {"-t", std::to_string(n % 2 + 1)})));
@@ -141,7 +141,7 @@ TEST_P(MpiTest, AnyNumberOfRanksMakesTheSamePicture) {
   }
 }
 
-TEST_P(MpiTest, APictureWhoseNoiseIsAskedForToo) {
+TEST_P(MpiTest, NoiseTargetGivesTheSamePictureToo) {
   ASSERT_EQ(boule_run(render_noise("whole.exr")).exit_code, 0);
   const ProgramRun run = mpirun(ranks(3, render_noise("a.exr")));
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -156,7 +156,7 @@ TEST_P(MpiTest, AShardToo) {
 }
 
 /// By frames where there are enough of them, else frame by frame together.
-TEST_P(MpiTest, ASeriesHasTheFramesOfOneProcess) {
+TEST_P(MpiTest, SeriesMatchesOneProcess) {
   const std::string scene = small_scene();
   const auto series = [&](const std::string& frames, const std::string& folder) {
     std::filesystem::create_directory(path(folder));
@@ -176,7 +176,7 @@ TEST_P(MpiTest, ASeriesHasTheFramesOfOneProcess) {
   }
 }
 
-TEST_P(MpiTest, ARankWithOtherOptionsOrAnotherSceneIsNamed) {
+TEST_P(MpiTest, RankWithOtherInputIsNamed) {
   const std::string scene = small_scene(), text = read("scene.toml");
   const std::string other = write("other.toml", text.substr(0, text.rfind("[[plane]]")));
   const auto both = [&](const std::vector<std::string>& odd) {
@@ -198,7 +198,7 @@ TEST_P(MpiTest, ARankWithOtherOptionsOrAnotherSceneIsNamed) {
               testing::ContainsRegex("rank 1 .*failed: .*none.toml"));
 }
 
-TEST_P(MpiTest, AnErrorOfAllRanksIsToldOnce) {
+TEST_P(MpiTest, ErrorOfAllRanksIsToldOnce) {
   const ProgramRun run = mpirun(ranks(3, {"render", path("none.toml"), "-o", path("a.ppm")}));
   EXPECT_EQ(run.exit_code, 3);
   const std::string told = run.out + run.err, line = "none.toml: error: cannot read it";
@@ -216,7 +216,7 @@ TEST_P(MpiTest, AFullDiskEndsAll) {
 }
 
 /// The checkpoint is then one that any number of processes resumes from.
-TEST_P(MpiTest, ASignalToOneRankSavesAndEndsAll) {
+TEST_P(MpiTest, SignalToOneRankEndsAll) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
   const auto processes = launch.ranks(path("long.exr"));
@@ -230,7 +230,7 @@ TEST_P(MpiTest, ASignalToOneRankSavesAndEndsAll) {
 }
 
 /// MPICH's launcher ends all ranks by itself, at once.
-TEST_P(MpiTest, AKilledRankIsNamedAndTheCheckpointIsGood) {
+TEST_P(MpiTest, KilledRankIsNamedAndCheckpointGood) {
   Launch launch(GetParam(), ranks(3, long_picture()), environment(), path("told.txt"));
   wait_for_file(path("run.film"));
   kill(launch.ranks(path("long.exr")).back(), SIGKILL);

@@ -23,7 +23,7 @@ std::vector<RayRow> doubles_near(const std::vector<Ray>& rays) {
   return rows;
 }
 
-TEST_F(Npy, RaysInDoubleHitWhatTheirFloatsHit) {
+TEST_F(Npy, DoubleRaysHitLikeTheirFloats) {
   const std::string scene = cloud_scene(300);
   const std::vector<Ray> rays = ray_cloud(5000);
   write("r.npy", ray_file(rays));

@@ -78,13 +78,13 @@ class Origin : public Trace {
   }
 };
 
-TEST_F(Origin, MakesFarAwayTheSamePictureAsAtZero) {
+TEST_F(Origin, FarPictureMatchesTheOneAtZero) {
   const std::string near = picture(scene("near", {}, ""));
   EXPECT_TRUE(picture(scene("far", moved, "origin = [1000000, -2000000, 500000]\n")) == near);
   EXPECT_FALSE(picture(scene("rounded", moved, "origin = [0, 0, 0]\n")) == near);
 }
 
-TEST_F(Origin, MakesFarAwayTheSameHitsAsAtZero) {
+TEST_F(Origin, FarHitsMatchThoseAtZero) {
   const std::string near = hits_around(scene("near", {}, ""), {});
   const std::string far = scene("far", moved, "origin = [1000000, -2000000, 500000]\n");
   EXPECT_TRUE(hits_around(far, moved) == near);

@@ -95,7 +95,7 @@ TEST_F(OutputCheck, SocketsAreNoOutputs) {
   close(socket);
 }
 
-TEST_F(OutputCheck, TheFirstFrameOfASeriesIsNamed) {
+TEST_F(OutputCheck, FirstFrameOfASeriesIsNamed) {
   const ProgramRun run =
       refused_run({"render", path("none.toml"), "-o", path("no/x.##.png"), "--frames", "7-9"}, 1);
   EXPECT_EQ(run.err, "boule: error: frame 7: cannot write '" + path("no/x.07.png") +
@@ -111,7 +111,7 @@ TEST_F(OutputCheck, StatisticsNeedAStandardOutput) {
 }
 
 /// Looking is not touching: of a run that fails later nothing is seen.
-TEST_F(OutputCheck, WhatIsThereStaysUntilThereIsMore) {
+TEST_F(OutputCheck, OldFileStaysUntilTheNewOne) {
   write("x.png", "old");
   ASSERT_EQ(mkfifo(path("pipe.png").c_str(), 0600), 0);
   for (const char* name : {"x.png", "pipe.png", "new.png"}) {

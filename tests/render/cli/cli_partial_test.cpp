@@ -36,7 +36,7 @@ class Partial : public ProgramTest {
 };
 
 /// The limit is longer where it came before the first sample.
-TEST_F(Partial, ATimeLimitLeavesAWholePictureAndSaysSoInOneLine) {
+TEST_F(Partial, TimeLimitLeavesAWholePicture) {
   const auto render = [&](int limit_ms, const char* order, const char* quiet) {
     const std::string limit = std::to_string(limit_ms) + "ms";
     return boule_run(
@@ -70,7 +70,7 @@ std::size_t behind_first_samples(const std::string& shown, std::size_t from) {
 }
 
 /// Black pixels are those of the whole picture, about: what has no sample is filled.
-TEST_F(Partial, ProgressiveIsItsOwnDefaultAndLeavesNoHoles) {
+TEST_F(Partial, ProgressiveIsDefaultAndLeavesNoHoles) {
   const auto black_pixels = [&] {
     const std::string bytes = pixels("out.ppm", pixel_count);
     int black = 0;
@@ -101,7 +101,7 @@ TEST_F(Partial, WithoutItATimeLimitWritesNothing) {
   EXPECT_THAT(run.err, HasSubstr("nothing written"));
 }
 
-TEST_F(Partial, BeforeTheFirstSampleThereIsNothingToWrite) {
+TEST_F(Partial, NothingIsWrittenBeforeTheFirstSample) {
   std::string text = "schema = 1\n[material.g]\ntype = \"glass\"\n";
   for (int i = 0; i < 60; ++i) {
     text += "[[sphere]]\nmaterial = \"g\"\nradius = " + std::to_string(i + 1) + "\n";
@@ -113,7 +113,7 @@ TEST_F(Partial, BeforeTheFirstSampleThereIsNothingToWrite) {
   EXPECT_THAT(run.err, HasSubstr("before the first sample, nothing written"));
 }
 
-TEST_F(Partial, NotEndedEarlyItIsTheSameFile) {
+TEST_F(Partial, UninterruptedGivesTheSameFile) {
   const auto picture = [&](std::vector<std::string> options) {
     std::vector<std::string> arguments = {"render", small_scene(), "-o", path("out.exr"),
                                           "-q",     "--spp",       "5"};
@@ -129,7 +129,7 @@ TEST_F(Partial, NotEndedEarlyItIsTheSameFile) {
   }
 }
 
-TEST_F(Partial, AFirstSignalWritesThePictureASecondEndsAtOnce) {
+TEST_F(Partial, SecondSignalEndsAtOnce) {
   for (const auto& [signal, code, name] :
        {std::tuple{SIGINT, 130, "SIGINT"}, std::tuple{SIGTERM, 143, "SIGTERM"}}) {
     RunningProgram program(long_run("out.ppm", {"--partial"}));

@@ -59,7 +59,7 @@ TEST_F(ParticleSeries, KeepTheirColors) {
 }
 
 /// Frames that show nothing choose nothing: a series has the pictures that it has without them.
-TEST_F(ParticleSeries, ThatBeginWithNoneChooseAllTheSame) {
+TEST_F(ParticleSeries, EmptyFirstFramesChangeNoChoice) {
   const std::string empty = "0\n\n";
   for (const std::string away : {"1", "100001"}) {  // so far from 0 they need an origin
     const std::string shown = "2\n\nC " + away + "0.5 0 5\nC " + away + "1 0 0\n3\n\nC " + away +
@@ -105,7 +105,7 @@ TEST_F(ParticleSeries, ThatComeLaterHaveOneColor) {
 }
 
 /// A column may be of texts in some frames and of numbers in others.
-TEST_F(ParticleSeries, HaveColorsAsTheirOwnFrameHasThem) {
+TEST_F(ParticleSeries, ColorsMatchTheirOwnFrame) {
   const std::string texts = "2\nProperties=species:S:1:pos:R:3:label:S:1\nC 0 0 0 a\nC 2 0 0 b\n";
   const std::string numbers = "2\nProperties=species:S:1:pos:R:3:label:I:1\nC 0 0 0 1\nC 2 0 0 2\n";
   const std::string file = write("labels.xyz", texts + numbers + texts);
@@ -171,7 +171,7 @@ TEST_F(ParticleSeries, OfFilesHaveOneCamera) {
   EXPECT_TRUE(read("f1.ppm") == read("g1.ppm"));
 }
 
-TEST_F(ParticleSeries, AFrameThatIsBrokenEndsTheSeriesThere) {
+TEST_F(ParticleSeries, BrokenFrameEndsTheSeriesThere) {
   const std::string all = read_bytes(growing(2));
   const std::size_t middle = all.find("4\nProperties", 1);
   write("part.0.xyz", all.substr(0, middle));

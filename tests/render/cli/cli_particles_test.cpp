@@ -13,7 +13,7 @@ using testing::Not;
 
 using Particles = ParticlesTest;
 
-TEST_F(Particles, AreShownByTheSceneThatIsPrinted) {
+TEST_F(Particles, PrintedSceneShowsThem) {
   const std::string file = water();
   const std::vector<std::vector<std::string>> looks = {
       {},
@@ -52,7 +52,7 @@ TEST_F(Particles, FilesOfNoKnownKindAreRefused) {
   EXPECT_THAT(refused_run({"info", write("part.film", "x")}, 3).err, HasSubstr("boule merge"));
 }
 
-TEST_F(Particles, OptionsThatDoNotFitTheFileAreWrongUsage) {
+TEST_F(Particles, OptionsMustFitTheFile) {
   const std::string file = water();
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--color", "sped"}, "'sped'"},
@@ -79,7 +79,7 @@ TEST_F(Particles, OptionsOfParticlesAreNotForScenes) {
   EXPECT_THAT(refused_run({"scene", scene}, 2).err, HasSubstr("is none by its name"));
 }
 
-TEST_F(Particles, ErrorsOfTheFileAreAtTheirLine) {
+TEST_F(Particles, FileErrorsNameTheirLine) {
   const std::string file = write("bad.xyz", "2\n\nC 0 0 0\nC 0 nothing 0\n");
   const ProgramRun run = refused_run({"render", file, "-o", path("a.png")}, 3);
   EXPECT_THAT(run.err, HasSubstr("bad.xyz:4:5: error: "));
@@ -106,7 +106,7 @@ TEST_F(Particles, HaveColumnsThatTheCommandLineNames) {
   EXPECT_THAT(wrong.err, HasSubstr("there is no column of positions for z"));
 }
 
-TEST_F(Particles, OfPlainArraysAreShownByTheirOptions) {
+TEST_F(Particles, PlainArraysAreShownByOptions) {
   // Centres alone: as a scene they lack radii.
   const std::string file =
       write("row.npy", npy_file(npy_dict("'<f8'", "(2, 3)"), std::string(48, '\0')));
@@ -136,7 +136,7 @@ TEST_F(Particles, AreDescribed) {
                               HasSubstr("\n  name speed, least 0.5, largest 2.5\n")));
 }
 
-TEST_F(Particles, WithNumbersThatAreNoneAreDescribedAsTheyAreDrawn) {
+TEST_F(Particles, InfoDescribesNanAsDrawn) {
   const std::string file = write("forces.xyz",
                                  "3\nProperties=species:S:1:pos:R:3:f:R:1:g:R:1:h:L:1\n"
                                  "Ar 1 1 1 nan inf T\nAr 4 4 4 2 3 maybe\nAr 1 4 4 nan x F\n");
@@ -155,7 +155,7 @@ TEST_F(Particles, WithNumbersThatAreNoneAreDescribedAsTheyAreDrawn) {
   EXPECT_THAT(read("f.svg"), HasSubstr(">missing</text>"));
 }
 
-TEST_F(Particles, OfAFileThatIsCutOffAreThoseOfItsWholeFrames) {
+TEST_F(Particles, CutFileGivesItsWholeFrames) {
   const std::string frame = "2\n\nC 0 0 0\nC 1 0 0\n";
   const std::string file = write("run.xyz", frame + frame + "2\n\nC 0 0 0\n");
   const std::string cut = "the file is cut off in frame 2 (line 9: it promises 2 particles";
@@ -193,7 +193,7 @@ TEST_F(Particles, HaveALegend) {
   EXPECT_THAT(refused_run(with({"--legend", path("none/l.svg")}), 1).err, HasSubstr("l.svg"));
 }
 
-TEST_F(Particles, FarAwayHaveTheFloorThatTheyHaveAtZero) {
+TEST_F(Particles, FarFloorMatchesTheOneAtZero) {
   const std::vector<std::string> options = {"--look", "plain", "--floor", "--radius", "0.3"};
   const std::string near = "2\n\nC 0.25 0.125 0.5\nO 1.75 2 0.375\n";
   render(write("near.xyz", near), "near.ppm", options);

@@ -77,7 +77,7 @@ TEST_F(PictureStream, HoldsThePngFile) {
               file_bytes("t.png", transparent));
 }
 
-TEST_F(PictureStream, OfASeriesIsOnePictureAfterTheOther) {
+TEST_F(PictureStream, SeriesStreamsPicturesInOrder) {
   const std::string scene = moving_scene();
   ProgramRun series =
       boule_run({"render", scene, "--frames", "1-3", "-o", "-", "--format", "ppm", "-v"});
@@ -99,7 +99,7 @@ TEST_F(PictureStream, AppendsToAFile) {
   EXPECT_EQ(read("all").size(), 6 + 32 * 18 * 3U);
 }
 
-TEST_F(PictureStream, EndsInSilenceWhenItsReaderIsGone) {
+TEST_F(PictureStream, LeavingReaderEndsItSilently) {
   const std::string command = "\"" BOULE_PROGRAM "\" render " + moving_scene() +
                               " --frames 1-3 --size 640x360 -q -o - --format ppm 2>" + path("err") +
                               "; echo $? >" + path("code");
@@ -124,7 +124,7 @@ TEST_F(PictureStream, WantsOptionsThatFit) {
   refused({"-o", "-", "--format", "ppm", "--background", "transparent"}, "cannot be transparent");
 }
 
-TEST_F(PictureStream, WithNowhereToGoIsAnErrorBeforeTheWork) {
+TEST_F(PictureStream, MissingTargetFailsBeforeTheWork) {
   const std::string command =
       "\"" BOULE_PROGRAM "\" render " + small_scene() + " -o - --format ppm >&-";
   const ProgramRun closed = run_program("/bin/sh", {{"-c", command}, {}});

@@ -100,7 +100,7 @@ normal = [0.0, 1.0, 0.0]
   }
 };
 
-TEST_F(Picture, AnySubsetOfViewsIsInTheOneFile) {
+TEST_F(Picture, OneFileHoldsAnySubsetOfViews) {
   const std::string scene = small_scene();
   const auto names = [&](const char* views) {
     return PictureFile(render(scene, {"--aov", views})).spec.channelnames;
@@ -114,7 +114,7 @@ TEST_F(Picture, AnySubsetOfViewsIsInTheOneFile) {
   EXPECT_EQ(PictureFile(render(scene, {})).spec.nchannels, 3);
 }
 
-TEST_F(Picture, ViewsAreOfThePixelsCentreAndMissesAreMarked) {
+TEST_F(Picture, ViewsShowPixelCentresAndMarkMisses) {
   const PictureFile file(render(small_scene(), {"--aov", all_views, "--spp", "5"}));
   EXPECT_EQ(file.spec.channelformat(file.spec.channelindex("id")), OIIO::TypeDesc::UINT32);
   EXPECT_EQ(file.spec.channelformat(file.spec.channelindex("Z")), OIIO::TypeDesc::FLOAT);
@@ -167,7 +167,7 @@ TEST_F(Picture, TheMatricesTakePositionsToTheirPixels) {
   }
 }
 
-TEST_F(Picture, WhereStraightLinesAreCurvesThereIsNoScreenMatrix) {
+TEST_F(Picture, CurvedProjectionsHaveNoScreenMatrix) {
   const std::string start = "schema = 1\n[camera]\neye = [0, 1, 5]\nlook_at = [0, 0, 0]\n";
   const auto has_screen = [&](const std::string& name, const std::string& keys) {
     const PictureFile file(render(write(name, start + keys), {"--size", "32x18"}));
@@ -182,7 +182,7 @@ TEST_F(Picture, WhereStraightLinesAreCurvesThereIsNoScreenMatrix) {
                           "[camera.distortion]\nfile = \"" BOULE_SCENES "/barrel.exr\"\n"));
 }
 
-TEST_F(Picture, TheHeaderTellsTheOriginThatPositionsAreCountedFrom) {
+TEST_F(Picture, HeaderTellsTheOriginOfPositions) {
   const std::string scene = write("origin.toml",
                                   "schema = 1\norigin = [1e6, 0.125, -2]\n[camera]\n"
                                   "eye = [1e6, 0, 5]\nlook_at = [1e6, 0, 0]\n"

@@ -56,7 +56,7 @@ int share_of_drawn_line(const std::string& line) {
   return whole && ordered ? share : -1;
 }
 
-TEST_F(Progressing, ATerminalHasOneLineThatIsRewritten) {
+TEST_F(Progressing, TerminalLineIsRewritten) {
   const Watch watch;
   RunningProgram program(command(half_a_second));
   const ProgramRun run = program.finish();
@@ -91,7 +91,7 @@ TEST_F(Progressing, ANarrowTerminalIsNotOverrun) {
 }
 
 /// What is done within two seconds tells nobody how far it has come.
-TEST_F(Progressing, APipeHasNoneInAShortRun) {
+TEST_F(Progressing, PipeHasNoneInShortRuns) {
   const Watch watch;
   const auto lines = split(run_program(BOULE_PROGRAM, {command({}), {}}).err, '\n');
   if (watch.seconds() >= 2) GTEST_SKIP() << "it was no short run";
@@ -143,7 +143,7 @@ TEST_F(Progressing, JsonLinesAreForPrograms) {
 }
 
 /// A note that says nothing new, and frames that take no time.
-TEST_F(Progressing, ASeriesIsToldOfInAFewLines) {
+TEST_F(Progressing, SeriesTakesAFewLines) {
   for (const char* name : {"a.01.toml", "a.02.toml", "a.03.toml"}) {
     write(name, "schema = 1\n[render]\nmethod = \"whitted\"\n[[sphere]]\n");
   }
@@ -162,7 +162,7 @@ TEST_F(Progressing, ASeriesIsToldOfInAFewLines) {
   }
 }
 
-TEST_F(Progressing, ATerminalHasOneLineForASeries) {
+TEST_F(Progressing, TerminalHasOneLinePerSeries) {
   RunningProgram program({"render", small_scene(), "-o", path("o#.ppm"), "--frames", "1-3"});
   const ProgramRun run = program.finish();
   EXPECT_EQ(run.exit_code, 0);

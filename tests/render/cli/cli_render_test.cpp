@@ -22,7 +22,7 @@ class Render : public ProgramTest {
   }
 };
 
-TEST_F(Render, WritesThePictureAndSaysSoOnStandardError) {
+TEST_F(Render, WritesThePictureAndTellsStandardError) {
   const ProgramRun run = boule_run({"render", small_scene(), "-o", path("out.png")});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, IsEmpty());
@@ -108,7 +108,7 @@ TEST_F(Render, CompressionChangesTheFileNotThePicture) {
   EXPECT_EQ(picture({}), zip);
 }
 
-TEST_F(Render, ACropIsThatPartOfTheFrame) {
+TEST_F(Render, CropMatchesThatPartOfTheFrame) {
   const std::string frame = picture({}, "frame.ppm");
   const std::string crop = picture({"--crop", "5,3,17,11"}, "crop.ppm");
   const std::string header = "P6\n12 8\n255\n";
@@ -121,7 +121,7 @@ TEST_F(Render, ACropIsThatPartOfTheFrame) {
   }
 }
 
-TEST_F(Render, AnNffPolygonIsAPlaneUnlessToldOtherwise) {
+TEST_F(Render, NffPolygonIsAPlaneByDefault) {
   const std::string scene = write("s.nff",
                                   "b 0.1 0.2 0.3\nv\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 45\n"
                                   "hither 1\nresolution 16 16\nl 0 -5 5\nf 1 0 0 1 0 0 0 1\n"

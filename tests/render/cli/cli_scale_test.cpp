@@ -75,7 +75,7 @@ TEST_F(Scale, ReadingThatTakesLongIsTold) {
   EXPECT_EQ(program.finish().exit_code, 0);
 }
 
-TEST_F(Scale, WhatDoesNotFitIsRefusedBeforeItIsRead) {
+TEST_F(Scale, TooLargeInputIsRefusedUnread) {
   write_cloud(5000000);
   const std::string scene = cloud_scene();
   const auto before = files();

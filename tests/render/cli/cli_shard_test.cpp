@@ -24,7 +24,7 @@ class Shards : public PartTest {
   }
 };
 
-TEST_F(Shards, MergedTheyAreThePictureOfOneRun) {
+TEST_F(Shards, MergedShardsMatchOneRun) {
   const std::string whole = whole_picture();
   for (const int n : {1, 2, 3, 40}) {
     std::vector<std::string> films;
@@ -80,7 +80,7 @@ TEST_F(Shards, MissingAndDoubledBlocksAreNamed) {
               HasSubstr("do not make a picture: pixels 0,0,16,61 are there twice"));
 }
 
-TEST_F(Shards, FilmsOfOtherPicturesAreRefusedByName) {
+TEST_F(Shards, FilmsOfOtherPicturesAreRefused) {
   const std::string a = shard(1, 2), b = shard(2, 2, {}, "21");
   const ProgramRun run = refused_run(merge({a, b}), 3);
   EXPECT_THAT(run.err, HasSubstr("p2of2.film: error: has --spp 21, not 20, as "));
@@ -89,7 +89,7 @@ TEST_F(Shards, FilmsOfOtherPicturesAreRefusedByName) {
   EXPECT_THAT(refused_run(merge({a, path("text.film")}), 3).err, HasSubstr("no film file"));
 }
 
-TEST_F(Shards, AFormatThatCannotHoldThePictureIsRefused) {
+TEST_F(Shards, FormatThatCannotHoldItIsRefused) {
   const std::string a = shard(1, 1);
   EXPECT_THAT(refused_run({"merge", a, "-o", path("a.png")}, 2).err, HasSubstr("extra channels"));
   EXPECT_THAT(refused_run({"merge", a, "-o", path("a.xyz")}, 2).err, HasSubstr("extension"));
@@ -111,7 +111,7 @@ TEST_F(Shards, HaveCheckpointsToo) {
 }
 
 /// srun without MPI: N copies would write one file.
-TEST_F(Shards, CopiesThatSrunStartedAreRefusedUnlessTheyShareTheWork) {
+TEST_F(Shards, CopiesUnderSrunMustShareTheWork) {
   const std::vector<std::string> step = {"SLURM_PROCID=1", "SLURM_STEP_ID=0", "SLURM_NTASKS=4",
                                          "SLURM_STEP_NUM_TASKS=4"};
   const std::vector<std::string> frames = {"--frames", "1-2"};
@@ -131,7 +131,7 @@ TEST_F(Shards, CopiesThatSrunStartedAreRefusedUnlessTheyShareTheWork) {
 }
 
 /// What a share has when it is stopped, and the whole picture of what all have.
-TEST_F(Shards, AnUnfinishedFilmMakesAPictureThatSaysSo) {
+TEST_F(Shards, UnfinishedFilmGivesAMarkedPicture) {
   std::vector<std::string> stopped = render("a.film", {}, "100000");
   for (const char* word : {"--shard", "1/2", "--partial", "--time-limit", "300ms"})
     stopped.emplace_back(word);

@@ -62,7 +62,7 @@ TEST_F(Signals, WhileRenderingEndTheBarsLineFirst) {
 }
 
 /// It looks for the reader again and again.
-TEST_F(Signals, WhileAFifoHasNoReaderEndIt) {
+TEST_F(Signals, EndAFifoWithoutReader) {
   for (const char* name : {"out.png", "hits.npy"}) {
     ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
   }
@@ -82,7 +82,7 @@ TEST_F(Signals, WhileAFifoHasNoReaderEndIt) {
   }
 }
 
-TEST_F(Signals, ALinkToAPipeGetsThePicture) {
+TEST_F(Signals, LinkToAPipeGetsThePicture) {
   ASSERT_EQ(boule_run(render("whole.png", {"-q"})).exit_code, 0);
   std::filesystem::create_symlink("/dev/stdout", path("stdout.png"));
   const std::string line = "cd " + path("") +
@@ -92,7 +92,7 @@ TEST_F(Signals, ALinkToAPipeGetsThePicture) {
   EXPECT_TRUE(read("copy.png") == read("whole.png"));
 }
 
-TEST_F(Signals, AReaderThatComesLateGetsThePicture) {
+TEST_F(Signals, LateReaderGetsThePicture) {
   ASSERT_EQ(boule_run(render("whole.png", {"-q"})).exit_code, 0);
   ASSERT_EQ(mkfifo(path("fifo.png").c_str(), 0600), 0);
   RunningProgram program(render("fifo.png", {"-q"}), Hold{"open", path("fifo.png"), 3});
@@ -140,7 +140,7 @@ TEST_F(Signals, WhileWritingLeaveNothing) {
   }
 }
 
-TEST_F(Signals, WhileAPipesReaderIsSlowStopTheWait) {
+TEST_F(Signals, StopWaitingForASlowReader) {
   const std::string pipe = path("out.ppm");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const auto arguments = render("out.ppm", {"--size", "640x480", "--progress", "none"});

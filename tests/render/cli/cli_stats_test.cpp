@@ -20,7 +20,7 @@ class Statistics : public ProgramTest {
 };
 
 /// Where the processors are not bound, Slurm's variable alone tells.
-TEST_F(Statistics, ThreadsAreNoMoreThanATaskOfSlurmHas) {
+TEST_F(Statistics, ThreadsKeepToTheSlurmTask) {
   const auto threads = [&](const std::vector<std::string>& options, const std::string& processors) {
     std::vector<std::string> words = {"--stats", "json:-", "--size", "300x200"};
     words.insert(words.end(), options.begin(), options.end());
@@ -76,7 +76,7 @@ TEST_F(Statistics, JsonHasEveryFigure) {
   EXPECT_GT(stats.at("peak_rss_mib").get<double>(), 1);
 }
 
-TEST_F(Statistics, JsonGoesToStandardOutputOrIntoAFile) {
+TEST_F(Statistics, JsonGoesToStandardOutputOrFile) {
   const auto without_times = [](const std::string& text) {
     auto stats = nlohmann::json::parse(text);
     for (const char* key : {"seconds", "mrays_per_s", "peak_rss_mib"}) stats.erase(key);
@@ -109,7 +109,7 @@ TEST_F(Statistics, TheyTellWhatReallyRan) {
   EXPECT_EQ(crop.at("rays").at("primary"), 24);
 }
 
-TEST_F(Statistics, TextGoesToStandardErrorEvenIfQuiet) {
+TEST_F(Statistics, TextGoesToStandardErrorWhenQuiet) {
   const ProgramRun run = render({"--stats", "text"});
   EXPECT_THAT(run.out, IsEmpty());
   for (const char* part : {"stats: ", "solver robust", "32 x 18 pixels, 1 spp", "load ", "prepare ",
@@ -120,7 +120,7 @@ TEST_F(Statistics, TextGoesToStandardErrorEvenIfQuiet) {
   EXPECT_THAT(render({}).err, IsEmpty());
 }
 
-TEST_F(Statistics, AFileThatCannotBeWrittenIsAnErrorBeforeThePicture) {
+TEST_F(Statistics, UnwritableFileFailsBeforeThePicture) {
   const ProgramRun run = render({"--stats", "json:" + path("no/such.json")});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err,
@@ -128,7 +128,7 @@ TEST_F(Statistics, AFileThatCannotBeWrittenIsAnErrorBeforeThePicture) {
   EXPECT_THAT(files(), testing::ElementsAre("scene.toml"));
 }
 
-TEST_F(Statistics, AFileThatTurnsOutToBeFullIsAnErrorAfterThePicture) {
+TEST_F(Statistics, FullFileFailsAfterThePicture) {
   std::filesystem::create_symlink("/dev/full", path("full"));
   const ProgramRun run = render({"--stats", "json:" + path("full")});
   EXPECT_EQ(run.exit_code, 1);

@@ -47,7 +47,7 @@ class ClosedStreams : public Trace {
   }
 };
 
-TEST_F(ClosedStreams, HitsAndPicturesAreTheSameWithoutThem) {
+TEST_F(ClosedStreams, HitsAndPicturesNeedNoStandardStreams) {
   small_scene();
   write("r.npy", ray_file(ray_cloud(20)));
   expect_same_file("trace scene.toml --rays r.npy -o h.npy --progress json -v", "h.npy");
@@ -55,7 +55,7 @@ TEST_F(ClosedStreams, HitsAndPicturesAreTheSameWithoutThem) {
   expect_same_file("render scene.toml -o p.exr --progress plain --stats text", "p.exr");
 }
 
-TEST_F(ClosedStreams, DataThatHaveNowhereToGoAreAnError) {
+TEST_F(ClosedStreams, DataWithoutATargetAreAnError) {
   small_scene();
   for (const char* command : {"info scene.toml", "isa --json", "--version", "render --help"}) {
     const std::string expected = run(command, "").out;
@@ -75,7 +75,7 @@ TEST_F(ClosedStreams, DataThatHaveNowhereToGoAreAnError) {
 
 /// As `| head -1`, which may leave before anything is written: silence, and the exit code of
 /// SIGPIPE.
-TEST_F(ClosedStreams, AReaderThatLeavesEndsACommandInSilence) {
+TEST_F(ClosedStreams, LeavingReaderEndsACommandSilently) {
   small_scene();
   const auto piped = [&](const std::string& arguments, const std::string& before,
                          const std::string& reader) {

@@ -71,7 +71,7 @@ TEST_F(TraceErrors, ABadSceneIsInvalidInput) {
   }
 }
 
-TEST_F(TraceErrors, BadRaysAreNamedWithWhatWasExpected) {
+TEST_F(TraceErrors, BadRaysNameWhatWasExpected) {
   small_scene();
   const std::string row = ray_rows(ray_cloud(1));
   const auto file = [&](const std::string& descr, const std::string& shape,
@@ -125,7 +125,7 @@ TEST_F(TraceErrors, OnlyRegularFilesAreReadAsRays) {
   reads("/dev/zero", "it is a device, expected a regular file");
 }
 
-TEST_F(TraceErrors, AnOutputThatCannotBeWrittenGivesTheSystemsReason) {
+TEST_F(TraceErrors, UnwritableOutputGivesTheSystemsReason) {
   const std::string scene = small_scene(), rays = write("r.npy", ray_file(ray_cloud(3)));
   const auto reason = [&](const std::string& name) {
     return refused({scene, "--rays", rays, "-o", name, "-q"}, 1).err;
@@ -150,7 +150,7 @@ TEST_F(TraceErrors, AFullDiskKeepsTheOldFile) {
 class TraceSignals : public Trace {};
 
 /// Before its header is written, which a signal waits for, and before its first hits are.
-TEST_F(TraceSignals, ASignalEndsItAtOnceAndLeavesNothing) {
+TEST_F(TraceSignals, SignalEndsItAndLeavesNothing) {
   const std::string scene = cloud_scene(100);
   const std::string rays = write("r.npy", ray_file(ray_cloud(1000)));
   const std::tuple<int, int, const char*> signals[] = {
@@ -185,7 +185,7 @@ TEST_F(TraceSignals, ASignalEndsTheBarsLineFirst) {
 }
 
 /// It looks for the reader again and again.
-TEST_F(TraceSignals, ASignalEndsTheWaitForAPipesReader) {
+TEST_F(TraceSignals, SignalEndsTheWaitForAReader) {
   const std::string scene = cloud_scene(3);
   write("r.npy", ray_file(ray_cloud(20'000)));
   ASSERT_EQ(mkfifo(path("h.npy").c_str(), 0600), 0);

@@ -44,7 +44,7 @@ std::vector<std::uint8_t> met_of(const std::vector<TracedHit>& hits) {
   return met;
 }
 
-TEST_F(Trace, HitsAreTheLibrarysForEveryInstructionSetSolverAndThreadCount) {
+TEST_F(Trace, HitsMatchTheLibraryInEveryConfiguration) {
   const std::string scene = cloud_scene(1000);
   const std::vector<Ray> rays = ray_cloud(100'003);
   write("r.npy", ray_file(rays));
@@ -122,7 +122,7 @@ TEST_F(Trace, NanAndInfAreMisses) {
   }
 }
 
-TEST_F(Trace, PlanesHaveTheIdsAfterTheSpheresAndNormalsFaceTheRay) {
+TEST_F(Trace, PlaneIdsFollowSpheresNormalsFaceRays) {
   write("r.npy",
         ray_file({{{0, 1, 5}, {0, 0, -2}}, {{3, 1, 0}, {0, -1, 0}}, {{3, -1, 0}, {0, 0.5f, 0}}}));
   const std::vector<TracedHit> expected = {
@@ -130,7 +130,7 @@ TEST_F(Trace, PlanesHaveTheIdsAfterTheSpheresAndNormalsFaceTheRay) {
   EXPECT_TRUE(hits(small_scene()) == hit_file(expected));
 }
 
-TEST_F(Trace, TheHitsDoNotReplaceWhatTheyAreMadeOf) {
+TEST_F(Trace, HitsNeverReplaceAnInput) {
   const std::string scene = cloud_scene(20), rays = write("r.npy", ray_file(ray_cloud(3)));
   std::filesystem::create_hard_link(rays, path("link.npy"));
   for (const std::string& output : {rays, path("link.npy"), path("cloud.npy")}) {
@@ -139,7 +139,7 @@ TEST_F(Trace, TheHitsDoNotReplaceWhatTheyAreMadeOf) {
   }
 }
 
-TEST_F(Trace, ASceneNeedsNeitherCameraNorLightAndIsNotToldSo) {
+TEST_F(Trace, NeedsNeitherCameraNorLight) {
   write("r.npy", ray_file(ray_cloud(10)));
   const ProgramRun run = trace(cloud_scene(3), {"--progress", "none"});
   EXPECT_EQ(run.exit_code, 0);

@@ -19,7 +19,7 @@ class View : public ProgramTest {};
 
 constexpr const char* url_line = "http://127\\.0\\.0\\.1:[0-9]+/\\?token=[0-9a-f]{32}\n";
 
-TEST_F(View, PrintsItsAddressAndEndsWhenItIsIdle) {
+TEST_F(View, PrintsItsAddressAndEndsIdle) {
   const ProgramRun run = boule_run({"view", small_scene(), "--idle", "50ms"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, MatchesRegex(url_line));

@@ -39,7 +39,7 @@ TEST(Ticks, AreRoundNumbersWithinTheRange) {
   EXPECT_LE(ticks_within(1.0, next).size(), 16U);
 }
 
-TEST(Legend, OfAMapIsABarWithTicks) {
+TEST(Legend, OfAMapHasTicks) {
   ParticleColors colors;
   colors.scale = ParticleColors::Scale{"|v| <m/s>", ColorMap({{255, 0, 0}, {0, 0, 255}}), {0, 10}};
   const std::string svg = legend_svg({colors});

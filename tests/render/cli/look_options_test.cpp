@@ -60,7 +60,7 @@ TEST(LookOptions, AreKept) {
   EXPECT_THAT(look.first, StartsWith("--"));
 }
 
-TEST(LookOptions, AMapMayBeOfAColumnWhoseNameHasBlanks) {
+TEST(LookOptions, MapColumnNamesMayHaveBlanks) {
   for (const char* color : {"Velocity Magnitude", "Mean Flow Speed"}) {
     EXPECT_EQ(look_of({"--color", color, "--map", "turbo", "--range", "0,1"}).map, "turbo");
   }

@@ -17,7 +17,7 @@ std::string scene_of(const LookOptions& look, const std::optional<LookFloor>& fl
   return look_scene("run.xyz", look, floor);
 }
 
-TEST(ParticleLook, SaysWhatTheOptionsSayAndNoMore) {
+TEST(ParticleLook, HasExactlyTheOptions) {
   EXPECT_THAT(scene_of({}), HasSubstr("[[particles]]\n"
                                       "file = \"run.xyz\"\n"
                                       "material = \"particles\"\n\n"));

@@ -65,7 +65,7 @@ TEST(PlainProgress, AShortRunIsSilent) {
   EXPECT_THAT(watch(bar, 1.99, 3.98), IsEmpty());
 }
 
-TEST(PlainProgress, TheFirstLineComesAfterTwoSecondsTheLastAtTheEnd) {
+TEST(PlainProgress, FirstLineComesAfterTwoSeconds) {
   ProgressBar bar(ProgressStyle::plain);
   const auto told = run_pass(bar, 0, 4);
   ASSERT_THAT(times_of(told), ElementsAre(2, 4));
@@ -82,7 +82,7 @@ TEST(PlainProgress, ReadingCountsForTheTwoSeconds) {
 }
 
 /// 10 s are 4 % of it: the per cents come later.
-TEST(PlainProgress, ALongRunHasALineEveryTenPerCent) {
+TEST(PlainProgress, LongRunsPrintEveryTenPerCent) {
   ProgressBar bar(ProgressStyle::plain);
   const auto told = run_pass(bar, 0, 250);
   EXPECT_THAT(times_of(told), ElementsAre(2, 27, 52, 77, 102, 127, 152, 177, 202, 227, 250));
@@ -92,12 +92,12 @@ TEST(PlainProgress, ALongRunHasALineEveryTenPerCent) {
 }
 
 /// 10 s are 25 % of it: they come later.
-TEST(PlainProgress, AShorterOneALineEveryTenSeconds) {
+TEST(PlainProgress, ShorterRunsPrintEveryTenSeconds) {
   ProgressBar bar(ProgressStyle::plain);
   EXPECT_THAT(times_of(run_pass(bar, 0, 40)), ElementsAre(2, 12, 22, 32, 40));
 }
 
-TEST(PlainProgress, AStageIsToldOfAfterTwoSecondsAndEveryTen) {
+TEST(PlainProgress, StagesPrintAfterTwoAndTenSeconds) {
   ProgressBar bar(ProgressStyle::plain);
   bar.start_stage("reading a.toml", 0);
   const auto told = watch(bar, 0, 31);
@@ -149,7 +149,7 @@ TEST(BarProgress, ItsClockGoesOnWhileNothingMoves) {
   EXPECT_THAT(watch(bar, 125, 126)[0].text, EndsWith("waiting for 1 block of pixels"));
 }
 
-TEST(BarProgress, ItIsDrawnTenTimesASecondAndOnceAtTheEnd) {
+TEST(BarProgress, DrawnTenTimesASecondAndLast) {
   ProgressBar bar(ProgressStyle::bar);
   const auto told = run_pass(bar, 0, 1);
   EXPECT_LE(told.size(), 11u);
@@ -159,7 +159,7 @@ TEST(BarProgress, ItIsDrawnTenTimesASecondAndOnceAtTheEnd) {
   EXPECT_THAT(watch(bar, 1, 100), IsEmpty());
 }
 
-TEST(BarProgress, AStageHasAClockAndNeverStandsWhileTheNextGoesOn) {
+TEST(BarProgress, StageClockEndsWithItsStage) {
   ProgressBar bar(ProgressStyle::bar);
   bar.start_stage("reading a.toml", 0);
   EXPECT_THAT(watch(bar, 0, 1.99), IsEmpty());
@@ -180,7 +180,7 @@ TEST(BarProgress, ItNeverGoesBack) {
   EXPECT_THAT(bar.tell(2).value_or(""), HasSubstr(" 50 %"));
 }
 
-TEST(BarProgress, NextIsWhenThereIsSomethingToTell) {
+TEST(BarProgress, NextIsWhenSomethingChanges) {
   ProgressBar bar(ProgressStyle::bar);
   EXPECT_TRUE(std::isinf(bar.next()));
   bar.start_stage("reading a.toml", 1);
@@ -190,7 +190,7 @@ TEST(BarProgress, NextIsWhenThereIsSomethingToTell) {
   EXPECT_DOUBLE_EQ(bar.next(), 3.1);
 }
 
-TEST(JsonProgress, HasTenObjectsASecondAndOneAtTheEnd) {
+TEST(JsonProgress, TenObjectsASecondAndOneMore) {
   ProgressBar bar(ProgressStyle::json);
   bar.start_stage("reading a.toml", 0);
   EXPECT_THAT(watch(bar, 0, 30), IsEmpty());
@@ -250,7 +250,7 @@ TEST_F(SeriesProgress, TheBarSpansAllFrames) {
 }
 
 /// They took no time, and tell nothing of those that will.
-TEST_F(SeriesProgress, SkippedFramesDoNotShortenTheTimeLeft) {
+TEST_F(SeriesProgress, SkippedFramesDoNotShortenTheEstimate) {
   ProgressBar bar(ProgressStyle::bar, 4);
   for (int i = 0; i < 2; ++i) {
     bar.start_frame();
@@ -300,7 +300,7 @@ TEST(NoiseProgress, TellsTheSamplesOfFinishedPixels) {
 }
 
 /// What a checkpoint held took none of this run's time.
-TEST(ResumedProgress, TheTimeLeftIsThatOfTheRest) {
+TEST(ResumedProgress, EstimateCoversTheRest) {
   ProgressBar bar(ProgressStyle::bar);
   bar.start_pass("pixels", 0);
   bar.update({.share = 0.6, .rays = 10'000'000, .resumed = 0.5}, 5);
@@ -320,7 +320,7 @@ TEST(NoiseProgress, JsonHasItWhenPixelsAreFinished) {
   EXPECT_EQ(json.size(), 6u);
 }
 
-TEST_F(SeriesProgress, JsonIsThatOfTheFrameAndMore) {
+TEST_F(SeriesProgress, JsonExtendsThatOfTheFrame) {
   ProgressBar bar(ProgressStyle::json, 4);
   run_frame(bar, 0, 10);
   bar.start_frame();

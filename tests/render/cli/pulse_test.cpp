@@ -57,7 +57,7 @@ TEST(Pulse, AnEarlierTimeComesFirst) {
   ASSERT_EQ(beaten.get_future().wait_for(generous), std::future_status::ready);
 }
 
-TEST(Pulse, EndsWithoutABeatThatNobodyWaitedFor) {
+TEST(Pulse, EndsWithoutAnUnawaitedBeat) {
   std::atomic<int> beats{0};
   {
     Pulse pulse([&](Clock::time_point) {

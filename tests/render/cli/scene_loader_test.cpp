@@ -104,7 +104,7 @@ TEST_F(SceneLoaderTest, RadiiAreHalfTheSmallestTypicalDistance) {
   }
 }
 
-TEST_F(SceneLoaderTest, CameraIsFittedToTheRadiiOfAll) {
+TEST_F(SceneLoaderTest, CameraFitsTheRadiiOfAll) {
   const std::string frames = row("A", 3, 4) + row("A", 3, 1);
   RenderCommand given = series(write("a.xyz", frames), 1);
   const LoadedScene chosen = load_alone(given, 0);
@@ -113,7 +113,7 @@ TEST_F(SceneLoaderTest, CameraIsFittedToTheRadiiOfAll) {
   EXPECT_EQ(eye_of(chosen), eye_of(load_alone(given, 0)));
 }
 
-TEST_F(SceneLoaderTest, FilesOfASeriesTellTheirNotesUnderOneName) {
+TEST_F(SceneLoaderTest, SeriesFilesShareTheNotesName) {
   static_cast<void>(write("a.0.xyz", row("A", 3, 4)));
   static_cast<void>(write("a.1.xyz", row("A", 3, 1)));
   SceneLoader loader(series(path("a.#.xyz"), 1));
@@ -124,7 +124,7 @@ TEST_F(SceneLoaderTest, FilesOfASeriesTellTheirNotesUnderOneName) {
   EXPECT_THAT(radii(first), Each(0.5F));
 }
 
-TEST_F(SceneLoaderTest, SpeciesThatTheTableLacksHaveOneRadius) {
+TEST_F(SceneLoaderTest, UnknownSpeciesHaveOneRadius) {
   const auto frame = [](double distance) {
     const std::string at = std::to_string(distance);
     return "3\n\nC 0 0 0\nC " + at + " 0 0\nbead 0 " + at + " 0\n";
@@ -168,7 +168,7 @@ TEST_F(SceneLoaderTest, ColoursHaveTheRangeOfAllFrames) {
   EXPECT_THAT(given.colors()[0].scale->range, ElementsAre(0, 1));
 }
 
-TEST_F(SceneLoaderTest, NumbersAreKindsInAllFramesOrInNone) {
+TEST_F(SceneLoaderTest, NumbersAreKindsInAllOrNone) {
   auto command = series(
       write("a.dump", dump({}) + dump({{3, 1}}) + dump({{3, 2}, {1, 2}}) + dump({{2, 1}})), 3);
   command.look.color = "type";
@@ -247,7 +247,7 @@ TEST_F(SceneLoaderTest, AnotherLookChoosesAnew) {
   EXPECT_EQ(loader.colors()[0].species.size(), 2U);
 }
 
-TEST_F(SceneLoaderTest, AFrameThatCannotBeReadEndsTheChoices) {
+TEST_F(SceneLoaderTest, UnreadableFrameEndsTheChoices) {
   static_cast<void>(write("a.0.xyz", row("A", 3, 4)));
   static_cast<void>(write("a.1.xyz", row("A", 3, 2)));
   SceneLoader loader(series(path("a.#.xyz"), 2));

@@ -41,7 +41,7 @@ class ViewSourceTest : public testing::Test {
   test::TempDir folder_;
 };
 
-TEST_F(ViewSourceTest, ATrajectoryIsASeriesThatBeginsWhereRenderDoes) {
+TEST_F(ViewSourceTest, TrajectoryBeginsWhereRenderDoes) {
   ViewSource source(command_for(trajectory()));
   ASSERT_FALSE(source.open());
   const view::SourceFacts& facts = source.facts();
@@ -62,7 +62,7 @@ TEST_F(ViewSourceTest, ATrajectoryIsASeriesThatBeginsWhereRenderDoes) {
   EXPECT_FALSE(source.load(facts.look, 7));
 }
 
-TEST_F(ViewSourceTest, ColoursKeepTheirRangeFromFrameToFrame) {
+TEST_F(ViewSourceTest, ColoursKeepTheirRangeAcrossFrames) {
   ViewSource source(command_for(trajectory()));
   ASSERT_FALSE(source.open());
   const view::ParticleLook look{"q", "magma", {}};

@@ -73,7 +73,7 @@ TEST_F(DamagedFiles, AsItIsItHasThePicture) {
   EXPECT_EQ(open(unsealed()), "");
 }
 
-TEST_F(DamagedFiles, EveryChangedByteOfTheHeaderIsRefusedOrOfNoUse) {
+TEST_F(DamagedFiles, ChangedHeaderBytesAreRefusedOrUnused) {
   if (!Checksum::available()) GTEST_SKIP() << "this build has no checksums";
   for (std::size_t at = 0; at < page; at += at < 512 ? 1 : 37) {
     const std::string found = open(with_change(bytes_, at, 1 + static_cast<int>(at % 255)));
@@ -82,7 +82,7 @@ TEST_F(DamagedFiles, EveryChangedByteOfTheHeaderIsRefusedOrOfNoUse) {
   }
 }
 
-TEST_F(DamagedFiles, EveryChangedByteOfTheNodesIsRefused) {
+TEST_F(DamagedFiles, ChangedNodeBytesAreRefused) {
   if (!Checksum::available()) GTEST_SKIP() << "this build has no checksums";
   const auto& nodes = section(Kind::nodes);
   for (std::size_t i = 0; i < nodes.bytes; i += 3) {

@@ -97,7 +97,7 @@ class LargeFiles : public PackedTest {
   }
 };
 
-TEST_F(LargeFiles, ARayFindsTheLastSlotOfAChunk) {
+TEST_F(LargeFiles, RayFindsTheLastSlot) {
   if (!write_file({most_slots})) GTEST_SKIP() << "the file system has no files of this size";
   const auto file = PackedFile::open(path("large.boule"));
   ASSERT_TRUE(file) << file.error().message;
@@ -134,7 +134,7 @@ TEST_F(LargeFiles, OfSeveralChunksCountsBeyond32Bits) {
 }
 
 /// 3 x 10^9 slots: a ray finds the last one, under its id, on every instruction set.
-TEST_F(LargeFiles, ARayFindsTheLastOfThreeBillionSlots) {
+TEST_F(LargeFiles, RayFindsTheLastOfBillions) {
   constexpr std::uint64_t rest = 3'000'000'000 - most_slots;
   if (!write_file({most_slots, rest})) GTEST_SKIP() << "the file system has no files of this size";
   const auto file = PackedFile::open(path("large.boule"));

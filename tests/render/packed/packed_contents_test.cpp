@@ -96,7 +96,7 @@ TEST(PackedContents, WithoutTheOutermostSpheresAreDamaged) {
 }
 
 /// A key of a newer version is named.
-TEST(PackedContents, OfANewerVersionAreRefusedByTheKey) {
+TEST(PackedContents, NewerVersionsAreRefusedByKey) {
   std::string bytes = encode(full_contents());
   const std::size_t at = bytes.find("outline");
   ASSERT_NE(at, std::string::npos);

@@ -89,7 +89,7 @@ TEST_F(PackedScenes, KeepAllElse) {
   EXPECT_EQ(other.materials[2].name, scene.materials[2].name);
 }
 
-TEST_F(PackedScenes, WithGiantsAndSpheresThatNoBoxHolds) {
+TEST_F(PackedScenes, WithGiantsAndUnboxedSpheres) {
   Scene scene = cloud(3000);
   scene.spheres[7] = {{0, -1001, 0}, 1000, 0};
   scene.spheres[2999] = {{0, 0, 0}, 4000, 1};

@@ -63,7 +63,7 @@ TEST_F(Packing, ThePictureIsThatOfTheScene) {
   EXPECT_EQ(picture(path("packed.boule"), {"--trust"}), picture(scene));
 }
 
-TEST_F(Packing, OfSpheresAloneInFilesOrFromAPipe) {
+TEST_F(Packing, TakesPlainSpheresFromFilesOrPipes) {
   const std::string all = spheres("all.npy", 0, 3000), first = spheres("a.npy", 0, 1200),
                     second = spheres("b.npy", 1200, 3000);
   const std::string wanted = picture(all, {"--size", "40x30"});
@@ -91,7 +91,7 @@ TEST_F(Packing, ASceneFileGivesItAnotherCamera) {
   EXPECT_EQ(picture(outer), wanted);
 }
 
-TEST_F(Packing, ASceneFileIsRefusedWhereItContradicts) {
+TEST_F(Packing, ContradictingSceneFileIsRefused) {
   pack({small_scene()}, "packed.boule");
   const auto message = [&](const std::string& rest) {
     const std::string file =

@@ -70,7 +70,7 @@ class CutFrames : public testing::TestWithParam<Trajectory> {
 
 /// Wherever two frames and a part are cut, the two are read, and each byte less than the last
 /// number of the third frame has makes a note.
-TEST_P(CutFrames, WholeFramesAreReadWhereverTheFileEnds) {
+TEST_P(CutFrames, WholeFramesAreReadFromAnyCut) {
   const auto& [ending, frame, quiet, by_gemmi] = GetParam();
   const std::string name = "a." + ending, two = frame + frame;
   const std::string all = reading(name, two, 0);
@@ -156,7 +156,7 @@ TEST_P(CutFrames, WholeFramesOfPackedBytesAreRead) {
               HasSubstr("its gzip data are damaged: the file ends before them"));
 }
 
-TEST(CutFrame, OfPdbIsKnownByTheFramesBefore) {
+TEST(CutFrame, OfPdbIsKnownByEarlierFrames) {
   if (!has_gemmi()) GTEST_SKIP() << "built without gemmi";
   const std::string one = "ATOM      1" + atom, end = "END\n";
   EXPECT_EQ(

@@ -27,7 +27,7 @@ std::vector<double> xs(const ParticleFrame& frame) {
 const std::string dump_head =
     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp ff pp\n0 10\n-5 5\n0 4\n";
 
-TEST(Dump, SortsByIdAndTakesTypesAsSpecies) {
+TEST(Dump, SortsByIdAndTypesAreSpecies) {
   const auto read = read_particles(
       "melt.dump", dump_head + "ITEM: ATOMS id type x y z radius\n7 2 1 2 3 0.5\n3 1 4 5 6 0.25\n");
   ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
@@ -178,7 +178,7 @@ TEST(LammpsData, ReadsMassesVelocitiesAndTheCell) {
 }
 
 // As read_data takes it (docs.lammps.org/read_data.html).
-TEST(LammpsData, ALineOfTheBoxMayBeMissing) {
+TEST(LammpsData, BoxLineMayBeMissing) {
   std::string text = data_head + "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0 0\n";
   text.erase(text.find("0 10 xlo xhi\n"), 13);
   const auto read = read_particles("a.data", text);

@@ -36,7 +36,7 @@ TEST(Missing, WordsOfTablesStandForNoNumber) {
   }
 }
 
-TEST(Missing, ColumnsAtTheEndsOfLinesMayBeEmpty) {
+TEST(Missing, ColumnsAtLineEndsMayBeEmpty) {
   for (const std::string separator : {",", ";", "\t"}) {
     std::string text;
     for (const std::string row : {"x|y|z|name|q|r2", "1|2|3|a||", "4|5|6|b|7|", "4|5|6|c||8"}) {
@@ -50,7 +50,7 @@ TEST(Missing, ColumnsAtTheEndsOfLinesMayBeEmpty) {
   }
 }
 
-TEST(Missing, AColumnWithoutNumbersIsOneOfNumbersUnlessATextComes) {
+TEST(Missing, EmptyColumnsHoldNumbersUntilText) {
   const auto none = read_particles("a.csv", "x,y,z,q\n1,2,3,\n1,2,3,null\n");
   ASSERT_TRUE(none.ok()) << format_diagnostic(none.error());
   EXPECT_THAT(numbers(none.value(), "q"), ElementsAre(IsNan(), IsNan()));
@@ -79,7 +79,7 @@ TEST(Missing, TypesAndPositionsAreNot) {
       HasSubstr("3:7: expected a number above 0, found 'null' (radius)"));
 }
 
-TEST(Missing, NanIsOneInAllFormatsAndInfinityInNone) {
+TEST(Missing, NanIsMissingEverywhereInfinityNowhere) {
   const std::string head = "ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z q\n";
   const std::string two = "ITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id x y z q\n";
   const std::string gro =
@@ -103,7 +103,7 @@ TEST(Missing, NanIsOneInAllFormatsAndInfinityInNone) {
   EXPECT_THAT(particle_error("a.ply", ply + "inf\n"), HasSubstr("found 'inf' (q)"));
 }
 
-TEST(Missing, ALenientReaderKeepsWhatIsNoFiniteNumber) {
+TEST(Missing, LenientReaderKeepsNonFiniteNumbers) {
   const ParticleFileOptions lenient{.lenient = true};
   const auto column = [&](const std::string& name, const std::string& bytes,
                           const std::string& of) {

@@ -51,7 +51,7 @@ double number(const ParticleFrame& frame, const std::string& name, std::size_t r
   return column == nullptr ? std::numeric_limits<double>::quiet_NaN() : column->values.at(row);
 }
 
-TEST(NpyParticles, AStructuredArrayHasColumnsOfEveryKind) {
+TEST(NpyParticles, StructuredArrayHoldsColumnsOfEveryKind) {
   const auto read = read_particles("a.npy", every_kind());
   ASSERT_TRUE(read) << read.error().message;
   const ParticleFrame& frame = read.value();
@@ -115,7 +115,7 @@ std::string rows_of_five() {
   return npy_file(npy_dict("'<f4'", "(2, 5)"), data);
 }
 
-TEST(NpyParticles, RowsOfNumbersHaveTheUsualNamesOrThoseGiven) {
+TEST(NpyParticles, PlainRowsHaveUsualOrGivenNames) {
   const auto usual = read_particles("a.npy", rows_of_five());
   ASSERT_TRUE(usual);
   EXPECT_EQ(usual.value().positions[1], (Vec3d{1.25, 1.5, 1.75}));
@@ -134,7 +134,7 @@ std::string structured(const std::string& fields, const std::string& data,
   return npy_file(npy_dict(fields, shape), data);
 }
 
-TEST(NpyParticles, MoreColumnsThanAnyFileHasAreRefusedBeforeTheyTakeMemory) {
+TEST(NpyParticles, TooManyColumnsAreRefusedBeforeAllocation) {
   std::string fields = "[";
   for (int i = 0; i < 500; ++i) fields += "('f" + std::to_string(i) + "', '|u1', (65536,)), ";
   const auto read = read_particles("a.npy", structured(fields + "]", ""));

@@ -62,7 +62,7 @@ TEST(ParticleFile, FormatOverridesTheName) {
               HasSubstr("there is no format 'abc' of particle files, expected one of "));
 }
 
-TEST(ParticleFile, NamesForColumnsThatHaveOnesAreRefused) {
+TEST(ParticleFile, RenamingNamedColumnsIsRefused) {
   for (const char* name : {"a.gro", "a.pdb", "a.pqr", "a.cif", "a.ply"}) {
     EXPECT_THAT(particle_error(name, "", {.columns = {"x", "y", "z"}}),
                 HasSubstr("names its columns itself (columns)"));

@@ -78,7 +78,7 @@ TEST_F(PdbNames, IonsAreKnownByTheirResidue) {
               ElementsAre("C", "Na", "Cl", "K", "Na", "Cl", "Na", "Ca", "C"));
 }
 
-TEST_F(PdbNames, ResiduesTellElementsOfNamesThatAreNotAligned) {
+TEST_F(PdbNames, ResiduesTellElementsOfUnalignedNames) {
   const ParticleFrame frame =
       read(record("CA   ALA A   1") + record("HG   SER A   2") + record("CD   LYS A   3") +
            record("SE   MSE A   4") + record("OH2  HOH A   5") + record("HG    HG A   6"));

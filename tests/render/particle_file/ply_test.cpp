@@ -73,7 +73,7 @@ std::string binary_of_all_types(bool is_big_endian) {
   return bytes;
 }
 
-TEST(Ply, BinaryFilesOfBothEndsHaveColumnsOfAllTypes) {
+TEST(Ply, BinaryFilesHoldAllTypesEitherEndian) {
   for (const bool is_big_endian : {false, true}) {
     const auto read = read_particles("a.ply", binary_of_all_types(is_big_endian));
     ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
@@ -112,7 +112,7 @@ TEST(Ply, TextFilesAreReadAlike) {
   }
 }
 
-TEST(Ply, BinaryDataBeginsBehindTheEndOfTheHeadersLine) {
+TEST(Ply, BinaryDataBeginsAfterTheHeaderLine) {
   std::string bytes =
       "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\n"
       "property float x\r\nproperty float y\r\nproperty float z\r\nend_header\r\n";
@@ -124,7 +124,7 @@ TEST(Ply, BinaryDataBeginsBehindTheEndOfTheHeadersLine) {
 
 const std::string floats = "property float x\nproperty float y\nproperty float z\n";
 
-TEST(Ply, FloatColoursStayAndOtherScalarsLoseTheirPrefix) {
+TEST(Ply, FloatColoursStayOtherScalarsLosePrefixes) {
   const std::string text =
       header("ascii", "element vertex 1\n" + floats +
                           "property float red\nproperty float scalar_a\nproperty float scalar_b\n"

@@ -69,7 +69,7 @@ TEST(Pqr, ReadsWordsBetweenBlanks) {
   EXPECT_THAT(texts_of(*frame.species), ElementsAre("N", "C", "Na", "O"));
 }
 
-TEST(Pqr, AtomsWithoutASizeAreLeftOutWhereRadiiAreAskedFor) {
+TEST(Pqr, AtomsWithoutSizeAreOmittedWithRadii) {
   const std::string text = nitrogen + "ATOM 2 HO ALA 1 1 2 3 0.4 0.0000\n";
   const auto all = read_particles("a.pqr", text);
   ASSERT_TRUE(all.ok()) << format_diagnostic(all.error());

@@ -50,7 +50,7 @@ class Symmetry : public testing::Test {
 
 using Counts = std::map<std::string, int>;
 
-TEST_F(Symmetry, GroupsAreKnownByNameNumberAndHallSymbol) {
+TEST_F(Symmetry, GroupsMatchByNameNumberOrHall) {
   for (const std::string group :
        {"_symmetry_space_group_name_H-M 'F m -3 m'\n", "_space_group_name_H-M_alt Fm-3m\n",
         "_space_group_name_H-M_alt 'F m 3 m'\n", "_symmetry_space_group_name_H-M F_m_-3_m\n",
@@ -125,7 +125,7 @@ TEST_F(Symmetry, RhombohedralGroupsGoByTheirAngles) {
   EXPECT_EQ(read(rhombic + group + head + "Bi Bi 0.234 0.234 0.234\n").size(), 2U);
 }
 
-TEST_F(Symmetry, WithoutASymmetryPlacesStayAsTheyAre) {
+TEST_F(Symmetry, WithoutSymmetryPlacesStay) {
   const std::string atom = head + "C1 C -0.5 1.5 0\n";
   for (const std::string group :
        {"", "_symmetry_space_group_name_H-M 'P 1'\n", "_space_group_IT_number 1\n",

@@ -171,7 +171,7 @@ TEST(Table, NumbersMayHaveDecimalCommas) {
               HasSubstr("22:5: expected a number with a decimal comma, found '3.5' (z)"));
 }
 
-TEST(Table, TextsOfOtherFormatsAreKnownByTheirContent) {
+TEST(Table, OtherTextFormatsAreKnownByContent) {
   const auto read = read_particles("a.txt", "1\ncomment\nFe 1 2 3\n");
   ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
   EXPECT_THAT(read.value().species->texts, ElementsAre("Fe"));

@@ -62,7 +62,7 @@ void destroy(const Trajectory& trajectory, std::size_t begin, std::size_t end) {
 
 class Trajectories : public testing::TestWithParam<std::string> {};
 
-TEST_P(Trajectories, AFrameInTheMiddleIsReadAlone) {
+TEST_P(Trajectories, MiddleFrameIsReadAlone) {
   const test::TempDir folder;
   const Trajectory written = write_trajectory(folder.path() / ("run." + GetParam()),
                                               GetParam() == "xyz" ? xyz_frame : dump_frame);

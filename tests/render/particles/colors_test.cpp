@@ -73,7 +73,7 @@ TEST(Colors, OfWhatIsMissingAreGrey) {
               HasSubstr("the radius of particle 2 of 2 is nan, expected a finite number above 0"));
 }
 
-TEST(Colors, AreThoseOfElementsAndOfThePalette) {
+TEST(Colors, ComeFromElementsAndThePalette) {
   const ParticleFrame frame = row_of({"C", "bead", "H", "1", "bead", "D"});
   const std::vector<std::string> expected{"#909090", "#e69f00", "#ffffff",
                                           "#56b4e9", "#e69f00", "#ffffff"};
@@ -94,7 +94,7 @@ TEST(Colors, TellTheSpeciesThatAreShown) {
   EXPECT_EQ(species[1].count, 1U);
 }
 
-TEST(Colors, OfSpeciesDoNotDependOnTheSelection) {
+TEST(Colors, OfSpeciesIgnoreTheSelection) {
   const ParticleFrame frame = row_of({"bead", "wall", "d"});
   EXPECT_THAT(colors_of(frame), ElementsAre("#e69f00", "#56b4e9", "#ffffff"));
   EXPECT_THAT(colors_of(frame, {.select = "x == 1"}), ElementsAre("#56b4e9"));
@@ -154,7 +154,7 @@ TEST(Colors, ColumnsOfKindsMayHaveMore) {
   EXPECT_EQ(meaning_of(row_with("type", {2, 2}), by_type).species.size(), 1U);
 }
 
-TEST(Colors, OfTypesThatAreTheSpeciesAreTheirs) {
+TEST(Colors, TypesAsSpeciesHaveSpeciesColors) {
   ParticleFrame frame = row_of({"3", "1"});
   frame.species->name = "type";
   frame.numbers = {{"type", {3, 1}}};
@@ -198,7 +198,7 @@ TEST(Colors, AreThoseOfComponents) {
   EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 1 of 2 is -0.001, 0.5, 1"));
 }
 
-TEST(Colors, ThreeWordsAreOneColumnWhereTheFileHasIt) {
+TEST(Colors, ThreeWordsMayNameOneColumn) {
   ParticleFrame frame = row_of_particles(2);
   frame.numbers = {{"red", {0, 1}}, {"green", {0.5, 0.25}}, {"blue", {1, 0}}};
   const ParticleStyle style{.color = ColorColumns{{"red green blue"}}};
@@ -219,7 +219,7 @@ TEST(Colors, ANameMayHaveBlanks) {
             "color: there is no column 'Velocity Magnitud'; did you mean 'Velocity Magnitude'?");
 }
 
-TEST(Colors, NameTheParticleWhoseComponentsAreNeitherPartsNorCodes) {
+TEST(Colors, BadComponentsNameTheirParticle) {
   ParticleFrame frame = row_of_particles(3);
   frame.numbers = {{"red", {255, 1, 0}}, {"green", {0, 0, 0}}, {"blue", {0, 0, 300}}};
   EXPECT_THAT(error_of(frame, {}), HasSubstr("particle 3 of 3 is 0, 0, 300"));
@@ -269,7 +269,7 @@ TEST(Colors, AreMappedByPositionsNormsAndTypes) {
   EXPECT_FALSE(by_column("type").scale.has_value());
 }
 
-TEST(Colors, RangeIsThatOfPercentilesOfWhatIsShown) {
+TEST(Colors, RangeTakesPercentilesOfShownParticles) {
   std::vector<double> values;
   for (int i = 0; i <= 1000; ++i) values.push_back((i * 8) % 1001 == 0 ? 1e9 : (i * 8) % 1001);
   const ParticleFrame frame = row_with("q", values);  // 1 .. 1000 and 1e9
@@ -298,7 +298,7 @@ TEST(Colors, PercentilesAreThoseOfSorting) {
   }
 }
 
-TEST(Colors, OneNumberIsInTheMiddleOfTheMap) {
+TEST(Colors, SingleValueTakesTheMapsMiddle) {
   const ParticleStyle style{.radius = 1.0,
                             .color = MappedColors{.by = "q", .map = ColorMap(NamedColorMap::grey)}};
   for (const double value : {0.0, -7.0, 1e300, 5e-324}) {

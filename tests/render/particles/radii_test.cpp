@@ -72,7 +72,7 @@ TEST(Radii, AreHalfTheTypicalDistanceElse) {
   EXPECT_EQ(radii_of(row_of_particles(1)), (Radii{1}));
 }
 
-TEST(Radii, AreTypicalForSpeciesThatTheTableLacks) {
+TEST(Radii, UnknownSpeciesHaveTypicalRadii) {
   const ParticleFrame frame = row_of({"C", "bead", "Po", "Mt"});
   EXPECT_EQ(radii_of(frame, {.radius = RadiusTable::vdw}), (Radii{1.77F, 0.5F, 0.5F, 0.5F}));
   EXPECT_THAT(notes_of(frame, {.radius = RadiusTable::vdw}),

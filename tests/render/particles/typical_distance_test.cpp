@@ -46,7 +46,7 @@ TEST(TypicalDistance, OfALatticeIsItsSpacing) {
 }
 
 // The median of all nearest distances in a gas of density n is (3 ln 2 / (4 pi n))^(1/3).
-TEST(TypicalDistance, OfAGasIsThatOfItsDensity) {
+TEST(TypicalDistance, OfAGasMatchesItsDensity) {
   for (const std::size_t count : {std::size_t{16000}, std::size_t{500000}}) {
     const double expected = std::cbrt(3 * std::log(2.0) / (4 * 3.14159265 * double(count))) * 10;
     // A thousand samples of what varies by a third: 2 % for two deviations; borders add some.

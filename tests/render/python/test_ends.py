@@ -78,11 +78,11 @@ def test_a_process_may_end_inside_calls(kind):
         assert run(f"KIND, DELAY = {kind!r}, {delay}", DAEMONS) == (0, "", "")
 
 
-def test_the_status_of_a_process_that_ends_inside_a_call_is_its_own():
+def test_exit_status_survives_a_running_call():
     assert run("KIND, DELAY = 'render', 0.1", DAEMONS, "print('out'); sys.exit(7)") == (7, "out\n", "")
 
 
-def test_what_was_left_does_not_keep_the_process():
+def test_abandoned_calls_let_the_process_end():
     """A tree takes minutes here, and cannot be stopped; signals leave it."""
     code = """
 centers = np.random.default_rng(0).uniform(-5, 5, (8_000_000, 3)).astype(np.float32)
@@ -96,7 +96,7 @@ sys.exit(3)
     assert run(code) == (3, "interrupted\n", "")
 
 
-def test_calls_at_the_end_of_the_interpreter_are_those_of_the_main_thread():
+def test_main_thread_may_call_at_exit():
     """Hooks that were there before the package's run after it."""
     code = """
 def last():
@@ -177,7 +177,7 @@ asyncio.run(main())
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_an_interrupt_ends_the_calls_of_other_threads(way):
+def test_interrupt_ends_calls_of_other_threads(way):
     process = start(POOL, WAYS[way])
     assert process.stdout.readline() == "begun\n"
     time.sleep(0.3)
@@ -189,7 +189,7 @@ def test_an_interrupt_ends_the_calls_of_other_threads(way):
     assert out.count("True") >= 2 and "False" not in out
 
 
-def test_an_interrupt_of_a_partial_render_on_another_thread_returns_the_picture():
+def test_interrupted_partial_render_returns_its_picture():
     code = """
 def call():
     picture = boule.render(endless, partial=True)
@@ -241,7 +241,7 @@ thread.join()
     assert run(code) == (0, "True\nraised\nTrue\nTrue\n", "")
 
 
-def test_a_forked_process_of_a_call_ends_by_itself():
+def test_process_forked_in_a_call_ends():
     """It has none of the threads that its parent has."""
     code = """
 threading.Thread(target=lambda: boule.render(endless, time_limit=3, partial=True)).start()
@@ -257,7 +257,7 @@ assert os.waitpid(child, 0)[1] == 0
 
 
 @pytest.mark.parametrize("call", ["to_srgb()", "alpha", "channels"])
-def test_threads_may_make_their_first_arrays_at_once(call):
+def test_threads_make_first_arrays_together(call):
     """numpy is loaded by whichever is first."""
     code = f"""
 import threading, boule

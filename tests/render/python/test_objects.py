@@ -49,7 +49,7 @@ def test_keys_of_a_camera_lose_nothing():
         ([3], "key", "expected a list of dictionaries"),
     ],
 )
-def test_keys_of_a_camera_are_checked_when_they_are_set(keys, key, words):
+def test_camera_keys_are_checked_when_set(keys, key, words):
     camera = boule.Pinhole(**EYE)
     assert words in refused(lambda: setattr(camera, "key", keys), key)
     assert camera == boule.Pinhole(**EYE)
@@ -138,7 +138,7 @@ def test_help_tells_which_keys_are_required(name):
     assert ("Required: " in needed) == bool(required)
 
 
-def test_the_range_of_spheres_is_told_and_not_set():
+def test_range_of_spheres_is_read_only():
     spheres = boule.Spheres(np.zeros((3, 3)), 1, scalar=[1, 2, 3], range=(0, 4))
     assert spheres.range == [0, 4]
     with pytest.raises(AttributeError):
@@ -148,7 +148,7 @@ def test_the_range_of_spheres_is_told_and_not_set():
     assert boule.Spheres(np.zeros((3, 3)), 1).range is None
 
 
-def test_colour_and_material_of_spheres_are_checked_when_they_are_set():
+def test_sphere_colours_are_checked_when_set():
     centers = np.zeros((1, 3))
     spheres = boule.Spheres(centers, 1, color="#ff0000", material="red")
     assert "is no colour" in refused(lambda: setattr(spheres, "color", "zz"), "color")
@@ -159,7 +159,7 @@ def test_colour_and_material_of_spheres_are_checked_when_they_are_set():
     assert spheres.color == (0, 1, 0) and spheres.material == boule.Metal()
 
 
-def test_a_radius_that_is_no_float_is_too_small():
+def test_radius_below_float_is_too_small():
     for call in (boule.Spheres, boule.Tracer):
         told = refused(lambda: call(np.zeros((1, 3)), 1e-46), "radii")
         assert "row 0: is too small for a 32-bit float: 1e-46" in told
@@ -185,7 +185,7 @@ def test_objects_that_only_calls_make():
     assert "4 x 3" in repr(picture)
 
 
-def test_every_key_that_is_an_argument_is_an_attribute():
+def test_every_keyword_argument_is_an_attribute():
     for name in TABLES:
         for key in inspect.signature(getattr(boule, name)).parameters:
             assert isinstance(getattr(getattr(boule, name), key), property), (name, key)

@@ -156,7 +156,7 @@ boule.render(scene, size=(160, 120), spp=1_000_000, method="path", partial=True,
 """
 
 
-def test_a_kernel_that_is_interrupted_shows_what_there_is(tmp_path):
+def test_interrupted_kernel_shows_what_is_done(tmp_path):
     manager = pytest.importorskip("jupyter_client.manager")
     pytest.importorskip("ipykernel")
     kernel, client = manager.start_new_kernel(

@@ -46,7 +46,7 @@ def test_false_shadows_are_the_programs(tmp_path, scenes, epsilon):
 
 
 @pytest.mark.parametrize("name", ["first_light", "depth_of_field", "double_gauss", "distorted", "far_away", "lecture", "daylight"])
-def test_a_scene_that_was_loaded_gives_the_files_picture(scenes, name, tmp_path):
+def test_loaded_scene_gives_the_files_picture(scenes, name, tmp_path):
     path = scenes / f"{name}.toml"
     if not path.exists():
         pytest.skip(f"{path} is not there")
@@ -121,7 +121,7 @@ def test_notebooks_show_a_picture(ball, tmp_path):
     assert np.array_equal(shown, (image.imread(tmp_path / "a.png")[..., :3] * 255).round())
 
 
-def test_a_signal_ends_a_render_and_leaves_what_there_is(endless):
+def test_signal_ends_render_with_partial_picture(endless):
     interrupt_after(0.3)
     with pytest.raises(boule.Interrupted) as caught:
         boule.render(endless)
@@ -179,7 +179,7 @@ def test_progress_of_what_was_stopped_is_below_1(endless):
     assert all(share < 1 for share in shares)
 
 
-def test_the_own_bar_is_full_at_the_end(monkeypatch, ball, capsys):
+def test_own_bar_ends_full(monkeypatch, ball, capsys):
     import sys
 
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)

@@ -21,7 +21,7 @@ TABLES = [
 ]
 
 
-def test_every_type_of_the_one_list_has_a_class():
+def test_every_listed_type_has_a_class():
     kinds = {kind: set(types) for kind, types in FIELDS.items() if kind != "scene"}
     known = {}
     for cls in TABLES:
@@ -45,7 +45,7 @@ def test_arguments_are_the_fields_with_their_defaults(cls):
     assert all(name in cls.__doc__ for name in arguments if name != "self")
 
 
-def test_a_scene_has_an_attribute_for_every_field():
+def test_scene_has_every_field_as_attribute():
     scene = boule.Scene()
     names = {"camera.distortion": "camera", "background.ambient": "ambient",
              "background.backdrop": "backdrop"}  # fmt: skip
@@ -55,7 +55,7 @@ def test_a_scene_has_an_attribute_for_every_field():
     assert hasattr(scene, "origin")
 
 
-def test_every_key_of_the_documents_is_an_argument():
+def test_every_documented_key_is_an_argument():
     text = (ROOT / "docs" / "scene_format.md").read_text()
     section = text[text.index("### `[[particles]]`") :]
     keys = re.findall(r"^\| `(\w+)`", section[: section.index("The table")], flags=re.M)
@@ -69,7 +69,7 @@ def test_every_key_of_the_documents_is_an_argument():
         assert key in arguments, key
 
 
-def test_every_option_of_the_program_is_an_argument():
+def test_every_program_option_is_an_argument():
     told = subprocess.run([program(), "render", "--help"], capture_output=True, text=True).stdout
     options = {name.replace("-", "_") for name in re.findall(r"--([a-z][a-z-]+)", told)}
     assert len(options) > 30
@@ -163,7 +163,7 @@ def same_as_file(scene, text, tmp_path, **options):
     return np.array_equal(told, made)
 
 
-def test_a_scene_is_the_picture_of_its_file(tmp_path):
+def test_scene_matches_the_files_picture(tmp_path):
     scene = boule.Scene()
     scene.materials["red"] = boule.Plastic(color=(0.8, 0.1, 0.1), reflect=0.2)
     scene.add_sphere(center=(0, 1, 0), material="red")
@@ -327,7 +327,7 @@ def test_cameras_may_move(tmp_path):
         (lambda s: s.add_instance("nothing"), "instance[0].group"),
     ],
 )
-def test_a_scene_that_is_wrong_names_its_key(ball, spoil, key):
+def test_wrong_scene_names_its_key(ball, spoil, key):
     spoil(ball)
     with pytest.raises(boule.Error) as caught:
         boule.render(ball)

@@ -72,7 +72,7 @@ WRONG_VALUES = {
 
 
 @pytest.mark.parametrize("name", WRONG_VALUES)
-def test_a_wrong_value_of_a_scene_is_refused_when_it_is_set(ball, name):
+def test_wrong_scene_value_is_refused_when_set(ball, name):
     before = getattr(ball, name)
     for value in WRONG_VALUES[name]:
         with pytest.raises(boule.Error) as caught:
@@ -97,7 +97,7 @@ def test_a_wrong_value_of_a_scene_is_refused_when_it_is_set(ball, name):
         (lambda: boule.render(boule.Scene(), size=(4, 3)), "exposure", None),
     ],
 )
-def test_an_attribute_that_there_is_not_is_refused(make, wrong, right):
+def test_unknown_attribute_is_refused(make, wrong, right):
     made = make()
     with pytest.raises(AttributeError, match=wrong) as caught:
         setattr(made, wrong, getattr(made, wrong, 1))
@@ -105,7 +105,7 @@ def test_an_attribute_that_there_is_not_is_refused(make, wrong, right):
         assert f"did you mean {right!r}?" in str(caught.value)
 
 
-def test_what_is_read_from_arrays_cannot_be_set():
+def test_values_from_arrays_are_read_only():
     spheres = boule.Spheres([[0, 0, 0]], 1)
     for name in ("centers", "radii", "colors", "range"):
         with pytest.raises(AttributeError):

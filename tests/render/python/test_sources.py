@@ -32,7 +32,7 @@ def pixels(scene, **options):
     return np.asarray(boule.render(scene, **{**SIZE, **options}))
 
 
-def test_a_file_of_particles_is_shown_as_by_the_program(water, tmp_path):
+def test_particle_file_matches_the_program(water, tmp_path):
     look = {"look": "dark", "color": "charge", "map": ["#0000ff", "#ff0000"], "range": (-1, 1),
             "radius": "covalent", "scale": 1.5, "view": "-x", "floor": True}  # fmt: skip
     told = ["--look", "dark", "--color", "charge", "--map", "#0000ff,#ff0000", "--range", "-1,1",
@@ -46,7 +46,7 @@ def test_a_file_of_particles_is_shown_as_by_the_program(water, tmp_path):
     assert "<svg" in scene.legend and isinstance(scene.camera, boule.Fit)
 
 
-def test_a_packed_scene_is_taken_by_its_name(water, tmp_path):
+def test_packed_scene_loads_by_name(water, tmp_path):
     packed = tmp_path / "water.boule"
     subprocess.run([program(), "pack", water, "-o", packed, "-q"], check=True)
     whole = pixels(water)
@@ -61,7 +61,7 @@ def test_a_packed_scene_is_taken_by_its_name(water, tmp_path):
         boule.render(boule.Scene(), trust=True)
 
 
-def test_particles_in_memory_are_those_of_the_file(water):
+def test_particles_in_memory_match_the_file(water):
     positions = np.array([[0, 0, 0.119], [0, 0.763, -0.477], [0, -0.763, -0.477]])
     told = pixels(water, color="charge")
     for species in (["O", "H", "H"], np.array(["O", "H", "H"]), [8, 1, 1], np.array([8, 1, 1])):
@@ -109,7 +109,7 @@ def test_what_is_no_species_is_refused(bad):
     assert told in str(caught.value)
 
 
-def test_columns_of_texts_may_be_bytes_and_numbers_those_of_numpy():
+def test_columns_take_bytes_and_numpy_numbers():
     points = np.arange(6).reshape(2, 3)
     text = boule.from_particles(points, columns={"t": [b"in", b"out"]}, color="t")
     assert ">in<" in text.legend and ">out<" in text.legend
@@ -139,13 +139,13 @@ def test_a_unit_of_length_is_above_0(angstrom, species):
         (np.array([True, False, True]), [True, False, True]), ([0, 1, 0], [False, True, False]),
     ],
 )  # fmt: skip
-def test_edges_of_a_cell_are_periodic_or_not(periodic, along):
+def test_cell_edges_are_periodic_or_not(periodic, along):
     assert _sources._along(periodic) == along
     boule.from_particles(np.zeros((1, 3)), cell=np.eye(3), periodic=periodic)
 
 
 @pytest.mark.parametrize("periodic", [(True,), [True] * 4, 5, None, "xyz1"])
-def test_what_does_not_tell_which_edges_are_periodic(periodic):
+def test_bad_periodic_values_are_refused(periodic):
     with pytest.raises(boule.Error) as caught:
         boule.from_particles(np.zeros((1, 3)), cell=np.eye(3), periodic=periodic)
     assert caught.value.key == "periodic"
@@ -185,7 +185,7 @@ def test_a_unit_of_length_scales_radii():
     assert nm.spheres[0].radii[0] == np.float32(CARBON.spheres[0].radii[0] / np.float32(10))
 
 
-def test_atoms_of_ase_are_those_of_the_file(tmp_path):
+def test_ase_atoms_match_the_file(tmp_path):
     io = pytest.importorskip("ase.io")
     build = pytest.importorskip("ase.build")
     atoms = build.molecule("CH3OH")
@@ -237,7 +237,7 @@ def test_frames_choose_once(tmp_path):
     assert notes[0].endswith("nearest neighbour, 0.5, the smallest of all 4 frames")
 
 
-def test_a_file_of_one_frame_shows_it_under_every_number(water, tmp_path):
+def test_single_frame_serves_every_number(water, tmp_path):
     scenes = list(boule.frames(water, range(3, 5)))
     assert len(scenes) == 2
     assert np.array_equal(pixels(scenes[0]), pixels(scenes[1]))
@@ -294,13 +294,13 @@ def test_errors_name_the_argument(water, call, key, words):
 
 
 @pytest.mark.parametrize("function", [boule.render, boule.load, boule.frames, boule.from_particles])
-def test_an_unknown_argument_is_that_of_the_function_called(function):
+def test_unknown_argument_names_the_called_function(function):
     words = rf"{function.__name__}\(\) got an unexpected keyword argument 'colour'"
     with pytest.raises(TypeError, match=f"^{words}$"):
         function("water.xyz", colour="red")
 
 
-def test_an_error_in_a_file_has_its_place(tmp_path):
+def test_file_error_has_its_place(tmp_path):
     path = tmp_path / "bad.xyz"
     path.write_text("2\n\nC 0 0 0\nC 0 0 x\n")
     with pytest.raises(boule.Error) as caught:

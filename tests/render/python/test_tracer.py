@@ -250,7 +250,7 @@ def test_threads_may_share_a_tracer():
         assert all((a == b).all() for a, b in zip(hits, expected))
 
 
-def test_an_interrupt_ends_tracing_and_the_tracer_goes_on():
+def test_interrupted_tracer_stays_usable():
     centers, radii = cloud(200_000)
     tracer = boule.Tracer(centers, radii)
     dir = np.random.default_rng(3).normal(size=(2000, 3)).astype(np.float32)

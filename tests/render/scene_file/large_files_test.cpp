@@ -53,7 +53,7 @@ TEST(ReadText, AnyNumberOfBlocks) {
   }
 }
 
-TEST(ReadText, NulBytesAtTheBordersOfBlocksHaveTheirPlace) {
+TEST(ReadText, NulBytesKeepPlacesAtBlockBorders) {
   for (const std::size_t nul : {text_block - 1, text_block, 3 * text_block - 1, 3 * text_block}) {
     const SceneFolder files;
     std::string text(4 * text_block, '#');
@@ -73,7 +73,7 @@ std::string sparse_file(const SceneFolder& files, const std::string& text, std::
   return path;
 }
 
-TEST(ReadText, ZerosAreRefusedBeforeMemoryIsAskedForAllOfThem) {
+TEST(ReadText, ZerosAreRefusedBeforeLargeAllocations) {
   const SceneFolder files;
   const auto read = read_text(sparse_file(files, "schema = 1\n", std::uintmax_t{1} << 42));
   ASSERT_FALSE(read.ok());
@@ -91,7 +91,7 @@ std::optional<std::uint64_t> bytes_read() {
   return bytes;
 }
 
-TEST(ReadText, NothingIsReadBehindTheBlockOfANul) {
+TEST(ReadText, ReadingStopsAtTheBlockWithNul) {
   const SceneFolder files;
   const std::string text(3 * text_block, '#');
   const std::string path = sparse_file(files, text, 1000 * text_block);
@@ -124,7 +124,7 @@ TEST(LargeNff, NumbersAcrossTheBordersOfBlocks) {
   }
 }
 
-TEST(LargeNff, ErrorsFarInTheFileHaveTheirPlace) {
+TEST(LargeNff, FarErrorsHaveTheirPlace) {
   std::string text = view;
   for (int i = 0; i < 50000; ++i) text += "s 1 2 3 0.5\n";
   const auto loaded = SceneFolder{}.load("a.nff", text + "s 1 2 3 -0.5");
@@ -259,7 +259,7 @@ void expect_read(std::size_t rows, std::size_t columns) {
   }
 }
 
-TEST(LargeNpy, EveryKindOfRowOverTheBordersOfBlocks) {
+TEST(LargeNpy, ReadsEveryRowAcrossBlockBorders) {
   for (const std::size_t rows : {row_block - 1, row_block, row_block + 1, 2 * row_block + 17}) {
     for (const std::size_t columns : {std::size_t{3}, std::size_t{4}}) {
       expect_read<float>(rows, columns);
@@ -290,7 +290,7 @@ TEST(LargeNpy, TheFirstBadRowIsNamed) {
   }
 }
 
-TEST(LargeNpy, ACommonRadiusThatIsNoneIsRefused) {
+TEST(LargeNpy, BadCommonRadiusIsRefused) {
   const SceneFolder files;
   const std::string path = files.write("a.npy", npy_of<float>({1, 2, 3}, 3));
   for (const float radius : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
@@ -315,7 +315,7 @@ TEST(LargeNpy, AFileThatBecomesShorterIsRefused) {
 }
 
 /// Only some file systems have room for such a file, all holes: more spheres than a vector holds.
-TEST(LargeNpy, MoreRowsThanAVectorHoldsAreRefused) {
+TEST(LargeNpy, TooManyRowsAreRefused) {
   const std::string memory = "/dev/shm", stem = "boule-test-" + std::to_string(getpid());
   const std::string npy = memory + "/" + stem + ".npy", scene = memory + "/" + stem + ".toml";
   const std::string rows = "500000000000000000";
@@ -331,7 +331,7 @@ TEST(LargeNpy, MoreRowsThanAVectorHoldsAreRefused) {
               testing::HasSubstr("'" + stem + ".npy': " + rows + " spheres need "));
 }
 
-TEST(SphereRoom, GrowsByHalfAtLeastAndKeepsWhatIsThere) {
+TEST(SphereRoom, GrowsByHalfAndKeepsItsSpheres) {
   std::vector<Sphere> spheres;
   make_room(spheres, 1'000'000);
   EXPECT_EQ(spheres.capacity(), 1'000'000u);

@@ -20,7 +20,7 @@ TEST(NamedFiles, TheIndex0OfALensIsAir) {
   EXPECT_EQ(std::get<LensCamera>(*loaded.value().scene.camera).surfaces[2].index, 1);
 }
 
-TEST(NamedFiles, ErrorsOfALensAreAtTheirLineThere) {
+TEST(NamedFiles, LensErrorsNameTheLensFilesLine) {
   const test::SceneFolder files;
   const auto expect = [&](const std::string& lens, int line, const std::string& words) {
     static_cast<void>(files.write("a.lens", lens));

@@ -72,7 +72,7 @@ TEST(NffScene, Balls) {
                 ":13: warning: a polygon becomes its infinite plane (1 in this file)"});
 }
 
-TEST(NffScene, DosLineEndsTabsAndCommentsMakeNoDifference) {
+TEST(NffScene, DosLinesTabsAndCommentsChangeNothing) {
   std::string text = "\xef\xbb\xbf# made by hand\n\n  \t\n";
   for (const char c : balls)
     text += c == '\n' ? " # note\r\n" : c == ' ' ? "\t " : std::string(1, c);

@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(ParticleRadius, ThatIsNoneIsToldByItsLine) {
+TEST(ParticleRadius, BadRadiusNamesItsLine) {
   const test::SceneFolder files;
   const auto expect_at = [&](const std::string& file, const std::string& text, int line, int column,
                              const std::string& key = "radius", const std::string& keys = "") {
@@ -38,7 +38,7 @@ TEST(ParticleRadius, ThatIsNoneIsToldByItsLine) {
             11, 5, "diameter");
 }
 
-TEST(ParticleRadius, ThatIsNoneIsToldByItsParticleBesideASelection) {
+TEST(ParticleRadius, BadRadiusNamesItsParticleWhenSelecting) {
   const test::SceneFolder files;
   static_cast<void>(files.write("a.csv", "x,y,z,radius\n0,0,0,-1\n1,0,0,-2\n"));
   const auto refused = files.load(

@@ -98,7 +98,7 @@ TEST_F(Distortion, IsRefusedWithPlaceAndKey) {
   expect_refused("file = \"holes.exr\"\n", 6, 8, key, "must be finite");
 }
 
-TEST_F(Distortion, ABlueThatIsNotFiniteDoesNotMatter) {
+TEST_F(Distortion, NonFiniteBlueDoesNotMatter) {
   Image image = small_map();
   image.pixels[0].b = std::numeric_limits<float>::infinity();
   write(image, "map.exr");

@@ -58,7 +58,7 @@ SphereArrays exact(double moved) {
   return arrays;
 }
 
-TEST(SceneData, SpheresOfATreeAreThoseOfTheText) {
+TEST(SceneData, TreeSpheresMatchTheText) {
   const auto made = load(with(exact(0)));
   ASSERT_TRUE(made.ok()) << made.error().message;
   const auto told = load_scene_text(
@@ -68,7 +68,7 @@ TEST(SceneData, SpheresOfATreeAreThoseOfTheText) {
   EXPECT_EQ(scene_hash(made.value().scene), scene_hash(told.value().scene));
 }
 
-TEST(SceneData, FarSpheresAreRoundedAfterTheOriginIsSubtracted) {
+TEST(SceneData, FarSpheresAreRoundedAfterSubtractingOrigins) {
   const auto near = load(with(exact(0))), far = load(with(exact(1e6)));
   ASSERT_TRUE(far.ok());
   EXPECT_EQ(far.value().origin, (Vec3d{1e6, 0, 0}));
@@ -115,7 +115,7 @@ TEST(SceneData, MaterialsAreFoundByTheirNames) {
   EXPECT_THAT(unknown.error().message, HasSubstr("unknown material 'blue'"));
 }
 
-TEST(SceneData, ParticlesInMemoryAreReadLikeAFile) {
+TEST(SceneData, InMemoryParticlesReadLikeAFile) {
   ParticleFrame frame;
   frame.positions = {{0, 0, 0}, {1, 0, 0}};
   frame.numbers.push_back({"radius", {0.5, 0.25}});

@@ -32,7 +32,7 @@ TEST(SceneFile, Directory) {
   expect_unreadable(files.path("folder.toml"), "it is a directory, expected a regular file");
 }
 
-TEST(SceneFile, FifoIsRefusedWithoutWaitingForAWriter) {
+TEST(SceneFile, FifoIsRefusedWithoutWaiting) {
   const SceneFolder files;
   ASSERT_EQ(mkfifo(files.path("pipe.nff").c_str(), 0600), 0);
   expect_unreadable(files.path("pipe.nff"), "it is a FIFO, expected a regular file");

@@ -54,7 +54,7 @@ TEST(SceneOrigin, IsZeroForWhatIsThere) {
   }
 }
 
-TEST(SceneOrigin, IsTheRoundNumberThatAllWasMovedBy) {
+TEST(SceneOrigin, IsTheRoundNumberOfTheShift) {
   const std::vector<SceneExtents> scenes = {
       {ball({0, 0, 0}, 1)},
       {box({-2, 0, -1}, {5, 3, 1}, 0.3)},
@@ -76,7 +76,7 @@ TEST(SceneOrigin, IsTheRoundNumberThatAllWasMovedBy) {
   }
 }
 
-TEST(SceneOrigin, IsAnyPointThatAllWasMovedByFromAroundZero) {
+TEST(SceneOrigin, IsTheShiftOfACentredScene) {
   const Vec3d by{691234.5, 5334567.25, 523};
   for (const double size : {0.5, 2.0, 20.0}) {
     test::CaseRandom random(7);
@@ -90,7 +90,7 @@ TEST(SceneOrigin, IsAnyPointThatAllWasMovedByFromAroundZero) {
   EXPECT_EQ(choose_origin(three), (by + Vec3d{2.5, 0, 0}));
 }
 
-TEST(SceneOrigin, IsAmongWhatCannotMoveFarFromIt) {
+TEST(SceneOrigin, IsNearWhatCannotMoveFar) {
   // The small ones decide, not the middle of all.
   const Vec3d by{4321.5, 98765.25, -12345.75};
   const Vec3d origin = choose_origin(

@@ -23,7 +23,7 @@ TEST(TomlColors, MayBeWrittenInHex) {
   EXPECT_EQ(scene.ambient, gray(1));
 }
 
-TEST(TomlColors, CodesThatAreTakenForLinearGetANote) {
+TEST(TomlColors, CodesReadAsLinearGetANote) {
   const test::SceneFolder files;
   const auto loaded = files.load("scene.toml",
                                  "schema = 1\n[material.red]\ncolor = [255, 0, 16]\n"
@@ -37,7 +37,7 @@ TEST(TomlColors, CodesThatAreTakenForLinearGetANote) {
                                    "up to 255 are written \"#ff0010\""));
 }
 
-TEST(TomlColors, AnObjectHasAColorOfItsOwn) {
+TEST(TomlColors, ObjectsHaveColorsOfTheirOwn) {
   const Scene scene = load(
       "[material.shiny]\ntype = \"plastic\"\n"
       "[[sphere]]\nmaterial = \"shiny\"\ncolor = \"#102030\"\n"
@@ -83,7 +83,7 @@ TEST(TomlColors, WrongOnesAreRefusedWithTheirPlace) {
   expect("[[sphere]]", "[1, 1]", "sphere[0].color", "an array of 3 numbers");
 }
 
-TEST(TomlColors, OnlyTheFirstMaterialsCanBeGivenColors) {
+TEST(TomlColors, OnlyFirstMaterialsTakeColors) {
   std::string text;
   for (int i = 0; i < 129; ++i) text += "[material.m" + std::to_string(i) + "]\n";
   const Scene scene = load(text + "[[sphere]]\nmaterial = \"m127\"\ncolor = \"#010203\"\n");

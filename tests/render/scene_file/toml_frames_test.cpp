@@ -43,14 +43,14 @@ TEST(CameraKeys, AreExactAtTheirFrames) {
   EXPECT_TRUE(camera_at(flight, 12).pose.look_at == Vec3f{});
 }
 
-TEST(CameraKeys, WithoutAFrameItIsTheFirstOutsideItStays) {
+TEST(CameraKeys, DefaultsToFirstFrameAndClampsOutside) {
   for (const std::optional<int> frame : {std::optional<int>{}, {0}, {10}}) {
     EXPECT_TRUE(camera_at(flight, frame).pose.eye == (Vec3f{0.1f, 0, 5}));
   }
   EXPECT_TRUE(camera_at(flight, 999).pose.eye == (Vec3f{5, 3, -2}));
 }
 
-TEST(CameraKeys, EachQuantityFollowsTheKeysThatNameIt) {
+TEST(CameraKeys, EachQuantityFollowsItsOwnKeys) {
   const std::vector<TimedValue> z = {{10, 5}, {20, 5}, {35, -2}}, fov = {{10, 30}, {35, 60}};
   const std::vector<TimedValue> x = {{10, static_cast<double>(0.1f)}, {20, 5}, {35, 5}};
   for (int frame = 8; frame < 40; ++frame) {
@@ -168,7 +168,7 @@ key = [{frame = 5, focus = 1}, {frame = 10, focus = 2}, {frame = 25, focus = 3}]
   }
 }
 
-TEST(CameraKeys, ALaterFocusNearerThanALensCanHaveIsRefused) {
+TEST(CameraKeys, TooNearLaterFocusIsRefused) {
   const SceneFolder files;
   static_cast<void>(files.write("one.lens", "50 5 1.5 20\n-50 2 1 20\n0 0 1 8\n"));
   const auto loaded = files.load("scene.toml", R"(schema = 1

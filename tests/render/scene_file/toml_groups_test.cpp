@@ -40,7 +40,7 @@ translate = [5, 0, 0]
 color = [1, 0, 0]
 )";
 
-TEST(TomlGroups, SayWhatIsInThemAndWhereItIsShown) {
+TEST(TomlGroups, HoldObjectsShownByInstances) {
   const auto loaded = SceneFolder{}.load("scene.toml", forest);
   ASSERT_TRUE(loaded) << format_diagnostic(loaded.error());
   Scene scene = loaded.value().scene;
@@ -64,7 +64,7 @@ TEST(TomlGroups, SayWhatIsInThemAndWhereItIsShown) {
   EXPECT_EQ(scene.spheres[6].material, 0u);  // red in place of it
 }
 
-TEST(TomlGroups, NeedNoHeaderOfTheirOwnAndMayBeInline) {
+TEST(TomlGroups, NeedNoHeaderAndMayBeInline) {
   const auto loaded = SceneFolder{}.load("scene.toml", R"(schema = 1
 instance = [{group = "a"}, {group = "a", scale = 2}]
 [[group.a.sphere]]
@@ -121,7 +121,7 @@ const Refusal wrong[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Wrong, TomlGroupErrors, testing::ValuesIn(wrong), test::refusal_name);
 
-TEST(TomlGroups, TooManySpheresAreRefusedAtTheInstanceThatBringsThem) {
+TEST(TomlGroups, TooManySpheresNameTheirInstance) {
   std::string text = scene("[[group.g0.sphere]]\n");
   for (int i = 1; i <= 40; ++i) {
     const std::string header = "[[group.g" + std::to_string(i) + ".instance]]\ngroup = \"g" +

@@ -107,7 +107,7 @@ TEST(TomlOrigin, IsSubtractedFromKeysOfTheCamera) {
       options);
 }
 
-TEST(TomlOrigin, IsSubtractedFromInstancesAndNotInsideGroups) {
+TEST(TomlOrigin, IsSubtractedFromInstancesNotInGroups) {
   expect_same([](const Points& p) {
     return "[[group.ball.sphere]]\ncenter = [0.25, 0, 0]\n"
            "[[group.pair.instance]]\ngroup = \"ball\"\ntranslate = [0, 2.5, 0]\n"
@@ -143,7 +143,7 @@ TEST(TomlOrigin, MovesPointsThatHaveTheirDefault) {
   EXPECT_EQ(scene.planes[0].point, (Vec3f{-1, -2, -3}));
 }
 
-TEST(TomlOrigin, IsSubtractedFromSpheresOfAFileInDouble) {
+TEST(TomlOrigin, IsSubtractedFromFileSpheresInDouble) {
   const test::SceneFolder files;
   for (const bool has_radii : {true, false}) {
     std::string rows;
@@ -174,7 +174,7 @@ std::string three_atoms(const Points& p) {
   return "3\n\n" + p.atom("C", 0, 0, 0) + p.atom("C", 1.5, 0, 0) + p.atom("O", 2, 1.25, 0.125);
 }
 
-TEST(TomlOrigin, AutoMovesWhatIsFarAwayForItsSize) {
+TEST(TomlOrigin, AutoMovesScenesFarForTheirSize) {
   const test::SceneFolder files;
   static_cast<void>(files.write("far.xyz", three_atoms(far_away)));
   static_cast<void>(files.write("near.xyz", three_atoms(near_zero)));
@@ -232,7 +232,7 @@ TEST(TomlOrigin, AutoIsForGroupsByThemselves) {
   EXPECT_EQ(shown_origin(scene, scene.scene.instances[0], scene.origin), (Vec3d{0, -500000, 0}));
 }
 
-TEST(TomlOrigin, AutoTakesAShortPointThatIsNearEnough) {
+TEST(TomlOrigin, AutoTakesAShortNearPoint) {
   const test::SceneFolder files;
   const auto origin = [&](const std::string& radius) {
     static_cast<void>(files.write("cell.xyz",
@@ -246,7 +246,7 @@ TEST(TomlOrigin, AutoTakesAShortPointThatIsNearEnough) {
 }
 
 /// Too far apart for their radii: a point among them makes the rounding less, but not unseen.
-TEST(TomlOrigin, AutoTakesAPointAmongWhatIsWide) {
+TEST(TomlOrigin, AutoTakesAPointInWideScenes) {
   const test::SceneFolder files;
   const auto origin = [&](const std::string& atoms) {
     static_cast<void>(files.write("wide.xyz", "2\n\n" + atoms));
@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
         test::Refusal{"NoNumber", "schema = 1\norigin = [1, nan, 2]\n", 2, 10, "origin", "finite"}),
     test::refusal_name);
 
-TEST(OriginOfASeries, IsTakenWhereTheSceneLeavesItToBeChosen) {
+TEST(OriginOfASeries, IsTakenWhereTheSceneAllows) {
   const test::SceneFolder files;
   const std::string sphere = "[[sphere]]\ncenter = [5, 0, 0]\n";
   SceneFileOptions series;

@@ -129,7 +129,7 @@ TEST_F(TomlParticlesTest, HaveColorsFromTheKey) {
   }
 }
 
-TEST_F(TomlParticlesTest, HaveColorsFromAColumnWhoseNameHasBlanks) {
+TEST_F(TomlParticlesTest, TakeColorsFromBlankedColumnNames) {
   write("a.csv", "x,y,z,r,Two words,Three words here\n0,0,0,1,#102030,#405060\n");
   EXPECT_THAT(colors(with("color = \"Two words\"\n", "a.csv")), ElementsAre("#102030"));
   EXPECT_THAT(colors(with("color = \"Three words here\"\n", "a.csv")), ElementsAre("#405060"));
@@ -185,7 +185,7 @@ TEST_F(TomlParticlesTest, AreSelectedWrappedAndReplicated) {
   EXPECT_EQ(many.particles.at(0).spheres, 18u);
 }
 
-TEST_F(TomlParticlesTest, ComeFromTheFrameThatIsAskedFor) {
+TEST_F(TomlParticlesTest, ComeFromTheRequestedFrame) {
   EXPECT_THAT(xs(with("", "run.xyz")), ElementsAre(4));
   EXPECT_THAT(xs(with("frame = -1\n", "run.xyz")), ElementsAre(4));
   EXPECT_THAT(xs(with("frame = 0\n", "run.xyz")), ElementsAre(0));
@@ -200,7 +200,7 @@ TEST_F(TomlParticlesTest, ComeFromTheFrameThatIsAskedFor) {
   EXPECT_THAT(xs(with("", "run.####.xyz", third)), ElementsAre(1));
 }
 
-TEST_F(TomlParticlesTest, OfAFrameThatIsNotThereAreRefused) {
+TEST_F(TomlParticlesTest, MissingFrameIsRefused) {
   expect_refused("frame = 5\n", "frame", "has no frame 5, it has 5 frames, from 0 to 4", "run.xyz");
   expect_refused("frame = -6\n", "frame", "has no frame -6, it has 5 frames", "run.xyz");
   expect_refused("frame = 1\n", "frame", "has no frame 1, it has one frame, number 0");
@@ -212,7 +212,7 @@ TEST_F(TomlParticlesTest, OfAFrameThatIsNotThereAreRefused) {
   EXPECT_THAT(refused.error().message, HasSubstr("'run.xyz' has no frame 7, it has 5 frames"));
 }
 
-TEST_F(TomlParticlesTest, StandAmongOtherSpheresInTheOrderOfTheFile) {
+TEST_F(TomlParticlesTest, KeepTheirOrderAmongOtherSpheres) {
   const LoadedScene scene = loaded(
       "[[sphere]]\ncenter = [10, 0, 0]\n"
       "[[particles]]\nfile = \"run.xyz\"\nframe = 1\n"
@@ -273,7 +273,7 @@ TEST_F(TomlParticlesTest, WithACellHaveZUp) {
   EXPECT_EQ(std::get<PinholeCamera>(*placed.scene.camera).pose.up, (Vec3f{0, 1, 0}));
 }
 
-TEST_F(TomlParticlesTest, AreReadInAFormatAndWithColumnsOfOnesOwn) {
+TEST_F(TomlParticlesTest, TakeAGivenFormatAndColumns) {
   write("atoms.film", atoms);
   EXPECT_EQ(with("format = \"xyz\"\n", "atoms.film").scene.spheres.size(), 3u);
   write("plain.xyz", "1\n\nC 1 2 3 7\n");
@@ -311,7 +311,7 @@ TEST_F(TomlParticlesTest, WrongKeysAreRefused) {
   expect_refused("replicate = [2, 2, 2]\n", "replicate", "cell", "run.xyz");
 }
 
-TEST_F(TomlParticlesTest, KeysThatAreUnknownOrMissingAreRefused) {
+TEST_F(TomlParticlesTest, UnknownOrMissingKeysAreRefused) {
   const auto unknown = load("[[particles]]\nfile = \"atoms.xyz\"\nradiu = 1\n");
   ASSERT_FALSE(unknown.ok());
   EXPECT_EQ(unknown.error().key, "particles[0].radiu");
@@ -352,7 +352,7 @@ TEST_F(TomlParticlesTest, WrongMapsAreRefusedInTheirTable) {
   EXPECT_EQ(missing.error().key, "particles[0].color.by");
 }
 
-TEST_F(TomlParticlesTest, ErrorsInTheFileKeepTheirPlaceThere) {
+TEST_F(TomlParticlesTest, FileErrorsKeepTheirPlace) {
   write("bad.xyz", "2\n\nC 0 0 0\nC 0 zero 0\n");
   const auto bad = load("[[particles]]\nfile = \"bad.xyz\"\n");
   ASSERT_FALSE(bad.ok());
@@ -383,7 +383,7 @@ TEST_F(TomlParticlesTest, OfALateMaterialAreRefused) {
   EXPECT_EQ(refused.error().key, "particles[0].material");
 }
 
-TEST_F(TomlParticlesTest, TextIsReadAsIfItStoodInAFile) {
+TEST_F(TomlParticlesTest, TextIsReadLikeAFile) {
   const std::string text = "schema = 1\n[[particles]]\nfile = \"run.xyz\"\n";
   const auto made = load_scene_text(text, files_.path("none.toml"));
   ASSERT_TRUE(made.ok()) << format_diagnostic(made.error());

@@ -254,7 +254,7 @@ TEST(TomlScene, AnFNumberNarrowsALensStop) {
   for (std::size_t i : {0U, 1U, 3U, 4U}) EXPECT_EQ(f16.surfaces[i].aperture, 20) << i;
 }
 
-TEST(TomlScene, AnFNumberThatALensHasNotIsRefused) {
+TEST(TomlScene, UnreachableFNumberIsRefused) {
   const test::SceneFolder files;
   static_cast<void>(files.write("five.lens", five_surfaces));
   static_cast<void>(files.write("none.lens", "50 5 1.5 20\n-50 0 1 20\n"));
@@ -278,7 +278,7 @@ TEST(TomlScene, AnFNumberThatALensHasNotIsRefused) {
   for (const char* lens : {"none", "two", "flat"}) expect(lens, "8", "must have one stop");
 }
 
-TEST(TomlScene, ObjectsWithoutAMaterialShareADefaultMatteAndPlanesADarkerOne) {
+TEST(TomlScene, DefaultMaterialIsMatteDarkerForPlanes) {
   const Scene scene = load(R"(schema = 1
 [[plane]]
 [[sphere]]
@@ -327,7 +327,7 @@ TEST(TomlScene, DottedKeysAndInlineTables) {
   EXPECT_EQ(dump(scene), dump(expected));
 }
 
-TEST(TomlScene, AKeyOfManyPartsIsRefusedAtAnyLength) {
+TEST(TomlScene, DeepKeysAreRefusedAtAnyLength) {
   std::string key = "a";
   for (int i = 0; i < 1000000; ++i) key += ".a";
   for (const std::string& text : {key + " = 1\n", "[" + key + "]\n"}) {
@@ -346,7 +346,7 @@ TEST(TomlScene, NamesBeyondAscii) {
   EXPECT_EQ(scene.materials[0].name, "gr\xc3\xbcn");
 }
 
-TEST(TomlScene, DotsInStringsCommentsAndListsAreNoKeys) {
+TEST(TomlScene, DotsElsewhereMakeNoKeys) {
   std::string dots(100, '.'), list = "[[0.5, 0.5, 0.5]";
   for (int i = 0; i < 40; ++i) list += ", [0.5, 0.5, 0.5]";
   const std::string text = "# " + dots + "\nschema = 1\n[material.\"" + dots + "\"]\n[material.'" +

@@ -36,7 +36,7 @@ class TraceFiles : public testing::Test {
   TempDir folder_;
 };
 
-TEST_F(TraceFiles, RaysComeBackAsTheyWereWhateverThePieces) {
+TEST_F(TraceFiles, RaysSurviveAnySplit) {
   std::vector<Ray> rays = ray_cloud(10'000);
   rays[17].tmax = std::numeric_limits<float>::infinity();
   rays[18].dir.y = std::numeric_limits<float>::quiet_NaN();
@@ -64,7 +64,7 @@ std::vector<Ray> read_rays(RayFile& file) {
   return rays;
 }
 
-TEST_F(TraceFiles, DoublesAreRoundedToTheNearestFloatOnce) {
+TEST_F(TraceFiles, DoublesAreRoundedOnceToNearest) {
   CaseRandom random(31);
   std::vector<RayRow> rows;
   std::vector<Ray> expected;
@@ -120,7 +120,7 @@ TEST_F(TraceFiles, DoublesThatNoFloatHoldsBecomeInfinite) {
   EXPECT_EQ(file.value().lost(), 3u);
 }
 
-TEST_F(TraceFiles, RaysThatVanishWhileTheyAreReadAreAnError) {
+TEST_F(TraceFiles, VanishingRaysAreAnError) {
   const std::string name = write("r.npy", ray_file(ray_cloud(100)));
   auto file = RayFile::open(name);
   ASSERT_TRUE(file);
@@ -157,7 +157,7 @@ TEST_F(TraceFiles, MetIsWrittenAsBytes) {
   EXPECT_TRUE(read("h.npy") == met_file(met));
 }
 
-TEST_F(TraceFiles, MoreRaysThanThereAreAreAnError) {
+TEST_F(TraceFiles, MissingRaysAreAnError) {
   auto file = RayFile::open(write("r.npy", ray_file(ray_cloud(10))));
   ASSERT_TRUE(file);
   std::vector<Ray> rays(7);
@@ -193,7 +193,7 @@ TEST_F(TraceFiles, WhatIsAssignedToAnotherRefuses) {
   EXPECT_FALSE(std::filesystem::exists(path("first.npy")));
 }
 
-TEST_F(TraceFiles, HitsThatAreNotThoseOfTheFileAreAnError) {
+TEST_F(TraceFiles, HitsOfAnotherFileAreAnError) {
   const std::vector<TracedHit> hits(5);
   const std::vector<std::uint8_t> met(5);
   for (const HitKind kind : {HitKind::closest, HitKind::any}) {

@@ -20,7 +20,7 @@ TEST(Access, TokensAreLongAndNeverTheSame) {
   EXPECT_EQ(all.size(), 100u);
 }
 
-TEST(Access, ASecretIsTheSameInEveryByte) {
+TEST(Access, SecretComparesEveryByte) {
   EXPECT_TRUE(same_secret("0123456789", "0123456789"));
   for (std::size_t i = 0; i < 10; ++i) {
     std::string other = "0123456789";

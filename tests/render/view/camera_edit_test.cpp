@@ -83,7 +83,7 @@ Camera camera_of(const std::string& text, const Vec3d& origin) {
   return read ? read.value().scene.camera.value_or(Camera{}) : Camera{};
 }
 
-TEST(CameraEdit, TextsAreReadBackAsTheSameFloats) {
+TEST(CameraEdit, TextsReadBackAsTheSameFloats) {
   test::CaseRandom random(5);
   for (int i = 0; i < 200; ++i) {
     const auto point = [&](double scale) {

@@ -43,7 +43,7 @@ TEST(FrameHeader, IsReadBack) {
   EXPECT_FALSE(decode(std::string(40, 'x'), frame));
 }
 
-TEST(Outbox, OneFrameIsOnItsWayAndTheNewestFollows) {
+TEST(Outbox, OneFrameInFlightThenTheNewest) {
   int notified = 0;
   Outbox outbox([&] { ++notified; });
   outbox.reset(true);
@@ -87,7 +87,7 @@ TEST(Outbox, TextsComeFirstAndAllOfThem) {
   EXPECT_FALSE(outbox.take());
 }
 
-TEST(Outbox, AClientThatReadsNothingIsGivenUp) {
+TEST(Outbox, SilentClientIsGivenUp) {
   Outbox outbox([] {});
   outbox.reset(true);
   const std::string text(1 << 16, 'x');

@@ -94,7 +94,7 @@ TEST(WebServer, RefusesBrokenRequests) {
   EXPECT_EQ(asked_status(place), 101);  // it is still there
 }
 
-TEST(WebServer, ThePictureAtRestIsTheRenderersBitForBit) {
+TEST(WebServer, RestingPictureMatchesTheRenderer) {
   const Scene scene = scene_of(64, 48, 3);
   RunningServer server(scene);
   ViewClient client(server.place());
@@ -253,7 +253,7 @@ TEST(WebServer, TheLastClientHasTheSession) {
   EXPECT_EQ(clients.back()->wait_for("texts")["id"], 5);
 }
 
-TEST(WebServer, WhatAClientChoseStaysForTheNext) {
+TEST(WebServer, ChoicesStayForTheNextClient) {
   RunningServer server(scene_of(32, 24, 1));
   {
     ViewClient client(server.place());
