@@ -92,9 +92,9 @@ std::string file_name(const std::string& text) {
 }
 
 bool write(const Image& image, const std::filesystem::path& path) {
-  const Status problem = write_image(image, path.string());
-  if (problem) std::fprintf(stderr, "%s\n", format_diagnostic(*problem).c_str());
-  return !problem;
+  const Status done = write_image(image, path.string());
+  if (!done) std::fprintf(stderr, "%s\n", format_diagnostic(done.error()).c_str());
+  return done.ok();
 }
 
 bool write_pictures(const EpsilonScene& scene, const std::filesystem::path& folder) {

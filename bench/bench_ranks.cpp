@@ -56,7 +56,7 @@ std::vector<double> recorded_costs(Scene&& scene) {
       costs.push_back(least);
     }
   });
-  if (status) std::exit(1);
+  if (!status) std::exit(1);
   return costs;
 }
 

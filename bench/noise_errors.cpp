@@ -41,7 +41,7 @@ RenderOptions options_for(const Scene& scene, const NoiseSettings& settings) {
 /// Processor seconds of rendering that must not fail.
 double seconds_of(const auto& render) {
   const double begin = thread_seconds();
-  if (render()) std::abort();
+  if (!render()) std::abort();
   return thread_seconds() - begin;
 }
 

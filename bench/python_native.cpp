@@ -53,7 +53,8 @@ class Native {
   double closest_seconds() {
     const py::gil_scoped_release no_gil;
     const Stopwatch watch;
-    if (auto bad = tracer_.closest(rays_, hits_)) throw std::runtime_error(bad->message);
+    if (auto done = tracer_.closest(rays_, hits_); !done)
+      throw std::runtime_error(done.error().message);
     return watch.seconds();
   }
 

@@ -87,8 +87,8 @@ int main(int argc, char** argv) {
     std::fputs("usage: boule_sky ELEVATION HEIGHT FILE.exr    (ELEVATION 1 to 89)\n", stderr);
     return 2;
   }
-  if (const Status failure = write_image(sky(elevation, height), argv[3])) {
-    std::fprintf(stderr, "%s\n", format_diagnostic(*failure).c_str());
+  if (const Status done = write_image(sky(elevation, height), argv[3]); !done) {
+    std::fprintf(stderr, "%s\n", format_diagnostic(done.error()).c_str());
     return 1;
   }
   return 0;

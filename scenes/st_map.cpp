@@ -48,8 +48,8 @@ int main(int argc, char** argv) {
     std::fputs("usage: boule_st_map AMOUNT WIDTH HEIGHT FILE.exr    (AMOUNT -0.3 to 4)\n", stderr);
     return 2;
   }
-  if (const Status failure = write_image(st_map(amount, width, height), argv[4])) {
-    std::fprintf(stderr, "%s\n", format_diagnostic(*failure).c_str());
+  if (const Status done = write_image(st_map(amount, width, height), argv[4]); !done) {
+    std::fprintf(stderr, "%s\n", format_diagnostic(done.error()).c_str());
     return 1;
   }
   return 0;

@@ -90,10 +90,10 @@ Result<std::vector<FrameProgram>> make_frame_programs(const BenchScene& flake,
   const auto tachyon = [&](Floor floor) {
     return as_tachyon(flake, floor, side, frame_bounces + 1);
   };
-  if (auto bad = write_text(nff, as_nff(flake))) return *bad;
-  if (auto bad = write_text(pov, as_pov(flake, frame_bounces + 1))) return *bad;
-  if (auto bad = write_text(with_plane, tachyon(Floor::plane))) return *bad;
-  if (auto bad = write_text(with_square, tachyon(Floor::square))) return *bad;
+  if (auto done = write_text(nff, as_nff(flake)); !done) return done.error();
+  if (auto done = write_text(pov, as_pov(flake, frame_bounces + 1)); !done) return done.error();
+  if (auto done = write_text(with_plane, tachyon(Floor::plane)); !done) return done.error();
+  if (auto done = write_text(with_square, tachyon(Floor::square)); !done) return done.error();
   std::vector<FrameProgram> programs;
   programs.reserve(isas.size() + 3);
   for (const std::string& isa : isas) programs.push_back(boule_program(isa, nff));

@@ -42,11 +42,11 @@ class Run {
 
   /// One repetition more.
   Status repeat(int side) {
-    if (!installed()) return std::nullopt;
-    if (auto bad = time(start_up_side, 1, start_)) return bad;
-    if (auto bad = time(side, 1, frame_)) return bad;
-    if (!program_.ours) return std::nullopt;
-    if (auto bad = time(start_up_side, 2, start_of_two_)) return bad;
+    if (!installed()) return {};
+    if (auto done = time(start_up_side, 1, start_); !done) return done;
+    if (auto done = time(side, 1, frame_); !done) return done;
+    if (!program_.ours) return {};
+    if (auto done = time(start_up_side, 2, start_of_two_); !done) return done;
     return time(side, 2, frame_of_two_);
   }
 
@@ -80,7 +80,7 @@ class Run {
     if (!taken) return taken.error();
     times.cpu.push_back(taken.value().cpu);
     times.wall.push_back(taken.value().wall);
-    return std::nullopt;
+    return {};
   }
 
   FrameProgram program_;
@@ -99,7 +99,7 @@ Status compare_all(const std::vector<Run>& runs, std::vector<FrameRow>& rows) {
     if (!theirs) return theirs.error();
     rows[i].difference = compare_pictures(ours.value(), theirs.value(), program.habit);
   }
-  return std::nullopt;
+  return {};
 }
 
 void set_ratios(const std::vector<Run>& runs, std::vector<FrameRow>& rows) {
@@ -119,7 +119,7 @@ Status keep_pictures(const std::vector<Run>& runs, const path& folder, const std
                                folder / (scene + "-" + run.picture().filename().string()),
                                std::filesystem::copy_options::overwrite_existing, failed);
   }
-  if (!failed) return std::nullopt;
+  if (!failed) return {};
   return Diagnostic::of("cannot keep pictures in " + quote(folder.string(), 200));
 }
 
@@ -134,7 +134,7 @@ Result<FrameResults> compare_scene(const std::string& name, const FrameSettings&
     runs.emplace_back(std::move(program), folder.path());
   for (int i = 0; i < settings.repetitions; ++i) {
     for (Run& run : runs) {
-      if (auto bad = run.repeat(settings.side)) return *bad;
+      if (auto done = run.repeat(settings.side); !done) return done.error();
     }
   }
   FrameResults results;
@@ -142,10 +142,10 @@ Result<FrameResults> compare_scene(const std::string& name, const FrameSettings&
     results.rows.push_back(run.row(name));
     if (run.program().ours) results.scaling.push_back(run.scaling(name));
   }
-  if (auto bad = compare_all(runs, results.rows)) return *bad;
+  if (auto done = compare_all(runs, results.rows); !done) return done.error();
   set_ratios(runs, results.rows);
   if (settings.pictures.empty()) return results;
-  if (auto bad = keep_pictures(runs, settings.pictures, name)) return *bad;
+  if (auto done = keep_pictures(runs, settings.pictures, name); !done) return done.error();
   return results;
 }
 

@@ -97,7 +97,7 @@ Status find_problem(const Arguments& arguments) {
     const auto kernels = select_kernels(isa);
     if (!kernels) return kernels.error();
   }
-  return std::nullopt;
+  return {};
 }
 
 int fail(const Diagnostic& diagnostic, int code) {
@@ -123,15 +123,15 @@ int run_frames(const Arguments& arguments) {
   if (!results) return fail(results.error(), 1);
   const FrameResults& found = results.value();
   if (!arguments.json.empty()) {
-    const Status failed = write_frames_json(arguments.json, machine, settings, found);
-    if (failed) return fail(*failed, 1);
+    const Status done = write_frames_json(arguments.json, machine, settings, found);
+    if (!done) return fail(done.error(), 1);
   }
   const auto alike = [](const FrameRow& row) { return row.alike(); };
   return std::all_of(found.rows.begin(), found.rows.end(), alike) ? 0 : 1;
 }
 
 int run(const Arguments& arguments) {
-  if (const Status problem = find_problem(arguments)) return fail(*problem, 2);
+  if (const Status done = find_problem(arguments); !done) return fail(done.error(), 2);
   if (arguments.whole_frames) return run_frames(arguments);
   const Machine machine = this_machine();
   print_machine(machine, arguments.settings);
@@ -139,8 +139,8 @@ int run(const Arguments& arguments) {
   if (!results) return fail(results.error(), 2);
   print_summary(results.value(), arguments.settings);
   if (!arguments.json.empty()) {
-    const Status failed = write_json(arguments.json, machine, arguments.settings, results.value());
-    if (failed) return fail(*failed, 1);
+    const Status done = write_json(arguments.json, machine, arguments.settings, results.value());
+    if (!done) return fail(done.error(), 1);
   }
   return all_right(results.value()) ? 0 : 1;
 }

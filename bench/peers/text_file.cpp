@@ -8,7 +8,7 @@ Status write_text(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
-  if (file) return std::nullopt;
+  if (file) return {};
   return Diagnostic::of("cannot write " + quote(path, 200));
 }
 

@@ -93,7 +93,23 @@ class [[nodiscard]] Result {
   std::variant<T, Diagnostic> state_;
 };
 
-/// std::nullopt for success, or the Diagnostic that explains the failure.
-using Status = std::optional<Diagnostic>;
+/// Success, or the Diagnostic that explains the failure.
+class [[nodiscard]] Status {
+ public:
+  /// Success.
+  Status() = default;
+  Status(Diagnostic error) : error_(std::move(error)) {}
+
+  /// True for success.
+  [[nodiscard]] bool ok() const { return !error_; }
+  explicit operator bool() const { return ok(); }
+
+  /// The Diagnostic. Throws std::bad_optional_access if ok().
+  [[nodiscard]] const Diagnostic& error() const { return error_.value(); }
+  [[nodiscard]] Diagnostic& error() { return error_.value(); }
+
+ private:
+  std::optional<Diagnostic> error_;
+};
 
 }  // namespace boule

@@ -10,7 +10,7 @@ namespace boule {
 namespace {
 
 Status located(const std::string& path, const std::optional<Problem>& problem) {
-  if (!problem) return std::nullopt;
+  if (!problem) return {};
   return Diagnostic::about(path + "." + problem->field, problem->message);
 }
 
@@ -24,7 +24,7 @@ class SectionCheck {
  public:
   explicit SectionCheck(const Scene& scene) {
     each_field(scene, [this](const auto& field, const auto& section) {
-      if (!status_) status_ = this->check(std::string(field.key), field.rule, section);
+      if (status_) status_ = this->check(std::string(field.key), field.rule, section);
     });
   }
 
@@ -38,30 +38,31 @@ class SectionCheck {
   }
   template <class T>
   static Status check(const std::string& key, const TypeRule& rule, const std::optional<T>& some) {
-    return some ? check(key, rule, *some) : std::nullopt;
+    return some ? check(key, rule, *some) : Status();
   }
   static Status check(const std::string& key, const NumberRule& rule, const Color& color) {
     ProblemFinder finder;
     finder.check(key, rule, color);
-    if (!finder.problem()) return std::nullopt;
+    if (!finder.problem()) return {};
     return Diagnostic::about(key, finder.problem()->message);
   }
   static Status check(const std::string& key, const NumberRule& rule,
                       const std::optional<Color>& color) {
-    return color ? check(key, rule, *color) : std::nullopt;
+    return color ? check(key, rule, *color) : Status();
   }
   static Status check(const std::string& key, const TypeRule&,
                       const std::vector<NamedMaterial>& materials) {
     for (const NamedMaterial& named : materials) {
-      if (auto bad = located(key + "." + named.name, find_problem(named.material))) return bad;
+      if (auto done = located(key + "." + named.name, find_problem(named.material)); !done)
+        return done;
     }
-    return std::nullopt;
+    return {};
   }
   static Status check(const std::string& key, const TypeRule&, const std::vector<Light>& lights) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (auto bad = located(numbered(key, i), find_problem(lights[i]))) return bad;
+      if (auto done = located(numbered(key, i), find_problem(lights[i])); !done) return done;
     }
-    return std::nullopt;
+    return {};
   }
   /// check_objects() checks the objects.
   static Status check(const std::string&, const TypeRule&, const std::vector<Sphere>&) {
@@ -106,28 +107,29 @@ template <class Primitive>
 Status check_primitives(const std::string& name, const std::vector<Primitive>& primitives,
                         const Scene& scene, const ParallelFor& parallel_for = serial_for) {
   const std::size_t i = find_wrong(primitives, scene.materials.size(), parallel_for);
-  if (i == primitives.size()) return std::nullopt;
+  if (i == primitives.size()) return {};
   const std::string path = numbered(name, i);
   if (auto problem = find_problem(primitives[i])) return located(path, problem);
   return Diagnostic::about(path + ".material", "names no material of the scene");
 }
 
 Status check_packed(const Scene& scene) {
-  if (!scene.packed) return std::nullopt;
+  if (!scene.packed) return {};
   if (count_primitives(scene).spheres != scene.packed->count)
     return Diagnostic::about("packed", "a scene has no other spheres beside packed ones");
   if (scene.materials.size() < scene.packed->made_of.size())
     return Diagnostic::about("packed", "the scene lacks materials of its packed spheres");
-  return std::nullopt;
+  return {};
 }
 
 Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
-  if (auto bad = check_primitives("sphere", scene.spheres, scene, parallel_for)) return bad;
-  if (auto bad = check_primitives("plane", scene.planes, scene)) return bad;
+  if (auto done = check_primitives("sphere", scene.spheres, scene, parallel_for); !done)
+    return done;
+  if (auto done = check_primitives("plane", scene.planes, scene); !done) return done;
   for (const Group& group : scene.groups) {
     const std::string path = "group." + group.name + ".";
-    if (auto bad = check_primitives(path + "sphere", group.spheres, scene)) return bad;
-    if (auto bad = check_primitives(path + "plane", group.planes, scene)) return bad;
+    if (auto done = check_primitives(path + "sphere", group.spheres, scene); !done) return done;
+    if (auto done = check_primitives(path + "plane", group.planes, scene); !done) return done;
   }
   const auto bad = find_instance_problem(scene);
   if (!bad) return check_packed(scene);
@@ -138,13 +140,13 @@ Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
 }  // namespace
 
 Status check_range(const char* key, int value, const WholeRule& rule) {
-  if (rule.allows(value)) return std::nullopt;
+  if (rule.allows(value)) return {};
   return Diagnostic::about(key, "must be " + describe(rule) + ", is " + std::to_string(value));
 }
 
 Status validate_all_but_primitives(const Scene& scene) {
   const SectionCheck sections(scene);
-  if (sections.status()) return sections.status();
+  if (!sections.status()) return sections.status();
   const std::uint64_t packed = scene.packed ? scene.packed->count : 0;
   const std::uint64_t most =
       packed > 0 && scene.packed->trees.size() > 1 ? max_shown_primitives : max_primitives;
@@ -152,11 +154,11 @@ Status validate_all_but_primitives(const Scene& scene) {
     return Diagnostic::about("sphere",
                              "a scene has at most " + std::to_string(most) + " primitives");
   }
-  return std::nullopt;
+  return {};
 }
 
 Status validate_in_parallel(const Scene& scene, const ParallelFor& parallel_for) {
-  if (auto bad = validate_all_but_primitives(scene)) return bad;
+  if (auto done = validate_all_but_primitives(scene); !done) return done;
   return check_objects(scene, parallel_for);
 }
 

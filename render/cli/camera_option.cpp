@@ -8,7 +8,7 @@ namespace boule::cli {
 
 /// The keys are read as those of a scene that has nothing else.
 Status use_camera(const std::string& keys, std::optional<int> frame, LoadedScene& loaded) {
-  if (keys.empty()) return std::nullopt;
+  if (keys.empty()) return {};
   const Vec3d& origin = loaded.origin;
   const std::string shown_path = "the camera of the command line";
   const std::string text = fmt::format("schema = 1\norigin = [{}, {}, {}]\ncamera = {{{}}}\n",
@@ -27,7 +27,7 @@ Status use_camera(const std::string& keys, std::optional<int> frame, LoadedScene
   loaded.scene.camera = std::move(scene.camera);
   loaded.scene.distortion = std::move(scene.distortion);
   if (!loaded.scene.camera) loaded.scene.fit = scene.fit;
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule::cli

@@ -17,7 +17,7 @@ namespace boule::cli {
 Result<Checkpoint> Checkpoint::open(const RenderCommand& command, ExitCode& code) {
   const CheckpointChoice& choice = *command.checkpoint;
   code = failed;
-  if (auto bad = film_file::check_support()) return *bad;
+  if (auto done = film_file::check_support(); !done) return done.error();
   auto lock = FileLock::take(choice.file + ".lock");
   if (!lock) return lock.error();
   std::error_code ignored;
@@ -42,7 +42,7 @@ Result<bool> Checkpoint::load(const FilmHead& head, PartSheet& sheet) const {
   if (!difference.empty()) return Diagnostic::in_file(choice_.file, difference);
   // A sample that is to be the only one lies at the pixel's centre, where none of several does.
   if (found.spp == 1 && head.spp > 1) return false;
-  if (auto bad = reader.value().read(sheet)) return *bad;
+  if (auto done = reader.value().read(sheet); !done) return done.error();
   const int most = sheet.most_samples(), usable = found.spp > 1 && head.spp == 1 ? 0 : head.spp;
   if (most <= usable) return true;
   return Diagnostic::in_file(

@@ -31,7 +31,7 @@ Status check_frames(const RenderCommand& command) {
         "with --frames the file's name needs a place for the number, such as run.####.film",
         "--checkpoint");
   }
-  return std::nullopt;
+  return {};
 }
 
 Status check_single(const RenderCommand& command) {
@@ -46,7 +46,7 @@ Status check_single(const RenderCommand& command) {
 
 Status check_single_scene(const std::string& scene) {
   std::error_code ignored;
-  if (!has_wide_frame_slot(scene) || std::filesystem::exists(scene, ignored)) return std::nullopt;
+  if (!has_wide_frame_slot(scene) || std::filesystem::exists(scene, ignored)) return {};
   return wrong_option(quote(scene) +
                           " is not there, but has a place for a frame's number: "
                           "--frames is missing",
@@ -67,14 +67,14 @@ RenderCommand command_of_frame(const RenderCommand& command, int frame) {
 Status check_folders(const RenderCommand& command, const FrameRange& frames) {
   const bool numbered =
       std::filesystem::path(command.output).parent_path().string().find('#') != std::string::npos;
-  if (!numbered || command.skip_existing) return std::nullopt;
+  if (!numbered || command.skip_existing) return {};
   for (int number = frames.first; number <= frames.last; number += frames.step) {
-    if (auto bad = check_output(frame_name(command.output, number))) {
-      bad->message = fmt::format("frame {}: {}", number, bad->message);
-      return bad;
+    if (auto done = check_output(frame_name(command.output, number)); !done) {
+      done.error().message = fmt::format("frame {}: {}", number, done.error().message);
+      return done;
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule::cli

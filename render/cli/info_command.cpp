@@ -57,8 +57,8 @@ ExitCode tell(const InfoCommand& command, const std::string& scene, std::optiona
 
 ExitCode run(const InfoCommand& command) {
   if (!command.frames) {
-    const auto bad = check_single_scene(command.scene);
-    return bad ? report(*bad, wrong_usage) : tell(command, command.scene, std::nullopt);
+    const auto done = check_single_scene(command.scene);
+    return !done ? report(done.error(), wrong_usage) : tell(command, command.scene, std::nullopt);
   }
   const FrameRange& range = *command.frames;
   for (int frame = range.first; frame <= range.last; frame += range.step) {

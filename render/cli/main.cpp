@@ -35,7 +35,7 @@ void limit_threads_of_task() {
 ExitCode run_program(int argc, char** argv) {
   try {
     limit_threads_of_task();
-    if (const auto bad = take_stack()) return report(*bad, failed);
+    if (const auto done = take_stack(); !done) return report(done.error(), failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
   } catch (const std::bad_alloc&) {
     leave_without_memory();

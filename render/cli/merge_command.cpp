@@ -28,7 +28,7 @@ class Merging {
   /// Reads all films. The Diagnostic names the one that is wrong, or what is missing.
   Status read() {
     for (const std::string& file : command_.films) {
-      if (auto bad = add(file)) return bad;
+      if (auto done = add(file); !done) return done;
     }
     return check_blocks();
   }
@@ -64,9 +64,9 @@ Status Merging::add(const std::string& file) {
     if (!(head.rect == head_.rect) || head.kinds.pixel_bytes() != head_.kinds.pixel_bytes())
       return Diagnostic::in_file(file, "is not of the pixels of " + command_.films.front());
   }
-  if (auto bad = reader.value().read(*sheet_)) return bad;
+  if (auto done = reader.value().read(*sheet_); !done) return done;
   head_.blocks.insert(head_.blocks.end(), head.blocks.begin(), head.blocks.end());
-  return std::nullopt;
+  return {};
 }
 
 Status Merging::check_blocks() {
@@ -75,7 +75,7 @@ Status Merging::check_blocks() {
   const PartialSamples samples = samples_of(*sheet_, head_.blocks, head_.spp);
   if (samples.done == 0) return Diagnostic::of("the films do not make a picture: no pixel is done");
   if (samples.done < samples.all) partial_ = samples;
-  return std::nullopt;
+  return {};
 }
 
 /// Where noise is measured, a film has nothing of pixels that are not.
@@ -97,7 +97,7 @@ Status check_format(const FilmHead& head, const MergeCommand& command) {
     return wrong_option("the films are transparent, expected --output to be an .exr or .png file",
                         "--output");
   }
-  return std::nullopt;
+  return {};
 }
 
 ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
@@ -128,10 +128,10 @@ ExitCode write(const MergeCommand& command, Merging& merging, const std::string&
   {
     const WriteGuard guard;
     status = write_image(image, command.output, file_options(command, merging, date));
-    if (!status) set_written("the picture had been written");
+    if (status) set_written("the picture had been written");
   }
   exit_if_interrupted();
-  if (status) return report(*status, failed);
+  if (!status) return report(status.error(), failed);
   const std::string films = counted(command.films.size(), "film");
   if (const auto& partial = merging.partial()) {  // even if quiet, as render does
     print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, of {}", command.output,
@@ -154,15 +154,16 @@ ExitCode run(const MergeCommand& command) {
   }
   const auto date = source_date();
   if (!date) return report(date.error(), wrong_usage);
-  if (auto bad = film_file::check_support()) return report(*bad, failed);
+  if (auto done = film_file::check_support(); !done) return report(done.error(), failed);
   RunOptions outputs;
   outputs.output = command.output;
-  if (auto bad = check_data_files(outputs, "picture", command.films))
-    return report(*bad, wrong_usage);
-  if (auto bad = check_output(command.output)) return report(*bad, failed);
+  if (auto done = check_data_files(outputs, "picture", command.films); !done)
+    return report(done.error(), wrong_usage);
+  if (auto done = check_output(command.output); !done) return report(done.error(), failed);
   Merging merging(command);
-  if (auto bad = merging.read()) return report(*bad, invalid_input);
-  if (auto bad = check_format(merging.head(), command)) return report(*bad, wrong_usage);
+  if (auto done = merging.read(); !done) return report(done.error(), invalid_input);
+  if (auto done = check_format(merging.head(), command); !done)
+    return report(done.error(), wrong_usage);
   return write(command, merging, date.value());
 }
 

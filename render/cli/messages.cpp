@@ -17,18 +17,18 @@ bool has_reader = true;
 Status print_data(const std::string& text) {
   write_lines("");  // ends an open line: both streams may be the same terminal
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (written && std::fflush(stdout) == 0) return std::nullopt;
+  if (written && std::fflush(stdout) == 0) return {};
   if (errno != EPIPE) return cannot_write("standard output", errno);
   has_reader = false;
-  return std::nullopt;
+  return {};
 }
 
 bool reader_left() { return !has_reader; }
 
 ExitCode print_as_result(const std::string& text) {
-  const Status bad = print_data(text);
+  const Status printed = print_data(text);
   if (reader_left()) leave_unread();
-  return bad ? report(*bad, failed) : done;
+  return printed ? done : report(printed.error(), failed);
 }
 
 void print_note(const std::string& text) { write_lines(text + "\n"); }

@@ -18,7 +18,7 @@ Diagnostic refusal(const std::string& name, int code) { return cannot_write(name
 Status check_stream(const std::string& name, mode_t mode) {
   if (S_ISSOCK(mode)) return refusal(name, ENXIO);
   if (faccessat(AT_FDCWD, name.c_str(), W_OK, AT_EACCESS) != 0) return refusal(name, errno);
-  return std::nullopt;
+  return {};
 }
 
 /// Tries it out: creates the temporary file that writing would create, and removes it again.
@@ -43,14 +43,14 @@ Status check_output(const std::string& name) {
 }
 
 Status check_stats_target(const StatsTarget& target) {
-  if (target.form != StatsForm::json) return std::nullopt;
+  if (target.form != StatsForm::json) return {};
   return target.file == "-" ? check_standard_output() : check_output(target.file);
 }
 
 Status check_standard_output() {
   const int flags = fcntl(STDOUT_FILENO, F_GETFL);
   const bool writable = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY;
-  return writable ? std::nullopt : Status(refusal("standard output", EBADF));
+  return writable ? Status() : Status(refusal("standard output", EBADF));
 }
 
 }  // namespace boule::cli

@@ -82,7 +82,7 @@ Status take_stack() {
   }
   if (address_room() < least_limit) return no_memory();
   touch_stack();
-  return std::nullopt;
+  return {};
 }
 
 void leave_without_memory() { leave_at_once("boule: error: out of memory\n", failed); }

@@ -145,8 +145,8 @@ ExitCode write(const PackCommand& command, Input input, const ParallelFor& paral
 }  // namespace
 
 ExitCode run(const PackCommand& command) {
-  if (auto bad = check(command)) return report(*bad, wrong_usage);
-  if (auto bad = check_output(command.output)) return report(*bad, failed);
+  if (auto done = check(command); !done) return report(done.error(), wrong_usage);
+  if (auto done = check_output(command.output); !done) return report(done.error(), failed);
   Scheduler scheduler(command.threads);
   const ParallelFor parallel_for = scheduler.parallel_for();
   auto input = open_input(command, parallel_for);

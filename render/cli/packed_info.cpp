@@ -30,7 +30,7 @@ Result<Json> packed_info(const InfoCommand& command, const std::string& path,
       PackedFile::open(path, {.trust = options.trust, .parallel_for = options.parallel_for});
   if (!file) return file.error();
   if (command.verify) {
-    if (auto bad = file.value().verify(options.parallel_for)) return *bad;
+    if (auto done = file.value().verify(options.parallel_for); !done) return done.error();
   }
   auto scene = file.value().scene();
   if (!scene) return scene.error();

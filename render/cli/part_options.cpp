@@ -72,7 +72,7 @@ Status check_shard(const RenderCommand& command) {
   if (command.skip_existing || command.claim)
     return wrong_option("goes with pictures, not with --shard",
                         command.claim ? "--claim" : "--skip-existing");
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ Status check_part_options(const RenderCommand& command) {
     return wrong_option("shares out a series: --frames is missing", "--claim");
   if (command.claim && command.output == standard_output)
     return wrong_option("needs pictures in files, not on standard output", "--claim");
-  return command.shard ? check_shard(command) : std::nullopt;
+  return command.shard ? check_shard(command) : Status();
 }
 
 }  // namespace boule::cli

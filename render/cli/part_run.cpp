@@ -11,14 +11,14 @@ namespace boule::cli {
 
 /// Takes what the checkpoint holds, if there is one.
 Status PartRun::load() {
-  if (checkpoint_ == nullptr) return std::nullopt;
+  if (checkpoint_ == nullptr) return {};
   const auto loaded = checkpoint_->load(head_, sheet_);
   if (!loaded) return loaded.error();
   resumed_ = loaded.value() ? share() : 0;
   for (const PixelRect& block : head_.blocks) {
     if (is_finished(block)) tell_measured(block);
   }
-  return std::nullopt;
+  return {};
 }
 
 /// The first one, or the next one.
@@ -28,8 +28,8 @@ void PartRun::begin_interval() {
 
 Status PartRun::run(const std::vector<PixelRect>& blocks) {
   head_.blocks = blocks;
-  if (auto bad = load()) return bad;
-  if (auto bad = shows_ ? begin_shown() : std::nullopt) return bad;
+  if (auto done = load(); !done) return done;
+  if (auto done = shows_ ? begin_shown() : Status(); !done) return done;
   begin_interval();
   const int spp = renderer_.options().spp;
   const bool at_once = !shows_ || head_.kinds.measured;
@@ -40,11 +40,11 @@ Status PartRun::run(const std::vector<PixelRect>& blocks) {
   for (std::size_t i = 0; i < passes.size(); ++i) {
     const LivePass pass = passes[i];
     if (pass.until > least || at_once) {
-      if (auto bad = run_pass(pass, begin)) return bad;
+      if (auto done = run_pass(pass, begin); !done) return done;
     }
     begin = pass.share;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// What a picture that is stopped has in any case: lines and AOVs; and where pixels are measured
@@ -63,12 +63,12 @@ Status PartRun::begin_shown() {
     return tools.render(block, 1, preview_);
   };
   const LiveProgress::PassSpan none{share(), share()};
-  if (auto bad = render_some(empty, none, extras)) return bad;
+  if (auto done = render_some(empty, none, extras); !done) return done;
   if (head_.kinds.measured && !StopGuard::flag()) {
     preview_.restart(sheet_.rect());
-    if (auto bad = render_some(rest, none, one_sample)) return bad;
+    if (auto done = render_some(rest, none, one_sample); !done) return done;
   }
-  return StopGuard::flag() ? save_stopped() : std::nullopt;
+  return StopGuard::flag() ? save_stopped() : Status();
 }
 
 /// `begin` is the share of the samples that the passes before have.
@@ -81,14 +81,14 @@ Status PartRun::run_pass(const LivePass& pass, double begin) {
     for (const PixelRect& block : head_.blocks) {
       if (!has(block, pass)) rest.push_back(block);
     }
-    if (rest.empty()) return std::nullopt;
+    if (rest.empty()) return {};
     const double done = std::max(share(), begin);
-    const Status bad =
+    const Status ended =
         render_some(rest, {done, std::max(pass.share, done), 0, measured_pixels(rest)}, task);
-    if (bad && !StopGuard::flag()) return bad;
+    if (!ended && !StopGuard::flag()) return ended;
     if (StopGuard::flag()) return save_stopped();
     if (checkpoint_ != nullptr && is_due()) {
-      if (auto unsaved = save()) return unsaved;
+      if (auto saved = save(); !saved) return saved;
     }
   }
 }
@@ -96,7 +96,7 @@ Status PartRun::run_pass(const LivePass& pass, double begin) {
 /// The error of a run that was stopped; another one if the checkpoint could not be replaced.
 Status PartRun::save_stopped() {
   if (checkpoint_ != nullptr) {
-    if (auto unsaved = save()) return unsaved;
+    if (auto saved = save(); !saved) return saved;
   }
   return Diagnostic::of("rendering was cancelled");
 }
@@ -104,7 +104,7 @@ Status PartRun::save_stopped() {
 /// Works on these blocks until all are done, a signal or limit stops it, or a checkpoint is due.
 Status PartRun::render_some(const std::vector<PixelRect>& blocks,
                             const LiveProgress::PassSpan& span, const BlockTask& task) {
-  if (blocks.empty()) return std::nullopt;
+  if (blocks.empty()) return {};
   LiveProgress& progress = live_.progress();
   LiveProgress::PassSpan traced = span;
   traced.rays = renderer_.statistics().rays.total();
@@ -180,10 +180,10 @@ void PartRun::tell_measured(const PixelRect& block) {
 bool PartRun::is_due() const { return Clock::now() >= due_; }
 
 Status PartRun::save() {
-  if (auto bad = checkpoint_->save(head_, sheet_)) return bad;
+  if (auto done = checkpoint_->save(head_, sheet_); !done) return done;
   saved_ = true;
   begin_interval();
-  return std::nullopt;
+  return {};
 }
 
 double PartRun::share() const {

@@ -52,7 +52,7 @@ std::string shown_output(const std::string& output) {
 
 Status check_picture_stream(const RenderCommand& command) {
   if (command.output != standard_output) {
-    if (!command.format) return std::nullopt;
+    if (!command.format) return {};
     return wrong_option("is for pictures on standard output, expected '-o -'; the extension of " +
                             quote(command.output) + " names the format of that file",
                         "--format");
@@ -68,7 +68,7 @@ Status check_picture_stream(const RenderCommand& command) {
     return wrong_option("standard output keeps no pictures that could be skipped",
                         "--skip-existing");
   }
-  return std::nullopt;
+  return {};
 }
 
 const ImageFormat* picture_format(const RenderCommand& command) {
@@ -86,7 +86,7 @@ Status send_picture(const Image& image, StreamFormat format, const ImageFileOpti
   if (!bytes) return bytes.error();
   if (options.temporary) options.temporary({});
   const int code = send(bytes.value(), options.stop);
-  if (code == 0) return std::nullopt;
+  if (code == 0) return {};
   if (code == EPIPE) leave_unread();
   return code == ECANCELED ? cannot_write(stream_name, "interrupted")
                            : cannot_write(stream_name, code);

@@ -67,7 +67,7 @@ ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
     status = write_text_file(legend_svg(loader.colors()), command.legend);
   }
   exit_if_interrupted();
-  return status ? report(*status, failed) : done;
+  return !status ? report(status.error(), failed) : done;
 }
 
 /// A series, frame by frame; with --claim only frames that no other process has.
@@ -176,15 +176,15 @@ ExitCode Series::run_frame(int number) {
 }
 
 ExitCode run_series(const RenderCommand& command, const FrameRange& frames, Team* team) {
-  if (auto bad = check_frames(command)) return report(*bad, wrong_usage);
-  if (auto bad = check_folders(command, frames)) return report(*bad, failed);
+  if (auto done = check_frames(command); !done) return report(done.error(), wrong_usage);
+  if (auto done = check_folders(command, frames); !done) return report(done.error(), failed);
   return Series(command, frames, team).run();
 }
 
 /// By this process alone, or as the part of it in a team.
 ExitCode run_in(Team* team, const RenderCommand& command) {
   if (command.frames) return run_series(command, *command.frames, team);
-  if (auto bad = check_single(command)) return report(*bad, wrong_usage);
+  if (auto done = check_single(command); !done) return report(done.error(), wrong_usage);
   LiveReport live(command);
   SceneLoader loader(command);
   const ExitCode code = Rendering(command, live, loader, team).run();
@@ -195,7 +195,7 @@ ExitCode run_in(Team* team, const RenderCommand& command) {
 ExitCode run_as_rank(Team& team, const RenderCommand& command) {
   if (!team.leads()) keep_lines();
   const auto run = [&]() -> ExitCode {
-    if (auto bad = check_team(command)) return report(*bad, wrong_usage);
+    if (auto done = check_team(command); !done) return report(done.error(), wrong_usage);
     return run_in(&team, team.leads() ? command : command_of_rank(command));
   };
   const ExitCode own = run();
@@ -210,7 +210,7 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
 }  // namespace
 
 ExitCode run(const RenderCommand& command) {
-  if (auto bad = check_copies(command)) return report(*bad, wrong_usage);
+  if (auto done = check_copies(command); !done) return report(done.error(), wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);
   return team.value() ? run_as_rank(*team.value(), command) : run_in(nullptr, command);

@@ -31,9 +31,9 @@ namespace {
 
 /// Errors in the command that show without reading the scene.
 Status check(const RenderCommand& command) {
-  if (auto bad = check_part_options(command)) return bad;
+  if (auto done = check_part_options(command); !done) return done;
   if (command.shard) return check_run(command, "film", {command.scene});
-  if (auto bad = check_picture_stream(command)) return bad;
+  if (auto done = check_picture_stream(command); !done) return done;
   const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
     return wrong_option("no picture format has the extension of " + quote(command.output) +
@@ -64,34 +64,42 @@ Status check(const RenderCommand& command) {
 /// Errors with the files to be written. A picture that is there already and may be skipped need not
 /// be writable.
 Status check_outputs(const RenderCommand& command) {
-  if (auto bad = check_stats_target(command.stats)) return bad;
-  if (auto bad = command.legend.empty() ? std::nullopt : check_output(command.legend)) return bad;
+  if (auto done = check_stats_target(command.stats); !done) return done;
+  if (auto done = command.legend.empty() ? Status() : check_output(command.legend); !done)
+    return done;
   if (command.output == standard_output) return check_standard_output();
   std::error_code ignored;
   const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
-  return may_stay ? std::nullopt : check_output(command.output);
+  return may_stay ? Status() : check_output(command.output);
 }
 
 /// An error if a legend is asked for and there is none, or if it would replace a file that is read.
 Status check_legend(const RenderCommand& command, const std::vector<ParticleColors>& colors,
                     const std::vector<std::string>& files) {
-  if (command.legend.empty()) return std::nullopt;
+  if (command.legend.empty()) return {};
   if (legend_svg(colors).empty()) {
     return wrong_option("the scene has no particles whose colours mean numbers or species",
                         "--legend");
   }
   RunOptions legend;
   legend.output = command.legend;
-  auto bad = check_data_files(legend, "legend", files);
-  if (bad) bad->key = "--legend";
-  return bad;
+  auto done = check_data_files(legend, "legend", files);
+  if (!done) done.error().key = "--legend";
+  return done;
+}
+
+/// An error if the scene cannot have the legend, or the picture would replace one of its files.
+Status check_loaded(const RenderCommand& command, const SceneLoader& loader,
+                    const LoadedScene& loaded) {
+  if (auto done = check_legend(command, loader.colors(), loaded.data_files); !done) return done;
+  return check_data_files(command, "picture", loaded.data_files);
 }
 
 /// An error if the picture is to be transparent and its format cannot be.
 Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
-  if (command.shard) return std::nullopt;  // merge knows the picture's format
+  if (command.shard) return {};  // merge knows the picture's format
   const ImageFormat& format = *picture_format(command);
-  if (!options.transparent || format.alpha) return std::nullopt;
+  if (!options.transparent || format.alpha) return {};
   return wrong_option(std::string("a .") + format.extension +
                           " file cannot be transparent, expected --output to be an .exr or .png "
                           "file, or --background to be a colour",
@@ -176,12 +184,12 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
 }  // namespace
 
 ExitCode Rendering::run() {
-  if (auto bad = check(command_)) return refuse(*bad, command_, wrong_usage);
+  if (auto done = check(command_); !done) return refuse(done.error(), command_, wrong_usage);
   auto date = source_date();
   if (!date) return refuse(date.error(), command_, wrong_usage);
   date_ = std::move(date).value();
-  if (auto bad = writes() ? check_outputs(command_) : std::nullopt)
-    return refuse(*bad, command_, failed);
+  if (auto done = writes() ? check_outputs(command_) : Status(); !done)
+    return refuse(done.error(), command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   // The error is reported. The image module may still be loading: to wait for it would take time,
@@ -204,10 +212,8 @@ Result<LoadedScene> Rendering::load() {
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   auto loaded = load();
   if (!loaded) return refuse(loaded.error(), command_, code_of_loading(loaded.error()));
-  if (auto bad = check_legend(command_, loader_.colors(), loaded.value().data_files))
-    return refuse(*bad, command_, wrong_usage);
-  if (auto bad = check_data_files(command_, "picture", loaded.value().data_files))
-    return refuse(*bad, command_, wrong_usage);
+  if (auto done = check_loaded(command_, loader_, loaded.value()); !done)
+    return refuse(done.error(), command_, wrong_usage);
   Scene& scene = loaded.value().scene;
   origin_ = loaded.value().origin;
   stats_.load_seconds = watch_.seconds();
@@ -217,7 +223,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   scene_hash_ = scene_hash(scene, Scheduler(command_.threads).parallel_for());
 
   RenderOptions options = combine(scene, command_);
-  if (auto bad = check_transparency(options, command_)) return refuse(*bad, command_, wrong_usage);
+  if (auto done = check_transparency(options, command_); !done)
+    return refuse(done.error(), command_, wrong_usage);
   // One process decides: the picture may appear meanwhile.
   if (writes() && command_.skip_existing &&
       is_finished_picture(command_.output, shape_of(options))) {
@@ -227,8 +234,8 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
       report_.note("boule: " + command_.output + ": is there already, skipped");
     return done;
   }
-  if (auto bad = command_.skip_existing ? check_output(command_.output) : std::nullopt)
-    return refuse(*bad, command_, failed);
+  if (auto done = command_.skip_existing ? check_output(command_.output) : Status(); !done)
+    return refuse(done.error(), command_, failed);
   // The header, which comes first in a file, says which noise was reached.
   options.in_bands = options.in_bands && team_ == nullptr && !(options.noise > 0);
   if (const ExitCode code = prepare_parts(options); code != done) return code;
@@ -242,13 +249,13 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   }
   // Under a limit on addresses the module is loaded first: libraries that find no memory while they
   // are loaded end the process without a message.
-  const auto wait = [this] { return image_start_ ? image_start_->wait() : std::nullopt; };
+  const auto wait = [this] { return image_start_ ? image_start_->wait() : Status(); };
   if (address_room() != std::numeric_limits<std::uint64_t>::max()) {
-    if (auto bad = wait()) return refuse(*bad, command_, failed);
+    if (auto done = wait(); !done) return refuse(done.error(), command_, failed);
   }
   auto created = Renderer::create(std::move(scene), options);
   if (!created) return refuse_scene(created.error(), command_);
-  if (auto bad = wait()) return refuse(*bad, command_, failed);
+  if (auto done = wait(); !done) return refuse(done.error(), command_, failed);
   renderer = std::move(created).value();
   return done;
 }

@@ -91,13 +91,13 @@ ExitCode Rendering::render_parts(Renderer& renderer) {
   FilmHead head = film_head(renderer);
   const std::unique_ptr<PartRun> run = part_run(renderer, head);
   live_.start_pass("pixels");
-  const Status bad = run->run(blocks_of(command_, renderer));
+  const Status ended = run->run(blocks_of(command_, renderer));
   live_.end_pass();
   live_.end_time_limit();
-  if (!writes()) return run->failed() ? refuse(*bad, command_, failed) : done;
-  if (bad && can_show(*run)) partial_ = samples_of(run->sheet(), head.blocks, head.spp);
-  if (bad && !partial_) {
-    const ExitCode code = explain_parts(*bad, *run);
+  if (!writes()) return run->failed() ? refuse(ended.error(), command_, failed) : done;
+  if (!ended && can_show(*run)) partial_ = samples_of(run->sheet(), head.blocks, head.spp);
+  if (!ended && !partial_) {
+    const ExitCode code = explain_parts(ended.error(), *run);
     checkpoint_.reset();  // the lock goes, whether this was a series or not
     return code;
   }
@@ -165,11 +165,11 @@ ExitCode Rendering::write_film(const PartRun& run, const FilmHead& head) {
     const WriteGuard guard;
     status = film_file::write(command_.output, head, run.sheet(),
                               [] { return WriteGuard::interrupted(); });
-    if (!status) set_written("the film had been written");
+    if (status) set_written("the film had been written");
   }
   exit_if_interrupted();
   stats_.write_seconds = watch.seconds();
-  return status ? refuse(*status, command_, failed) : done;
+  return !status ? refuse(status.error(), command_, failed) : done;
 }
 
 /// What was stopped is told with what the checkpoint holds.

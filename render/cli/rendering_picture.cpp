@@ -56,11 +56,11 @@ Result<Image> Rendering::make_image(Renderer& renderer) {
     lines.value().draw(image);
     return image;
   };
-  if (!status) return with_lines(film.to_image(alpha));
+  if (status) return with_lines(film.to_image(alpha));
   const PartialSamples samples{
       film.total_samples(),
       renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
-  if (!StopGuard::flag() || samples.done == 0) return *status;
+  if (!StopGuard::flag() || samples.done == 0) return status.error();
   partial_ = samples;
   return with_lines(partial_picture(film, renderer.options().order, alpha));
 }
@@ -74,8 +74,9 @@ Result<Image> Rendering::make_measured_image(Renderer& renderer,
   MeasuredPicture measured(renderer.rect());
   Film film(command_.partial ? renderer.rect() : PixelRect{});
   Status status = renderer.render_measured(measured, command_.partial ? &film : nullptr);
-  if (status && (!StopGuard::flag() || film.total_samples() == 0)) return *status;
-  if (status) partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
+  if (!status && (!StopGuard::flag() || film.total_samples() == 0)) return status.error();
+  if (!status)
+    partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
   noise_ = noise_reached(measured, options.spp);
   for (ImageChannel& channel : measured_channels(options.aovs, measured))
     channels.push_back(std::move(channel));
@@ -101,7 +102,7 @@ Status Rendering::guarded_write(ImageFileOptions options, const Write& write) {
   };
   status = write(options);
   removal.reset();
-  if (!status) {
+  if (status) {
     set_written(live_.is_series() ? "the frames up to this one had been written"
                                   : "the picture had been written");
   }
@@ -116,9 +117,9 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
                                               : write_image(image, command_.output, file);
   });
   exit_if_interrupted();
-  if (status && StopGuard::caught() != caught) leave_as_caught();
+  if (!status && StopGuard::caught() != caught) leave_as_caught();
   stats_.write_seconds = watch.seconds();
-  return status ? refuse(*status, command_, failed) : done;
+  return !status ? refuse(status.error(), command_, failed) : done;
 }
 
 /// Rendering and writing at the same time.
@@ -131,18 +132,19 @@ ExitCode Rendering::render_bands(Renderer& renderer) {
     auto writer = BandWriter::open(form_of(renderer.options()), command_.output, file);
     if (!writer) return Status(writer.error());
     live_.start_pass("pixels");
-    Status bad = renderer.render_bands([&](const Image& band) { return writer.value().put(band); });
+    Status done =
+        renderer.render_bands([&](const Image& band) { return writer.value().put(band); });
     live_.end_pass();
     live_.end_time_limit();
-    cancelled = bad && StopGuard::flag();
-    if (bad) return bad;
+    cancelled = !done && StopGuard::flag();
+    if (!done) return done;
     live_.start_stage("writing " + printable(shown_output(command_.output)));
     return writer.value().finish();
   });
   exit_if_interrupted();
-  if (cancelled) return explain(*status);
+  if (cancelled) return explain(status.error());
   stats_.write_seconds = std::max(watch.seconds() - renderer.statistics().render_seconds, 0.0);
-  if (status) return refuse(*status, command_, failed);
+  if (!status) return refuse(status.error(), command_, failed);
   Image size;
   size.width = renderer.rect().width();
   size.height = renderer.rect().height();

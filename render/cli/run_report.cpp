@@ -35,10 +35,10 @@ Status check_run(const RunOptions& options, const std::string& output,
     return wrong_option("statistics would replace the " + output + ", expected another file",
                         "--stats");
   }
-  if (auto bad = check_data_files(options, output, inputs)) return bad;
+  if (auto done = check_data_files(options, output, inputs); !done) return done;
   const auto kernels = select_kernels(options.isa);
   if (!kernels) return kernels.error();
-  return std::nullopt;
+  return {};
 }
 
 bool is_stream(const std::string& output) {
@@ -54,7 +54,7 @@ Status check_data_files(const RunOptions& options, const std::string& output,
     if (is_one_file(options.output, file)) return wrong_option("the " + output + would, "--output");
     if (is_one_file(options.stats.file, file)) return wrong_option("statistics" + would, "--stats");
   }
-  return std::nullopt;
+  return {};
 }
 
 void tell_sending(const std::string& output) {
@@ -102,7 +102,7 @@ ExitCode RunReport::finish(const Stats& stats) const {
     status = write_stats(stats, options_.stats);
   }
   exit_if_interrupted();
-  return status ? report(*status, failed) : done;
+  return !status ? report(status.error(), failed) : done;
 }
 
 }  // namespace boule::cli

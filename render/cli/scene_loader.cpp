@@ -118,7 +118,7 @@ std::uint64_t SceneLoader::find_shown(const LoadedScene& first) {
 Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
   auto loaded = read_file(frame);
   if (!loaded) return loaded;
-  if (auto bad = use_camera(camera_keys_, frame, loaded.value())) return *bad;
+  if (auto done = use_camera(camera_keys_, frame, loaded.value()); !done) return done.error();
   return loaded;
 }
 

@@ -127,10 +127,10 @@ std::vector<std::string> fault_notes(const SampleFaults& faults) {
 Status write_stats(const Stats& stats, const StatsTarget& target) {
   switch (target.form) {
     case StatsForm::none:
-      return std::nullopt;
+      return {};
     case StatsForm::text:
       print_note(as_text(stats));
-      return std::nullopt;
+      return {};
     case StatsForm::json:
       break;
   }

@@ -27,9 +27,9 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
   picture.facts = head_.facts;
   picture.tick = [this] { tick(); };
   if (team_.leads()) {
-    if (auto bad = load()) {
+    if (auto done = load(); !done) {
       failed_ = true;
-      return bad;
+      return done;
     }
     begin_interval();
     picture.blocks = unfinished(blocks);
@@ -46,16 +46,16 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
   }
   team_.begin(std::move(picture));
   const auto task = [&](BlockTools& tools) { render(tools, blocks); };
-  Status bad = renderer_.work(std::cref(task));
-  if (bad) team_.stop();
+  Status done = renderer_.work(std::cref(task));
+  if (!done) team_.stop();
   Status ended = team_.end();
-  failed_ = failed_ || bad || (ended && !StopGuard::flag());
-  if (unsaved_) return unsaved_;
-  if (bad) return bad;
-  if (!ended || checkpoint_ == nullptr) return ended;
-  if (auto unsaved = save()) {
+  failed_ = failed_ || !done || (!ended && !StopGuard::flag());
+  if (!saved_) return saved_;
+  if (!done) return done;
+  if (ended || checkpoint_ == nullptr) return ended;
+  if (auto saved = save(); !saved) {
     failed_ = true;
-    return unsaved;
+    return saved;
   }
   return ended;
 }
@@ -110,8 +110,8 @@ void TeamRun::tick() {
   if (checkpoint_ == nullptr || !is_due()) return;
   if (!std::exchange(saves_soon_, true)) return team_.be_patient(600);
   saves_soon_ = false;
-  unsaved_ = save();
-  if (!unsaved_) return;
+  saved_ = save();
+  if (saved_) return;
   failed_ = true;
   team_.stop();
 }

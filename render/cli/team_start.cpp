@@ -50,9 +50,9 @@ Result<std::unique_ptr<Team>> join_team(const RenderCommand& command) {
 }
 
 Status check_copies(const RenderCommand& command) {
-  if (command.mpi == MpiUse::never || command.shard || command.claim) return std::nullopt;
+  if (command.mpi == MpiUse::never || command.shard || command.claim) return {};
   const int copies = count_copies([](const char* name) { return std::getenv(name); });
-  if (copies < 2) return std::nullopt;
+  if (copies < 2) return {};
   const std::string together = command.frames ? "--claim or srun --mpi=pmix" : "srun --mpi=pmix";
   return wrong_option(
       fmt::format("srun started {} copies of this command, each of which would render all of it: "
@@ -66,7 +66,7 @@ Status check_team(const RenderCommand& command) {
     return wrong_option("shares a series without MPI, which deals out frames itself", "--claim");
   if (command.partial)
     return wrong_option("is for one process: with MPI it is --checkpoint", "--partial");
-  return std::nullopt;
+  return {};
 }
 
 RenderCommand command_of_rank(const RenderCommand& command) {

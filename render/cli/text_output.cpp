@@ -9,7 +9,7 @@ Status write_text_file(const std::string& text, const std::string& path) {
   const auto stop = [] { return WriteGuard::interrupted(); };
   auto file = OutputFile::create(path, stop);
   if (!file) return file.error();
-  if (auto bad = file.value().write(text.data(), text.size())) return bad;
+  if (auto done = file.value().write(text.data(), text.size()); !done) return done;
   return file.value().commit(stop);
 }
 

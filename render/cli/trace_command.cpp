@@ -107,13 +107,13 @@ Status Tracing::read_chunk(RayFile& rays) {
 }
 
 ExitCode Tracing::run() {
-  if (auto bad = check(command_)) return report(*bad, wrong_usage);
-  if (auto bad = check_stats_target(command_.stats)) return report(*bad, failed);
-  if (auto bad = check_output(command_.output)) return report(*bad, failed);
+  if (auto done = check(command_); !done) return report(done.error(), wrong_usage);
+  if (auto done = check_stats_target(command_.stats); !done) return report(done.error(), failed);
+  if (auto done = check_output(command_.output); !done) return report(done.error(), failed);
   auto loaded = load();
   if (!loaded) return report(loaded.error(), code_of_loading(loaded.error()));
-  if (auto bad = check_data_files(command_, "hits", loaded.value().data_files))
-    return report(*bad, wrong_usage);
+  if (auto done = check_data_files(command_, "hits", loaded.value().data_files); !done)
+    return report(done.error(), wrong_usage);
   auto rays = open_rays();
   if (!rays) return report(rays.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
@@ -158,13 +158,13 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
     live_.end_pass();
     live_.start_stage("writing " + printable(command_.output));
     const Stopwatch watch;
-    if (auto bad = file.value().sync()) return Failure{*bad, failed};
+    if (auto done = file.value().sync(); !done) return Failure{done.error(), failed};
     stats_.write_seconds += watch.seconds();
   }
   tell_sending(command_.output);
   const Stopwatch watch;
-  if (auto bad = file.value().commit([] { return WriteGuard::interrupted(); })) {
-    return Failure{*bad, failed};
+  if (auto done = file.value().commit([] { return WriteGuard::interrupted(); }); !done) {
+    return Failure{done.error(), failed};
   }
   stats_.write_seconds += watch.seconds();
   return std::nullopt;
@@ -176,11 +176,11 @@ std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitF
     const std::uint64_t left = rays.size() - traced_;
     rays_.resize(static_cast<std::size_t>(std::min(left, rays_of_chunk)));
     const Stopwatch reading;
-    if (auto bad = read_chunk(rays)) return Failure{*bad, invalid_input};
+    if (auto done = read_chunk(rays); !done) return Failure{done.error(), invalid_input};
     stats_.load_seconds += reading.seconds();
-    if (auto bad = trace_chunk(tracer)) return Failure{*bad, failed};
+    if (auto done = trace_chunk(tracer); !done) return Failure{done.error(), failed};
     const Stopwatch writing;
-    if (auto bad = append_chunk(file)) return Failure{*bad, failed};
+    if (auto done = append_chunk(file); !done) return Failure{done.error(), failed};
     stats_.write_seconds += writing.seconds();
     traced_ += rays_.size();
   } while (traced_ < rays.size());

@@ -51,22 +51,22 @@ void open_browser(const std::string& url) {
 
 ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSession& session,
                const std::string& token) {
-  Status unwritten;
+  Status written;
   view::ServerSettings settings;
   settings.address = command.address;
   settings.port = static_cast<unsigned short>(command.port);
   settings.token = token;
   settings.idle_seconds = command.idle;
-  settings.stop = [&unwritten] { return StopGuard::flag() || unwritten.has_value(); };
+  settings.stop = [&written] { return StopGuard::flag() || !written.ok(); };
   settings.ready = [&](const std::string& url) {
-    unwritten = print_data(url + "\n");
+    written = print_data(url + "\n");
     if (reader_left()) leave_unread();
-    if (!unwritten && command.open) open_browser(url);
+    if (written && command.open) open_browser(url);
   };
   const StopGuard guard(OnSignal::stop);
-  if (const auto bad = server.serve(settings, session))
-    return report(*bad, bad->key.empty() ? failed : wrong_usage);
-  if (unwritten) return report(*unwritten, failed);
+  if (const auto done = server.serve(settings, session); !done)
+    return report(done.error(), done.error().key.empty() ? failed : wrong_usage);
+  if (!written) return report(written.error(), failed);
   if (StopGuard::caught() == 0) return done;
   print_note(std::string("boule: ended (") + StopGuard::caught_name() + ")");
   return interrupted_by(StopGuard::caught());
@@ -88,7 +88,8 @@ ExitCode run(const ViewCommand& command) {
   Result<LoadedScene> loaded = Diagnostic::of("");
   {
     const ReadingLimit::Reading reading(limit, render.scene);
-    if (auto bad = source.open()) return report(*bad, code_of_loading(*bad));
+    if (auto done = source.open(); !done)
+      return report(done.error(), code_of_loading(done.error()));
     loaded = source.load(source.facts().look, source.facts().first_frame);
   }
   if (!loaded) return report(loaded.error(), code_of_loading(loaded.error()));
@@ -99,7 +100,7 @@ ExitCode run(const ViewCommand& command) {
   auto session = view::ViewSession::open(source, std::move(loaded).value(), settings,
                                          [&server] { server.notify(); });
   if (!session) return report(session.error(), failed);
-  if (auto bad = image_start.wait()) return report(*bad, failed);
+  if (auto done = image_start.wait(); !done) return report(done.error(), failed);
   return serve(command, server, *session.value(), token.value());
 }
 

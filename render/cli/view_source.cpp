@@ -65,9 +65,9 @@ Status ViewSource::open() {
   facts_.kind = kind_of(path, particles);
   facts_.look = {command_.look.color, command_.look.map, command_.look.range};
   if (particles) facts_.shared_options = fixed_options(command_.look);
-  if (auto bad = particles && !command_.frames ? find_frames() : std::nullopt) return bad;
+  if (auto done = particles && !command_.frames ? find_frames() : Status(); !done) return done;
   make_loader();
-  return std::nullopt;
+  return {};
 }
 
 void ViewSource::make_loader() {
@@ -89,10 +89,10 @@ Status ViewSource::find_frames() {
   auto made = load_particle_scene(command_.scene, command_.look, options);
   if (!made) return made.error();
   const ParticleFacts& facts = made.value().loaded.particles.front();
-  if (facts.frames < 2) return std::nullopt;
+  if (facts.frames < 2) return {};
   facts_.frames = {0, static_cast<int>(facts.frames) - 1, 1};
   facts_.first_frame = static_cast<int>(facts.frame);
-  return std::nullopt;
+  return {};
 }
 
 Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const {

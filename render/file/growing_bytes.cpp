@@ -13,17 +13,17 @@ GrowingBytes::~GrowingBytes() {
 }
 
 Status GrowingBytes::reserve(std::size_t capacity) {
-  if (capacity <= capacity_) return std::nullopt;
+  if (capacity <= capacity_) return {};
   const std::size_t more = capacity - capacity_;
   const std::string who = capacity_ == 0 ? "unpacked, it needs" : "unpacked, it needs another";
-  if (auto none = check_memory(more, who)) return none;
+  if (auto room = check_memory(more, who); !room) return room;
   void* const grown =
       data_ == nullptr ? take_pages(capacity) : resize_pages(data_, capacity_, capacity);
   if (grown == nullptr)
     return Diagnostic::out_of_memory(who + " " + memory_text(more) + ", which the system refuses");
   data_ = static_cast<char*>(grown);
   capacity_ = capacity;
-  return std::nullopt;
+  return {};
 }
 
 Status GrowingBytes::grow() {

@@ -31,7 +31,7 @@ const char* kind_of(mode_t mode) {
 }
 
 Status refuse_special(const std::string& path, const struct stat& info) {
-  if (S_ISREG(info.st_mode)) return std::nullopt;
+  if (S_ISREG(info.st_mode)) return {};
   return cannot_read(path,
                      std::string("it is ") + kind_of(info.st_mode) + ", expected a regular file");
 }
@@ -45,7 +45,7 @@ Status refuse_binary(const std::string& path, std::string_view text, std::size_t
         .message = "is UTF-16 text, expected UTF-8", .file = path, .line = 1, .column = 1};
   }
   const std::size_t nul = text.find('\0', checked);
-  if (nul == std::string_view::npos) return std::nullopt;
+  if (nul == std::string_view::npos) return {};
   const std::string_view before = text.substr(0, nul);
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
   return Diagnostic{.message = "holds a NUL byte, expected UTF-8 text",
@@ -63,7 +63,7 @@ Result<bool> append_text(InputFile& file, const std::string& path, std::size_t c
   const auto got = file.read(text.data() + begin, count);
   if (!got) return got.error();
   text.resize(begin + got.value());
-  if (auto binary = refuse_binary(path, text, begin)) return *binary;
+  if (auto done = refuse_binary(path, text, begin); !done) return done.error();
   return got.value() < count;
 }
 
@@ -93,13 +93,13 @@ Result<InputFile> InputFile::open(const std::string& path) {
   if (path.find('\0') != std::string::npos) return cannot_read(path, "its name holds a NUL byte");
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0) return cannot_read(path, system_reason());
-  if (auto special = refuse_special(path, info)) return *special;
+  if (auto done = refuse_special(path, info); !done) return done.error();
   // O_NONBLOCK: if the file has become a FIFO meanwhile, opening it must not wait for a writer.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return cannot_read(path, system_reason());
   InputFile file(path, descriptor, 0);
   if (::fstat(descriptor, &info) != 0) return cannot_read(path, system_reason());
-  if (auto special = refuse_special(path, info)) return *special;
+  if (auto done = refuse_special(path, info); !done) return done.error();
   file.size_ = static_cast<std::uint64_t>(info.st_size);
   return file;
 }
@@ -148,7 +148,8 @@ Result<std::string> read_text(const std::string& path) {
   auto at_end = append_text(file.value(), path, block_size, text);
   if (!at_end) return at_end.error();
   if (!at_end.value() && size > text.size()) {
-    if (const auto bad = check_memory(size, "it needs")) return cannot_read(path, bad->message);
+    if (const auto done = check_memory(size, "it needs"); !done)
+      return cannot_read(path, done.error().message);
     text.reserve(static_cast<std::size_t>(size));
     prefer_huge_pages(text.data(), static_cast<std::size_t>(size));
   }

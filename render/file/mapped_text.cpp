@@ -20,7 +20,8 @@ namespace {
 constexpr std::uint64_t largest_read = std::uint64_t{16} << 20;
 
 Result<std::string> read_whole(InputFile& file, const std::string& path) {
-  if (auto none = check_memory(file.size(), "it needs")) return cannot_read(path, none->message);
+  if (auto room = check_memory(file.size(), "it needs"); !room)
+    return cannot_read(path, room.error().message);
   std::string text(static_cast<std::size_t>(file.size()), '\0');
   const auto got = file.read(text.data(), text.size());
   if (!got) return got.error();
@@ -79,17 +80,18 @@ Result<MappedText> MappedText::open(const std::string& path, Cut cut) {
   opened.text_ = without_mark(bytes);
   const Packing packing = packing_of(bytes);
   if (packing == Packing::none) {
-    if (const auto other = check_packing(bytes)) return cannot_read(path, other->message);
+    if (const auto done = check_packing(bytes); !done)
+      return cannot_read(path, done.error().message);
     return opened;
   }
   auto unpacked = unpack(packing, bytes);
   if (!unpacked) return cannot_read(path, unpacked.error().message);
   MappedText text;
-  text.cut_ = std::move(unpacked.value().cut);
-  if (text.cut_ && cut == Cut::refuse) return cannot_read(path, text.cut_->message);
+  text.whole_ = std::move(unpacked.value().whole);
+  if (!text.whole_ && cut == Cut::refuse) return cannot_read(path, text.whole_.error().message);
   text.unpacked_ = std::move(unpacked.value().bytes);
   text.text_ = without_mark({text.unpacked_.data(), text.unpacked_.size()});
-  if (text.cut_) text.text_ = text.text_.substr(0, text.text_.rfind('\n') + 1);  // npos + 1 is 0
+  if (!text.whole_) text.text_ = text.text_.substr(0, text.text_.rfind('\n') + 1);  // npos + 1 is 0
   return text;
 }
 

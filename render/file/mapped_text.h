@@ -33,7 +33,7 @@ class MappedText {
   [[nodiscard]] std::string_view text() const { return text_; }
 
   /// Why the text is only the whole lines of what the file held (Cut::keep): a message.
-  [[nodiscard]] const Status& cut() const { return cut_; }
+  [[nodiscard]] const Status& whole() const { return whole_; }
 
   /// Says that a part of the text has been read. Where it is mapped, its memory goes back to the
   /// system; who asks for it once more reads it from the file.
@@ -52,7 +52,7 @@ class MappedText {
   std::unique_ptr<void, Unmap> map_;
   GrowingBytes unpacked_;
   std::string_view text_;
-  Status cut_;
+  Status whole_;
 };
 
 }  // namespace boule

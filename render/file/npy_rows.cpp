@@ -18,13 +18,13 @@ Status check_npy_elements(const NpyHeader& header) {
     return Diagnostic::of("holds " + quote(header.descr) +
                           ", expected '<f4' or '<f8' (little-endian float32 or float64)");
   }
-  if (!header.fortran_order) return std::nullopt;
+  if (!header.fortran_order) return {};
   return Diagnostic::of("is in Fortran order, expected C order (row by row)");
 }
 
 Status check_npy_length(const NpyHeader& header, std::size_t row_bytes, std::uint64_t file_size) {
   const std::uint64_t rows = header.shape[0], present = file_size - header.size;
-  if (present % row_bytes == 0 && present / row_bytes == rows) return std::nullopt;
+  if (present % row_bytes == 0 && present / row_bytes == rows) return {};
   return Diagnostic::of("declares " + std::to_string(rows) + " rows of " +
                         std::to_string(row_bytes) + " bytes, but holds " + std::to_string(present) +
                         " bytes of data");
@@ -35,7 +35,7 @@ namespace {
 Status check_read(const Result<std::size_t>& got, std::size_t bytes) {
   if (!got) return got.error();
   if (got.value() < bytes) return Diagnostic::of("became shorter while it was read");
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace

@@ -100,9 +100,9 @@ Result<std::string> read_npz_array(const NpzName& name) {
         name.file, std::string("cannot be read: ") + zip_strerror(archive.value().get()));
   };
   if (zip_stat_index(archive.value().get(), index.value(), 0, &stat) != 0) return unreadable();
-  if (auto bad = check_memory(stat.size, shown + " needs")) {
-    bad->file = name.file;
-    return *bad;
+  if (auto done = check_memory(stat.size, shown + " needs"); !done) {
+    done.error().file = name.file;
+    return done.error();
   }
   const Member member(zip_fopen_index(archive.value().get(), index.value(), 0));
   if (!member) return unreadable();

@@ -37,26 +37,26 @@ class GzipUnpacker {
     constexpr int gzip_only = 16 + MAX_WBITS;
     if (inflateInit2(&stream_, gzip_only) != Z_OK) return Diagnostic::of("zlib has no memory");
     do {
-      if (auto wrong = member()) return wrong;
+      if (auto done = member(); !done) return done;
       inflateReset(&stream_);
-    } while (!cut_ && !only_zeros(rest_));
-    return std::nullopt;
+    } while (whole_ && !only_zeros(rest_));
+    return {};
   }
 
-  Unpacked take() { return {std::move(text_), std::move(cut_)}; }
+  Unpacked take() { return {std::move(text_), std::move(whole_)}; }
 
  private:
   /// Unpacks one member and leaves `rest_` at what follows it.
   Status member() {
     for (;;) {
       if (text_.size() == text_.capacity()) {
-        if (auto none = text_.grow()) return none;
+        if (auto grown = text_.grow(); !grown) return grown;
       }
       const int answer = step();
-      if (answer == Z_STREAM_END) return std::nullopt;
+      if (answer == Z_STREAM_END) return {};
       if (answer == Z_BUF_ERROR && rest_.empty()) {
-        cut_ = damaged("gzip", "the file ends before them");
-        return std::nullopt;
+        whole_ = damaged("gzip", "the file ends before them");
+        return {};
       }
       if (answer != Z_OK && answer != Z_BUF_ERROR) {
         return damaged("gzip", stream_.msg != nullptr ? stream_.msg : "not what zlib expected");
@@ -81,13 +81,13 @@ class GzipUnpacker {
 
   std::string_view rest_;
   GrowingBytes text_;
-  Status cut_;
+  Status whole_;
   z_stream stream_ = {};
 };
 
 Result<Unpacked> unpack_gzip(std::string_view packed) {
   GzipUnpacker unpacker(packed);
-  if (auto wrong = unpacker.run()) return *wrong;
+  if (auto done = unpacker.run(); !done) return done.error();
   return unpacker.take();
 }
 #else
@@ -102,7 +102,7 @@ Result<Unpacked> unpack_gzip(std::string_view) {
 /// Room for a frame that tells its length. One that lies is refused here, or finds too much room.
 Status reserve_frame(std::string_view packed, GrowingBytes& text) {
   const unsigned long long length = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (length == ZSTD_CONTENTSIZE_UNKNOWN || length == ZSTD_CONTENTSIZE_ERROR) return std::nullopt;
+  if (length == ZSTD_CONTENTSIZE_UNKNOWN || length == ZSTD_CONTENTSIZE_ERROR) return {};
   if (length > std::numeric_limits<std::size_t>::max() / 2) {
     return damaged("Zstandard", "no text is as long as they say");
   }
@@ -123,10 +123,10 @@ Result<Unpacked> unpack_zstandard(std::string_view packed) {
     const std::string_view rest = packed.substr(in.pos);
     if (answer == 0 && only_zeros(rest)) return Unpacked{std::move(text), {}};
     if (answer == 0) {
-      if (auto none = reserve_frame(rest, text)) return *none;
+      if (auto room = reserve_frame(rest, text); !room) return room.error();
     }
     if (text.size() == text.capacity()) {
-      if (auto none = text.grow()) return *none;
+      if (auto grown = text.grow(); !grown) return grown.error();
     }
     ZSTD_outBuffer out = {text.data(), text.capacity(), text.size()};
     answer = ZSTD_decompressStream(stream.get(), &out, &in);
@@ -174,7 +174,7 @@ Status check_packing(std::string_view bytes) {
                           ", which is not read; unpack it first (" + std::string(other.program) +
                           "), or pack it by gzip or zstd");
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<Unpacked> unpack(Packing packing, std::string_view packed) {

@@ -19,7 +19,8 @@ Status check_packing(std::string_view bytes);
 
 struct Unpacked {
   GrowingBytes bytes;
-  Status cut;  ///< the packed bytes end too early: `bytes` is what they hold; a message only
+  Status whole;  ///< an error if the packed bytes end too early: `bytes` is what they hold; a
+                 ///< message only
 };
 
 /// What `packed` holds: all members of gzip's format, or all frames of Zstandard's. Zeros that pad

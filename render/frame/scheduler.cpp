@@ -86,7 +86,7 @@ std::exception_ptr Scheduler::run_all(std::size_t count, const Body& body,
 
 Status Scheduler::run(std::size_t count, const Body& body, const std::atomic<bool>* cancel) {
   if (const std::exception_ptr error = run_all(count, body, cancel)) return describe(error);
-  return std::nullopt;
+  return {};
 }
 
 ParallelFor Scheduler::parallel_for(const std::atomic<bool>* cancel) {
@@ -103,7 +103,7 @@ Status diagnose(const std::function<void()>& call) {
   } catch (...) {
     return describe(std::current_exception());
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

@@ -177,12 +177,12 @@ Status BandWriter::State::finish() {
   if (rows < plan->form.height) return cannot_write(path, "the picture has too few rows");
   module::Report report{};
   table->close(std::exchange(writer, nullptr), &report);
-  if (auto bad = status(report)) return bad;
-  if (!file) return std::nullopt;
-  if (auto bad = check_openable(*file, path)) return bad;
+  if (auto done = status(report); !done) return done;
+  if (!file) return {};
+  if (auto done = check_openable(*file, path); !done) return done;
   table->check(&plan->picture, file->path().c_str(), &report);
-  if (auto bad = status(report)) return bad;
-  if (auto bad = file->sync()) return bad;
+  if (auto done = status(report); !done) return done;
+  if (auto done = file->sync(); !done) return done;
   if (temporary) temporary({});
   return file->commit(plan->stop);
 }
@@ -208,7 +208,8 @@ Result<BandWriter> BandWriter::open(const ImageForm& form, const std::string& pa
     if (!created.ok()) return created.error();
     state->file.emplace(std::move(created).value());
     if (options.temporary) options.temporary(state->file->path());
-    if (auto bad = state->begin(state->file->descriptor(), options.threads)) return *bad;
+    if (auto done = state->begin(state->file->descriptor(), options.threads); !done)
+      return done.error();
     return BandWriter(std::move(state));
   });
 }
@@ -223,23 +224,23 @@ Result<BandWriter> BandWriter::open_png(const ImageForm& form, const OpenFile& f
     if (!plan) return plan.error();
     state->plan = std::move(plan).value();
     state->exposure_stops = options.exposure_stops;
-    if (auto bad = state->begin(file.descriptor, options.threads)) return *bad;
+    if (auto done = state->begin(file.descriptor, options.threads); !done) return done.error();
     return BandWriter(std::move(state));
   });
 }
 
 Status BandWriter::put(const Image& band, const std::vector<ImageChannel>& channels) {
   if (!state_) return Diagnostic::of("the writer was moved away");
-  Status bad = guarded(state_->path, [&] { return state_->put(band, channels); });
-  if (bad) state_->abandon();
-  return bad;
+  Status done = guarded(state_->path, [&] { return state_->put(band, channels); });
+  if (!done) state_->abandon();
+  return done;
 }
 
 Status BandWriter::finish() {
   if (!state_) return Diagnostic::of("the writer was moved away");
-  Status bad = guarded(state_->path, [&] { return state_->finish(); });
+  Status done = guarded(state_->path, [&] { return state_->finish(); });
   state_->abandon();
-  return bad;
+  return done;
 }
 
 }  // namespace boule

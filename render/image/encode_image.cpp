@@ -50,7 +50,7 @@ Result<std::string> encode_png(const Image& image, const std::string& name,
                                const ImageFileOptions& options) {
   const MemoryFile file;
   if (file.descriptor() < 0) return cannot_write(name, errno);
-  if (auto bad = write_png(image, {name, file.descriptor()}, options)) return *bad;
+  if (auto done = write_png(image, {name, file.descriptor()}, options); !done) return done.error();
   std::string bytes;
   if (!file.read_into(bytes)) return cannot_write(name, errno);
   return bytes;

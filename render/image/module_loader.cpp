@@ -71,19 +71,19 @@ Status check_room() {
   if (data_room < data + stacks) {
     return refuse(data + stacks, data_room, "the limit on data (ulimit -d)");
   }
-  return std::nullopt;
+  return {};
 }
 
 Diagnostic no_threads() { return cannot_load(std::generic_category().message(EAGAIN)); }
 
 Status load(Loaded& one) {
-  if (one.table != nullptr) return std::nullopt;
-  if (auto bad = check_room()) return bad;
+  if (one.table != nullptr) return {};
+  if (auto done = check_room(); !done) return done;
   if (!can_start_threads(threads_at_load)) return no_threads();
   const auto opened = open_image_module();
   if (!opened) return cannot_load(opened.error().message);
   one.table = opened.value();
-  return std::nullopt;
+  return {};
 }
 
 /// How many threads `start` will start for a file with `threads` threads.
@@ -117,7 +117,7 @@ Status start(Loaded& one, const ImageFormat& format, int threads) {
   if (threads > 1 || writer == "tiff") one.pool = std::max(one.pool, threads);
   if (writer == "openexr") one.exr_pool = std::max(one.exr_pool, threads);
   if (missing > 0) one.owner = getpid();
-  return std::nullopt;
+  return {};
 }
 
 /// The module in a forked child. The pools' threads exist in the parent only, and whoever waits for
@@ -142,14 +142,14 @@ Result<LoadedModule> load_image_module(const ImageFormat& format, int threads) {
   }
   const Hold hold;
   Loaded& one = loaded();
-  if (auto bad = load(one)) return *bad;
+  if (auto done = load(one); !done) return done.error();
   if (one.owner != 0 && one.owner != getpid()) return forked(one, format);
   constexpr int most = 256;
   const int wanted = std::clamp(threads, 1, most);
-  const auto bad = start(one, format, wanted);
-  if (!bad) return LoadedModule{one.table, wanted};
-  if (wanted == 1) return *bad;
-  if (auto worse = start(one, format, 1)) return *worse;
+  const auto started = start(one, format, wanted);
+  if (started) return LoadedModule{one.table, wanted};
+  if (wanted == 1) return started.error();
+  if (auto done = start(one, format, 1); !done) return done.error();
   return LoadedModule{one.table, 1};
 }
 

@@ -277,7 +277,7 @@ Status OutputFile::sync() {
 
 Status OutputFile::commit(const std::function<bool()>& stop) {
   if (stream_ >= 0) return commit_stream(stop);
-  if (auto bad = sync()) return bad;
+  if (auto done = sync(); !done) return done;
   if (stop && stop()) return cannot_write(name_, "interrupted");
   if (temporary_.empty()) {
     if (const int code = give_name()) return cannot_write(name_, code);

@@ -36,8 +36,8 @@ bool begin_room(Room& room, int width, int height) {
   // The module's reader holds as much again.
   const std::uint64_t bytes =
       2 * sizeof(Color) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (const auto bad = check_memory(bytes, "it needs")) {
-    room.refusal = bad->message;
+  if (const auto done = check_memory(bytes, "it needs"); !done) {
+    room.refusal = done.error().message;
     return false;
   }
   room.image.width = width;

@@ -25,7 +25,7 @@ Status write_all(const Image& image, const std::string& name, const ImageFileOpt
   try {
     Result<BandWriter> writer = open(form_of(image, options));
     if (!writer) return writer.error();
-    if (auto bad = writer.value().put(image, options.channels)) return bad;
+    if (auto done = writer.value().put(image, options.channels); !done) return done;
     return writer.value().finish();
   } catch (const std::bad_alloc&) {
     return cannot_write(name, ENOMEM);

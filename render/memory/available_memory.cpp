@@ -96,7 +96,7 @@ std::string memory_text(std::uint64_t bytes) {
 
 Status check_memory(std::uint64_t bytes, const std::string& who, const std::string& key) {
   const std::uint64_t available = available_memory();
-  if (bytes <= available) return std::nullopt;
+  if (bytes <= available) return {};
   Diagnostic error = Diagnostic::about(
       key, who + " " + memory_text(bytes) + ", there are " + std::to_string(available / mebibyte));
   error.of_memory = true;

@@ -23,7 +23,7 @@ Status check_shared_memory(const Scene& scene, const std::vector<ShownGroup>& gr
 }  // namespace
 
 Status check_scene_memory(const Scene& scene) {
-  if (find_reference_problem(scene)) return std::nullopt;
+  if (find_reference_problem(scene)) return {};
   if (const auto groups = groups_to_share(scene)) return check_shared_memory(scene, *groups);
   PrimitiveCount count = count_primitives(scene);
   if (scene.packed) count.spheres -= scene.packed->count;  // they are in their tree already
@@ -39,7 +39,7 @@ Status check_scene_memory(const Scene& scene) {
 }
 
 Status check_reference_memory(const Scene& scene) {
-  if (find_reference_problem(scene) || !groups_to_share(scene)) return std::nullopt;
+  if (find_reference_problem(scene) || !groups_to_share(scene)) return {};
   const PrimitiveCount count = count_primitives(scene);
   if (count.total() > max_primitives) {
     return Diagnostic::about("instance", "shows more than " + std::to_string(max_primitives) +

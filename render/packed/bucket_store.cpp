@@ -17,7 +17,7 @@ Status BucketStore::add(std::uint16_t bucket, const PackedSphere& sphere) {
   Bucket& own = buckets_[bucket];
   own.buffer.push_back(sphere);
   ++own.count;
-  return own.buffer.size() < most_ ? std::nullopt : spill(own);
+  return own.buffer.size() < most_ ? Status() : spill(own);
 }
 
 Status BucketStore::spill(Bucket& bucket) {
@@ -27,22 +27,23 @@ Status BucketStore::spill(Bucket& bucket) {
     file_.emplace(std::move(file).value());
   }
   bucket.extents.push_back({file_->size(), bucket.buffer.size()});
-  if (auto bad = file_->append(bucket.buffer.data(), bucket.buffer.size() * sizeof(PackedSphere)))
-    return bad;
+  if (auto done = file_->append(bucket.buffer.data(), bucket.buffer.size() * sizeof(PackedSphere));
+      !done)
+    return done;
   bucket.buffer.clear();
-  return std::nullopt;
+  return {};
 }
 
 Status BucketStore::settle() {
-  if (buckets_.size() == 1) return std::nullopt;
+  if (buckets_.size() == 1) return {};
   for (Bucket& bucket : buckets_) {
     // Nothing is spilled where all of them fit.
     if (file_ && !bucket.buffer.empty()) {
-      if (auto bad = spill(bucket)) return bad;
+      if (auto done = spill(bucket); !done) return done;
       std::vector<PackedSphere>().swap(bucket.buffer);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 Status BucketStore::drain(std::size_t index,
@@ -54,14 +55,15 @@ Status BucketStore::drain(std::size_t index,
     for (std::size_t done = 0; done < extent.count; done += some.size()) {
       some.resize(std::min(at_once, extent.count - done));
       const std::uint64_t at = extent.offset + done * sizeof(PackedSphere);
-      if (auto bad = file_->read(at, some.data(), some.size() * sizeof(PackedSphere))) return bad;
-      if (auto bad = take(some)) return bad;
+      if (auto read = file_->read(at, some.data(), some.size() * sizeof(PackedSphere)); !read)
+        return read;
+      if (auto taken = take(some); !taken) return taken;
     }
     file_->forget(extent.offset, extent.count * sizeof(PackedSphere));
   }
-  if (auto bad = take(bucket.buffer)) return bad;
+  if (auto done = take(bucket.buffer); !done) return done;
   bucket = {};
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

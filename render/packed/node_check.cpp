@@ -81,7 +81,7 @@ Diagnostic about(std::size_t node, const char* what) {
 
 Status check_nodes(std::span<const BvhNode> nodes, std::uint64_t leaves,
                    const ParallelFor& parallel_for) {
-  if (nodes.empty()) return std::nullopt;
+  if (nodes.empty()) return {};
   if (nodes.size() > leaf_bit) return Diagnostic::of("it has too many nodes");
   Parents parents(nodes.size());
   constexpr std::size_t at_once = 2048;
@@ -106,7 +106,7 @@ Status check_nodes(std::span<const BvhNode> nodes, std::uint64_t leaves,
     depth[i] = static_cast<std::uint8_t>(depth[parents[i]] + 1);
     if (depth[i] > bvh_max_depth) return about(i, "lies too deep");
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

@@ -52,39 +52,39 @@ class Packer {
 /// Calls take(part) for the chunk's spheres, `count` at most, part by part.
 template <class Take>
 Status Packer::each_part(std::uint64_t count, const Take& take) {
-  if (auto bad = source_.seek(first_)) return bad;
+  if (auto done = source_.seek(first_); !done) return done;
   std::vector<Sphere> part;
   while (count > 0) {
     if (means_.stop && means_.stop()) return Diagnostic::of("interrupted");
     const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(count, spheres_at_once));
-    if (auto bad = source_.read(part, most)) return bad;
+    if (auto done = source_.read(part, most); !done) return done;
     if (part.empty()) break;
-    if (auto bad = take(part)) return bad;
+    if (auto done = take(part); !done) return done;
     count -= part.size();
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<bool> Packer::pack_chunk() {
   survey_.begin_chunk();
   const auto look = [&](const std::vector<Sphere>& part) -> Status {
     survey_.add(part, means_.parallel_for);
-    return std::nullopt;
+    return {};
   };
-  if (auto bad = each_part(means_.chunk, look)) return *bad;
+  if (auto done = each_part(means_.chunk, look); !done) return done.error();
   const std::uint64_t count = survey_.size();
   if (count == 0) return false;
   apart_ = survey_.apart();
   apart_spheres_.clear();
   const Partition partition(survey_.sample(), most_);
   BucketStore store(partition.buckets(), means_.memory / 2, means_.beside);
-  if (auto bad = distribute(partition, store)) return *bad;
-  if (auto bad = store.settle()) return *bad;
-  if (auto bad = writer_.begin_chunk(survey_.alike())) return *bad;
-  if (auto bad = add_apart()) return *bad;
+  if (auto done = distribute(partition, store); !done) return done.error();
+  if (auto done = store.settle(); !done) return done.error();
+  if (auto done = writer_.begin_chunk(survey_.alike()); !done) return done.error();
+  if (auto done = add_apart(); !done) return done.error();
   PackTree tree(writer_, means_);
-  if (auto bad = tree.add(partition, store)) return *bad;
-  if (auto bad = writer_.end_chunk()) return *bad;
+  if (auto done = tree.add(partition, store); !done) return done.error();
+  if (auto done = writer_.end_chunk(); !done) return done.error();
   first_ += count;
   return count == means_.chunk;
 }
@@ -105,12 +105,12 @@ Status Packer::distribute(const Partition& partition, BucketStore& store) {
       if (next != apart_.end() && *next == id) {
         apart_spheres_.push_back(part[k]);
         ++next;
-      } else if (auto bad = store.add(buckets[k], {part[k], id})) {
-        return bad;
+      } else if (auto done = store.add(buckets[k], {part[k], id}); !done) {
+        return done;
       }
     }
     source_.forget(first_ + id);
-    return std::nullopt;
+    return {};
   };
   return each_part(survey_.size(), put);
 }
@@ -129,7 +129,7 @@ Status Packer::add_apart() {
   chunks_.push_back(
       {.spheres = survey_.size(), .scanned = tree.slots.size(), .material = survey_.material()});
   const auto node = writer_.append(tree, ids);
-  return node ? std::nullopt : Status(node.error());
+  return node ? Status() : Status(node.error());
 }
 
 }  // namespace

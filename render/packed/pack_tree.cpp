@@ -77,9 +77,9 @@ bool are_copies(const Sphere& a, const Sphere& b) {
 Status PackTree::add(const Partition& partition, BucketStore& store) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < store.size(); ++i) count += store.count(i);
-  if (count == 0) return std::nullopt;
+  if (count == 0) return {};
   const auto part = add(partition, store, 1);
-  return part ? std::nullopt : Status(part.error());
+  return part ? Status() : Status(part.error());
 }
 
 Result<PackTree::Part> PackTree::add(const Partition& partition, BucketStore& store, int depth) {
@@ -104,7 +104,7 @@ Result<PackTree::Part> PackTree::add_node(Plan& plan, std::uint32_t cut, int dep
     add_child(node, below.value().box, below.value().node);
     part.box.add(below.value().box);
   }
-  if (auto bad = writer_.set_node(part.node, node)) return *bad;
+  if (auto done = writer_.set_node(part.node, node); !done) return done.error();
   return part;
 }
 
@@ -125,9 +125,9 @@ Result<PackTree::Part> PackTree::build(BucketStore& store, std::size_t bucket, i
       spheres.push_back(one.sphere);
       ids.push_back(one.id);
     }
-    return std::nullopt;
+    return {};
   };
-  if (auto bad = store.drain(bucket, take)) return *bad;
+  if (auto done = store.drain(bucket, take); !done) return done.error();
   const Bvh tree =
       build_bvh(std::move(spheres), means_.parallel_for, {.depth = depth, .keeps_apart = false});
   const auto node = writer_.append(tree, ids);
@@ -143,22 +143,22 @@ Result<PackTree::Part> PackTree::divide(BucketStore& store, std::size_t bucket, 
   const auto copy = [&](std::span<const PackedSphere> some) -> Status {
     for (const PackedSphere& one : some) {
       sample.add(one.sphere);
-      if (auto bad = whole.add(0, one)) return bad;
+      if (auto done = whole.add(0, one); !done) return done;
     }
-    return std::nullopt;
+    return {};
   };
-  if (auto bad = store.drain(bucket, copy)) return *bad;
+  if (auto done = store.drain(bucket, copy); !done) return done.error();
   const Partition partition(sample, spheres_in_memory(means_.memory));
   if (partition.is_one()) return add_without_copies(whole, 0, sample.spheres().front(), depth);
   BucketStore parts(partition.buckets(), means_.memory / 4, means_.beside);
   const auto distribute = [&](std::span<const PackedSphere> some) -> Status {
     for (const PackedSphere& one : some) {
-      if (auto bad = parts.add(partition.bucket_of(one.sphere), one)) return bad;
+      if (auto done = parts.add(partition.bucket_of(one.sphere), one); !done) return done;
     }
-    return std::nullopt;
+    return {};
   };
-  if (auto bad = whole.drain(0, distribute)) return *bad;
-  if (auto bad = parts.settle()) return *bad;
+  if (auto done = whole.drain(0, distribute); !done) return done.error();
+  if (auto done = parts.settle(); !done) return done.error();
   return add(partition, parts, depth);
 }
 
@@ -170,11 +170,11 @@ Result<PackTree::Part> PackTree::add_without_copies(BucketStore& store, std::siz
   const auto keep = [&](std::span<const PackedSphere> some) -> Status {
     for (const PackedSphere& one : some) {
       if (are_copies(one.sphere, sphere) && copies++ >= kept_copies) continue;
-      if (auto bad = rest.add(0, one)) return bad;
+      if (auto done = rest.add(0, one); !done) return done;
     }
-    return std::nullopt;
+    return {};
   };
-  if (auto bad = store.drain(bucket, keep)) return *bad;
+  if (auto done = store.drain(bucket, keep); !done) return done.error();
   return add_bucket(rest, 0, depth);
 }
 

@@ -45,23 +45,23 @@ Result<PackWriter> PackWriter::create(const std::string& output,
   PackWriter writer(std::move(file).value(), std::move(ids).value(), std::move(materials).value(),
                     std::move(nodes).value());
   const std::string header(page, '\0');  // in its place at the end
-  if (auto bad = writer.write(header.data(), header.size())) return *bad;
+  if (auto done = writer.write(header.data(), header.size()); !done) return done.error();
   return Result<PackWriter>(std::move(writer));
 }
 
 Status PackWriter::write(const void* bytes, std::size_t count) {
-  if (auto bad = output_.write(bytes, count)) return bad;
+  if (auto done = output_.write(bytes, count); !done) return done;
   size_ += count;
   if (checksum_) checksum_->add(bytes_of(bytes, count));
-  return std::nullopt;
+  return {};
 }
 
 Status PackWriter::begin_section(Kind kind) {
   const std::string gap(static_cast<std::size_t>(next_page(size_) - size_), '\0');
-  if (auto bad = write(gap.data(), gap.size())) return bad;
+  if (auto done = write(gap.data(), gap.size()); !done) return done;
   sections_.push_back({kind, chunk_, size_, 0, 0});
   checksum_ = std::make_unique<PieceChecksum>();
-  return std::nullopt;
+  return {};
 }
 
 void PackWriter::end_section() {
@@ -83,22 +83,25 @@ Result<std::uint32_t> PackWriter::append(const Bvh& tree, std::span<const std::u
   const auto first_leaf = static_cast<std::uint32_t>(blocks_ - scanned_blocks_);
   blocks_ += tree.blocks.size();
   if (blocks_ * bvh_leaf_size > packed_format::most_slots) return too_sparse();
-  if (auto bad = write(tree.blocks.data(), tree.blocks.size() * sizeof(SphereBlock))) return *bad;
+  if (auto done = write(tree.blocks.data(), tree.blocks.size() * sizeof(SphereBlock)); !done)
+    return done.error();
   std::vector<std::int32_t> slots(tree.slots.begin(), tree.slots.end());
   for (std::int32_t& slot : slots) {
     if (slot >= 0) slot = static_cast<std::int32_t>(ids[static_cast<std::size_t>(slot)]);
   }
-  if (auto bad = ids_.append(slots.data(), slots.size() * sizeof(std::int32_t))) return *bad;
+  if (auto done = ids_.append(slots.data(), slots.size() * sizeof(std::int32_t)); !done)
+    return done.error();
   if (!alike_) {
     std::vector<MaterialRef> materials(slots.size());
     for (std::size_t i = 0; i < slots.size(); ++i) {
       if (slots[i] >= 0) materials[i] = tree.materials[static_cast<std::uint32_t>(i)];
     }
-    if (auto bad = materials_.append(materials.data(), materials.size() * sizeof(MaterialRef)))
-      return *bad;
+    if (auto done = materials_.append(materials.data(), materials.size() * sizeof(MaterialRef));
+        !done)
+      return done.error();
   }
   const auto first = static_cast<std::uint32_t>(nodes_.size() / sizeof(BvhNode));
-  if (auto bad = append_nodes(tree, first_leaf)) return *bad;
+  if (auto done = append_nodes(tree, first_leaf); !done) return done.error();
   return first;
 }
 
@@ -113,15 +116,15 @@ Status PackWriter::append_nodes(const Bvh& tree, std::uint32_t first_leaf) {
       for (std::size_t k = 0; k < node.size; ++k)
         node.child[k] += node.leaf_size[k] > 0 ? first_leaf : first;
     }
-    if (auto bad = nodes_.append(some.data(), some.size() * sizeof(BvhNode))) return bad;
+    if (auto done = nodes_.append(some.data(), some.size() * sizeof(BvhNode)); !done) return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<std::uint32_t> PackWriter::reserve_nodes(std::size_t count) {
   const auto first = static_cast<std::uint32_t>(nodes_.size() / sizeof(BvhNode));
   const std::vector<BvhNode> room(count);
-  if (auto bad = nodes_.append(room.data(), count * sizeof(BvhNode))) return *bad;
+  if (auto done = nodes_.append(room.data(), count * sizeof(BvhNode)); !done) return done.error();
   return first;
 }
 
@@ -130,13 +133,13 @@ Status PackWriter::set_node(std::uint32_t index, const BvhNode& node) {
 }
 
 Status PackWriter::append_spilled(Kind kind, SpillFile& spill) {
-  if (auto bad = begin_section(kind)) return bad;
+  if (auto done = begin_section(kind); !done) return done;
   std::string buffer;
   constexpr std::uint64_t at_once = std::uint64_t{4} << 20;
   for (std::uint64_t done = 0; done < spill.size(); done += buffer.size()) {
     buffer.resize(static_cast<std::size_t>(std::min(at_once, spill.size() - done)));
-    if (auto bad = spill.read(done, buffer.data(), buffer.size())) return bad;
-    if (auto bad = write(buffer.data(), buffer.size())) return bad;
+    if (auto read = spill.read(done, buffer.data(), buffer.size()); !read) return read;
+    if (auto written = write(buffer.data(), buffer.size()); !written) return written;
     spill.forget(done, buffer.size());
   }
   end_section();
@@ -145,21 +148,21 @@ Status PackWriter::append_spilled(Kind kind, SpillFile& spill) {
 
 Status PackWriter::end_chunk() {
   end_section();
-  if (auto bad = append_spilled(Kind::ids, ids_)) return bad;
+  if (auto done = append_spilled(Kind::ids, ids_); !done) return done;
   if (!alike_) {
-    if (auto bad = append_spilled(Kind::materials, materials_)) return bad;
+    if (auto done = append_spilled(Kind::materials, materials_); !done) return done;
   }
-  if (auto bad = append_spilled(Kind::nodes, nodes_)) return bad;
+  if (auto done = append_spilled(Kind::nodes, nodes_); !done) return done;
   ++chunk_;
-  return std::nullopt;
+  return {};
 }
 
 Result<std::uint64_t> PackWriter::finish(const PackedContents& contents,
                                          const std::function<bool()>& stop) {
   chunk_ = 0;
-  if (auto bad = begin_section(Kind::contents)) return *bad;
+  if (auto done = begin_section(Kind::contents); !done) return done.error();
   const std::string bytes = encode(contents);
-  if (auto bad = write(bytes.data(), bytes.size())) return *bad;
+  if (auto done = write(bytes.data(), bytes.size()); !done) return done.error();
   end_section();
   Header header{};
   std::copy_n(packed_format::magic, sizeof header.magic, header.magic);
@@ -171,7 +174,7 @@ Result<std::uint64_t> PackWriter::finish(const PackedContents& contents,
   const ssize_t written = ::pwrite(output_.descriptor(), &header, sizeof header, 0);
   if (written != ssize_t{sizeof header})
     return cannot_write(output_.path(), written < 0 ? errno : EIO);
-  if (auto bad = output_.commit(stop)) return *bad;
+  if (auto done = output_.commit(stop); !done) return done.error();
   return size_;
 }
 

@@ -93,7 +93,7 @@ Result<PackedContents> decode(std::string_view bytes) {
   contents.chunks = std::move(facts.chunks);
   contents.origin = facts.origin;
   const Scene& scene = contents.scene;
-  if (auto bad = validate_all_but_primitives(scene)) return *bad;
+  if (auto done = validate_all_but_primitives(scene); !done) return done.error();
   if (!scene.spheres.empty() || !scene.groups.empty() || !scene.instances.empty()) return damaged();
   const PackedSpheres& spheres = contents.spheres;
   const bool valid = are_valid(scene.planes, scene) && are_valid(spheres.emissive, scene) &&

@@ -65,11 +65,11 @@ bool is_packed_name(std::string_view path) {
 
 Result<PackedFile> PackedFile::open(const std::string& path, const PackedOptions& options) {
   PackedFile file(path);
-  if (auto bad = file.map()) return *bad;
-  if (auto bad = file.read_header()) return *bad;
-  if (auto bad = file.read_contents()) return *bad;
+  if (auto done = file.map(); !done) return done.error();
+  if (auto done = file.read_header(); !done) return done.error();
+  if (auto done = file.read_contents(); !done) return done.error();
   for (std::uint32_t chunk = 0; chunk < file.contents_.chunks.size(); ++chunk) {
-    if (auto bad = file.read_chunk(chunk, options)) return *bad;
+    if (auto done = file.read_chunk(chunk, options); !done) return done.error();
   }
   return file;
 }
@@ -91,7 +91,7 @@ Status PackedFile::map() {
   void* const data = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file.value().descriptor(), 0);
   if (data == MAP_FAILED) return wrong("cannot read it: " + std::generic_category().message(errno));
   map_ = std::make_shared<const Map>(data, length);
-  return std::nullopt;
+  return {};
 }
 
 Status PackedFile::read_header() {
@@ -121,7 +121,7 @@ Status PackedFile::read_header() {
     if (!lies_within) return wrong("its header is damaged: a section lies outside of the file");
     sections_.push_back(section);
   }
-  return std::nullopt;
+  return {};
 }
 
 const packed_format::Section* PackedFile::find(Kind kind, std::uint32_t chunk) const {
@@ -152,7 +152,7 @@ Status PackedFile::read_contents() {
     return error;
   }
   contents_ = std::move(contents).value();
-  return std::nullopt;
+  return {};
 }
 
 Status PackedFile::read_chunk(std::uint32_t chunk, const PackedOptions& options) {
@@ -178,7 +178,8 @@ Status PackedFile::read_chunk(std::uint32_t chunk, const PackedOptions& options)
     const std::span all(reinterpret_cast<const BvhNode*>(bytes.data()),
                         bytes.size() / sizeof(BvhNode));
     const std::uint64_t leaves = leaves_and_scanned - facts.scanned / bvh_leaf_size;
-    if (auto bad = check_nodes(all, leaves, options.parallel_for)) return wrong(bad->message);
+    if (auto done = check_nodes(all, leaves, options.parallel_for); !done)
+      return wrong(done.error().message);
   }
   auto mapped = std::make_shared<MappedTree>();
   mapped->map = map_;
@@ -195,7 +196,7 @@ Status PackedFile::read_chunk(std::uint32_t chunk, const PackedOptions& options)
         SlotMaterials(reinterpret_cast<const MaterialRef*>(bytes_of(*materials).data()), count);
   }
   trees_.push_back(std::shared_ptr<const Bvh>(mapped, &mapped->tree));
-  return std::nullopt;
+  return {};
 }
 
 /// What the parts of a geometry ask for.
@@ -212,14 +213,14 @@ Status PackedFile::check_parts() const {
       return wrong("has chunks of spheres, of which some are farther away or larger than 1e17");
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<Scene> PackedFile::scene() const {
   Scene scene = contents_.scene;
   if (trees_.empty()) return scene;
   if (trees_.size() > 1) {
-    if (auto bad = check_parts()) return *bad;
+    if (auto done = check_parts(); !done) return done.error();
   }
   auto spheres = std::make_shared<PackedSpheres>(contents_.spheres);
   spheres->file = path_;
@@ -240,7 +241,7 @@ Status PackedFile::verify(const ParallelFor& parallel_for) const {
           (contents_.chunks.size() > 1 ? " in chunk " + std::to_string(section.chunk) : ""));
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

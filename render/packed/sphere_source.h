@@ -34,14 +34,14 @@ class SpheresInMemory final : public SphereSource {
 
   Status seek(std::uint64_t sphere) override {
     next_ = static_cast<std::size_t>(sphere);
-    return std::nullopt;
+    return {};
   }
   Status read(std::vector<Sphere>& part, std::size_t most) override {
     const std::size_t size = std::min(most, spheres_.size() - next_);
     const auto first = spheres_.begin() + static_cast<std::ptrdiff_t>(next_);
     part.assign(first, first + static_cast<std::ptrdiff_t>(size));
     next_ += size;
-    return std::nullopt;
+    return {};
   }
   void forget(std::uint64_t) override {}
 

@@ -50,9 +50,9 @@ SpillFile::~SpillFile() {
 }
 
 Status SpillFile::append(const void* bytes, std::size_t count) {
-  if (auto bad = write(size_, bytes, count)) return bad;
+  if (auto done = write(size_, bytes, count); !done) return done;
   size_ += count;
-  return std::nullopt;
+  return {};
 }
 
 Status SpillFile::write(std::uint64_t offset, const void* bytes, std::size_t count) {
@@ -65,7 +65,7 @@ Status SpillFile::write(std::uint64_t offset, const void* bytes, std::size_t cou
     offset += static_cast<std::uint64_t>(done);
     count -= static_cast<std::size_t>(done);
   }
-  return std::nullopt;
+  return {};
 }
 
 Status SpillFile::read(std::uint64_t offset, void* bytes, std::size_t count) const {
@@ -78,7 +78,7 @@ Status SpillFile::read(std::uint64_t offset, void* bytes, std::size_t count) con
     offset += static_cast<std::uint64_t>(done);
     count -= static_cast<std::size_t>(done);
   }
-  return std::nullopt;
+  return {};
 }
 
 void SpillFile::forget(std::uint64_t offset, std::uint64_t count) {
@@ -92,7 +92,7 @@ void SpillFile::forget(std::uint64_t offset, std::uint64_t count) {
 Status SpillFile::clear() {
   if (::ftruncate(descriptor_, 0) != 0) return cannot_write(name_, errno);
   size_ = 0;
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

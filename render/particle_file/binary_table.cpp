@@ -156,11 +156,11 @@ class BinaryTableReader {
       : table_(table), first_row_(first_row), options_(options) {}
 
   Result<ParticleFrame> read(const ParallelFor& parallel_for) {
-    if (auto bad = check_room()) return *bad;
+    if (auto done = check_room(); !done) return done.error();
     frame_.positions.resize(table_.rows);
     frame_.numbers.reserve(table_.columns.size());  // tasks point into it
     for (const BinaryColumn& column : table_.columns) add_column(column);
-    if (auto bad = read_numbers(parallel_for)) return *bad;
+    if (auto done = read_numbers(parallel_for); !done) return done.error();
     take_atomic_numbers_as_species();
     take_types_as_species(frame_, true);
     return std::move(frame_);
@@ -266,7 +266,7 @@ class BinaryTableReader {
       const std::scoped_lock lock(mutex);
       worst = std::min(worst, bad);
     });
-    if (worst.first == table_.rows) return std::nullopt;
+    if (worst.first == table_.rows) return {};
     return Diagnostic::about(tasks_[worst.second].column->name,
                              "row " + std::to_string(worst.first) + ": must be finite");
   }
@@ -292,7 +292,7 @@ Status check_binary_columns(const BinaryTable& table) {
     if (found != is_text.end() && !found->second) continue;
     return Diagnostic::about(axis, std::string("there is no column of positions for ") + axis);
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<ParticleFrame> read_binary_table(const BinaryTable& table, const char* first_row,

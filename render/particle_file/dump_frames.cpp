@@ -33,14 +33,14 @@ class DumpFrameFinder {
   explicit DumpFrameFinder(std::string_view text) : text_(text), lines_(text) {}
 
   Result<DumpFrames> run() {
-    Status wrong;
-    for (lines_.skip_blank_lines(); !wrong && !lines_.at_end(); lines_.skip_blank_lines()) {
-      wrong = section();
+    Status read;
+    for (lines_.skip_blank_lines(); read && !lines_.at_end(); lines_.skip_blank_lines()) {
+      read = section();
     }
-    if (!wrong) wrong = find_cut_row();
-    if (!wrong) wrong = finish_frame();
-    if (wrong && !is_cut(*wrong)) return *std::move(wrong);
-    found_.cut = std::move(wrong);
+    if (read) read = find_cut_row();
+    if (read) read = finish_frame();
+    if (!read && !is_cut(read.error())) return std::move(read).error();
+    found_.whole = std::move(read);
     return std::move(found_);
   }
 
@@ -51,18 +51,18 @@ class DumpFrameFinder {
     if (!lines_.at_end() || is_no_item_) return false;
     const bool is_whole =
         frame_.atoms.exists() && wrong.line >= place_number(frame_.atoms.end_line());
-    if (is_whole && finish_frame()) return false;
+    if (is_whole && !finish_frame()) return false;
     return !found_.frames.empty();
   }
 
   /// The last row of the last frame may be a part of one.
   Status find_cut_row() const {
     const DumpSection& atoms = frame_.atoms;
-    if (found_.frames.empty() || !atoms.exists() || atoms.rows == 0) return std::nullopt;
+    if (found_.frames.empty() || !atoms.exists() || atoms.rows == 0) return {};
     const std::size_t like = atoms.rows > 1 ? atoms.begin : found_.frames.back().atoms.begin;
     const std::string_view rows = text_.substr(atoms.begin, atoms.end - atoms.begin);
     if (atoms.end < text_.size() || !has_cut_row(rows, TextLines(text_.substr(like)).next())) {
-      return std::nullopt;
+      return {};
     }
     return error_at_line(atoms.end_line() - 1, "the file ends in the last row of its atoms");
   }
@@ -78,7 +78,7 @@ class DumpFrameFinder {
     const Item kind = item_of(header);
     bool& seen = seen_[static_cast<std::size_t>(kind)];
     if (seen && kind != Item::other) {
-      if (auto wrong = finish_frame()) return wrong;
+      if (auto done = finish_frame(); !done) return done;
     }
     seen = true;
     if (kind == Item::other && lines_.at_end() && !text_.ends_with('\n')) {
@@ -86,7 +86,7 @@ class DumpFrameFinder {
     }
     section.begin = lines_.offset();
     section.line = lines_.line();
-    if (auto wrong = skip_rows(kind, header_line, section)) return wrong;
+    if (auto done = skip_rows(kind, header_line, section); !done) return done;
     section.end = lines_.offset();
     return keep(kind, section);
   }
@@ -105,7 +105,7 @@ class DumpFrameFinder {
     } else {
       for (; !lines_.at_end() && !lines_.peek().starts_with(item); ++section.rows) lines_.skip(1);
     }
-    if (!expected || section.rows == *expected) return std::nullopt;
+    if (!expected || section.rows == *expected) return {};
     return error_at_line(header_line, "it needs " + std::to_string(*expected) +
                                           " lines below, the file ends after " +
                                           std::to_string(section.rows));
@@ -136,7 +136,7 @@ class DumpFrameFinder {
     } else if (kind == Item::atoms) {
       frame_.atoms = section;
     }
-    return std::nullopt;
+    return {};
   }
 
   Status finish_frame() {
@@ -150,11 +150,11 @@ class DumpFrameFinder {
                                " atoms, NUMBER OF ATOMS says " + std::to_string(*count_),
                            "NUMBER OF ATOMS");
     }
-    if (auto no_room = add_frame_place(found_.frames, frame_)) return no_room;
+    if (auto done = add_frame_place(found_.frames, frame_); !done) return done;
     frame_ = {};
     count_.reset();
     for (bool& seen : seen_) seen = false;
-    return std::nullopt;
+    return {};
   }
 
   std::string_view text_;

@@ -167,7 +167,7 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) override {
     const DumpFramePlace& place = places_.frames[frame];
     ParticleFrame read;
-    if (auto wrong = read_header(place, read)) return *wrong;
+    if (auto done = read_header(place, read); !done) return done.error();
     const DumpSection& atoms = place.atoms;
     const std::string_view rows = bytes_.text().substr(atoms.begin, atoms.end - atoms.begin);
     const auto names = column_names(atoms);
@@ -175,8 +175,8 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
     const DumpPositions positions = find_positions(names.value());
     NamedColumns columns(options_.wanted, read);
     add_columns(names.value(), positions, words_of(TextLines(rows).next()), columns);
-    if (auto wrong = columns.check_positions()) {
-      return error_at_line(atoms.line - 1, wrong->message, wrong->key);
+    if (auto done = columns.check_positions(); !done) {
+      return error_at_line(atoms.line - 1, done.error().message, done.error().key);
     }
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(atoms.rows),
@@ -184,13 +184,14 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
                           .lenient = options_.lenient,
                           .positive = options_.positive,
                           .file = &bytes_};
-    if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
+    if (auto done = read_text_rows(source, columns.columns(), read, parallel_for); !done)
+      return done.error();
     if (positions.any_scaled()) {
-      if (auto wrong = check_scaled(positions, read, atoms.line - 1)) return *wrong;
+      if (auto done = check_scaled(positions, read, atoms.line - 1); !done) return done.error();
       unscale(positions, *read.cell, read.positions);
-      if (auto wrong = check_finite(read, atoms)) return *wrong;
+      if (auto done = check_finite(read, atoms); !done) return done.error();
     }
-    if (auto twice = sort_by_id(read, atoms.line, parallel_for)) return *twice;
+    if (auto done = sort_by_id(read, atoms.line, parallel_for); !done) return done.error();
     columns.finish();
     return read;
   }
@@ -203,12 +204,12 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
       if (!cell) return cell.error();
       read.cell = cell.value();
     }
-    if (!place.time.exists()) return std::nullopt;
+    if (!place.time.exists()) return {};
     const auto time = numbers_of(TextLines(bytes_.text().substr(place.time.begin)).next(),
                                  place.time.line, 1, "TIME");
     if (!time) return time.error();
     read.time = time.value().front();
-    return std::nullopt;
+    return {};
   }
 
   [[nodiscard]] Result<std::vector<std::string>> column_names(const DumpSection& atoms) const {
@@ -238,7 +239,7 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
   static Status check_finite(const ParticleFrame& read, const DumpSection& atoms) {
     const auto beyond = std::find_if(read.positions.begin(), read.positions.end(),
                                      [](const Vec3d& p) { return !is_finite(p); });
-    if (beyond == read.positions.end()) return std::nullopt;
+    if (beyond == read.positions.end()) return {};
     const auto row = static_cast<std::uint64_t>(beyond - read.positions.begin());
     return error_at_line(atoms.line + row, "its position in the box is too large a number");
   }
@@ -249,7 +250,7 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
       return error_at_line(line, "its positions are fractions of a box, which it does not have",
                            "BOX BOUNDS");
     }
-    if (positions.all_scaled() || is_upright(*read.cell)) return std::nullopt;
+    if (positions.all_scaled() || is_upright(*read.cell)) return {};
     return error_at_line(line,
                          "in a tilted box, all of x, y and z must be fractions of it, or none",
                          positions.names[0]);

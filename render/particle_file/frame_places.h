@@ -19,7 +19,7 @@ namespace boule {
 template <class Place>
 struct FramePlaces {
   std::vector<Place> frames;  ///< whole ones, at least one
-  Status cut;                 ///< as ParticleReader::cut()
+  Status whole;               ///< as ParticleReader::whole()
 };
 
 /// A reader of a text whose frames' places are found.
@@ -30,7 +30,7 @@ class PlacedReader : public ParticleReader {
       : bytes_(std::move(bytes)), options_(std::move(options)), places_(std::move(places)) {}
 
   [[nodiscard]] std::size_t frames() const override { return places_.frames.size(); }
-  [[nodiscard]] Status cut() const override { return places_.cut; }
+  [[nodiscard]] Status whole() const override { return places_.whole; }
 
  protected:
   MappedText bytes_;
@@ -56,10 +56,10 @@ Status add_frame_place(std::vector<Place>& frames, const Place& place) {
   if (frames.size() == frames.capacity()) {
     const std::uint64_t bytes = std::uint64_t{2} * sizeof(Place) * (frames.size() + 1);
     const std::string who = "the list of its " + std::to_string(frames.size()) + " and more frames";
-    if (auto no_room = check_memory(bytes, who + " needs")) return no_room;
+    if (auto done = check_memory(bytes, who + " needs"); !done) return done;
   }
   frames.push_back(place);
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

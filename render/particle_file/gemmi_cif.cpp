@@ -151,7 +151,7 @@ class CifAtoms {
     for (Row row : table) {
       const auto [found, is_new] = models.try_emplace(text_at(row, model), columns.size());
       if (is_new) columns.emplace_back(MoleculeKind::residues, options_.water);
-      if (auto wrong = add_atom(table, row, columns[found->second])) return *wrong;
+      if (auto done = add_atom(table, row, columns[found->second]); !done) return done.error();
     }
     std::vector<ParticleFrame> frames;
     for (MoleculeColumns& each : columns) {
@@ -163,7 +163,7 @@ class CifAtoms {
 
   Status add_atom(cif::Table& table, const Row& row, MoleculeColumns& columns) {
     MoleculeAtom read;
-    if (auto wrong = read_position(table, row, read.position)) return wrong;
+    if (auto done = read_position(table, row, read.position); !done) return done;
     const auto occupied = number_at(table, row, occupancy, "occupancy", 1);
     if (!occupied) return occupied.error();
     const auto factor = number_at(table, row, b_factor, "bfactor", 0);
@@ -185,7 +185,7 @@ class CifAtoms {
     read.occupancy = occupied.value();
     read.b_factor = factor.value();
     columns.add(read);
-    return std::nullopt;
+    return {};
   }
 
   Result<std::vector<ParticleFrame>> read_sites(cif::Table& table) {
@@ -197,15 +197,16 @@ class CifAtoms {
     auto symmetry = CifSymmetryReader(block_, cell.value()->gemmi).read();
     if (!symmetry) return symmetry.error();
     const std::size_t images = symmetry.value().operations.size();
-    if (auto no_room = check_memory(table.length() * images * MoleculeColumns::atom_bytes,
-                                    "the atoms of its cell need")) {
-      return *no_room;
+    if (auto done = check_memory(table.length() * images * MoleculeColumns::atom_bytes,
+                                 "the atoms of its cell need");
+        !done) {
+      return done.error();
     }
     MoleculeColumns columns(MoleculeKind::sites, true);
     std::size_t disordered = 0, sites = 0;
     for (Row row : table) {
       MoleculeAtom read;
-      if (auto wrong = read_position(table, row, read.position)) return *wrong;
+      if (auto done = read_position(table, row, read.position); !done) return done.error();
       const auto occupied = number_at(table, row, site_occupancy, "occupancy", 1);
       if (!occupied) return occupied.error();
       if (finite_or(text_at(row, disorder_group), 1) > 1) {
@@ -285,7 +286,7 @@ class CifAtoms {
       if (!number) return number.error();
       *targets[axis] = number.value();
     }
-    return std::nullopt;
+    return {};
   }
 
   /// The cell; nothing where there is none, or one of edges 1, which stands for none.
@@ -342,18 +343,19 @@ class CifAtoms {
 Result<std::vector<ParticleFrame>> read_cif_frames(std::string_view text,
                                                    const ParticleFileOptions& options) {
   std::vector<ParticleFrame> frames;
-  auto wrong = call_gemmi([&]() -> Status {
+  auto done = call_gemmi([&]() -> Status {
     cif::Document document = cif::read_memory(text.data(), text.size(), "cif");
     for (cif::Block& block : document.blocks) {
       auto read = CifAtoms(block, options).read();
       if (!read) return read.error();
       frames = std::move(read).value();
-      if (!frames.empty()) return std::nullopt;
+      if (!frames.empty()) return {};
     }
     return Diagnostic::of("it holds no positions of atoms: _atom_site.Cartn_x, _atom_site_fract_x");
   });
-  if (!wrong) return frames;
-  return wrong->line == 0 && wrong->key.empty() ? cif_error(wrong->message) : *wrong;
+  if (done) return frames;
+  return done.error().line == 0 && done.error().key.empty() ? cif_error(done.error().message)
+                                                            : done.error();
 }
 
 #endif

@@ -145,20 +145,20 @@ Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns) {
                    .occupancy = records.numbers[i].occupancy,
                    .b_factor = records.numbers[i].b_factor});
     }
-    return std::nullopt;
+    return {};
   });
 }
 
 Result<ParticleCell> read_pdb_cell(const std::string& records) {
   ParticleCell cell;
-  auto wrong = call_gemmi([&]() -> Status {
+  auto done = call_gemmi([&]() -> Status {
     const auto structure = gemmi::read_pdb_from_memory(records.data(), records.size(), "pdb");
     auto found = particle_cell(structure.cell);
     if (!found) return found.error();
     cell = found.value();
-    return std::nullopt;
+    return {};
   });
-  if (wrong) return *wrong;
+  if (!done) return done.error();
   return cell;
 }
 

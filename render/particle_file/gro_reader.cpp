@@ -62,14 +62,14 @@ Result<FramePlaces<GroFrame>> find_gro_frames(std::string_view text) {
     auto frame = next_gro_frame(lines);
     if (!frame && (found.frames.empty() || !lines.at_end())) return frame.error();
     if (!frame) {
-      found.cut = frame.error();
+      found.whole = frame.error();
     } else if (lines.at_end() && !found.frames.empty() &&
                has_cut_row(text.substr(frame.value().end),
                            TextLines(text.substr(found.frames.back().end)).next())) {
-      found.cut = error_at_line(frame.value().row_line + frame.value().count,
-                                "the file ends in its box", "box");
-    } else if (auto no_room = add_frame_place(found.frames, frame.value())) {
-      return *no_room;
+      found.whole = error_at_line(frame.value().row_line + frame.value().count,
+                                  "the file ends in its box", "box");
+    } else if (auto done = add_frame_place(found.frames, frame.value()); !done) {
+      return done.error();
     }
   }
   if (found.frames.empty()) return Diagnostic::of("it holds no frames");
@@ -130,7 +130,8 @@ class GroReader : public PlacedReader<GroFrame> {
                        .rows = static_cast<std::size_t>(place.count),
                        .first_line = place.row_line,
                        .lenient = options_.lenient};
-    if (auto wrong = read_gro_rows(rows, options_.wanted, read, parallel_for)) return *wrong;
+    if (auto done = read_gro_rows(rows, options_.wanted, read, parallel_for); !done)
+      return done.error();
     return read;
   }
 };

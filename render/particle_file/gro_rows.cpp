@@ -153,7 +153,7 @@ class GroPieceReader {
   }
 
   bool fail(std::string_view place, std::string message, const std::string& key = {}) {
-    piece_.error = error_at_word(rows_.first_line + row_, line_, place, std::move(message), key);
+    piece_.status = error_at_word(rows_.first_line + row_, line_, place, std::move(message), key);
     return false;
   }
 
@@ -211,8 +211,9 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
   const bool velocities = first_row.size() > head + 3 * *width &&
                           !without_blanks(first_row.substr(head + 3 * *width)).empty();
   const std::uint64_t row_bytes = 3 * sizeof(std::uint32_t) + 8 * (velocities ? 8 : 5);
-  if (auto none = check_memory(row_bytes * rows.rows, std::to_string(rows.rows) + " atoms need")) {
-    return none;
+  if (auto room = check_memory(row_bytes * rows.rows, std::to_string(rows.rows) + " atoms need");
+      !room) {
+    return room;
   }
   const GroPlan plan = GroPlanner(rows.rows, *width, wanted, frame).plan(velocities);
   std::vector<TextPiece> pieces = cut_rows(rows.text, frame.texts.size(), parallel_for);
@@ -220,7 +221,7 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
     const FloatEnvironment environment;
     GroPieceReader(rows, plan, pieces[i]).read();
   });
-  if (auto bad = check_pieces(pieces, rows.rows)) return bad;
+  if (auto done = check_pieces(pieces, rows.rows); !done) return done;
   for (std::size_t i = 0; i < frame.texts.size(); ++i) {
     merge_texts(pieces, i, frame.texts[i], parallel_for);
   }
@@ -231,7 +232,7 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
     if (unread) frame.unread.push_back(column.name);
     return unread;
   });
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

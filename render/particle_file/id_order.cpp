@@ -74,7 +74,7 @@ void reorder(std::vector<T>& values, const std::vector<std::size_t>& rows) {
 
 Status sort_by_id(ParticleFrame& frame, std::uint64_t first_line, const ParallelFor& parallel_for) {
   const NumberColumn* const column = find_number_column(frame, "id");
-  if (column == nullptr || column->values.empty()) return std::nullopt;
+  if (column == nullptr || column->values.empty()) return {};
   const std::vector<double>& ids = column->values;
   const auto broken = std::find_if(ids.begin(), ids.end(), [](double id) { return !is_whole(id); });
   if (broken != ids.end()) {
@@ -83,11 +83,11 @@ Status sort_by_id(ParticleFrame& frame, std::uint64_t first_line, const Parallel
   }
   // The last comparison is false for equal ids.
   if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) {
-    return std::nullopt;
+    return {};
   }
   // A table of at most 4 numbers each, and a copy of the longest list for each thread.
-  if (auto no_room = check_memory(ids.size() * 64, "to sort its particles, it needs")) {
-    return no_room;
+  if (auto done = check_memory(ids.size() * 64, "to sort its particles, it needs"); !done) {
+    return done;
   }
   const auto order = order_of(ids, first_line);
   if (!order) return order.error();
@@ -99,7 +99,7 @@ Status sort_by_id(ParticleFrame& frame, std::uint64_t first_line, const Parallel
   for (TextColumn& texts : frame.texts) lists.emplace_back([&] { reorder(texts.indices, rows); });
   if (frame.species) lists.emplace_back([&] { reorder(frame.species->indices, rows); });
   parallel_for(lists.size(), [&](std::size_t i) { lists[i](); });
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

@@ -37,11 +37,11 @@ class LammpsDataReader : public ParticleReader {
     read.notes = sections_.notes;
     if (sections_.atoms == 0) return read;
     NamedColumns columns(options_.wanted, read);
-    if (auto wrong = read_atoms(columns, read, parallel_for)) return *wrong;
+    if (auto done = read_atoms(columns, read, parallel_for); !done) return done.error();
     if (sections_.velocity_rows.exists()) {
-      if (auto wrong = read_velocities(read, parallel_for)) return *wrong;
+      if (auto done = read_velocities(read, parallel_for); !done) return done.error();
     }
-    if (auto wrong = name_elements(read)) return *wrong;
+    if (auto done = name_elements(read); !done) return done.error();
     columns.finish();
     return read;
   }
@@ -58,12 +58,12 @@ class LammpsDataReader : public ParticleReader {
     for (std::size_t i = 0; i < named.names.size(); ++i) {
       columns.add(named.names[i], examples, i);
     }
-    if (auto wrong = columns.check_positions()) {
-      return error_at_line(atoms.line, wrong->message, wrong->key);
+    if (auto done = columns.check_positions(); !done) {
+      return error_at_line(atoms.line, done.error().message, done.error().key);
     }
     TextRows rows = rows_of(atoms, options_.lenient);
     rows.positive = options_.positive;
-    if (auto wrong = read_text_rows(rows, columns.columns(), read, parallel_for)) return wrong;
+    if (auto done = read_text_rows(rows, columns.columns(), read, parallel_for); !done) return done;
     return sort_by_id(read, atoms.line, parallel_for);
   }
 
@@ -79,11 +79,12 @@ class LammpsDataReader : public ParticleReader {
       names.insert(names.end(), {"wx", "wy", "wz"});
     }
     for (const std::string& name : names) columns.add(name, "0");
-    if (auto wrong = read_text_rows(rows_of(section, options_.lenient), columns.columns(),
-                                    velocities, parallel_for)) {
-      return wrong;
+    if (auto done = read_text_rows(rows_of(section, options_.lenient), columns.columns(),
+                                   velocities, parallel_for);
+        !done) {
+      return done;
     }
-    if (auto twice = sort_by_id(velocities, section.line, parallel_for)) return twice;
+    if (auto done = sort_by_id(velocities, section.line, parallel_for); !done) return done;
     const NumberColumn* const atom_ids = find_number_column(read, "id");
     if (atom_ids == nullptr || atom_ids->values != velocities.numbers.front().values) {
       return error_at_line(section.line, "its ids are not those of Atoms", "Velocities");
@@ -92,13 +93,13 @@ class LammpsDataReader : public ParticleReader {
       read.numbers.push_back(std::move(velocities.numbers[i]));
     }
     read.unread.insert(read.unread.end(), velocities.unread.begin(), velocities.unread.end());
-    return std::nullopt;
+    return {};
   }
 
   /// Makes the elements of Masses the species.
   Status name_elements(ParticleFrame& read) const {
     const NumberColumn* const types = find_number_column(read, "type");
-    if (sections_.elements.empty() || read.species || types == nullptr) return std::nullopt;
+    if (sections_.elements.empty() || read.species || types == nullptr) return {};
     TextInterner elements;  // two types may be of one element
     TextColumn species{"element", {}, {}};
     species.indices.reserve(types->values.size());
@@ -114,7 +115,7 @@ class LammpsDataReader : public ParticleReader {
     }
     species.texts.assign(elements.texts().begin(), elements.texts().end());
     read.species = std::move(species);
-    return std::nullopt;
+    return {};
   }
 
   MappedText bytes_;

@@ -58,11 +58,11 @@ class SectionFinder {
   Result<DataSections> run() {
     found_.length_in_angstrom = units_of(lines_.next());
     while (!lines_.at_end() && !at_section()) {
-      if (auto wrong = header_line()) return *wrong;
+      if (auto done = header_line(); !done) return done.error();
     }
-    if (auto wrong = keep_box()) return *wrong;
+    if (auto done = keep_box(); !done) return done.error();
     while (!lines_.at_end()) {
-      if (auto wrong = section()) return *wrong;
+      if (auto done = section(); !done) return done.error();
     }
     if (!has_count_) {
       return error_at_line(lines_.line(), "it has no line with the count of atoms, \"N atoms\"",
@@ -95,7 +95,7 @@ class SectionFinder {
     const std::size_t names = static_cast<std::size_t>(
         std::find_if(words.begin(), words.end(), [](auto w) { return is_letter(w.front()); }) -
         words.begin());
-    if (names == words.size()) return std::nullopt;
+    if (names == words.size()) return {};
     const std::string name(words[names]);
     if (name == "atoms" || (name == "atom" && words.size() == names + 2)) {
       const auto count = names == 1 ? count_in(words[0]) : std::nullopt;
@@ -104,7 +104,7 @@ class SectionFinder {
       (name == "atoms" ? found_.atoms : found_.types) = *count;
       has_count_ = has_count_ || name == "atoms";
     }
-    return std::nullopt;  // else a count of bonds, and the like
+    return {};  // else a count of bonds, and the like
   }
 
   Status box_line(std::uint64_t number, std::string_view line,
@@ -131,7 +131,7 @@ class SectionFinder {
     }
     has_box_line_[which] = true;
     take_box_line(which, found);
-    return std::nullopt;
+    return {};
   }
 
   void take_box_line(std::size_t which, const Vec3d& numbers) {
@@ -159,7 +159,7 @@ class SectionFinder {
   /// LAMMPS takes it.
   Status keep_box() {
     const bool by_edges = has_any(first_edge_line, 4);
-    if (!by_edges && !has_any(0, 3)) return std::nullopt;
+    if (!by_edges && !has_any(0, 3)) return {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string bound(1, static_cast<char>('x' + axis));
       const std::string edge(1, static_cast<char>('a' + axis));
@@ -170,7 +170,7 @@ class SectionFinder {
       }
     }
     found_.cell = by_edges ? general_ : cell_of(box_);
-    if (is_finite(*found_.cell)) return std::nullopt;
+    if (is_finite(*found_.cell)) return {};
     return error_at_line(lines_.line(), "the box is larger than the largest number", "xlo");
   }
 
@@ -178,7 +178,7 @@ class SectionFinder {
     const std::uint64_t number = lines_.line();
     const std::string_view line = lines_.next();
     const auto words = words_of(without_comment(line));
-    if (words.empty()) return std::nullopt;
+    if (words.empty()) return {};
     if (!is_letter(words.front().front())) {
       return error_at_line(number, "expected the name of a section, found " + quote(line));
     }
@@ -193,7 +193,7 @@ class SectionFinder {
     }
     if (words.size() == 1 && words[0] == "Masses") return masses(number);
     while (!lines_.at_end() && !at_section()) lines_.skip(1);
-    return std::nullopt;
+    return {};
   }
 
   void skip_comments() {
@@ -215,7 +215,7 @@ class SectionFinder {
     section.line = lines_.line();
     section.rows = lines_.skip(found_.atoms);
     section.text = text_.substr(begin, lines_.offset() - begin);
-    if (section.rows == found_.atoms) return std::nullopt;
+    if (section.rows == found_.atoms) return {};
     return too_short(name, line, found_.atoms, section.rows);
   }
 
@@ -227,7 +227,7 @@ class SectionFinder {
         elements_.emplace_back(words.front());
       }
     }
-    return std::nullopt;
+    return {};
   }
 
   std::string_view text_;

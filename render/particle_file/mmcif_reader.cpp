@@ -22,9 +22,10 @@ class MmcifReader : public ParticleReader {
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const ParticleFrame& found = frames_[frame];
-    if (auto no_room = check_memory(found.size() * MoleculeColumns::atom_bytes,
-                                    std::to_string(found.size()) + " atoms need")) {
-      return *no_room;
+    if (auto done = check_memory(found.size() * MoleculeColumns::atom_bytes,
+                                 std::to_string(found.size()) + " atoms need");
+        !done) {
+      return done.error();
     }
     return found;
   }
@@ -53,8 +54,8 @@ Result<std::unique_ptr<ParticleReader>> open_mmcif(MappedText bytes,
   if (!has_gemmi()) {
     return Diagnostic::of("this build of Boule lacks gemmi's reader of CIF files");
   }
-  if (auto no_room = check_memory(document_bytes(bytes.text()), "reading it needs")) {
-    return *no_room;
+  if (auto done = check_memory(document_bytes(bytes.text()), "reading it needs"); !done) {
+    return done.error();
   }
   auto frames = read_cif_frames(bytes.text(), options);
   if (!frames) return frames.error();

@@ -110,7 +110,7 @@ Status NamedColumns::check_positions() const {
     }
     if (found > 1) return Diagnostic::about(name, "more than one column has the position " + name);
   }
-  return std::nullopt;
+  return {};
 }
 
 void NamedColumns::finish() {

@@ -100,7 +100,7 @@ Diagnostic unknown_type(const NpyField& field) {
 Status add_field(const NpyField& field, BinaryTable& table, std::uint64_t& row_bytes) {
   if (const auto gap = parse_gap(field.descr)) {
     row_bytes += *gap * field.count;
-    return std::nullopt;
+    return {};
   }
   const auto type = parse_type(field.descr);
   if (!type) return unknown_type(field);
@@ -116,7 +116,7 @@ Status add_field(const NpyField& field, BinaryTable& table, std::uint64_t& row_b
                              static_cast<std::size_t>(row_bytes), type->is_big_endian});
     row_bytes += type->width;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// The fields that rows of numbers stand for.
@@ -162,7 +162,7 @@ Result<BinaryTable> npy_table(const NpyHeader& header, const std::vector<std::st
   BinaryTable table;
   std::uint64_t row_bytes = 0;
   for (const NpyField& field : fields) {
-    if (auto bad = add_field(field, table, row_bytes)) return *bad;
+    if (auto done = add_field(field, table, row_bytes); !done) return done.error();
   }
   if (row_bytes == 0 || row_bytes > longest_row) return Diagnostic::of("has rows without values");
   table.row_bytes = static_cast<std::size_t>(row_bytes);

@@ -41,10 +41,11 @@ Result<std::unique_ptr<ParticleReader>> open_npy(MappedText bytes,
   if (!header) return header.error();
   auto table = npy_table(header.value(), options.columns);
   if (!table) return table.error();
-  if (auto bad = check_npy_length(header.value(), table.value().row_bytes, bytes.text().size())) {
-    return *bad;
+  if (auto done = check_npy_length(header.value(), table.value().row_bytes, bytes.text().size());
+      !done) {
+    return done.error();
   }
-  if (auto bad = check_binary_columns(table.value())) return *bad;
+  if (auto done = check_binary_columns(table.value()); !done) return done.error();
   const auto header_bytes = static_cast<std::size_t>(header.value().size);
   return std::unique_ptr<ParticleReader>(std::make_unique<NpyReader>(
       std::move(bytes), header_bytes, std::move(table).value(), options));

@@ -99,7 +99,7 @@ Status check_columns(const std::vector<std::string>& columns, std::string_view f
                              "a file of the format " + quote(format) + " names its columns itself");
   }
   const auto repeated = find_repeated(columns);
-  if (!repeated) return std::nullopt;
+  if (!repeated) return {};
   return Diagnostic::about("columns", "two columns have the name " + quote(*repeated));
 }
 
@@ -172,25 +172,26 @@ Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleF
   if (!bytes) return bytes.error();
   const auto format = find_format(path, bytes.value().text(), options.format);
   if (!format) return in_file(format.error(), path);
-  if (auto wrong = check_columns(options.columns, format.value()->name)) return *wrong;
-  const Status cut = bytes.value().cut();
+  if (auto done = check_columns(options.columns, format.value()->name); !done) return done.error();
+  const Status whole = bytes.value().whole();
   auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
-  if (cut && !(reader && format.value()->is_trajectory)) return cannot_read(path, cut->message);
+  if (!whole && !(reader && format.value()->is_trajectory))
+    return cannot_read(path, whole.error().message);
   if (!reader) return in_file(reader.error(), path);
   ParticleFile opened(path, format.value()->name, std::move(reader).value());
-  opened.cut_ = cut;
+  opened.packing_whole_ = whole;
   return opened;
 }
 
 std::string ParticleFile::cut_text() const {
-  const Status cut = reader_->cut();
-  if (!cut && cut_) {
+  const Status whole = reader_->whole();
+  if (whole && !packing_whole_) {
     return "the file is cut off behind frame " + std::to_string(frames() - 1) + ": " +
-           cut_->message;
+           packing_whole_.error().message;
   }
-  if (!cut) return {};
+  if (whole) return {};
   return "the file is cut off in frame " + std::to_string(frames()) + " (line " +
-         std::to_string(cut->line) + ": " + cut->message + ")";
+         std::to_string(whole.error().line) + ": " + whole.error().message + ")";
 }
 
 Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel_for) {

@@ -52,9 +52,9 @@ class ParticleReader {
   /// How many whole frames the file has, >= 1.
   [[nodiscard]] virtual std::size_t frames() const = 0;
 
-  /// What is wrong with the frame behind these, where the file was cut off in one: a message and
-  /// a line. None: the file ends with a whole frame.
-  [[nodiscard]] virtual Status cut() const { return std::nullopt; }
+  /// OK if the file ends with a whole frame. Else it was cut off behind these frames: what is wrong
+  /// with the next one, a message and a line.
+  [[nodiscard]] virtual Status whole() const { return {}; }
 
   /// Frame `frame`, from 0. The Diagnostic has line, column and, as its key, the column's name
   /// where they are known; its file is set by ParticleFile. Precondition: frame < frames().
@@ -90,7 +90,7 @@ class ParticleFile {
   std::string path_;
   std::string_view format_;
   std::unique_ptr<ParticleReader> reader_;
-  Status cut_;  ///< of the packed bytes
+  Status packing_whole_;  ///< an error if the packed bytes end too early
 };
 
 }  // namespace boule

@@ -21,15 +21,16 @@ class PdbReader : public PlacedReader<PdbFrame> {
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const PdbFrame& place = places_.frames[frame];
     const auto atoms = static_cast<std::size_t>(place.atoms);
-    if (auto no_room = check_memory(place.atoms * MoleculeColumns::atom_bytes,
-                                    std::to_string(atoms) + " atoms need")) {
-      return *no_room;
+    if (auto done = check_memory(place.atoms * MoleculeColumns::atom_bytes,
+                                 std::to_string(atoms) + " atoms need");
+        !done) {
+      return done.error();
     }
     auto cell = cell_of(place);
     if (!cell) return cell.error();
     MoleculeColumns columns(MoleculeKind::residues, options_.water);
     columns.reserve(atoms);
-    if (auto wrong = read_atoms(place, columns)) return *wrong;
+    if (auto done = read_atoms(place, columns); !done) return done.error();
     ParticleFrame read = columns.finish(options_.wanted);
     read.cell = cell.value();
     return read;
@@ -60,11 +61,11 @@ class PdbReader : public PlacedReader<PdbFrame> {
       const std::uint64_t number = place.line + lines.line() - 1;
       const std::string_view line = lines.next();
       if (!is_pdb_atom(line)) continue;
-      if (auto wrong = add_pdb_record(line, number, fields, records)) return wrong;
+      if (auto done = add_pdb_record(line, number, fields, records); !done) return done;
       if (records.numbers.size() < most_at_once) continue;
-      if (auto wrong = flush()) return wrong;
+      if (auto done = flush(); !done) return done;
     }
-    return !records.numbers.empty() ? flush() : std::nullopt;
+    return !records.numbers.empty() ? flush() : Status();
   }
 };
 
@@ -72,7 +73,7 @@ Result<std::unique_ptr<ParticleReader>> open_pdb(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
   if (!has_gemmi()) return Diagnostic::of("this build of Boule lacks gemmi's reader of PDB files");
-  auto frames = find_pdb_frames(bytes.text(), bytes.cut().has_value());
+  auto frames = find_pdb_frames(bytes.text(), !bytes.whole().ok());
   if (!frames) return frames.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<PdbReader>(std::move(bytes), options, std::move(frames).value()));
@@ -84,7 +85,7 @@ bool starts_like_pdb(std::string_view start) {
     const std::string_view line = lines.next();
     PdbRecords record;
     if (!is_pdb_atom(line)) continue;
-    return !add_pdb_record(line, 1, {.occupancy = false, .b_factor = false}, record);
+    return add_pdb_record(line, 1, {.occupancy = false, .b_factor = false}, record).ok();
   }
   return false;
 }

@@ -126,16 +126,16 @@ class PdbFrameFinder {
   bool find_cut() {
     if (frame_.atoms == 0) return false;
     if (is_cut_) {
-      found_.cut = error_at_line(lines_.line() - 1, "the file ends in it");
+      found_.whole = error_at_line(lines_.line() - 1, "the file ends in it");
       return true;
     }
     if (found_.frames.empty()) return false;
     const std::uint64_t before = found_.frames.back().atoms;
     const bool is_trajectory = in_model_ || (are_alike_ && found_.frames.size() > 1);
     if (!is_part_ && !(is_trajectory && frame_.atoms < before)) return false;
-    found_.cut = error_at_line(lines_.line() - 1,
-                               "the file ends after " + std::to_string(frame_.atoms) +
-                                   " of its atoms, the frame before has " + std::to_string(before));
+    found_.whole = error_at_line(
+        lines_.line() - 1, "the file ends after " + std::to_string(frame_.atoms) +
+                               " of its atoms, the frame before has " + std::to_string(before));
     return true;
   }
 
@@ -166,23 +166,23 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
     const auto number = number_of(line, line_number, field, field.name);
     if (!number) return number.error();
     target = number.value();
-    return std::nullopt;
+    return {};
   };
-  if (auto wrong = read(positions[0], numbers.position.x)) return wrong;
-  if (auto wrong = read(positions[1], numbers.position.y)) return wrong;
-  if (auto wrong = read(positions[2], numbers.position.z)) return wrong;
+  if (auto done = read(positions[0], numbers.position.x); !done) return done;
+  if (auto done = read(positions[1], numbers.position.y); !done) return done;
+  if (auto done = read(positions[2], numbers.position.z); !done) return done;
   // May be missing, and blank.
   const auto read_factor = [&](bool is_wanted, const PdbField& field, double& target) -> Status {
     const std::string_view text = field_text(line, field);
-    if (!is_wanted || text.empty()) return std::nullopt;
+    if (!is_wanted || text.empty()) return {};
     const auto number = number_in(text);
     const bool is_missing = number ? std::isnan(*number) : fields.lenient;
     if (!is_missing && !(number && fields.lenient)) return read(field, target);
     target = number.value_or(std::numeric_limits<double>::quiet_NaN());
-    return std::nullopt;
+    return {};
   };
-  if (auto wrong = read_factor(fields.occupancy, occupancy, numbers.occupancy)) return wrong;
-  if (auto wrong = read_factor(fields.b_factor, b_factor, numbers.b_factor)) return wrong;
+  if (auto done = read_factor(fields.occupancy, occupancy, numbers.occupancy); !done) return done;
+  if (auto done = read_factor(fields.b_factor, b_factor, numbers.b_factor); !done) return done;
   const std::size_t first = records.lines.size() + positions[0].begin;
   add_line(line, has_line_number(line) ? id_begin : element_end, records.lines);
   for (std::size_t i = element_begin; i < element_end; ++i) {  // a charge may stand there
@@ -192,7 +192,7 @@ Status add_pdb_record(std::string_view line, std::uint64_t line_number, const Pd
   const std::size_t count = b_factor.begin + b_factor.width - positions[0].begin;
   records.lines.replace(first, count, count, ' ');
   records.numbers.push_back(numbers);
-  return std::nullopt;
+  return {};
 }
 
 Result<std::string> pdb_cell_records(std::string_view text, std::uint64_t line_number) {

@@ -60,9 +60,9 @@ Result<BinaryTable> table_of(const PlyElement& vertex, PlyEncoding encoding) {
     table.row_bytes += property.type.width;
   }
   table.rows = static_cast<std::size_t>(vertex.count);
-  if (auto wrong = check_binary_columns(table)) {
-    wrong->line = place_number(vertex.line);
-    return *wrong;
+  if (auto done = check_binary_columns(table); !done) {
+    done.error().line = place_number(vertex.line);
+    return done.error();
   }
   return table;
 }

@@ -49,7 +49,7 @@ class HeaderParser {
       next_line();
       if (words_.empty()) continue;
       if (words_.front() == "end_header") return finish();
-      if (auto wrong = read_statement()) return *wrong;
+      if (auto done = read_statement(); !done) return done.error();
     }
     return error_at_line(lines_.line(), "the file ends within the header", "end_header");
   }
@@ -80,7 +80,7 @@ class HeaderParser {
 
   Status read_statement() {
     const std::string_view word = words_.front();
-    if (word == "comment" || word == "obj_info") return std::nullopt;
+    if (word == "comment" || word == "obj_info") return {};
     if (word == "format") return read_format();
     if (word == "element") return read_element();
     if (word == "property") return read_property();
@@ -98,7 +98,7 @@ class HeaderParser {
     if (words_[2] != "1.0") return wrong_word(2, "version 1.0");
     header_.encoding = static_cast<PlyEncoding>(found - encodings.begin());
     has_format_ = true;
-    return std::nullopt;
+    return {};
   }
 
   Status read_element() {
@@ -111,7 +111,7 @@ class HeaderParser {
     }
     if (header_.elements.size() == most_properties) return wrong_line("more than 4096 elements");
     header_.elements.push_back({name, *count, line_, {}});
-    return std::nullopt;
+    return {};
   }
 
   Status read_property() {
@@ -135,7 +135,7 @@ class HeaderParser {
     auto& properties = header_.elements.back().properties;
     if (properties.size() == most_properties) return wrong_line("more than 4096 properties");
     properties.push_back(std::move(property));
-    return std::nullopt;
+    return {};
   }
 
   TextLines lines_;

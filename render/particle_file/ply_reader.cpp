@@ -51,9 +51,10 @@ class PlyReader : public ParticleReader {
                         .first_line = vertices_.line,
                         .lenient = options_.lenient,
                         .file = &bytes_};
-    if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
+    if (auto done = read_text_rows(rows, columns.columns(), frame, parallel_for); !done)
+      return done.error();
     for (const BinaryColumn& column : vertices_.table.columns) {
-      if (auto wrong = divide(column, frame)) return *wrong;
+      if (auto done = divide(column, frame); !done) return done.error();
     }
     columns.finish();
     return frame;
@@ -61,10 +62,10 @@ class PlyReader : public ParticleReader {
 
   /// Colours of whole numbers are from 0 to 1, as in binary files.
   [[nodiscard]] Status divide(const BinaryColumn& column, ParticleFrame& frame) const {
-    if (column.divisor == 1) return std::nullopt;
+    if (column.divisor == 1) return {};
     const auto found = std::find_if(frame.numbers.begin(), frame.numbers.end(),
                                     [&](const NumberColumn& c) { return c.name == column.name; });
-    if (found == frame.numbers.end()) return std::nullopt;
+    if (found == frame.numbers.end()) return {};
     for (std::size_t row = 0; row < found->values.size(); ++row) {
       double& value = found->values[row];
       if (!options_.lenient && (value < 0 || value > column.divisor)) {
@@ -74,7 +75,7 @@ class PlyReader : public ParticleReader {
       }
       value /= column.divisor;
     }
-    return std::nullopt;
+    return {};
   }
 
   void tell_what_is_left_out(ParticleFrame& frame) const {

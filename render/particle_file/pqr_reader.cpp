@@ -89,9 +89,10 @@ class PqrReader : public PlacedReader<PdbFrame> {
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const PdbFrame& place = places_.frames[frame];
     const auto atoms = static_cast<std::size_t>(place.atoms);
-    if (auto no_room = check_memory(place.atoms * MoleculeColumns::atom_bytes,
-                                    std::to_string(atoms) + " atoms need")) {
-      return *no_room;
+    if (auto done = check_memory(place.atoms * MoleculeColumns::atom_bytes,
+                                 std::to_string(atoms) + " atoms need");
+        !done) {
+      return done.error();
     }
     MoleculeColumns columns(MoleculeKind::charges, options_.water);
     columns.reserve(atoms);
@@ -101,7 +102,7 @@ class PqrReader : public PlacedReader<PdbFrame> {
       const std::uint64_t number = place.line + lines.line() - 1;
       const std::string_view line = lines.next();
       if (!is_pdb_atom(line)) continue;
-      if (auto wrong = add_atom(line, number, columns, points)) return *wrong;
+      if (auto done = add_atom(line, number, columns, points); !done) return done.error();
     }
     ParticleFrame read = columns.finish(options_.wanted);
     if (points > 0) read.notes.push_back(points_text(points));
@@ -135,7 +136,7 @@ class PqrReader : public PlacedReader<PdbFrame> {
                            number_names[i]);
     }
     const bool has_size = n[4] != 0 || !is_wanted(options_.wanted, "radius");
-    if (!has_size) return ++points, std::nullopt;
+    if (!has_size) return ++points, Status();
     columns.add({.position = {n[0], n[1], n[2]},
                  .element = element_of_atom(words.name, words.residue),
                  .is_guessed = true,
@@ -146,14 +147,14 @@ class PqrReader : public PlacedReader<PdbFrame> {
                  .id = number_in(words.id).value_or(0),
                  .occupancy = n[3],
                  .b_factor = n[4]});
-    return std::nullopt;
+    return {};
   }
 };
 
 Result<std::unique_ptr<ParticleReader>> open_pqr(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto frames = find_pdb_frames(bytes.text(), bytes.cut().has_value());
+  auto frames = find_pdb_frames(bytes.text(), !bytes.whole().ok());
   if (!frames) return frames.error();
   return std::unique_ptr<ParticleReader>(
       std::make_unique<PqrReader>(std::move(bytes), options, std::move(frames).value()));

@@ -76,16 +76,16 @@ std::vector<std::string> default_names(const TableHead& head) {
 /// Each name once.
 Status check_names(const std::vector<std::string>& names) {
   const auto repeated = find_repeated(names);
-  if (!repeated) return std::nullopt;
+  if (!repeated) return {};
   return Diagnostic::about(*repeated, "two columns have the name " + quote(*repeated));
 }
 
 /// An error about names is one about the header line, else about the names that were given.
-Status at_names(Status error, const TableHead& head) {
-  if (!error) return error;
-  error->line = place_number(head.names_line);
-  if (head.names_line == 0) error->key = "columns";
-  return error;
+Status at_names(Status status, const TableHead& head) {
+  if (status) return status;
+  status.error().line = place_number(head.names_line);
+  if (head.names_line == 0) status.error().key = "columns";
+  return status;
 }
 
 class TableReader : public ParticleReader {
@@ -144,7 +144,7 @@ class TableReader : public ParticleReader {
   Result<ParticleFrame> read_once(const ParallelFor& parallel_for) const {
     ParticleFrame frame;
     NamedColumns columns(options_.wanted, frame);
-    if (auto wrong = plan(columns)) return *wrong;
+    if (auto done = plan(columns); !done) return done.error();
     const TextRows rows{.text = bytes_.text().substr(head_.begin),
                         .rows = rows_,
                         .first_line = head_.line,
@@ -155,7 +155,8 @@ class TableReader : public ParticleReader {
                         .lenient = options_.lenient,
                         .positive = options_.positive,
                         .file = &bytes_};
-    if (auto wrong = read_text_rows(rows, columns.columns(), frame, parallel_for)) return *wrong;
+    if (auto done = read_text_rows(rows, columns.columns(), frame, parallel_for); !done)
+      return done.error();
     columns.finish();
     if (head_.decimal_comma) frame.notes.emplace_back("its numbers have decimal commas");
     if (!note_.empty()) frame.notes.push_back(note_);
@@ -203,8 +204,8 @@ Result<std::unique_ptr<ParticleReader>> open_table(MappedText bytes,
                                                    const ParallelFor& parallel_for) {
   auto head = parse_table_head(bytes.text());
   if (!head) return head.error();
-  if (auto wrong = choose_names(options.columns, default_names(head.value()), head.value())) {
-    return *wrong;
+  if (auto done = choose_names(options.columns, default_names(head.value()), head.value()); !done) {
+    return done.error();
   }
   return make_reader(std::move(bytes), options, std::move(head).value(), {}, parallel_for);
 }
@@ -234,7 +235,8 @@ Result<std::unique_ptr<ParticleReader>> open_points(MappedText bytes,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == "radius") names[i] = "c" + std::to_string(i + 1);
   }
-  if (auto wrong = choose_names(options.columns, std::move(names), head.value())) return *wrong;
+  if (auto done = choose_names(options.columns, std::move(names), head.value()); !done)
+    return done.error();
   return make_reader(std::move(bytes), options, std::move(head).value(),
                      "it has no count of particles: each of its lines is one", parallel_for);
 }

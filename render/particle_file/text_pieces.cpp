@@ -109,13 +109,13 @@ std::vector<TextPiece> cut_rows(std::string_view rows, std::size_t interners,
 
 Status check_pieces(std::span<const TextPiece> pieces, std::size_t rows) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].error) return pieces[i].error;
+    if (!pieces[i].status) return pieces[i].status;
     const std::size_t next = i + 1 < pieces.size() ? pieces[i + 1].first_row : rows;
     if (pieces[i].end_row != std::max(pieces[i].first_row, std::min(next, rows))) {
       return Diagnostic::of("the file has been changed since it was opened");
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 void merge_texts(std::span<const TextPiece> pieces, std::size_t interner, TextColumn& column,

@@ -21,7 +21,7 @@ struct TextPiece {
   std::uint64_t first_line = 0;         ///< of all lines, from 0
   std::size_t end_row = 0;              ///< behind the last row that was read
   std::vector<TextInterner> interners;  ///< one for each column of texts
-  Status error;
+  Status status;
 };
 
 /// Which lines are rows: all, or those of a table, where lines may be blank or comments.

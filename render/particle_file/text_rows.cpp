@@ -261,10 +261,10 @@ class PieceReader {
 
   bool fail(std::size_t column, std::string message) {
     const std::string key = column < columns_.size() ? columns_[column].name : std::string();
-    piece_.error = Diagnostic{.message = std::move(message),
-                              .key = key,
-                              .line = place_number(line_number_),
-                              .column = place_number(static_cast<std::uint64_t>(at_ - line_) + 1)};
+    piece_.status = Diagnostic{.message = std::move(message),
+                               .key = key,
+                               .line = place_number(line_number_),
+                               .column = place_number(static_cast<std::uint64_t>(at_ - line_) + 1)};
     return false;
   }
 
@@ -284,8 +284,8 @@ class PieceReader {
 
 Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> columns,
                       ParticleFrame& frame, const ParallelFor& parallel_for) {
-  if (rows.rows == 0) return std::nullopt;
-  if (auto none = check_room(rows.rows, columns)) return none;
+  if (rows.rows == 0) return {};
+  if (auto room = check_room(rows.rows, columns); !room) return room;
   const auto interners = static_cast<std::size_t>(std::count_if(
       columns.begin(), columns.end(), [](const TextRowColumn& c) { return is_text(c.use); }));
   const RowLines lines = rows.is_table ? RowLines::table : RowLines::every;
@@ -300,13 +300,13 @@ Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> colum
     }
     if (rows.file != nullptr) rows.file->let_go(pieces[i].text);
   });
-  if (auto bad = check_pieces(pieces, rows.rows)) return bad;
+  if (auto done = check_pieces(pieces, rows.rows); !done) return done;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!is_text(columns[i].use)) continue;
     merge_texts(pieces, planned[i].interner, text_column(columns[i], frame), parallel_for,
                 rows.file);
   }
-  return std::nullopt;
+  return {};
 }
 
 TextRowColumn add_number_column(ParticleFrame& frame, const std::string& name, ColumnUse use) {

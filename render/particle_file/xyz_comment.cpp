@@ -106,7 +106,7 @@ class CommentReader {
 
   Result<XyzComment> read() {
     for (const XyzEntry& entry : CommentParser(line_).entries()) {
-      if (auto wrong = read_entry(entry)) return *wrong;
+      if (auto done = read_entry(entry); !done) return done.error();
     }
     if (cell_) {
       cell_->origin = origin_;
@@ -121,7 +121,7 @@ class CommentReader {
     const bool is_time = entry.key == "Time" || entry.key == "time";
     const bool is_known = is_time || entry.key == "Properties" || entry.key == "Lattice" ||
                           entry.key == "Origin" || entry.key == "pbc";
-    if (!is_known) return std::nullopt;
+    if (!is_known) return {};
     if (!entry.closed) return wrong(entry, entry.value, "the line ends before the value does");
     if (is_time) return read_time(entry);
     if (entry.key == "Properties") return read_properties(entry);
@@ -137,7 +137,7 @@ class CommentReader {
   Status read_time(const XyzEntry& entry) {
     const auto time = number_in(entry.value);
     if (time && std::isfinite(*time)) read_.time = *time;
-    return std::nullopt;
+    return {};
   }
 
   template <std::size_t count>
@@ -155,24 +155,24 @@ class CommentReader {
       }
       numbers[i] = *number;
     }
-    return std::nullopt;
+    return {};
   }
 
   Status read_lattice(const XyzEntry& entry) {
     std::array<double, 9> n{};
-    if (auto wrong = read_numbers(entry, n)) return wrong;
+    if (auto done = read_numbers(entry, n); !done) return done;
     cell_.emplace();
     cell_->a = {n[0], n[1], n[2]};
     cell_->b = {n[3], n[4], n[5]};
     cell_->c = {n[6], n[7], n[8]};
-    return std::nullopt;
+    return {};
   }
 
   Status read_origin(const XyzEntry& entry) {
     std::array<double, 3> n{};
-    if (auto wrong = read_numbers(entry, n)) return wrong;
+    if (auto done = read_numbers(entry, n); !done) return done;
     origin_ = {n[0], n[1], n[2]};
-    return std::nullopt;
+    return {};
   }
 
   Status read_periodic(const XyzEntry& entry) {
@@ -188,7 +188,7 @@ class CommentReader {
       }
       periodic_[i] = value ? *value != 0 : one;
     }
-    return std::nullopt;
+    return {};
   }
 
   Status read_properties(const XyzEntry& entry) {
@@ -219,7 +219,7 @@ class CommentReader {
           {std::string(name), type.front(), static_cast<std::size_t>(*number)});
     }
     if (read_.properties.empty()) return wrong(entry, entry.value, "it names no columns");
-    return std::nullopt;
+    return {};
   }
 
   std::string_view line_;

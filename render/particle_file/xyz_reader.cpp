@@ -48,10 +48,10 @@ Status find_cut(const XyzFrame& frame, std::uint64_t rows, std::string_view text
   if (rows < frame.count || frame.begin == frame.comment) {
     return Diagnostic::of(promise + "the file ends after " + std::to_string(rows));
   }
-  if (before.empty()) return std::nullopt;  // its rows are read, and tell what is wrong
+  if (before.empty()) return {};  // its rows are read, and tell what is wrong
   const std::string_view own = text.substr(frame.begin, frame.end - frame.begin);
   const std::size_t like = rows > 1 ? frame.begin : before.back().begin;
-  if (!has_cut_row(own, TextLines(text.substr(like)).next())) return std::nullopt;
+  if (!has_cut_row(own, TextLines(text.substr(like)).next())) return {};
   return Diagnostic::of(promise + "the file ends in the last of them");
 }
 
@@ -73,14 +73,15 @@ Result<FramePlaces<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
     frame.row_line = lines.line();
     const std::uint64_t rows = skip_rows(*count, lines, bytes);
     frame.end = lines.offset();
-    if (auto cut = lines.at_end() ? find_cut(frame, rows, text, found.frames) : std::nullopt) {
-      found.cut = error_at_line(first_line, cut->message, "count");
+    if (auto whole = lines.at_end() ? find_cut(frame, rows, text, found.frames) : Status();
+        !whole) {
+      found.whole = error_at_line(first_line, whole.error().message, "count");
       break;
     }
-    if (auto no_room = add_frame_place(found.frames, frame)) return *no_room;
+    if (auto done = add_frame_place(found.frames, frame); !done) return done.error();
   }
   if (!found.frames.empty()) return found;
-  return found.cut ? *found.cut : Diagnostic::of("it holds no frames");
+  return !found.whole ? found.whole.error() : Diagnostic::of("it holds no frames");
 }
 
 bool is_velocity(const std::string& name) {
@@ -155,13 +156,13 @@ class XyzReader : public PlacedReader<XyzFrame> {
     read.time = comment.value().time;
     const std::string_view rows = text.substr(place.begin, place.end - place.begin);
     NamedColumns columns(options_.wanted, read);
-    if (auto wrong = plan(comment.value(), TextLines(rows).next(), columns)) {
-      wrong->line = place_number(place.row_line);
-      return *wrong;
+    if (auto done = plan(comment.value(), TextLines(rows).next(), columns); !done) {
+      done.error().line = place_number(place.row_line);
+      return done.error();
     }
-    if (auto wrong = columns.check_positions()) {
-      wrong->line = place_number(place.row_line - 1);
-      return *wrong;
+    if (auto done = columns.check_positions(); !done) {
+      done.error().line = place_number(place.row_line - 1);
+      return done.error();
     }
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(place.count),
@@ -169,7 +170,8 @@ class XyzReader : public PlacedReader<XyzFrame> {
                           .lenient = options_.lenient,
                           .positive = options_.positive,
                           .file = &bytes_};
-    if (auto wrong = read_text_rows(source, columns.columns(), read, parallel_for)) return *wrong;
+    if (auto done = read_text_rows(source, columns.columns(), read, parallel_for); !done)
+      return done.error();
     columns.finish();
     name_elements(comment.value(), read);
     return read;
@@ -199,7 +201,7 @@ class XyzReader : public PlacedReader<XyzFrame> {
         add_property(property, columns);
       }
     }
-    if (!comment.properties.empty()) return std::nullopt;
+    if (!comment.properties.empty()) return {};
     const auto words = words_of(first_row);
     if (words.size() > most_text_columns) return too_many_columns();
     const std::size_t count = std::max<std::size_t>(words.size(), words.size() == 3 ? 3 : 4);
@@ -212,7 +214,7 @@ class XyzReader : public PlacedReader<XyzFrame> {
     for (std::size_t i = 0; i < names.size(); ++i) {
       columns.add(names[i], i < words.size() ? words[i] : std::string_view("0"));
     }
-    return std::nullopt;
+    return {};
   }
 
   /// True if the first words of the first frame's rows are atomic numbers. Types are numbered from
@@ -259,7 +261,7 @@ Result<std::unique_ptr<ParticleReader>> open_without_count(MappedText bytes,
                                                            const ParticleFileOptions& options,
                                                            const ParallelFor& parallel_for,
                                                            const TextLines& lines) {
-  if (bytes.cut()) return *bytes.cut();  // nobody knows how many points there were
+  if (!bytes.whole()) return bytes.whole().error();  // nobody knows how many points there were
   if (looks_like_points(bytes.text())) return open_points(std::move(bytes), options, parallel_for);
   return error_at_line(lines.line(), "expected a count of particles, found " + quote(lines.peek()),
                        "count");

@@ -99,7 +99,7 @@ Status wrap_into(const ParticleCell& cell, std::vector<Vec3d>& positions,
             });
   const std::size_t first =
       wrong.empty() ? no_particle : *std::min_element(wrong.begin(), wrong.end());
-  if (first == no_particle) return std::nullopt;
+  if (first == no_particle) return {};
   return Diagnostic::about("wrap", particle_text(first, positions.size()) +
                                        " is more than 1e9 cells away from the cell");
 }

@@ -38,7 +38,7 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
   if (!frame.cell) {
     if (style.wrap) return Diagnostic::about("wrap", "the file tells no cell to wrap into");
     if (replicates) return Diagnostic::about("replicate", "the file tells no cell to replicate");
-    return std::nullopt;
+    return {};
   }
   const ParticleCell& cell = *frame.cell;
   const std::array<Vec3d, 3> vectors{cell.a, cell.b, cell.c};
@@ -56,7 +56,7 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
   if (style.wrap && cell.periodic == std::array<bool, 3>{}) {
     notes.emplace_back("the file's cell is not periodic, so nothing is wrapped into it");
   }
-  return std::nullopt;
+  return {};
 }
 
 Status check_style(const ParticleStyle& style) {
@@ -66,7 +66,7 @@ Status check_style(const ParticleStyle& style) {
   for (const int count : style.replicate) {
     if (count < 1) return Diagnostic::about("replicate", "expected three numbers from 1 on");
   }
-  return std::nullopt;
+  return {};
 }
 
 /// So many images of so many particles are shown as instances of one group. The centres of fewer
@@ -152,7 +152,8 @@ Result<std::vector<std::uint8_t>> apply_select(ParticleFrame& frame, const Parti
     if (!expression) return expression.error();
     return std::vector<std::uint8_t>();
   }
-  if (auto full = check_memory(frame.size(), "selecting particles needs", "select")) return *full;
+  if (auto done = check_memory(frame.size(), "selecting particles needs", "select"); !done)
+    return done.error();
   const std::size_t count = frame.size();
   auto selected = select_particles(frame, select, parallel_for);
   if (!selected) return selected;
@@ -198,15 +199,15 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.frame_ = std::make_unique<ParticleFrame>(std::move(read));
   ParticleFrame& frame = *made.frame_;
   const std::size_t count = frame.size();
-  if (auto wrong = check_style(style)) return *std::move(wrong);
-  if (auto wrong = check_cell(frame, style, frame.notes)) return *std::move(wrong);
+  if (auto done = check_style(style); !done) return std::move(done).error();
+  if (auto done = check_cell(frame, style, frame.notes); !done) return std::move(done).error();
   auto source = find_radius_source(frame, style.radius, style.chosen, made.own_, parallel_for);
   // A frame without particles may lack the columns that the others of its series have.
   if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
   auto selected = apply_select(frame, style, parallel_for);
   if (!selected) return selected.error();
-  if (auto full = check_room(frame.size(), style)) return *std::move(full);
+  if (auto done = check_room(frame.size(), style); !done) return std::move(done).error();
   const ParticleNamer name_of = [&](std::size_t shown) {
     return particle_text(place_of(shown, selected.value()), count);
   };
@@ -217,7 +218,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (!materials && count == 0) materials = ParticleMaterials{};
   if (!materials) return materials.error();
   made.keep_own(std::move(materials.value().own));
-  if (auto wrong = made.place(style, parallel_for)) return *std::move(wrong);
+  if (auto done = made.place(style, parallel_for); !done) return std::move(done).error();
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
   made.materials_ = std::move(materials.value().materials);
@@ -244,13 +245,13 @@ bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {
 Status ParticleSpheres::place(const ParticleStyle& style, const ParallelFor& parallel_for) {
   std::vector<Vec3d>& positions = frame_->positions;
   if (style.wrap) {
-    if (auto wrong = wrap_into(*frame_->cell, positions, parallel_for)) return wrong;
+    if (auto done = wrap_into(*frame_->cell, positions, parallel_for); !done) return done;
   }
   bounds_ = bounds_of(positions, parallel_for);
-  if (count_images(style.replicate) <= 1) return std::nullopt;
+  if (count_images(style.replicate) <= 1) return {};
   images_ = CellImages(*frame_->cell, style.replicate);
   if (!positions.empty()) bounds_ = bounds_of_images(bounds_, *frame_->cell, style.replicate);
-  return std::nullopt;
+  return {};
 }
 
 /// Gives the memory of particles begin .. end - 1 back.
@@ -278,9 +279,10 @@ Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size
   const FloatEnvironment environment;
   const std::size_t count = frame_->size() * images;
   const std::string key = images_.size() > 1 ? "replicate" : "file";
-  if (auto full =
-          check_memory(bytes_of_spheres(count), std::to_string(count) + " spheres need", key)) {
-    return full;
+  if (auto done =
+          check_memory(bytes_of_spheres(count), std::to_string(count) + " spheres need", key);
+      !done) {
+    return done;
   }
   const std::size_t first = spheres.size(), particles = frame_->size();
   make_room(spheres, count);
@@ -294,7 +296,7 @@ Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size
     if (end > last_image) let_go(std::max(begin, last_image) - last_image, end - last_image);
     begin = end;
   }
-  if (wrong == no_particle) return std::nullopt;
+  if (wrong == no_particle) return {};
   spheres.resize(first);
   return Diagnostic::about(key, "the position of " + particle_text(wrong, particles) +
                                     " is too far from the origin for a sphere");

@@ -32,7 +32,7 @@ class Parser {
       fail(token_, comparison_in(token_) ? "comparisons do not chain, join two of them with &&"
                                          : "expected && or ||, " + found_text(token_));
     }
-    if (error_) return *std::move(error_);
+    if (!status_) return std::move(status_).error();
     return std::move(expression_);
   }
 
@@ -40,14 +40,14 @@ class Parser {
   static constexpr int most_nested = 100;
 
   bool fail(const SelectToken& token, const std::string& message) {
-    error_ = tokens_.error(token.place, message);
+    status_ = tokens_.error(token.place, message);
     return false;
   }
 
   bool advance() {
     auto next = tokens_.next();
     if (!next) {
-      error_ = next.error();
+      status_ = next.error();
       return false;
     }
     token_ = next.value();
@@ -143,7 +143,7 @@ class Parser {
   SelectTokens tokens_;
   SelectToken token_;
   SelectExpression expression_;
-  Status error_;
+  Status status_;
   int nested_ = 0;
 };
 

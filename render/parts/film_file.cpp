@@ -99,7 +99,7 @@ Status write_parts(Writer& writer, const FilmHead& head, const PartSheet& sheet)
   for (const PixelRect& block : head.blocks) {
     sheet.append(block, text);
     if (text.size() < piece) continue;
-    if (auto bad = writer.write(text)) return bad;
+    if (auto done = writer.write(text); !done) return done;
     text.clear();
   }
   return writer.write(text);
@@ -110,10 +110,11 @@ Status write_all(OutputFile& file, const FilmHead& head, const PartSheet& sheet,
   const std::string text = film_text(head);
   const Numbers numbers = numbers_of(head, text.size());
   Writer writer(file, stop);
-  if (auto bad = writer.write(bytes_of_values(&numbers, 1))) return bad;
-  if (auto bad = writer.write(text)) return bad;
-  if (auto bad = writer.write(bytes_of_values(head.blocks.data(), head.blocks.size()))) return bad;
-  if (auto bad = write_parts(writer, head, sheet)) return bad;
+  if (auto done = writer.write(bytes_of_values(&numbers, 1)); !done) return done;
+  if (auto done = writer.write(text); !done) return done;
+  if (auto done = writer.write(bytes_of_values(head.blocks.data(), head.blocks.size())); !done)
+    return done;
+  if (auto done = write_parts(writer, head, sheet); !done) return done;
   return writer.end();
 }
 
@@ -160,17 +161,17 @@ bool has_right_sum(std::string_view all) {
 }  // namespace
 
 Status check_support() {
-  if (Checksum::available()) return std::nullopt;
+  if (Checksum::available()) return {};
   return Diagnostic::of("this boule was built without xxhash.h, which film files need");
 }
 
 Status write(const std::string& path, const FilmHead& head, const PartSheet& sheet,
              const std::function<bool()>& stop) {
-  if (auto bad = check_support()) return bad;
+  if (auto done = check_support(); !done) return done;
   try {
     auto file = OutputFile::create(path, stop);
     if (!file) return file.error();
-    if (auto bad = write_all(file.value(), head, sheet, stop)) return bad;
+    if (auto done = write_all(file.value(), head, sheet, stop); !done) return done;
     return file.value().commit(stop);
   } catch (const std::bad_alloc&) {
     return cannot_write(path, "out of memory");
@@ -178,7 +179,7 @@ Status write(const std::string& path, const FilmHead& head, const PartSheet& she
 }
 
 Result<Reader> Reader::open(const std::string& path) {
-  if (auto bad = check_support()) return *bad;
+  if (auto done = check_support(); !done) return done.error();
   try {
     auto bytes = all_bytes(path);
     if (!bytes) return bytes.error();
@@ -245,7 +246,7 @@ Status Reader::read(PartSheet& sheet) const {
       return Diagnostic::in_file(path_, "holds samples that cannot be");
     at += count;
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule::film_file

@@ -56,7 +56,7 @@ Status place_lights(std::vector<Light>& lights, const Camera& camera) {
                                "placed relative to the camera it " + bad->message);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

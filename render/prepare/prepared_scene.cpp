@@ -86,7 +86,7 @@ Coherence central_coherence(CameraKind kind) {
 /// Gives a scene without a camera one that frames its objects. An error where none can.
 Status add_camera(Scene& scene, int width, int height, const ParallelFor& parallel_for,
                   std::vector<std::string>& notes) {
-  if (scene.camera) return std::nullopt;
+  if (scene.camera) return {};
   scene.camera = default_camera(scene, width, height, parallel_for);
   if (const auto problem = find_problem(*scene.camera)) {
     return Diagnostic::about("camera",
@@ -94,7 +94,7 @@ Status add_camera(Scene& scene, int width, int height, const ParallelFor& parall
                                  problem->field + " " + problem->message);
   }
   if (count_primitives(scene).total() > 0) notes.emplace_back(camera_note);
-  return std::nullopt;
+  return {};
 }
 
 EnvironmentLight environment_light(const Scene& scene, Method method) {
@@ -103,7 +103,7 @@ EnvironmentLight environment_light(const Scene& scene, Method method) {
 }
 
 Status check_size(int width, int height) {
-  if (auto bad = check_range("image.size", width, rule::image_side)) return bad;
+  if (auto done = check_range("image.size", width, rule::image_side); !done) return done;
   return check_range("image.size", height, rule::image_side);
 }
 
@@ -111,11 +111,11 @@ Status check_size(int width, int height) {
 
 Status reframe(PreparedScene& scene, const Camera& camera, int width, int height) {
   const FloatEnvironment floats;
-  if (auto bad = check_size(width, height)) return bad;
+  if (auto done = check_size(width, height); !done) return done;
   if (const auto problem = find_problem(camera))
     return Diagnostic::about("camera." + problem->field, problem->message);
   std::vector<Light> lights = scene.lit_by_default ? default_lights(camera) : scene.own_lights;
-  if (auto bad = place_lights(lights, camera)) return bad;
+  if (auto done = place_lights(lights, camera); !done) return done;
   LensOptics lens = build_lens(camera, width, height);
   Camera own = camera;
   if (scene.method == Method::path)
@@ -130,17 +130,17 @@ Status reframe(PreparedScene& scene, const Camera& camera, int width, int height
                    scene.distortion.st.empty() ? nullptr : &scene.distortion, &scene.lens);
   scene.coherence = coherence_of(common_part(scene.camera_view.kind));
   scene.central_coherence = central_coherence(scene.camera_view.kind);
-  return std::nullopt;
+  return {};
 }
 
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
   const FloatEnvironment floats;
-  if (auto bad = check_size(width, height)) return *bad;
-  if (auto bad = validate_in_parallel(scene, parallel_for)) return *bad;
+  if (auto done = check_size(width, height); !done) return done.error();
+  if (auto done = validate_in_parallel(scene, parallel_for); !done) return done.error();
   const std::optional<std::vector<ShownGroup>> groups = share_or_expand(scene);
   std::vector<std::string> notes;
-  if (auto bad = add_camera(scene, width, height, parallel_for, notes)) return *bad;
+  if (auto done = add_camera(scene, width, height, parallel_for, notes); !done) return done.error();
   const bool lit_by_default = lacks_light(scene, method);
   if (lit_by_default) notes.emplace_back(light_note(scene, method));
   EnvironmentLight environment = environment_light(scene, method);
@@ -162,7 +162,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .notes = std::move(notes)};
-  if (auto bad = reframe(prepared, *scene.camera, width, height)) return *bad;
+  if (auto done = reframe(prepared, *scene.camera, width, height); !done) return done.error();
   for (std::string& note : view_notes(prepared.camera_view, width, height, sample))
     prepared.notes.push_back(std::move(note));
   return prepared;

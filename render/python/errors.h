@@ -31,7 +31,7 @@ T take(Result<T> result) {
 }
 
 inline void check(const Status& status) {
-  if (status) throw_error(*status);
+  if (!status) throw_error(status.error());
 }
 
 }  // namespace boule::python

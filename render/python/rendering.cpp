@@ -198,16 +198,16 @@ Status Run::work(Call& call) {
   auto parts = std::make_shared<PictureParts>();
   parts->notes = std::move(loaded.value().notes);
   parts->origin = loaded.value().origin;
-  if (auto bad = validate(scene)) return bad;
+  if (auto done = validate(scene); !done) return done;
   parts->scene_hash = scene_hash(scene, Scheduler(options.threads).parallel_for());
   auto renderer = Renderer::create(std::move(scene), options);
   if (!renderer) return renderer.error();
   begin_ = Clock::now();
   is_rendering_ = true;
-  if (auto bad = render(renderer.value(), *parts, call)) return bad;
+  if (auto done = render(renderer.value(), *parts, call); !done) return done;
   describe(renderer.value(), *parts);
   picture_ = std::move(parts);
-  return std::nullopt;
+  return {};
 }
 
 /// Renders the extra channels and the lines first: a picture that is stopped has them too.
@@ -223,7 +223,7 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
   Film film(renderer.rect());
   Status status = renderer.render_live(film);
   const Alpha alpha = alpha_of(renderer.options());
-  if (status) {
+  if (!status) {
     const std::uint64_t all =
         renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp);
     if (!call.cancel || film.total_samples() == 0) return status;
@@ -233,7 +233,7 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
     parts.image = film.to_image(alpha);
   }
   if (renderer.options().outline > 0) lines.value().draw(parts.image);
-  return std::nullopt;
+  return {};
 }
 
 Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outline& lines,
@@ -242,16 +242,16 @@ Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outli
   MeasuredPicture measured(renderer.rect());
   Film film(renderer.rect());
   Status status = renderer.render_measured(measured, wishes_.partial ? &film : nullptr);
-  if (status && (!call.cancel || film.total_samples() == 0)) return status;
-  if (status)
+  if (!status && (!call.cancel || film.total_samples() == 0)) return status;
+  if (!status)
     parts.partial = cli::PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
   parts.noise = noise_reached(measured, options.spp);
-  parts.image = status ? partial_picture(film, measured, options.order, alpha_of(options))
-                       : measured.image(alpha_of(options));
+  parts.image = !status ? partial_picture(film, measured, options.order, alpha_of(options))
+                        : measured.image(alpha_of(options));
   if (options.outline > 0) lines.draw(parts.image);
   for (ImageChannel& channel : measured_channels(options.aovs, measured))
     parts.channels.push_back(std::move(channel));
-  return std::nullopt;
+  return {};
 }
 
 void Run::describe(const Renderer& renderer, PictureParts& parts) const {
@@ -313,7 +313,7 @@ py::tuple Rendering::end() const {
   const auto& raised = waiting_.raised();
   const py::object stopped = raised ? py::object(raised->value()) : py::none();
   if (end == CallEnd::left) return py::make_tuple(py::none(), stopped);
-  if (end == CallEnd::done && *status_) throw_error(**status_);
+  if (end == CallEnd::done && !(*status_)) throw_error((*status_).error());
   if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture(), "time");
   return py::make_tuple(picture(), stopped);
 }

@@ -86,7 +86,7 @@ Status round_all(const SphereInput& input, const Vec3d& origin, std::vector<Sphe
     }
     if (!valid) all_valid = false;
   });
-  if (all_valid) return std::nullopt;
+  if (all_valid) return {};
   const auto bad = std::find_if(spheres.begin(), spheres.end(),
                                 [](const Sphere& sphere) { return !is_valid(sphere); });
   return explain(input, static_cast<std::size_t>(bad - spheres.begin()), origin);
@@ -118,7 +118,7 @@ Status color_spheres(const Numbers& colors, ColorSpace space, SphereArrays& arra
     arrays.spheres[i].material = MaterialRef::colored(0, {codes[0], codes[1], codes[2]});
   }
   arrays.has_colors = true;
-  return std::nullopt;
+  return {};
 }
 
 /// Colours by a map of one number for each; the range that was chosen.
@@ -189,7 +189,7 @@ py::tuple spheres_of(const py::object& centers, const py::object& radii, const p
     if (!arrays) return arrays.error();
     Made all{std::make_shared<SphereArrays>(std::move(arrays).value()), {}};
     if (rgb) {
-      if (auto bad = color_spheres(*rgb, space, *all.arrays)) return *bad;
+      if (auto done = color_spheres(*rgb, space, *all.arrays); !done) return done.error();
     }
     if (numbers) {
       auto chosen = map_spheres(*numbers, keys, *all.arrays, parallel_for);
@@ -208,9 +208,9 @@ SphereInput::SphereInput(const py::object& centers_given, const py::object& radi
       radii(radii_given, "radii", {.rows = centers.rows(), .takes_one = true}) {}
 
 Result<SphereArrays> make_spheres(const SphereInput& input, const ParallelFor& parallel_for) {
-  if (auto bad = check_room(input)) return *bad;
+  if (auto done = check_room(input); !done) return done.error();
   SphereArrays arrays;
-  if (auto bad = round_all(input, {}, arrays.spheres, parallel_for)) return *bad;
+  if (auto done = round_all(input, {}, arrays.spheres, parallel_for); !done) return done.error();
   if (!input.centers.is_double()) return arrays;
   arrays.centers.resize(input.centers.rows());
   each_chunk(arrays.centers.size(), parallel_for, [&](std::size_t begin, std::size_t end) {
@@ -221,10 +221,11 @@ Result<SphereArrays> make_spheres(const SphereInput& input, const ParallelFor& p
 
 Result<PlacedSpheres> place_spheres(const SphereInput& input, const std::optional<Vec3d>& origin,
                                     const ParallelFor& parallel_for) {
-  if (auto bad = check_room(input)) return *bad;
+  if (auto done = check_room(input); !done) return done.error();
   PlacedSpheres placed;
   placed.origin = origin ? *origin : choose_origin({extent_of(input, parallel_for)});
-  if (auto bad = round_all(input, placed.origin, placed.spheres, parallel_for)) return *bad;
+  if (auto done = round_all(input, placed.origin, placed.spheres, parallel_for); !done)
+    return done.error();
   return placed;
 }
 

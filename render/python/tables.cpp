@@ -73,7 +73,7 @@ void read_camera_table(const TomlMembers& members, FirstError& error) {
   given.read("fit", is_fitted);
   std::optional<CameraMotion> motion;
   if (!is_fitted) motion = apply_camera_keys(root, std::nullopt, error);
-  if (error.status()) return;
+  if (!error.status()) return;
   TomlTable table(std::get<TomlMembers>(root.front().value.data), {}, "camera", error);
   if (read_camera_fit(table)) return;
   const Camera camera = read_camera(table);
@@ -224,8 +224,8 @@ py::dict check_table(const std::string& kind, const py::dict& dictionary,
   const auto read = [tree, kind, array](Call&) -> Status {
     FirstError error("", std::nullopt, &tree->data);
     read_table(kind, tree->members, error);
-    if (!error.status()) return std::nullopt;
-    return as_argument(*error.status(), kind, array, *tree);
+    if (error.status()) return {};
+    return as_argument(error.status().error(), kind, array, *tree);
   };
   // A picture or a lens in a file may take its time.
   const bool reads_file = kind != "particles" && dictionary.contains("file") &&

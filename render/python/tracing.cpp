@@ -43,7 +43,7 @@ class SharedTracer {
     Result<Tracer> made = Tracer::create(std::move(scene), options_);
     if (!made) return made.error();
     tracer_.emplace(std::move(made).value());
-    return std::nullopt;
+    return {};
   }
 
   /// Traces, until `cancel` is true.
@@ -177,7 +177,7 @@ TracerHandle of_spheres(const py::object& centers, const py::object& radii,
     scene.materials.push_back({"default", Matte{}});
     scene.spheres = std::move(placed.value().spheres);
     auto tracer = std::make_shared<SharedTracer>(options, placed.value().origin);
-    if (auto bad = tracer->create(std::move(scene))) return *bad;
+    if (auto done = tracer->create(std::move(scene)); !done) return done.error();
     return tracer;
   }));
 }
@@ -188,7 +188,7 @@ TracerHandle of_scene(const py::object& source, const TraceOptions& options) {
     auto loaded = request.load(call);
     if (!loaded) return loaded.error();
     auto tracer = std::make_shared<SharedTracer>(options, loaded.value().origin);
-    if (auto bad = tracer->create(std::move(loaded.value().scene))) return *bad;
+    if (auto done = tracer->create(std::move(loaded.value().scene)); !done) return done.error();
     return tracer;
   }));
 }

@@ -41,16 +41,16 @@ void BandQueue::end(std::size_t block) {
   while (may_hand_over()) {
     const Stopwatch watch;
     taking_ = true;
-    Band& done = slot(taken_);
+    Band& band = slot(taken_);
     lock.unlock();
-    if (done.lines) done.lines->draw(done.image);
-    Status bad = take_(done.image);
+    if (band.lines) band.lines->draw(band.image);
+    Status taken = take_(band.image);
     lock.lock();
     taking_ = false;
     ++taken_;
     seconds_taken_ += watch.seconds();
-    if (bad) {
-      status_ = std::move(bad);
+    if (!taken) {
+      status_ = std::move(taken);
       stopped_ = true;
     }
     freed_.notify_all();

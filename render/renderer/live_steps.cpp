@@ -61,7 +61,7 @@ double Renderer::share_done(const LivePosition& position) const {
 
 Status Renderer::render_step(Film& film, LivePosition& position, const StepLimit& limit) {
   const FloatEnvironment environment;
-  if (auto bad = check_film(film)) return bad;
+  if (auto done = check_film(film); !done) return done;
   const Stopwatch watch;
   const LivePasses passes(options_.order, rect(), options_.spp);
   const double block_pixels =
@@ -73,7 +73,8 @@ Status Renderer::render_step(Film& film, LivePosition& position, const StepLimit
     const double affordable = std::clamp(left / cost, 1.0, static_cast<double>(blocks_.size()));
     const std::size_t first = position.block;
     const std::size_t end = std::min(first + static_cast<std::size_t>(affordable), blocks_.size());
-    if (auto bad = run_slice(film, pass, position, {end, watch, limit.seconds})) return bad;
+    if (auto done = run_slice(film, pass, position, {end, watch, limit.seconds}); !done)
+      return done;
     left -= cost * static_cast<double>(position.block - first);
     if (position.block == blocks_.size()) {
       ++position.pass;
@@ -82,7 +83,7 @@ Status Renderer::render_step(Film& film, LivePosition& position, const StepLimit
     if (watch.seconds() >= limit.seconds || !(left >= 1)) break;
   }
   render_seconds_ += watch.seconds();
-  return std::nullopt;
+  return {};
 }
 
 /// Renders blocks of a pass from position.block on. A block that has begun is finished.
@@ -105,10 +106,10 @@ Status Renderer::run_slice(Film& film, const LivePass& pass, LivePosition& posit
       if (is_cancelled() || !worker(index).render(blocks_[at], pass, film)) stopped = true;
     }
   };
-  if (auto bad = scheduler_.run(scheduler_.workers(), std::cref(body))) return bad;
+  if (auto done = scheduler_.run(scheduler_.workers(), std::cref(body)); !done) return done;
   if (stopped) return Diagnostic::of("rendering was cancelled");
   position.block = std::min(next.load(), range.end);
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

@@ -27,7 +27,7 @@ auto guard_preparation(const Prepare& prepare) -> decltype(prepare()) {
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory while preparing the scene");
   } catch (...) {  // an exception from copying a callback
-    return *diagnose([] { throw; });
+    return diagnose([] { throw; }).error();
   }
 }
 

@@ -33,7 +33,7 @@ Status Renderer::render_bands(const std::function<Status(const Image&)>& take) {
     const double wall = render_seconds_ - before;
     const unsigned threads = scheduler_.threads_used();
     render_seconds_ = before + std::max(wall - queue.seconds_taken() / threads, 0.0);
-    if (auto bad = queue.status()) return bad;
+    if (auto done = queue.status(); !done) return done;
     return status;
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory for the picture");

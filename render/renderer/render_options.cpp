@@ -48,7 +48,8 @@ Status check_picture_memory(const RenderOptions& options) {
 Status validate_noise(const RenderOptions& options) {
   if (!rule::noise.allows(double{options.noise}))
     return Diagnostic::about("render.noise", "must be " + describe(rule::noise));
-  if (auto bad = check_range("render.min_spp", options.min_spp, rule::least_samples)) return bad;
+  if (auto done = check_range("render.min_spp", options.min_spp, rule::least_samples); !done)
+    return done;
   if (options.noise > 0 && options.spp < options.min_spp) {
     return Diagnostic::about("image.spp", "must be at least " + std::to_string(options.min_spp) +
                                               ", the min_spp, where noise is asked for");
@@ -60,7 +61,7 @@ Status validate_noise(const RenderOptions& options) {
   constexpr NumberRule stops{.low = -126, .high = 126};
   if (!stops.allows(double{options.exposure_stops}))
     return Diagnostic::about("exposure_stops", "must be " + describe(stops));
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -114,12 +115,14 @@ int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t sph
 }
 
 Status validate(const RenderOptions& options) {
-  if (auto bad = check_range("image.size", options.width, rule::image_side)) return bad;
-  if (auto bad = check_range("image.size", options.height, rule::image_side)) return bad;
-  if (auto bad = check_range("image.spp", options.spp, rule::samples)) return bad;
-  if (auto bad = check_range("render.max_depth", options.max_depth, rule::bounces)) return bad;
-  if (auto bad = check_range("tile", options.tile, {.low = 0, .high = max_tile})) return bad;
-  if (auto bad = validate_noise(options)) return bad;
+  if (auto done = check_range("image.size", options.width, rule::image_side); !done) return done;
+  if (auto done = check_range("image.size", options.height, rule::image_side); !done) return done;
+  if (auto done = check_range("image.spp", options.spp, rule::samples); !done) return done;
+  if (auto done = check_range("render.max_depth", options.max_depth, rule::bounces); !done)
+    return done;
+  if (auto done = check_range("tile", options.tile, {.low = 0, .high = max_tile}); !done)
+    return done;
+  if (auto done = validate_noise(options); !done) return done;
   if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
     return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
   }

@@ -45,11 +45,11 @@ template <class AnyScene>
 Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& options) {
   const Stopwatch watch;
   return guard_preparation([&]() -> Result<Renderer> {
-    if (auto bad = check_scene_memory(scene)) return *bad;
+    if (auto done = check_scene_memory(scene); !done) return done.error();
     if (options.solver == Solver::reference) {
-      if (auto bad = check_reference_memory(scene)) return *bad;
+      if (auto done = check_reference_memory(scene); !done) return done.error();
     }
-    if (auto bad = validate(options)) return *bad;
+    if (auto done = validate(options); !done) return done.error();
     if (const auto kernels = kernels_for(options.isa, options.solver); !kernels)
       return kernels.error();
     Scheduler scheduler(options.threads);
@@ -68,7 +68,7 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
 Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
                                   const RenderOptions& options) {
   return guard_preparation([&]() -> Result<Renderer> {
-    if (auto bad = validate(options)) return *bad;
+    if (auto done = validate(options); !done) return done.error();
     const auto kernels = kernels_for(options.isa, options.solver);
     if (!kernels) return kernels.error();
     RenderOptions fitted = options;
@@ -87,7 +87,7 @@ Result<Image> Renderer::render() {
     const auto task = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, options_.spp, image, whole);
     };
-    if (auto bad = run_blocks(std::cref(task), pass_from(0))) return *bad;
+    if (auto done = run_blocks(std::cref(task), pass_from(0)); !done) return done.error();
     if (!(options_.outline > 0)) return image;
     const auto lines = render_outline();
     if (!lines) return lines.error();
@@ -108,8 +108,8 @@ Status Renderer::render_measured(MeasuredPicture& picture, Film* preview) {
     const auto one = [&](BlockWorker& worker, const PixelRect& block) {
       return worker.render(block, 1, *preview);
     };
-    if (auto bad = check_film(*preview)) return bad;
-    if (auto bad = run_blocks(std::cref(one), {.end = share_of_preview})) return bad;
+    if (auto done = check_film(*preview); !done) return done;
+    if (auto done = run_blocks(std::cref(one), {.end = share_of_preview}); !done) return done;
   }
   const auto task = [&](BlockWorker& worker, const PixelRect& block) {
     return worker.measure(block, picture);
@@ -128,12 +128,12 @@ LiveProgress::PassSpan Renderer::pass_from(double begin) const {
 Status Renderer::check_film(const Film& film) const {
   if (!scene_) return moved_away();
   if (!(film.rect() == rect())) return Diagnostic::of("the film is not of the rendered pixels");
-  return std::nullopt;
+  return {};
 }
 
 Status Renderer::render_pass(Film& film, int until) {
   const FloatEnvironment environment;
-  if (auto bad = check_film(film)) return bad;
+  if (auto done = check_film(film); !done) return done;
   if (until < 1 || until > options_.spp) {
     return Diagnostic::of("a pass ends at 1 to " + std::to_string(options_.spp) +
                           " samples, not at " + std::to_string(until));
@@ -146,7 +146,7 @@ Status Renderer::render_pass(Film& film, int until) {
 
 Status Renderer::render_live(Film& film) {
   const FloatEnvironment environment;
-  if (auto bad = check_film(film)) return bad;
+  if (auto done = check_film(film); !done) return done;
   const std::uint64_t rays_before = count_rays().total();
   const LivePasses passes(options_.order, rect(), options_.spp);
   double share = 0;
@@ -156,11 +156,11 @@ Status Renderer::render_live(Film& film) {
       return worker.render(block, pass, film);
     };
     const std::uint64_t rays = count_rays().total() - rays_before;
-    if (auto bad = run_blocks(std::cref(task), {share, pass.share, rays})) return bad;
+    if (auto done = run_blocks(std::cref(task), {share, pass.share, rays}); !done) return done;
     share = pass.share;
     if (options_.update) options_.update(film);
   }
-  return std::nullopt;
+  return {};
 }
 
 BlockWorker& Renderer::worker(unsigned index) {
@@ -195,7 +195,7 @@ Status Renderer::run_indexed(std::size_t count, const IndexedTask& task,
   };
   Status status = scheduler_.run(count, std::cref(body), options_.cancel);
   render_seconds_ += watch.seconds();
-  if (status) return status;
+  if (!status) return status;
   if (live.ended() != count) return Diagnostic::of("rendering was cancelled");
   return diagnose(std::cref(report));  // by reference: a copy of it takes memory
 }
@@ -206,9 +206,9 @@ Result<std::vector<ImageChannel>> Renderer::render_aovs() {
   const Stopwatch watch;
   try {
     AovChannels channels(options_.aovs, rect());
-    const Status status = options_.aovs.any_traced() ? find_aovs(channels) : std::nullopt;
+    const Status status = options_.aovs.any_traced() ? find_aovs(channels) : Status();
     render_seconds_ += watch.seconds();
-    if (status) return *status;
+    if (!status) return status.error();
     return channels.release();
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory for the AOVs");
@@ -256,9 +256,9 @@ Result<Outline> Renderer::render_outline() {
   const Stopwatch watch;
   try {
     Outline outline(rect());
-    const Status status = options_.outline > 0 ? find_lines(outline) : std::nullopt;
+    const Status status = options_.outline > 0 ? find_lines(outline) : Status();
     render_seconds_ += watch.seconds();
-    if (status) return *status;
+    if (!status) return status.error();
     return outline;
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory for the outline");
@@ -289,7 +289,7 @@ Status Renderer::run_extra(const BlockOrder& blocks, const Make& make, const Tas
   for (const auto& worker : workers) {
     if (worker) extra_rays_ += worker->counts();
   }
-  if (!status && done != blocks.size()) return Diagnostic::of("rendering was cancelled");
+  if (status && done != blocks.size()) return Diagnostic::of("rendering was cancelled");
   return status;
 }
 

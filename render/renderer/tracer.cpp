@@ -43,7 +43,7 @@ Ray ray_at(const RayColumns& rays, std::size_t k) {
 }
 
 Status wrong_room(std::size_t rays, std::size_t results) {
-  if (results == rays) return std::nullopt;
+  if (results == rays) return {};
   return Diagnostic::of("there are " + std::to_string(rays) + " rays, but room for " +
                         std::to_string(results) + " results");
 }
@@ -94,11 +94,11 @@ template <class AnyScene>
 Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options) {
   const Stopwatch watch;
   return guard_preparation([&]() -> Result<Tracer> {
-    if (auto bad = check_scene_memory(scene)) return *bad;
+    if (auto done = check_scene_memory(scene); !done) return done.error();
     if (options.solver == Solver::reference) {
-      if (auto bad = check_reference_memory(scene)) return *bad;
+      if (auto done = check_reference_memory(scene); !done) return done.error();
     }
-    if (auto bad = validate(scene)) return *bad;
+    if (auto done = validate(scene); !done) return done.error();
     const auto kernels = kernels_for(options.isa, options.solver);
     if (!kernels) return kernels.error();
     if (count_primitives(scene).total() > max_primitives) {
@@ -195,7 +195,7 @@ Status Tracer::any_of_columns(const RayColumns& rays, std::span<std::uint8_t> me
 /// Closures are passed by reference, here and above: a copy takes memory, and can throw.
 Status Tracer::run(std::size_t rays, std::size_t results, const Load& load, const Body& body) {
   if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
-  if (auto bad = wrong_room(rays, results)) return bad;
+  if (auto done = wrong_room(rays, results); !done) return done;
   const FloatEnvironment environment;
   const Stopwatch watch;
   Status status = run_blocks(rays, load, body);
@@ -221,7 +221,7 @@ Status Tracer::run_blocks(std::size_t rays, const Load& load, const Body& body) 
   const std::size_t blocks = rays / rays_of_stream + (rays % rays_of_stream != 0 ? 1 : 0);
   Status status = scheduler_.run(blocks, std::cref(work), options_.cancel);
   rays_ += done;
-  if (status) return status;
+  if (!status) return status;
   if (done != rays) return Diagnostic::of("tracing was cancelled");
   const auto end = [&] { report(1); };
   return diagnose(std::cref(end));

@@ -24,7 +24,7 @@ class FirstError {
 
   /// Reports an error in the file's text.
   void report(TextPlace place, std::string key, std::string message) {
-    if (status_) return;
+    if (!status_) return;
     status_ = Diagnostic{.message = std::move(message),
                          .key = std::move(key),
                          .file = file_,
@@ -34,7 +34,7 @@ class FirstError {
 
   /// Reports an error of another file, which it names.
   void report(const Diagnostic& error) {
-    if (!status_) status_ = error;
+    if (status_) status_ = error;
   }
 
   /// The file the errors are about.

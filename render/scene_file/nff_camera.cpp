@@ -62,10 +62,11 @@ void NffCamera::end(Scene& scene, FirstError& error) {
   alone.camera = camera_;
   alone.image.width = width_;
   alone.image.height = height_;
-  if (const auto bad = validate(alone)) {
-    const Member* member = std::find_if(std::begin(members), std::end(members),
-                                        [&](const Member& m) { return m.scene_key == bad->key; });
-    error.report(places_[member - std::begin(members)], member->key, bad->message);
+  if (const auto done = validate(alone); !done) {
+    const Member* member =
+        std::find_if(std::begin(members), std::end(members),
+                     [&](const Member& m) { return m.scene_key == done.error().key; });
+    error.report(places_[member - std::begin(members)], member->key, done.error().message);
   }
   scene.camera = alone.camera;
   scene.image = alone.image;

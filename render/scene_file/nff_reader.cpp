@@ -69,9 +69,9 @@ class NffReader {
 };
 
 Result<LoadedScene> NffReader::read() {
-  while (!error_.status() && line_.next_line()) read_line();
+  while (error_.status() && line_.next_line()) read_line();
   finish();
-  if (error_.status()) return *error_.status();
+  if (!error_.status()) return error_.status().error();
   std::vector<std::string> warnings;
   if (!scene_.planes.empty()) {
     warnings.push_back(error_.file() + ":" + std::to_string(first_polygon_.line) +
@@ -174,7 +174,7 @@ void NffReader::read_polygon(const char* key, bool has_normals) {
     error_.report(count_place, key,
                   "a polygon has 3 vertices or more, not " + std::to_string(count));
   }
-  if (error_.status() || !read_vertices(key, has_normals, count)) return;
+  if (!error_.status() || !read_vertices(key, has_normals, count)) return;
   if (policy_ == PolygonPolicy::plane) add_plane(place, key);
 }
 
@@ -244,9 +244,9 @@ void NffReader::finish() {
   for (const std::size_t i : uncolored_lights_) {
     std::get<PointLight>(scene_.lights[i]).intensity = gray(static_cast<float>(share));
   }
-  if (error_.status()) return;
-  if (const auto bad = validate_all_but_primitives(scene_))
-    error_.report({}, bad->key, bad->message);
+  if (!error_.status()) return;
+  if (const auto done = validate_all_but_primitives(scene_); !done)
+    error_.report({}, done.error().key, done.error().message);
 }
 
 /// Where the spheres are. What is no sphere is refused when it is read.

@@ -67,7 +67,7 @@ Status check_shape(const NpyHeader& header, std::size_t rows, std::size_t column
   const auto& shape = header.shape;
   const bool is_list = columns == 1 && shape.size() == 1;
   const bool is_table = shape.size() == 2 && shape[1] == columns;
-  if ((is_list || is_table) && shape[0] == rows) return std::nullopt;
+  if ((is_list || is_table) && shape[0] == rows) return {};
   const std::string count = std::to_string(rows);
   return Diagnostic::of("has shape " + npy_shape_text(header) + ", expected (" + count +
                         (columns == 1 ? ",)" : ", " + std::to_string(columns) + ")") +
@@ -90,9 +90,10 @@ Result<NumberRows> NumberRows::open(const std::string& path, std::size_t rows,
   if (header.value().fortran_order && columns > 1) {
     return Diagnostic::of("is in Fortran order, expected C order (row by row)");
   }
-  if (auto bad = check_shape(header.value(), rows, columns)) return *bad;
-  if (auto bad = check_npy_length(header.value(), columns * type->width, file.value().size())) {
-    return *bad;
+  if (auto done = check_shape(header.value(), rows, columns); !done) return done.error();
+  if (auto done = check_npy_length(header.value(), columns * type->width, file.value().size());
+      !done) {
+    return done.error();
   }
   return NumberRows(std::move(file).value(), *type, rows, columns);
 }
@@ -104,17 +105,17 @@ Status NumberRows::visit(const std::function<Status(std::size_t, const double*)>
   std::vector<double> numbers(columns_);
   for (std::size_t first = 0; first < rows_; first += rows_per_block) {
     const std::size_t count = std::min(rows_per_block, rows_ - first);
-    if (auto bad = read_npy_rows(file_, block.data(), count * row_bytes)) return bad;
+    if (auto done = read_npy_rows(file_, block.data(), count * row_bytes); !done) return done;
     const unsigned char* next = block.data();
     for (std::size_t row = first; row < first + count; ++row) {
       for (double& number : numbers) {
         number = type_.read(next);
         next += type_.width;
       }
-      if (auto bad = take(row, numbers.data())) return bad;
+      if (auto done = take(row, numbers.data()); !done) return done;
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -144,24 +145,25 @@ Status color_by_npy(const std::string& path, ColorSpace space, std::span<Sphere>
     }
     MaterialRef& material = spheres[row].material;
     material = MaterialRef::colored(material.index(), {codes[0], codes[1], codes[2]});
-    return std::nullopt;
+    return {};
   });
 }
 
 Result<std::vector<double>> read_npy_scalars(const std::string& path, std::size_t count) {
   auto rows = NumberRows::open(path, count, 1);
   if (!rows) return rows.error();
-  if (auto bad = check_memory(std::uint64_t{count} * sizeof(double),
-                              std::to_string(count) + " numbers need")) {
-    return *bad;
+  if (auto done = check_memory(std::uint64_t{count} * sizeof(double),
+                               std::to_string(count) + " numbers need");
+      !done) {
+    return done.error();
   }
   std::vector<double> numbers(count);
-  auto bad = rows.value().visit([&](std::size_t row, const double* number) -> Status {
+  auto done = rows.value().visit([&](std::size_t row, const double* number) -> Status {
     if (!std::isfinite(*number)) return row_error(row, "must be finite");
     numbers[row] = *number;
-    return std::nullopt;
+    return {};
   });
-  if (bad) return *bad;
+  if (!done) return done.error();
   return numbers;
 }
 

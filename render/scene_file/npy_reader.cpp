@@ -32,9 +32,9 @@ struct RowLayout {
 Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& request,
                                std::uint64_t file_size) {
   const bool has_radius = request.radius.has_value();
-  if (auto bad = check_npy_elements(header)) {
-    if (!header.fields.empty()) bad->message += ": [[particles]] reads it";
-    return *bad;
+  if (auto done = check_npy_elements(header); !done) {
+    if (!header.fields.empty()) done.error().message += ": [[particles]] reads it";
+    return done.error();
   }
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 3 && shape[1] != 4)) {
@@ -56,7 +56,7 @@ Result<RowLayout> check_layout(const NpyHeader& header, const NpySpheres& reques
   }
   const RowLayout layout{header.size, shape[0], static_cast<std::size_t>(shape[1]),
                          npy_is_double(header) ? std::size_t{8} : std::size_t{4}};
-  if (auto bad = check_npy_length(header, layout.bytes(), file_size)) return *bad;
+  if (auto done = check_npy_length(header, layout.bytes(), file_size); !done) return done.error();
   return layout;
 }
 
@@ -81,7 +81,7 @@ class RowDecoder {
   Status decode(const unsigned char* rows, std::uint64_t first, std::span<Sphere> spheres) const {
     const bool all_valid = layout_.width == sizeof(float) ? decode_all<float>(rows, spheres)
                                                           : decode_all<double>(rows, spheres);
-    return all_valid ? std::nullopt : explain(rows, first, spheres.size());
+    return all_valid ? Status() : explain(rows, first, spheres.size());
   }
 
  private:
@@ -136,7 +136,7 @@ Status RowDecoder::explain(const unsigned char* rows, std::uint64_t first,
       return Diagnostic::of("row " + std::to_string(first + i) + ": " + *problem);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 /// What is wrong with the sphere of one row, in words.
@@ -164,13 +164,14 @@ Status read_piece(const InputFile& file, const RowLayout& layout, std::size_t ro
   std::vector<unsigned char> block(std::min(rows_per_block, end - row) * layout.bytes());
   for (; row < end; row += rows_per_block) {
     const std::size_t count = std::min(rows_per_block, end - row);
-    if (auto bad = read_npy_rows(file, layout.begin + row * layout.bytes(), block.data(),
-                                 count * layout.bytes())) {
-      return bad;
+    if (auto done = read_npy_rows(file, layout.begin + row * layout.bytes(), block.data(),
+                                  count * layout.bytes());
+        !done) {
+      return done;
     }
-    if (auto bad = take(block.data(), row, count)) return bad;
+    if (auto done = take(block.data(), row, count); !done) return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// The same for all rows, of which threads read a piece each.
@@ -185,9 +186,9 @@ Status read_rows(const InputFile& file, const RowLayout& layout, const ParallelF
     pieces[i] = read_piece(file, layout, row, std::min(row + rows_per_piece, rows), take);
   });
   for (const Status& piece : pieces) {
-    if (piece) return piece;
+    if (!piece) return piece;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// A file of spheres that is open.
@@ -209,9 +210,10 @@ Result<OpenSpheres> open_spheres(const NpySpheres& request, std::uint64_t others
   const auto layout = check_layout(header.value(), request, file.value().size());
   if (!layout) return named(layout.error());
   const std::uint64_t rows = layout.value().rows;
-  if (auto bad = check_memory(bytes_of_tree(others + rows) - bytes_of_spheres(others),
-                              std::to_string(rows) + " spheres need")) {
-    return named(*bad);
+  if (auto done = check_memory(bytes_of_tree(others + rows) - bytes_of_spheres(others),
+                               std::to_string(rows) + " spheres need");
+      !done) {
+    return named(done.error());
   }
   return OpenSpheres{std::move(file).value(), layout.value()};
 }
@@ -229,12 +231,12 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
   const auto decode = [&](const unsigned char* rows, std::size_t row, std::size_t count) {
     return decoder.decode(rows, row, std::span(spheres).subspan(before + row, count));
   };
-  if (auto bad = read_rows(file, layout, parallel_for, decode)) {
+  if (auto done = read_rows(file, layout, parallel_for, decode); !done) {
     spheres.resize(before);
-    bad->file = request.path;
-    return bad;
+    done.error().file = request.path;
+    return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_for) {
@@ -251,9 +253,9 @@ SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_fo
         });
     const std::lock_guard lock(mutex);
     all.add(some);
-    return std::nullopt;
+    return {};
   };
-  return read_rows(opened.value().file, layout, parallel_for, take) ? SphereExtent{} : all;
+  return !read_rows(opened.value().file, layout, parallel_for, take) ? SphereExtent{} : all;
 }
 
 }  // namespace boule

@@ -43,9 +43,9 @@ std::string problem_of(const Row& row) {
 
 }  // namespace
 
-Status NpySource::named(const File& file, Status bad) {
-  if (bad) bad->file = file.is_pipe ? "standard input" : file.name;
-  return bad;
+Status NpySource::named(const File& file, Status status) {
+  if (!status) status.error().file = file.is_pipe ? "standard input" : file.name;
+  return status;
 }
 
 Result<std::unique_ptr<NpySource>> NpySource::open(const std::vector<std::string>& paths,
@@ -53,9 +53,9 @@ Result<std::unique_ptr<NpySource>> NpySource::open(const std::vector<std::string
                                                    const ParallelFor& parallel_for) {
   std::unique_ptr<NpySource> source(new NpySource(parallel_for));
   for (const std::string& path : paths) {
-    if (auto bad = source->add(path)) {
-      bad->file = path == "-" ? "standard input" : path;
-      return *bad;
+    if (auto done = source->add(path); !done) {
+      done.error().file = path == "-" ? "standard input" : path;
+      return done.error();
     }
   }
   if (source->files_.front().is_pipe) {
@@ -74,22 +74,22 @@ Status NpySource::add(const std::string& path) {
   const auto read = read_npy_header(file);
   if (!read) return read.error();
   const NpyHeader& header = read.value();
-  if (auto bad = check_npy_elements(header)) return bad;
+  if (auto done = check_npy_elements(header); !done) return done;
   if (header.shape.size() != 2 || header.shape[1] != 4) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
                           ", expected (N, 4): centre and radius");
   }
   const std::size_t width = npy_is_double(header) ? 8 : 4;
   if (!is_pipe) {
-    if (auto bad = check_npy_length(header, 4 * width, file.size())) return bad;
+    if (auto done = check_npy_length(header, 4 * width, file.size()); !done) return done;
   }
   files_.push_back({path, std::move(file), header.size, header.shape[0], width, is_pipe});
-  return std::nullopt;
+  return {};
 }
 
 Status NpySource::seek(std::uint64_t sphere) {
   next_ = sphere;
-  return std::nullopt;
+  return {};
 }
 
 void NpySource::forget(std::uint64_t before) {
@@ -112,14 +112,14 @@ Status NpySource::next_rows(std::size_t most, Rows& rows) {
     }
     before += file.rows;
   }
-  return std::nullopt;
+  return {};
 }
 
 Status NpySource::read(std::vector<Sphere>& part, std::size_t most) {
   part.clear();
   Rows rows;
-  if (auto bad = next_rows(most, rows)) return bad;
-  if (rows.file == nullptr) return std::nullopt;
+  if (auto done = next_rows(most, rows); !done) return done;
+  if (rows.file == nullptr) return {};
   part.resize(rows.count);
   return named(*rows.file, decode(*rows.file, rows.first, rows.count, part.data()));
 }
@@ -129,7 +129,7 @@ Result<SphereExtent> NpySource::extent() {
   SphereExtent all;
   Rows rows;
   do {
-    if (auto bad = next_rows(at_once, rows)) return *bad;
+    if (auto done = next_rows(at_once, rows); !done) return done.error();
     all.add(extent_of(rows.count, parallel_for_, [&](std::size_t i, SphereExtent& extent) {
       const File& file = *rows.file;
       const auto [x, y, z, r] = numbers_of(rows_.data() + i * file.row_bytes(), file.width, {});
@@ -155,8 +155,8 @@ Status NpySource::read_pipe(File& file, std::uint64_t first) {
   if (offset < spool_->size()) {
     const auto known =
         static_cast<std::size_t>(std::min<std::uint64_t>(spool_->size() - offset, rows_.size()));
-    if (auto bad = spool_->read(offset, rows_.data(), known)) return bad;
-    if (known == rows_.size()) return std::nullopt;
+    if (auto done = spool_->read(offset, rows_.data(), known); !done) return done;
+    if (known == rows_.size()) return {};
     return read_pipe_on(file, known);
   }
   return read_pipe_on(file, 0);
@@ -184,7 +184,7 @@ Status NpySource::decode(const File& file, std::uint64_t first, std::size_t coun
     }
   });
   const std::size_t row = bad.empty() ? count : *std::min_element(bad.begin(), bad.end());
-  if (row == count) return std::nullopt;
+  if (row == count) return {};
   return Diagnostic::of(
       "row " + std::to_string(first + row) + ": " +
       problem_of(numbers_of(rows_.data() + row * file.row_bytes(), file.width, origin_)));

@@ -39,7 +39,7 @@ Status SphereArrays::append_to(std::vector<Sphere>& target, const Vec3d& origin,
   const std::size_t before = target.size(), count = spheres.size();
   make_room(target, count);
   target.insert(target.end(), spheres.begin(), spheres.end());
-  if (centers.empty() && base == origin) return std::nullopt;
+  if (centers.empty() && base == origin) return {};
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::atomic<std::size_t> bad{none};
   const Vec3d shift = base - origin;
@@ -52,7 +52,7 @@ Status SphereArrays::append_to(std::vector<Sphere>& target, const Vec3d& origin,
       if (!is_valid(sphere)) report(bad, i);
     }
   });
-  if (bad == none) return std::nullopt;
+  if (bad == none) return {};
   target.resize(before);
   return Diagnostic::of("row " + std::to_string(bad) + ": center is too large for a 32-bit float");
 }

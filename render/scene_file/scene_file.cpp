@@ -48,10 +48,11 @@ Result<LoadedScene> read_npy_scene(const std::string& path, const SceneFileOptio
   SceneExtents extents;
   if (!options.origin) extents.push_back(extent_of(request, parallel_for));
   loaded.origin = request.origin = choose_origin(extents, options.origin, loaded.notes);
-  if (auto bad = append_spheres(request, loaded.scene.spheres, parallel_for)) return *bad;
-  if (auto bad = validate_all_but_primitives(loaded.scene)) {
-    bad->file = path;
-    return *bad;
+  if (auto done = append_spheres(request, loaded.scene.spheres, parallel_for); !done)
+    return done.error();
+  if (auto done = validate_all_but_primitives(loaded.scene); !done) {
+    done.error().file = path;
+    return done.error();
   }
   return loaded;
 }
@@ -90,9 +91,9 @@ Result<LoadedScene> load_checked(const std::string& path, const SceneFileOptions
     Result<LoadedScene> loaded = read();
     if (options.particle_files != nullptr) options.particle_files->close_unused();
     if (!loaded) return loaded;
-    if (auto bad = check_scene_memory(loaded.value().scene)) {
-      bad->file = path;
-      return *bad;
+    if (auto done = check_scene_memory(loaded.value().scene); !done) {
+      done.error().file = path;
+      return done.error();
     }
     return loaded;
   } catch (const std::bad_alloc&) {

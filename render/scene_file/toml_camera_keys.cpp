@@ -135,7 +135,7 @@ std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<i
   if (members == nullptr || find_key(*members, "key") == nullptr) return std::nullopt;
   CameraMotion motion =
       CameraKeys(TomlTable(*members, camera->value.place, "camera", error)).read();
-  if (error.status()) return std::nullopt;
+  if (!error.status()) return std::nullopt;
   const int now = frame.value_or(motion.frames.front());
   std::erase_if(*members, [](const TomlMember& member) { return member.key == "key"; });
   for (const CameraTrack& track : motion.tracks) {

@@ -64,7 +64,7 @@ Diagnostic syntax_error(std::string_view text, const std::string& file,
 }  // namespace
 
 Result<TomlValue> parse_toml(std::string_view text, const std::string& file) {
-  if (auto bad = refuse_untrusted(text, file)) return *bad;
+  if (auto done = refuse_untrusted(text, file); !done) return done.error();
   const toml::parse_result result = toml::parse(text);
   if (!result) return syntax_error(text, file, result.error());
   return copy(result.table());

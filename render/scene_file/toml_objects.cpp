@@ -124,7 +124,7 @@ void TomlObjects::load_particles(ObjectTables& tables) {
 /// Makes spheres of particles, and lets go of these.
 void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                                 std::vector<Sphere>& spheres) {
-  if (!particles || error_.status()) return;
+  if (!particles || !error_.status()) return;
   const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
   if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
     add_images(table, std::move(particles->spheres));
@@ -132,10 +132,11 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
   }
   make_room(spheres, particles->spheres.size());
   const std::size_t before = spheres.size();
-  if (auto bad =
-          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for)) {
+  if (auto done =
+          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for);
+      !done) {
     spheres.resize(before);
-    table.report("file", bad->message);
+    table.report("file", done.error().message);
   }
   particles.reset();
 }
@@ -144,9 +145,10 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
   Group group{"images of " + table.path(), {}, {}, {}};
   const CellImages images = particles.images();
-  if (auto bad = std::move(particles).append_first_image_to(group.spheres, table.origin(),
-                                                            options_.parallel_for)) {
-    return table.report("file", bad->message);
+  if (auto done = std::move(particles).append_first_image_to(group.spheres, table.origin(),
+                                                             options_.parallel_for);
+      !done) {
+    return table.report("file", done.error().message);
   }
   const auto index = static_cast<std::uint32_t>(scene_.groups.size());
   scene_.groups.push_back(std::move(group));
@@ -180,10 +182,10 @@ void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
                                         std::to_string(MaterialRef::max_colored) +
                                         " of the scene: those can be given colours");
   }
-  if (error_.status()) return;
+  if (!error_.status()) return;
   const std::size_t before = spheres.size();
-  if (auto bad = arrays.append_to(spheres, table.origin(), options_.parallel_for)) {
-    return table.report("file", bad->message);
+  if (auto done = arrays.append_to(spheres, table.origin(), options_.parallel_for); !done) {
+    return table.report("file", done.error().message);
   }
   for (Sphere& sphere : std::span(spheres).subspan(before)) {
     MaterialRef& ref = sphere.material;
@@ -205,12 +207,12 @@ void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
   table.finish({"file"});
   if (request.radius) table.check(find_problem(Sphere{{}, *request.radius}));
   if (colors.any()) colorable_material_of(table, "material");
-  if (error_.status()) return;
+  if (!error_.status()) return;
   request.path = table.file_path(name);
   request.origin = table.origin();
   const std::size_t before = spheres.size();
-  if (auto bad = append_spheres(request, spheres, options_.parallel_for)) {
-    return table.report("file", quote(name) + ": " + bad->message);
+  if (auto done = append_spheres(request, spheres, options_.parallel_for); !done) {
+    return table.report("file", quote(name) + ": " + done.error().message);
   }
   if (colors.any()) color_bulk(table, colors, request.path, std::span(spheres).subspan(before));
 }
@@ -268,10 +270,10 @@ void TomlObjects::read_scene(ObjectTables& tables, const std::vector<Vec3d>& gro
 }
 
 void TomlObjects::check_instances() {
-  if (error_.status() || instance_tables_.empty()) return;
-  if (const auto too_large = check_scene_memory(scene_)) {
-    return error_.report(instance_tables_.front().table.place(), too_large->key,
-                         too_large->message);
+  if (!error_.status() || instance_tables_.empty()) return;
+  if (const auto room = check_scene_memory(scene_); !room) {
+    return error_.report(instance_tables_.front().table.place(), room.error().key,
+                         room.error().message);
   }
   const auto bad = find_instance_problem(scene_);
   if (!bad) return;

@@ -78,8 +78,8 @@ std::optional<TomlParticles> ParticleTable::read() {
   const std::size_t of_file = frame->notes.size();
   auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
   if (!made) {
-    const Status place = made.error().key == "radius" ? find_wrong_radius() : std::nullopt;
-    place ? report_file(*place) : report_key(made.error());
+    const Status place = made.error().key == "radius" ? find_wrong_radius() : Status();
+    !place ? report_file(place.error()) : report_key(made.error());
     return std::nullopt;
   }
   TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
@@ -135,16 +135,16 @@ std::optional<ParticleFrame> ParticleTable::read_frame() {
 Status ParticleTable::find_wrong_radius() const {
   std::vector<std::string> columns{"radius", "diameter"};
   if (const auto* rule = std::get_if<RadiusColumn>(&keys_.style.radius)) columns = {rule->name};
-  if (!keys_.style.select.empty()) return std::nullopt;
+  if (!keys_.style.select.empty()) return {};
   for (const std::string& column : columns) {
     ParticleFileOptions options = keys_.file;
     options.positive = column;
     auto file = ParticleFile::open(keys_.path, options, options_.parallel_for);
-    if (!file) return std::nullopt;
+    if (!file) return {};
     const auto frame = file.value().read(static_cast<long>(facts_.frame), options_.parallel_for);
     if (!frame && frame.error().line > 0) return frame.error();
   }
-  return std::nullopt;
+  return {};
 }
 
 /// The frame that the keys or the series ask for, from 0.

@@ -94,7 +94,7 @@ Result<LoadedScene> TomlReader::read() {
   loaded_.particles = reader.facts();
   choose_up();
   validate_whole();
-  if (error_.status()) return *error_.status();
+  if (!error_.status()) return error_.status().error();
   describe(reader.notes());
   return std::move(loaded_);
 }
@@ -180,19 +180,20 @@ void TomlReader::choose_up() {
 
 /// Checks what the readers of single tables do not: settings, `ambient`, the number of objects.
 void TomlReader::validate_whole() {
-  if (error_.status()) return;
+  if (!error_.status()) return;
   if (scene_.packed && count_primitives(scene_).spheres != scene_.packed->count) {
     return error_.report(root_.place(), "instance",
                          "a scene has no other spheres beside packed ones");
   }
-  const auto bad = validate_all_but_primitives(scene_);
-  if (!bad) return;
-  const std::string section = bad->key.substr(0, bad->key.find('.'));
-  const std::string field = bad->key.substr(std::min(section.size() + 1, bad->key.size()));
+  const auto done = validate_all_but_primitives(scene_);
+  if (done) return;
+  const std::string section = done.error().key.substr(0, done.error().key.find('.'));
+  const std::string field =
+      done.error().key.substr(std::min(section.size() + 1, done.error().key.size()));
   if (auto table = field.empty() ? std::nullopt : root_.table(section)) {
-    table->report(field, bad->message);
+    table->report(field, done.error().message);
   }
-  error_.report(root_.place(), bad->key, bad->message);
+  error_.report(root_.place(), done.error().key, done.error().message);
 }
 
 }  // namespace
@@ -208,7 +209,7 @@ Result<LoadedScene> read_toml_tree(TomlValue root, const std::string& path,
                                    const SceneFileOptions& options) {
   FirstError error(path);
   const auto motion = apply_camera_keys(std::get<TomlMembers>(root.data), options.frame, error);
-  if (error.status()) return *error.status();
+  if (!error.status()) return error.status().error();
   return TomlReader(root, path, options, motion ? &*motion : nullptr).read();
 }
 

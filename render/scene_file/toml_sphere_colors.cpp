@@ -85,8 +85,8 @@ std::optional<MappedSpheres> color_spheres(TomlTable& table, const SphereColors&
                                            std::span<Sphere> spheres,
                                            const SceneFileOptions& options) {
   if (!keys.scalar.empty()) return map_numbers(table, keys, spheres, options);
-  if (auto bad = color_by_npy(table.file_path(keys.colors), keys.space, spheres)) {
-    table.report("colors", quote(keys.colors) + ": " + bad->message);
+  if (auto done = color_by_npy(table.file_path(keys.colors), keys.space, spheres); !done) {
+    table.report("colors", quote(keys.colors) + ": " + done.error().message);
   }
   return std::nullopt;
 }

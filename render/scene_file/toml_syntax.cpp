@@ -85,7 +85,7 @@ Status refuse_untrusted(std::string_view text, const std::string& file) {
       i = c == '#' ? std::min(text.find('\n', i), text.size()) : i + 1;
     }
   }
-  if (fault == nullptr) return std::nullopt;
+  if (fault == nullptr) return {};
   const TextPlace place = place_at(text, i);
   return Diagnostic{.message = fault,
                     .key = key_on_line(text, place.line),

@@ -97,7 +97,7 @@ class TomlTable {
   /// What the file may name besides files, or null.
   [[nodiscard]] const SceneData* data() const { return error_->data(); }
   /// True if nothing was reported about the file so far.
-  [[nodiscard]] bool ok() const { return !error_->status(); }
+  [[nodiscard]] bool ok() const { return error_->status().ok(); }
   /// The path of a file name in this table, which is relative to the scene file. It becomes one of
   /// the scene's data files.
   [[nodiscard]] std::string file_path(const std::string& name);

@@ -271,7 +271,7 @@ Status Team::end() {
   to_send_.notify_all();
   if (failure_code_ != 0) return Diagnostic::of(failures_);
   if (stopped_) return Diagnostic::of("rendering was cancelled");
-  return std::nullopt;
+  return {};
 }
 
 void Team::stop() {

@@ -59,7 +59,7 @@ Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint
   const std::string start = npy_start(
       kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",
       count);
-  if (auto bad = file.value().write(start.data(), start.size())) return *bad;
+  if (auto done = file.value().write(start.data(), start.size()); !done) return done.error();
   return HitFile(std::move(file).value(), path, kind, count);
 }
 
@@ -67,11 +67,11 @@ Status HitFile::take(HitKind kind, std::size_t hits) {
   if (kind != kind_) return cannot_write(name_, "hits of the other kind");
   if (hits > left_) return cannot_write(name_, "more hits than it is made for");
   left_ -= hits;
-  return std::nullopt;
+  return {};
 }
 
 Status HitFile::append(std::span<const TracedHit> hits) {
-  if (auto bad = take(HitKind::closest, hits.size())) return bad;
+  if (auto done = take(HitKind::closest, hits.size()); !done) return done;
   rows_.resize(rows_per_write * hit_bytes);
   for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
     unsigned char* end = rows_.data();
@@ -80,13 +80,13 @@ Status HitFile::append(std::span<const TracedHit> hits) {
       end = put(end, hit);
     }
     const auto bytes = static_cast<std::size_t>(end - rows_.data());
-    if (auto bad = file_.write(rows_.data(), bytes)) return bad;
+    if (auto done = file_.write(rows_.data(), bytes); !done) return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 Status HitFile::append(std::span<const std::uint8_t> met) {
-  if (auto bad = take(HitKind::any, met.size())) return bad;
+  if (auto done = take(HitKind::any, met.size()); !done) return done;
   return file_.write(met.data(), met.size());
 }
 

@@ -26,7 +26,7 @@ Diagnostic named(Diagnostic error, const std::string& path) {
 
 /// An error unless the file declares rays and has exactly the length that it declares.
 Status check_layout(const NpyHeader& header, std::uint64_t file_size) {
-  if (auto bad = check_npy_elements(header)) return bad;
+  if (auto done = check_npy_elements(header); !done) return done;
   if (header.shape.size() != 2 || header.shape[1] != columns) {
     return Diagnostic::of("has shape " + npy_shape_text(header) +
                           ", expected (N, 8): origin, tmin, direction, tmax");
@@ -67,7 +67,8 @@ Result<RayFile> RayFile::open(const std::string& path) {
   if (!file) return file.error();
   const auto header = read_npy_header(file.value());
   if (!header) return named(header.error(), path);
-  if (auto bad = check_layout(header.value(), file.value().size())) return named(*bad, path);
+  if (auto done = check_layout(header.value(), file.value().size()); !done)
+    return named(done.error(), path);
   return RayFile(path, std::move(file).value(), header.value().shape[0],
                  npy_is_double(header.value()));
 }
@@ -79,8 +80,8 @@ Status RayFile::read(std::span<Ray> rays) {
   rows_.resize(rows_per_read * width);
   for (std::size_t first = 0; first < rays.size(); first += rows_per_read) {
     const std::size_t count = std::min(rows_per_read, rays.size() - first);
-    if (auto bad = read_npy_rows(file_, rows_.data(), count * width)) {
-      return named(*bad, path_);
+    if (auto done = read_npy_rows(file_, rows_.data(), count * width); !done) {
+      return named(done.error(), path_);
     }
     for (std::size_t k = 0; k < count; ++k) {
       const unsigned char* const row = rows_.data() + k * width;
@@ -88,7 +89,7 @@ Status RayFile::read(std::span<Ray> rays) {
           is_double_ ? decode_row<double>(row, zero_, lost_) : decode_row<float>(row, zero_, lost_);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace boule

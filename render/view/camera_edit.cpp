@@ -70,10 +70,10 @@ bool is_editable(const std::string& type) {
 }
 
 Status check_type(const Camera& camera, const std::string& type) {
-  if (type == type_of(camera)) return std::nullopt;
+  if (type == type_of(camera)) return {};
   if (std::holds_alternative<LensCamera>(camera))
     return Diagnostic::about("camera.type", "a camera of real lenses stays one");
-  if (is_editable(type)) return std::nullopt;
+  if (is_editable(type)) return {};
   return Diagnostic::about("camera.type", "expected pinhole, orthographic, fisheye or thin_lens");
 }
 
@@ -105,13 +105,13 @@ Status set_numbers(Kind& camera, const CameraEdit& edit) {
     return no_such_key("aperture", type);
   }
   if constexpr (requires { camera.focus; }) {
-    if (!edit.focus) return std::nullopt;
+    if (!edit.focus) return {};
     camera.focus.reset();
     if (*edit.focus) camera.focus = static_cast<float>(**edit.focus);
   } else if (edit.focus && *edit.focus) {
     return no_such_key("focus", type);
   }
-  return std::nullopt;
+  return {};
 }
 
 std::string point_text(const Vec3f& point, const Vec3d& origin) {
@@ -185,14 +185,14 @@ double file_coordinate(float coordinate, double origin) {
 Result<Camera> edited(const Camera& camera, const CameraEdit& edit, const Vec3d& origin) {
   Camera result = camera;
   if (edit.type) {
-    if (auto bad = check_type(camera, *edit.type)) return *bad;
+    if (auto done = check_type(camera, *edit.type); !done) return done.error();
     if (*edit.type != type_of(camera)) result = with_type(camera, *edit.type);
   }
   const auto apply = [&](auto& any) {
     move(any.pose, edit, origin);
     return set_numbers(any, edit);
   };
-  if (auto bad = std::visit(apply, result)) return *bad;
+  if (auto done = std::visit(apply, result); !done) return done.error();
   if (const auto problem = find_problem(result))
     return Diagnostic::about("camera." + problem->field, problem->message);
   return result;

@@ -9,7 +9,7 @@ namespace boule::view {
 namespace {
 
 Result<ClientMessage> finished(MessageKeys& keys, ClientMessage message) {
-  if (auto bad = keys.finish()) return *bad;
+  if (auto done = keys.finish(); !done) return done.error();
   return message;
 }
 
@@ -39,7 +39,7 @@ Result<ClientMessage> read_camera(MessageKeys& keys) {
   edit.height = inner.number("height");
   edit.aperture = inner.number("aperture");
   edit.focus = number_or_null(inner, "focus");
-  if (auto bad = inner.finish()) return *bad;
+  if (auto done = inner.finish(); !done) return done.error();
   return finished(keys, message);
 }
 
@@ -63,13 +63,13 @@ Result<PaneEdit> read_pane(const Json& json, std::size_t index) {
   pane.solver = keys.choice<Solver>("solver");
   pane.method = keys.choice<Method>("method");
   read_epsilon(keys, pane);
-  if (auto bad = keys.finish()) return *bad;
+  if (auto done = keys.finish(); !done) return done.error();
   return pane;
 }
 
 Status read_panes(MessageKeys& keys, SettingsMessage& message) {
   const Json* const panes = keys.find("panes");
-  if (panes == nullptr) return std::nullopt;
+  if (panes == nullptr) return {};
   if (!panes->is_array() || panes->empty() || panes->size() > 2)
     return Diagnostic::about("panes", "expected an array of one or two objects");
   message.panes.emplace();
@@ -78,7 +78,7 @@ Status read_panes(MessageKeys& keys, SettingsMessage& message) {
     if (!pane) return pane.error();
     message.panes->push_back(pane.value());
   }
-  return std::nullopt;
+  return {};
 }
 
 std::optional<int> small_whole(MessageKeys& keys, const char* key, int low, int high) {
@@ -89,7 +89,7 @@ std::optional<int> small_whole(MessageKeys& keys, const char* key, int low, int 
 Result<ClientMessage> read_settings(MessageKeys& keys) {
   SettingsMessage message;
   message.number = keys.counter("number");
-  if (auto bad = read_panes(keys, message)) return *bad;
+  if (auto done = read_panes(keys, message); !done) return done.error();
   message.difference = keys.choice<Difference>("difference");
   if (const Json* const size = keys.find("size")) {
     if (const auto sides = keys.numbers<2>("size", *size, 1, max_view_side)) {

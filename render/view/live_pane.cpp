@@ -40,7 +40,7 @@ Status LivePane::start(std::shared_ptr<const PreparedScene> scene, const RenderO
   }
   outline_.reset();
   position_ = begin;
-  return std::nullopt;
+  return {};
 }
 
 Status LivePane::step(const StepLimit& limit) {
@@ -48,11 +48,11 @@ Status LivePane::step(const StepLimit& limit) {
 }
 
 Status LivePane::find_outline() {
-  if (!(renderer_->options().outline > 0)) return std::nullopt;
+  if (!(renderer_->options().outline > 0)) return {};
   auto lines = renderer_->render_outline();
   if (!lines) return lines.error();
   outline_.emplace(std::move(lines).value());
-  return std::nullopt;
+  return {};
 }
 
 /// Order progressive fills its gaps by itself, once its coarsest pass is done.

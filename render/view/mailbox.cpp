@@ -23,11 +23,11 @@ PaneSettings with(PaneSettings pane, const PaneEdit& edit) {
 Status Mailbox::take(const ClientMessage& message) {
   const FloatEnvironment floats;
   const std::lock_guard lock(mutex_);
-  auto bad = std::visit([this](const auto& any) { return apply(any); }, message);
-  if (bad) return bad;
+  auto done = std::visit([this](const auto& any) { return apply(any); }, message);
+  if (!done) return done;
   if (news_.camera || news_.settings || news_.scene || news_.stop) overtaken_ = true;
   if (news_.any()) changed_.notify_all();
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const CameraMessage& message) {
@@ -39,7 +39,7 @@ Status Mailbox::apply(const CameraMessage& message) {
   wish_.number = message.number;
   moving_until_ = message.moving ? Clock::now() + longest_pause : Clock::time_point{};
   news_.camera = true;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const SettingsMessage& message) {
@@ -65,7 +65,7 @@ Status Mailbox::apply(const SettingsMessage& message) {
   wish_.number = message.number;
   news_.settings = true;
   wish_.settings = std::move(settings);
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const ParticlesMessage& message) {
@@ -76,7 +76,7 @@ Status Mailbox::apply(const ParticlesMessage& message) {
   if (message.range) wish_.look.range = *message.range;
   wish_.number = message.number;
   news_.scene = true;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const FrameMessage& message) {
@@ -85,44 +85,44 @@ Status Mailbox::apply(const FrameMessage& message) {
   wish_.frame = message.frame;
   wish_.number = message.number;
   news_.scene = true;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::check_pane(int pane) const {
-  if (static_cast<std::size_t>(pane) < wish_.settings.panes.size()) return std::nullopt;
+  if (static_cast<std::size_t>(pane) < wish_.settings.panes.size()) return {};
   return Diagnostic::about("pane", "there is one pane");
 }
 
 Status Mailbox::apply(const PickMessage& message) {
-  if (auto bad = check_pane(message.pane)) return bad;
+  if (auto done = check_pane(message.pane); !done) return done;
   if (message.x >= wish_.settings.width) return Diagnostic::about("x", "lies beyond the picture");
   if (message.y >= wish_.settings.height) return Diagnostic::about("y", "lies beyond the picture");
   news_.pick = message;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const SaveMessage& message) {
-  if (auto bad = check_pane(message.pane)) return bad;
+  if (auto done = check_pane(message.pane); !done) return done;
   news_.save = message;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const StopSavingMessage&) {
   news_.stop_saving = true;
-  return std::nullopt;
+  return {};
 }
 
 Status Mailbox::apply(const TextsMessage& message) {
-  if (auto bad = check_pane(message.pane)) return bad;
+  if (auto done = check_pane(message.pane); !done) return done;
   news_.texts = message;
-  return std::nullopt;
+  return {};
 }
 
 /// The outbox is told of these.
 Status Mailbox::apply(const AckMessage&) {
   woken_ = true;
   changed_.notify_all();
-  return std::nullopt;
+  return {};
 }
 
 void Mailbox::connect() {

@@ -38,7 +38,7 @@ class MessageKeys {
   }
 
   void report(const std::string& key, std::string message) {
-    if (!error_) error_ = Diagnostic::about(path_ + key, std::move(message));
+    if (status_) status_ = Diagnostic::about(path_ + key, std::move(message));
   }
 
   /// A finite number within low .. high.
@@ -122,11 +122,11 @@ class MessageKeys {
 
   /// The first error, or one about a key that nobody asked for.
   [[nodiscard]] Status finish() {
-    if (error_ || !json_.is_object()) return error_;
+    if (!status_ || !json_.is_object()) return status_;
     for (const auto& [key, value] : json_.items()) {
       if (known_.count(key) == 0) return Diagnostic::about(path_ + key, "unknown key");
     }
-    return std::nullopt;
+    return {};
   }
 
  private:
@@ -145,7 +145,7 @@ class MessageKeys {
   const Json& json_;
   const std::string path_;
   std::set<std::string, std::less<>> known_;
-  Status error_;
+  Status status_;
 };
 
 }  // namespace boule::view

@@ -26,7 +26,7 @@ void PaneStage::set_scene(LoadedScene loaded) {
 Result<Camera> PaneStage::scene_camera(int width, int height) {
   if (scene().camera) return *scene().camera;
   Prepared first{nullptr, 0, width, height};
-  if (auto bad = prepare_anew(first, scene().render.method, {})) return *bad;
+  if (auto done = prepare_anew(first, scene().render.method, {}); !done) return done.error();
   const Camera camera = first.scene->camera;
   prepared_[static_cast<std::size_t>(scene().render.method)] = std::move(first);
   return camera;
@@ -40,7 +40,7 @@ Status PaneStage::prepare_anew(Prepared& kept, Method method, const std::optiona
   if (!made) return made.error();
   kept.scene = std::make_shared<PreparedScene>(std::move(made).value());
   if (scene().image.transparent) kept.scene->backdrop = Color{};
-  return std::nullopt;
+  return {};
 }
 
 /// A scene that fits already is left alone: panes may be using it.
@@ -53,9 +53,9 @@ Result<std::shared_ptr<PreparedScene>> PaneStage::prepare_for(Method method, con
                     kept.width == wanted.width && kept.height == wanted.height;
   if (fits) return kept.scene;
   kept.scene.reset();  // not half of what was and half of what is to be, if this fails
-  auto bad = wanted.scene ? reframe(*wanted.scene, wish.camera, wanted.width, wanted.height)
-                          : prepare_anew(wanted, method, wish.camera);
-  if (bad) return *bad;
+  auto done = wanted.scene ? reframe(*wanted.scene, wish.camera, wanted.width, wanted.height)
+                           : prepare_anew(wanted, method, wish.camera);
+  if (!done) return done.error();
   kept = std::move(wanted);
   return kept.scene;
 }
@@ -112,9 +112,9 @@ Status PaneStage::begin(const Wish& wish, const StageShape& shape,
     }
     auto ready = prepare_for(options.method, wish, shape.scale);
     if (!ready) return ready.error();
-    if (auto bad = panes_[i].start(std::move(ready).value(), options)) return bad;
+    if (auto done = panes_[i].start(std::move(ready).value(), options); !done) return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 Status PaneStage::step(const StepLimit& limit) {
@@ -122,12 +122,12 @@ Status PaneStage::step(const StepLimit& limit) {
   share.seconds = limit.seconds / static_cast<double>(panes_.size());
   for (LivePane& pane : panes_) {
     if (pane.done()) continue;
-    if (auto bad = pane.step(share)) return bad;
+    if (auto done = pane.step(share); !done) return done;
     if (pane.done()) {
-      if (auto bad = pane.find_outline()) return bad;
+      if (auto done = pane.find_outline(); !done) return done;
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 bool PaneStage::started() const {

@@ -13,14 +13,15 @@ Result<SaveJob> SaveJob::create(std::uint32_t id, Scene scene, const RenderOptio
   if (!prepared) return prepared.error();
   if (options.transparent) prepared.value().backdrop = Color{};
   SaveJob job(id);
-  if (auto bad = job.pane_->start(
-          std::make_shared<const PreparedScene>(std::move(prepared).value()), options))
-    return *bad;
+  if (auto done = job.pane_->start(
+          std::make_shared<const PreparedScene>(std::move(prepared).value()), options);
+      !done)
+    return done.error();
   return job;
 }
 
 Result<Image> SaveJob::picture() {
-  if (auto bad = pane_->find_outline()) return *bad;
+  if (auto done = pane_->find_outline(); !done) return done.error();
   return pane_->picture();
 }
 

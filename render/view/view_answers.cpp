@@ -83,8 +83,8 @@ void ViewLoop::save(const SaveMessage& message) {
 /// Goes on with a picture that is saved, while nothing else moves.
 void ViewLoop::step_save() {
   if (!save_ || parts_.mailbox.is_moving(Clock::now())) return;
-  if (const auto bad = save_->step(save_step)) {
-    parts_.outbox.add_text(error_text("save", *bad, save_->id()));
+  if (const auto done = save_->step(save_step); !done) {
+    parts_.outbox.add_text(error_text("save", done.error(), save_->id()));
     return save_.reset();
   }
   if (!save_->done()) {

@@ -46,7 +46,7 @@ Status ViewLoop::open(LoadedScene loaded, Wish& first) {
   parts_.mailbox.set_origin(stage_.loaded().origin);
   wish_ = shown_wish_ = start_ = first;
   must_begin_ = true;
-  return std::nullopt;
+  return {};
 }
 
 void ViewLoop::run() {
@@ -170,8 +170,8 @@ void ViewLoop::choose_stage() {
   if (must_begin_ || stopped) {
     begin();
   } else if (previewed) {
-    if (auto bad = stage_.begin(wish_, {StageKind::rest, 1}, parts_.mailbox.overtaken()))
-      fail("settings", *bad);
+    if (auto done = stage_.begin(wish_, {StageKind::rest, 1}, parts_.mailbox.overtaken()); !done)
+      fail("settings", done.error());
   }
 }
 
@@ -181,7 +181,8 @@ void ViewLoop::begin() {
   finished_since_.reset();
   finished_sent_ = false;
   pixels_due_ = 0;
-  if (auto bad = stage_.begin(wish_, shape, parts_.mailbox.overtaken())) fail("settings", *bad);
+  if (auto done = stage_.begin(wish_, shape, parts_.mailbox.overtaken()); !done)
+    fail("settings", done.error());
 }
 
 /// How many pixels a step may render at a pace; none: wait.
@@ -204,8 +205,8 @@ void ViewLoop::render() {
   // A moving picture that is coarse enough is made whole; another one is shown as it comes.
   const bool whole = moving && wish_.settings.pace == 0 && !is_frameless(wish_.settings);
   const double seconds = whole ? longest_moving_step : step_seconds;
-  if (const auto bad = stage_.step({seconds, *pixels})) {
-    if (!parts_.mailbox.overtaken()) return fail("scene", *bad);
+  if (const auto done = stage_.step({seconds, *pixels}); !done) {
+    if (!parts_.mailbox.overtaken()) return fail("scene", done.error());
     must_begin_ = true;
     return;
   }

@@ -52,7 +52,7 @@ Result<std::unique_ptr<ViewSession>> ViewSession::open(SceneSource& source, Load
   parts->loop = std::make_unique<ViewLoop>(
       LoopParts{source, *parts->mailbox, parts->outbox, parts->pictures, settings.token},
       settings.work);
-  if (auto bad = parts->loop->open(std::move(loaded), wish)) return *bad;
+  if (auto done = parts->loop->open(std::move(loaded), wish); !done) return done.error();
   parts->mailbox->correct(wish);
   auto session = std::unique_ptr<ViewSession>(new ViewSession(std::move(parts)));
   if (session->thread_->size() == 0) return Diagnostic::of("no thread can be had to render on");
@@ -83,8 +83,8 @@ void ViewSession::receive(std::string_view text) {
   }
   const auto& message = std::get<ClientMessage>(read);
   if (const auto* ack = std::get_if<AckMessage>(&message)) parts_->outbox.acknowledge(ack->frame);
-  if (const auto bad = parts_->mailbox->take(message))
-    parts_->outbox.add_text(error_text(type_of(message), *bad, id_of(message)));
+  if (const auto done = parts_->mailbox->take(message); !done)
+    parts_->outbox.add_text(error_text(type_of(message), done.error(), id_of(message)));
 }
 
 Outbox& ViewSession::outbox() { return parts_->outbox; }

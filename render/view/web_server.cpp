@@ -291,14 +291,14 @@ class WebServer::Implementation {
   Status serve(const ServerSettings& settings, ViewSession& session) {
     hub_.settings = &settings;
     hub_.session = &session;
-    if (auto bad = listen(settings)) return bad;
+    if (auto done = listen(settings); !done) return done;
     settings.ready(url());
     hub_.last_seen = std::chrono::steady_clock::now();
     accept();
     watch();
     hub_.io.run();
     close_all();
-    return std::nullopt;
+    return {};
   }
 
   void notify() {
@@ -324,7 +324,7 @@ class WebServer::Implementation {
       return Diagnostic::of("cannot listen on " + settings.address + ", port " +
                             std::to_string(settings.port) + ": " + error.message());
     }
-    return std::nullopt;
+    return {};
   }
 
   std::string url() const {

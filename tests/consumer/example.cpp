@@ -36,5 +36,6 @@ int main() {
   if (!renderer) return fail(renderer.error());
   const auto image = renderer.value().render();
   if (!image) return fail(image.error());
-  if (const auto error = boule::write_image(image.value(), "example.jpg")) return fail(*error);
+  if (auto done = boule::write_image(image.value(), "example.jpg"); !done)
+    return fail(done.error());
 }

@@ -19,10 +19,10 @@ using fuzz::require;
 void read_spheres(const std::string& path, std::optional<float> radius) {
   const Sphere before{{1, 2, 3}, 4, 5};
   std::vector<Sphere> spheres{before};
-  const Status error = append_spheres({path, radius, 7}, spheres);
+  const Status read = append_spheres({path, radius, 7}, spheres);
   require(!spheres.empty() && spheres.front().radius == before.radius, "what was there stays");
-  if (error) {
-    fuzz::require_good(*error);
+  if (!read) {
+    fuzz::require_good(read.error());
     require(spheres.size() == 1, "an error leaves the spheres as they were");
   }
   for (const Sphere& s : spheres) {
@@ -35,7 +35,7 @@ void read_spheres(const std::string& path, std::optional<float> radius) {
 void read_scene(const std::string& path) {
   const Result<LoadedScene> loaded = load_scene(path);
   if (!loaded) return fuzz::require_good(loaded.error());
-  require(!validate(loaded.value().scene), "a scene that was read is valid");
+  require(validate(loaded.value().scene).ok(), "a scene that was read is valid");
 }
 
 void read_rays(const std::string& path) {
@@ -47,8 +47,8 @@ void read_rays(const std::string& path) {
   std::vector<Ray> rays(64);
   for (std::uint64_t left = file.value().size(); left > 0;) {
     const std::size_t count = std::min<std::uint64_t>(left, rays.size());
-    const Status error = file.value().read(std::span(rays).first(count));
-    require(!error, "a file has the rays that its size promises");
+    const Status read = file.value().read(std::span(rays).first(count));
+    require(read.ok(), "a file has the rays that its size promises");
     left -= count;
   }
 }

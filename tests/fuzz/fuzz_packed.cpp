@@ -125,13 +125,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require_good(file.error());
     return 0;
   }
-  if (const Status bad = file.value().verify(serial_for)) fuzz::require_good(*bad);
+  if (const Status done = file.value().verify(serial_for); !done) fuzz::require_good(done.error());
   auto scene = file.value().scene();
   if (!scene) {
     fuzz::require_good(scene.error());
     return 0;
   }
-  require(!validate(scene.value()), "a scene that was opened is valid");
+  require(validate(scene.value()).ok(), "a scene that was opened is valid");
   if (!scene.value().packed) return 0;
   const SphereMeasure measures[] = {{{0.6, 0, 0.8}, 1}, {{-0.6, 0.8, 0}, 0}};
   require(!extreme_spheres(*scene.value().packed, measures).empty(), "some sphere is outermost");

@@ -17,8 +17,7 @@ inline void load_bytes(const InputFolder& folder, const std::string& name, const
     require_good(loaded.error());
     return;
   }
-  const Status problem = validate(loaded.value().scene);
-  require(!problem, "a scene that was loaded is valid");
+  require(validate(loaded.value().scene).ok(), "a scene that was loaded is valid");
   for (const std::string& warning : loaded.value().warnings)
     require(warning.find(": warning: ") != std::string::npos, "a warning says so: " + warning);
 }

@@ -95,8 +95,8 @@ TEST_F(HostLocale, ChangesNoSceneAndNoFile) {
     for (const std::string& note : loaded.value().notes) all += note + '\n';
     for (const char* extension : {"exr", "hdr", "png", "jpg", "ppm"}) {
       const std::string name = prefix + "." + extension;
-      const Status bad = write_image(image, path(name), options);
-      all += bad ? bad->message : read(name);
+      const Status done = write_image(image, path(name), options);
+      all += !done ? done.error().message : read(name);
     }
     return all;
   };

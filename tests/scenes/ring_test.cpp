@@ -21,8 +21,8 @@ TEST(Ring, HasAPlanetAndRingParticles) {
   const std::string path = (dir.path() / "ring.npy").string();
   ASSERT_EQ(run_ring("5000", path).exit_code, 0);
   std::vector<Sphere> spheres;
-  const auto bad = append_spheres({path, {}, 0}, spheres);
-  ASSERT_FALSE(bad) << format_diagnostic(*bad);
+  const auto done = append_spheres({path, {}, 0}, spheres);
+  ASSERT_TRUE(done) << format_diagnostic(done.error());
   ASSERT_EQ(spheres.size(), 5000U);
   EXPECT_EQ(spheres[0].radius, 1);
   for (std::size_t i = 1; i < spheres.size(); ++i) {

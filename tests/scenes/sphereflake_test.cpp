@@ -32,8 +32,8 @@ TEST(Sphereflake, HasNineChildrenPerSphere) {
     count += generation;
     ASSERT_EQ(run_sphereflake(std::to_string(depth), path).exit_code, 0);
     std::vector<Sphere> spheres;
-    const auto bad = append_spheres({path, {}, 0}, spheres);
-    ASSERT_FALSE(bad) << format_diagnostic(*bad);
+    const auto done = append_spheres({path, {}, 0}, spheres);
+    ASSERT_TRUE(done) << format_diagnostic(done.error());
     EXPECT_EQ(spheres.size(), count);
   }
 }

@@ -1,6 +1,7 @@
 #include "core/base/error.h"
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -104,6 +105,17 @@ TEST(Result, HoldsAValueOrADiagnostic) {
   EXPECT_FALSE(static_cast<bool>(bad));
   EXPECT_EQ(bad.error().message, "no number");
   EXPECT_EQ(bad.error().key, "size");
+}
+
+TEST(Status, ReadsLikeAResult) {
+  const Status good;
+  EXPECT_TRUE(good);
+  EXPECT_TRUE(good.ok());
+  EXPECT_THROW(static_cast<void>(good.error()), std::bad_optional_access);
+  const Status bad = Diagnostic::about("spp", "too many");
+  EXPECT_FALSE(bad);
+  EXPECT_FALSE(bad.ok());
+  EXPECT_EQ(bad.error().key, "spp");
 }
 
 TEST(Result, MovesOutMoveOnlyValues) {

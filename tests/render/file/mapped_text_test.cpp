@@ -133,11 +133,11 @@ TEST(MappedText, RefusesABombWithOneError) {
 
 TEST(GrowingBytes, KeepsWhatItHolds) {
   GrowingBytes bytes;
-  EXPECT_FALSE(bytes.grow());
+  EXPECT_TRUE(bytes.grow());
   bytes.data()[0] = 'a';
   bytes.set_size(1);
   const std::size_t before = bytes.capacity();
-  EXPECT_FALSE(bytes.reserve(std::size_t{64} << 20));
+  EXPECT_TRUE(bytes.reserve(std::size_t{64} << 20));
   EXPECT_GT(bytes.capacity(), before);
   GrowingBytes moved = std::move(bytes);
   EXPECT_EQ(moved.size(), 1U);

@@ -31,7 +31,7 @@ TEST_F(FinishedPicture, IsWhatWriteImageLeaves) {
        {"exr", "hdr", "png", "jpg", "tif", "webp", "ppm", "bmp", "tga"}) {
     const std::string path = at("a." + extension);
     EXPECT_FALSE(is_finished_picture(path, {40, 30, {}})) << extension;
-    ASSERT_FALSE(write_image(test::noise(40, 30), path)) << extension;
+    ASSERT_TRUE(write_image(test::noise(40, 30), path)) << extension;
     EXPECT_TRUE(is_finished_picture(path, {40, 30, {}})) << extension;
     EXPECT_FALSE(is_finished_picture(path, {30, 40, {}})) << extension;
     EXPECT_FALSE(is_finished_picture(path, {-1, INT_MAX, {INT_MIN, -1, 0, 0}})) << extension;
@@ -44,7 +44,7 @@ TEST_F(FinishedPicture, IsWhatWriteImageLeaves) {
 TEST_F(FinishedPicture, HasTheChannelsThatAreAskedFor) {
   ImageFileOptions options;
   options.channels = {{"Z", std::vector<float>(12)}};
-  ASSERT_FALSE(write_image(test::noise(4, 3), at("a.exr"), options));
+  ASSERT_TRUE(write_image(test::noise(4, 3), at("a.exr"), options));
   EXPECT_TRUE(is_finished_picture(at("a.exr"), {4, 3, {}, {"Z"}}));
   EXPECT_FALSE(is_finished_picture(at("a.exr"), {4, 3, {}, {}}));
   EXPECT_FALSE(is_finished_picture(at("a.exr"), {4, 3, {}, {"Z", "id"}}));
@@ -52,7 +52,7 @@ TEST_F(FinishedPicture, HasTheChannelsThatAreAskedFor) {
 
 /// A TGA file whose header declares no rows.
 TEST_F(FinishedPicture, HasPixels) {
-  ASSERT_FALSE(write_image(test::noise(4, 3), at("a.tga")));
+  ASSERT_TRUE(write_image(test::noise(4, 3), at("a.tga")));
   std::string bytes = test::read_bytes(at("a.tga"));
   ASSERT_EQ(bytes[14], 3);
   bytes[14] = 0;
@@ -68,7 +68,7 @@ long most_mebibytes() {
 
 /// A BMP file whose header declares 728 million by 3 pixels, and which ends there.
 TEST_F(FinishedPicture, IsRefusedByAnotherSize) {
-  ASSERT_FALSE(write_image(test::noise(4, 3), at("small.bmp")));
+  ASSERT_TRUE(write_image(test::noise(4, 3), at("small.bmp")));
   ASSERT_TRUE(is_finished_picture(at("small.bmp"), {4, 3, {}}));
   std::string bytes = test::read_bytes(at("small.bmp")).substr(0, 54);
   bytes.replace(18, 8, std::string("\x04\x73\x63\x2b\x03\0\0\0", 8));

@@ -32,7 +32,7 @@ class OutputFileTest : public testing::Test {
   static Status put(const std::string& target, const std::string& bytes) {
     Result<OutputFile> file = OutputFile::create(target);
     if (!file.ok()) return file.error();
-    if (Status failure = file.value().write(bytes.data(), bytes.size())) return failure;
+    if (Status done = file.value().write(bytes.data(), bytes.size()); !done) return done;
     return file.value().commit();
   }
 
@@ -49,11 +49,11 @@ mode_t mode_of(const std::string& path) {
 TEST_F(OutputFileTest, AppearsOnCommit) {
   Result<OutputFile> file = OutputFile::create(at("a.npy"));
   ASSERT_TRUE(file.ok());
-  EXPECT_FALSE(file.value().write("hello", 5));
+  EXPECT_TRUE(file.value().write("hello", 5));
   EXPECT_FALSE(fs::exists(at("a.npy")));
   EXPECT_EQ(names(), Names{});  // the temporary file has no name yet
   EXPECT_EQ(test::read_bytes(file.value().path()), "hello");
-  EXPECT_FALSE(file.value().commit());
+  EXPECT_TRUE(file.value().commit());
   EXPECT_EQ(names(), Names{"a.npy"});
   EXPECT_EQ(test::read_bytes(at("a.npy")), "hello");
 }
@@ -64,7 +64,7 @@ TEST_F(OutputFileTest, LeavesNothingWithoutCommit) {
     Result<OutputFile> file = OutputFile::create(at("a.npy"));
     ASSERT_TRUE(file.ok());
     OutputFile moved = std::move(file).value();
-    EXPECT_FALSE(moved.write("new", 3));
+    EXPECT_TRUE(moved.write("new", 3));
     EXPECT_EQ(test::read_bytes(moved.path()), "new");
   }
   EXPECT_EQ(names(), Names{"a.npy"});
@@ -76,17 +76,17 @@ TEST_F(OutputFileTest, TwoAtOnceDoNotInterfere) {
   Result<OutputFile> two = OutputFile::create(at("a.json"));
   ASSERT_TRUE(one.ok() && two.ok());
   EXPECT_NE(one.value().path(), two.value().path());
-  EXPECT_FALSE(one.value().write("1", 1));
-  EXPECT_FALSE(two.value().write("2", 1));
-  EXPECT_FALSE(two.value().commit());
-  EXPECT_FALSE(one.value().commit());
+  EXPECT_TRUE(one.value().write("1", 1));
+  EXPECT_TRUE(two.value().write("2", 1));
+  EXPECT_TRUE(two.value().commit());
+  EXPECT_TRUE(one.value().commit());
   EXPECT_EQ(test::read_bytes(at("a.json")), "1");
   EXPECT_EQ(names(), Names{"a.json"});
 }
 
 TEST_F(OutputFileTest, NewFilesRespectTheUmask) {
   const mode_t old = umask(027);
-  EXPECT_FALSE(put(at("a"), "x"));
+  EXPECT_TRUE(put(at("a"), "x"));
   umask(old);
   EXPECT_EQ(mode_of(at("a")), 0640U);
 }
@@ -94,7 +94,7 @@ TEST_F(OutputFileTest, NewFilesRespectTheUmask) {
 TEST_F(OutputFileTest, OldFilesKeepTheirMode) {
   test::write_bytes(at("a"), "old");
   ASSERT_EQ(chmod(at("a").c_str(), 0606), 0);
-  EXPECT_FALSE(put(at("a"), "new"));
+  EXPECT_TRUE(put(at("a"), "new"));
   EXPECT_EQ(mode_of(at("a")), 0606U);
   EXPECT_EQ(test::read_bytes(at("a")), "new");
 }
@@ -104,7 +104,7 @@ TEST_F(OutputFileTest, LinksAreFollowed) {
   test::write_bytes(at("sub/real"), "old");
   fs::create_symlink("sub/real", at("link"));
   fs::create_symlink(at("link"), at("chain"));
-  EXPECT_FALSE(put(at("chain"), "new"));
+  EXPECT_TRUE(put(at("chain"), "new"));
   EXPECT_TRUE(fs::is_symlink(at("chain")));
   EXPECT_TRUE(fs::is_symlink(at("link")));
   EXPECT_EQ(test::read_bytes(at("sub/real")), "new");
@@ -147,14 +147,14 @@ TEST_F(OutputFileTest, ForeignLinksInOpenFoldersAreRefused) {
 
 TEST_F(OutputFileTest, DanglingLinkMakesItsFile) {
   fs::create_symlink("later", at("link"));
-  EXPECT_FALSE(put(at("link"), "x"));
+  EXPECT_TRUE(put(at("link"), "x"));
   EXPECT_TRUE(fs::is_symlink(at("link")));
   EXPECT_EQ(test::read_bytes(at("later")), "x");
 }
 
 TEST_F(OutputFileTest, LongestNameIsLegal) {
   const std::string name = std::string(251, 'n') + ".exr";
-  EXPECT_FALSE(put(at(name), "x"));
+  EXPECT_TRUE(put(at(name), "x"));
   EXPECT_EQ(names(), Names{name});
 }
 
@@ -189,11 +189,11 @@ TEST_F(OutputFileTest, FinishedOrMovedFromFilesRefuse) {
   OutputFile moved = std::move(file).value();
   for (OutputFile* gone : {&file.value(), &moved}) {
     if (gone == &moved) {
-      ASSERT_FALSE(moved.commit());
+      ASSERT_TRUE(moved.commit());
     }
-    EXPECT_TRUE(gone->write("hello", 5));
-    EXPECT_TRUE(gone->sync());
-    EXPECT_TRUE(gone->commit());
+    EXPECT_FALSE(gone->write("hello", 5));
+    EXPECT_FALSE(gone->sync());
+    EXPECT_FALSE(gone->commit());
   }
   EXPECT_EQ(names(), Names{"a.npy"});
   EXPECT_EQ(test::read_bytes(at("a.npy")), "");
@@ -205,19 +205,19 @@ TEST_F(OutputFileTest, MoveAssignmentDropsTheTargetsFile) {
   Result<OutputFile> two = OutputFile::create(at("two.npy"));
   ASSERT_TRUE(one.ok() && two.ok());
   const std::string dropped = one.value().path();
-  EXPECT_FALSE(one.value().write("1", 1));
-  EXPECT_FALSE(two.value().write("2", 1));
+  EXPECT_TRUE(one.value().write("1", 1));
+  EXPECT_TRUE(two.value().write("2", 1));
   one.value() = std::move(two.value());
   EXPECT_FALSE(fs::exists(dropped));
   OutputFile& gone = two.value();  // NOLINT: that is the test
   EXPECT_EQ(gone.descriptor(), -1);
   EXPECT_EQ(gone.path(), "");
-  EXPECT_TRUE(gone.write("3", 1));
-  EXPECT_TRUE(gone.write("", 0));
-  EXPECT_TRUE(gone.sync());
-  EXPECT_TRUE(gone.commit());
+  EXPECT_FALSE(gone.write("3", 1));
+  EXPECT_FALSE(gone.write("", 0));
+  EXPECT_FALSE(gone.sync());
+  EXPECT_FALSE(gone.commit());
   EXPECT_EQ(names(), Names{});
-  EXPECT_FALSE(one.value().commit());
+  EXPECT_TRUE(one.value().commit());
   EXPECT_EQ(names(), Names{"two.npy"});
   EXPECT_EQ(test::read_bytes(at("two.npy")), "2");
 }
@@ -227,38 +227,38 @@ TEST_F(OutputFileTest, SelfAssignmentKeepsTheFile) {
   ASSERT_TRUE(file.ok());
   OutputFile& same = file.value();
   same = std::move(file.value());
-  EXPECT_FALSE(same.write("1", 1));
-  EXPECT_FALSE(same.commit());
+  EXPECT_TRUE(same.write("1", 1));
+  EXPECT_TRUE(same.commit());
   EXPECT_EQ(test::read_bytes(at("a.npy")), "1");
 }
 
 TEST_F(OutputFileTest, FinishedStreamsRefuse) {
   Result<OutputFile> file = OutputFile::create("/dev/null");
   ASSERT_TRUE(file.ok());
-  EXPECT_FALSE(file.value().write("1", 1));
-  EXPECT_FALSE(file.value().commit());
-  EXPECT_TRUE(file.value().write("2", 1));
-  EXPECT_TRUE(file.value().sync());
+  EXPECT_TRUE(file.value().write("1", 1));
   EXPECT_TRUE(file.value().commit());
+  EXPECT_FALSE(file.value().write("2", 1));
+  EXPECT_FALSE(file.value().sync());
+  EXPECT_FALSE(file.value().commit());
 }
 
 TEST_F(OutputFileTest, FullDiskKeepsTheOldFile) {
   test::write_bytes(at("a"), "old");
   {
     const test::FileSizeLimit limit(10);
-    const Status failure = put(at("a"), std::string(100, 'x'));
-    ASSERT_TRUE(failure);
-    EXPECT_EQ(failure->message, "cannot write '" + at("a") + "': File too large");
+    const Status done = put(at("a"), std::string(100, 'x'));
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, "cannot write '" + at("a") + "': File too large");
   }
   EXPECT_EQ(test::read_bytes(at("a")), "old");
   EXPECT_EQ(names(), Names{"a"});
 }
 
 TEST_F(OutputFileTest, DevicesAreWrittenNotReplaced) {
-  EXPECT_FALSE(put("/dev/null", "x"));
-  const Status failure = put("/dev/full", "x");
-  ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->message, "cannot write '/dev/full': No space left on device");
+  EXPECT_TRUE(put("/dev/null", "x"));
+  const Status done = put("/dev/full", "x");
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "cannot write '/dev/full': No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
@@ -270,9 +270,9 @@ TEST_F(OutputFileTest, PipesGetTheWholeFileAtOnce) {
   {
     Result<OutputFile> abandoned = OutputFile::create(at("pipe"));
     ASSERT_TRUE(abandoned.ok());
-    EXPECT_FALSE(abandoned.value().write("partial", 7));
+    EXPECT_TRUE(abandoned.value().write("partial", 7));
   }
-  EXPECT_FALSE(put(at("pipe"), "whole"));
+  EXPECT_TRUE(put(at("pipe"), "whole"));
   std::array<char, 16> bytes{};
   const ssize_t count = read(reader, bytes.data(), bytes.size());
   close(reader);

@@ -22,8 +22,8 @@ class ReadImage : public testing::Test {
   }
   std::string written(const Image& image, const std::string& name,
                       const ImageFileOptions& options = {}) const {
-    const Status failure = write_image(image, path(name), options);
-    EXPECT_FALSE(failure) << failure->message;
+    const Status done = write_image(image, path(name), options);
+    EXPECT_TRUE(done) << done.error().message;
     return path(name);
   }
   static Image read(const std::string& file, PictureContent content) {

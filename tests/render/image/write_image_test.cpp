@@ -38,11 +38,11 @@ class WriteImage : public testing::Test {
   /// The text after "cannot write 'NAME': ", or empty for a success.
   static std::string reason(const Image& image, const std::string& path,
                             const ImageFileOptions& options = {}) {
-    const Status failure = write_image(image, path, options);
-    if (!failure) return {};
+    const Status done = write_image(image, path, options);
+    if (done) return {};
     const std::string start = "cannot write '" + path + "': ";
-    EXPECT_TRUE(failure->message.starts_with(start)) << failure->message;
-    return failure->message.substr(std::min(start.size(), failure->message.size()));
+    EXPECT_TRUE(done.error().message.starts_with(start)) << done.error().message;
+    return done.error().message.substr(std::min(start.size(), done.error().message.size()));
   }
 
  private:
@@ -214,7 +214,7 @@ TEST_F(WriteImage, ChannelsThatDoNotFit) {
 
 TEST_F(WriteImage, NamesWithNulBytes) {
   const std::string name = at("a") + std::string("\0.png", 5);
-  EXPECT_TRUE(write_image(test::noise(4, 3), name));
+  EXPECT_FALSE(write_image(test::noise(4, 3), name));
   EXPECT_EQ(names(), Names{});
   ASSERT_EQ(reason(test::noise(4, 3), at("a.png")), "");
   const std::string longer = at("a.png") + std::string("\0.png", 5);

@@ -59,10 +59,10 @@ TEST(Memory, IsWhatTheLimitOnAddressesLeaves) {
   EXPECT_LE(available_memory(), room + heaps_breath);
   EXPECT_GT(available_memory(), std::uint64_t{10} << 20);
   const auto refused = check_memory(room + 2 * heaps_breath, "a thing needs", "thing");
-  ASSERT_TRUE(refused);
-  EXPECT_EQ(refused->message.find("a thing needs 102 MiB of memory, there are "), 0u);
-  EXPECT_EQ(refused->key, "thing");
-  EXPECT_FALSE(check_memory(1 << 20, "a thing needs"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message.find("a thing needs 102 MiB of memory, there are "), 0u);
+  EXPECT_EQ(refused.error().key, "thing");
+  EXPECT_TRUE(check_memory(1 << 20, "a thing needs"));
 }
 
 /// The stacks of threads and all memory from malloc count as data.
@@ -156,11 +156,11 @@ TEST(Memory, OverflowingCountsAreRefused) {
   for (const int levels : {10, 19, 20, 39, 200}) {
     const Scene scene = tenfold(levels);
     const Limit second;
-    const Status bad = validate(scene);
+    const Status done = validate(scene);
     EXPECT_TRUE(second.holds());
-    ASSERT_TRUE(bad) << levels;
-    EXPECT_EQ(bad->message, "with it the scene has more than 2147483647 primitives");
-    EXPECT_FALSE(check_scene_memory(scene));
+    ASSERT_FALSE(done) << levels;
+    EXPECT_EQ(done.error().message, "with it the scene has more than 2147483647 primitives");
+    EXPECT_TRUE(check_scene_memory(scene));
     EXPECT_FALSE(Renderer::create(scene, options_of(scene)));
   }
 }
@@ -232,7 +232,7 @@ std::string spoilt_exr(std::string file, std::int32_t width, std::int32_t height
 TEST_F(MemoryFiles, HugePicturesAreRefusedByTheirHeaders) {
   const std::string good = write("good.exr", "");
   Image image(4, 4);
-  ASSERT_FALSE(write_image(image, good));
+  ASSERT_TRUE(write_image(image, good));
   const std::string file = read_bytes(good);
   struct Case {
     std::int32_t width, height;

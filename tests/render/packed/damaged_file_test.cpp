@@ -164,13 +164,13 @@ std::vector<BvhNode> two_nodes() {
 }
 
 TEST(NodeCheck, NamesWhatIsWrong) {
-  EXPECT_FALSE(check_nodes(two_nodes(), 2, serial_for));
-  EXPECT_FALSE(check_nodes({}, 0, serial_for));
+  EXPECT_TRUE(check_nodes(two_nodes(), 2, serial_for));
+  EXPECT_TRUE(check_nodes({}, 0, serial_for));
   const auto problem = [](std::uint64_t leaves, const auto& change) {
     std::vector<BvhNode> nodes = two_nodes();
     change(nodes);
-    const Status bad = check_nodes(nodes, leaves, serial_for);
-    return bad ? bad->message : "";
+    const Status done = check_nodes(nodes, leaves, serial_for);
+    return !done ? done.error().message : "";
   };
   const auto none = [](auto&) {};
   EXPECT_EQ(problem(1, none), "it is damaged: node 0 leads to a leaf that is not there");
@@ -213,10 +213,10 @@ TEST(NodeCheck, RefusesWhatLiesTooDeep) {
     }
     return check_nodes(nodes, 1, serial_for);
   };
-  EXPECT_FALSE(chain(bvh_max_depth));
-  const Status bad = chain(bvh_max_depth + 1);
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->message, "it is damaged: node 48 lies too deep");
+  EXPECT_TRUE(chain(bvh_max_depth));
+  const Status done = chain(bvh_max_depth + 1);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "it is damaged: node 48 lies too deep");
 }
 
 }  // namespace

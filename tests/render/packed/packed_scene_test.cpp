@@ -22,7 +22,7 @@ std::vector<TracedHit> hits_of(const Scene& scene) {
   }
   std::vector<TracedHit> hits(rays.size());
   auto tracer = Tracer::create(scene, {});
-  if (!tracer || tracer.value().closest(rays, hits)) ADD_FAILURE();
+  if (!tracer || !tracer.value().closest(rays, hits)) ADD_FAILURE();
   return hits;
 }
 
@@ -202,12 +202,12 @@ TEST_F(PackedScenes, SayWhatIsInThem) {
 TEST_F(PackedScenes, RefuseOtherSpheresBeside) {
   Scene scene = packed(cloud(100));
   scene.spheres.push_back({{0, 0, 0}, 1, 0});
-  const Status bad = validate(scene);
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->key, "packed");
+  const Status done = validate(scene);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().key, "packed");
   scene.spheres.clear();
   scene.materials.pop_back();
-  EXPECT_TRUE(validate(scene));
+  EXPECT_FALSE(validate(scene));
 }
 
 TEST_F(PackedScenes, LeaveNothingBehind) {
@@ -235,12 +235,12 @@ TEST_F(PackedScenes, AreVerified) {
   if (!Checksum::available()) GTEST_SKIP() << "this build has no checksums";
   pack_to(path("scene.boule"), cloud(1000));
   std::string bytes = read_bytes(path("scene.boule"));
-  EXPECT_FALSE(PackedFile::open(path("scene.boule")).value().verify(serial_for));
+  EXPECT_TRUE(PackedFile::open(path("scene.boule")).value().verify(serial_for));
   bytes[packed_format::page + 5] ^= 1;  // of a sphere
   write_bytes(path("scene.boule"), bytes);
-  const Status bad = PackedFile::open(path("scene.boule")).value().verify(serial_for);
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->message, "its section blocks is damaged");
+  const Status done = PackedFile::open(path("scene.boule")).value().verify(serial_for);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "its section blocks is damaged");
 }
 
 }  // namespace

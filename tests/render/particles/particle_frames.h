@@ -61,7 +61,7 @@ inline std::vector<Sphere> spheres_of(const ParticleFrame& frame, const Particle
                                       const Vec3d& origin = {}) {
   std::vector<Sphere> spheres;
   auto made = ParticleSpheres::make(frame, style);
-  if (made && std::move(made).value().append_to(spheres, origin)) spheres.clear();
+  if (made && !std::move(made).value().append_to(spheres, origin)) spheres.clear();
   return spheres;
 }
 

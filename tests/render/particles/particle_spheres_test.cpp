@@ -64,7 +64,7 @@ TEST(ParticleSpheres, AreAppended) {
   std::vector<Sphere> spheres(2);
   for (const Vec3d& origin : {Vec3d{}, Vec3d{1, 0, 0}}) {
     auto made = ParticleSpheres::make(row_of_particles(3), {.radius = 1.0}).value();
-    ASSERT_FALSE(std::move(made).append_to(spheres, origin).has_value());
+    ASSERT_TRUE(std::move(made).append_to(spheres, origin));
   }
   ASSERT_EQ(spheres.size(), 8U);
   EXPECT_EQ(spheres[4].center.x, 2);
@@ -92,7 +92,7 @@ TEST(ParticleSpheres, OfNoParticles) {
     EXPECT_EQ(made.value().center_bounds()[0], made.value().center_bounds()[1]);
     EXPECT_EQ(made.value().smallest_radius(), 0);
     std::vector<Sphere> spheres;
-    EXPECT_FALSE(std::move(made).value().append_to(spheres, {}).has_value());
+    EXPECT_TRUE(std::move(made).value().append_to(spheres, {}));
   }
 }
 
@@ -101,10 +101,10 @@ TEST(ParticleSpheres, RefusePositionsThatNoFloatHas) {
   frame.positions[1].z = 1e40;
   auto made = ParticleSpheres::make(frame, {.radius = 1.0}).value();
   std::vector<Sphere> spheres(5);
-  const Status wrong = std::move(made).append_to(spheres, {});
-  ASSERT_TRUE(wrong.has_value());
-  EXPECT_EQ(wrong->key, "file");
-  EXPECT_EQ(wrong->message,
+  const Status done = std::move(made).append_to(spheres, {});
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().key, "file");
+  EXPECT_EQ(done.error().message,
             "the position of particle 2 of 3 is too far from the origin for a sphere");
   EXPECT_EQ(spheres.size(), 5U);
 }
@@ -126,14 +126,13 @@ TEST(ParticleSpheres, AreTheSameForAnyThreads) {
     const std::vector<std::string> notes = serial.notes();
     const std::array<Vec3d, 2> bounds = serial.center_bounds();
     std::vector<Sphere> expected;
-    ASSERT_FALSE(std::move(serial).append_to(expected, {1, 2, 3}).has_value());
+    ASSERT_TRUE(std::move(serial).append_to(expected, {1, 2, 3}));
     for (const std::size_t threads : {2, 5}) {
       auto made = ParticleSpheres::make(frame, style, threaded_for(threads)).value();
       EXPECT_EQ(made.notes(), notes);
       EXPECT_EQ(made.center_bounds(), bounds);
       std::vector<Sphere> spheres;
-      ASSERT_FALSE(
-          std::move(made).append_to(spheres, {1, 2, 3}, threaded_for(threads)).has_value());
+      ASSERT_FALSE(!std::move(made).append_to(spheres, {1, 2, 3}, threaded_for(threads)));
       EXPECT_TRUE(same_bits(spheres, expected));
     }
   }

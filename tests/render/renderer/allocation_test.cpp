@@ -196,7 +196,7 @@ TEST(Allocation, OutOfMemoryIsAnError) {
   Film film(renderer.value().rect());
   EXPECT_GT(failures_of([&] {
               auto another = Renderer::create(scene, options);
-              return another && !another.value().render_live(film);
+              return another && another.value().render_live(film).ok();
             }),
             20);
   const TempDir folder;
@@ -207,7 +207,7 @@ TEST(Allocation, OutOfMemoryIsAnError) {
   std::vector<TracedHit> hits(rays.size());
   EXPECT_GT(failures_of([&] {
               auto tracer = Tracer::create(scene);
-              return tracer && !tracer.value().closest(rays, hits);
+              return tracer && tracer.value().closest(rays, hits).ok();
             }),
             10);
 }

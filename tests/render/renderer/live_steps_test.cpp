@@ -25,8 +25,8 @@ Scene small_scene() {
 int finish(Renderer& renderer, Film& film, LivePosition& position, const StepLimit& limit) {
   int steps = 0;
   while (!renderer.done(position)) {
-    if (const auto bad = renderer.render_step(film, position, limit)) {
-      ADD_FAILURE() << format_diagnostic(*bad);
+    if (const auto done = renderer.render_step(film, position, limit); !done) {
+      ADD_FAILURE() << format_diagnostic(done.error());
       return -1;
     }
     ++steps;
@@ -83,11 +83,11 @@ TEST(LiveSteps, RestartsTakeTheOldestPixelsFirst) {
     Film first(renderer.value().rect());
     LivePosition position;
     while (renderer.value().share_done(position) < 0.5)
-      ASSERT_FALSE(renderer.value().render_step(first, position, {.seconds = 0}));
+      ASSERT_TRUE(renderer.value().render_step(first, position, {.seconds = 0}));
     position = renderer.value().restarted(position);
     Film second(renderer.value().rect());
     while (renderer.value().share_done(position) < 0.4)
-      ASSERT_FALSE(renderer.value().render_step(second, position, {.seconds = 0}));
+      ASSERT_TRUE(renderer.value().render_step(second, position, {.seconds = 0}));
     int both = 0;
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x)
@@ -105,7 +105,7 @@ TEST(LiveSteps, CanBeCancelled) {
   auto renderer = Renderer::create(scene, options);
   Film film(renderer.value().rect());
   LivePosition position;
-  EXPECT_TRUE(renderer.value().render_step(film, position, {}));
+  EXPECT_FALSE(renderer.value().render_step(film, position, {}));
 }
 
 std::shared_ptr<PreparedScene> prepared_for(const Scene& scene, int width, int height,
@@ -149,7 +149,7 @@ TEST(Reframe, EqualsANewPreparation) {
         other.camera = camera;
         other.image.width = 33;
         other.image.height = 21;
-        ASSERT_FALSE(reframe(*shared, camera, 33, 21));
+        ASSERT_TRUE(reframe(*shared, camera, 33, 21));
         EXPECT_EQ(differing_pixels(picture_of(shared, options_of(other)), render(other)), 0);
       }
     }
@@ -160,10 +160,10 @@ TEST(Reframe, RefusesInvalidCameras) {
   const Scene scene = mixed_scene(20, 15);
   const auto shared = prepared_for(scene, 20, 15, Method::whitted);
   const Camera blind = pinhole({1, 1, 1}, {1, 1, 1}, 45);
-  const auto bad = reframe(*shared, blind, 20, 15);
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->key, "camera.look_at");
-  EXPECT_TRUE(reframe(*shared, *scene.camera, 0, 15));
+  const auto done = reframe(*shared, blind, 20, 15);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().key, "camera.look_at");
+  EXPECT_FALSE(reframe(*shared, *scene.camera, 0, 15));
   EXPECT_EQ(differing_pixels(picture_of(shared, options_of(scene)), render(scene)), 0);
 }
 

@@ -95,9 +95,9 @@ TEST(OwnColors, AreTheAlbedo) {
 TEST(OwnColors, WithUnknownMaterialsAreRefused) {
   Scene scene = mixed_scene(8, 8);
   scene.spheres[0].material = MaterialRef::colored(120, {1, 2, 3});
-  const Status bad = validate(scene);
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->key, "sphere[0].material");
+  const Status done = validate(scene);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().key, "sphere[0].material");
 }
 
 }  // namespace

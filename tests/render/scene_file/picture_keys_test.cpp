@@ -14,8 +14,8 @@ class Pictures : public testing::Test {
 
   [[nodiscard]] std::string scene(const std::string& keys) const { return begin_ + keys; }
   void write(const Image& image, const std::string& name) const {
-    const Status failure = write_image(image, files_.path(name));
-    ASSERT_FALSE(failure) << failure->message;
+    const Status done = write_image(image, files_.path(name));
+    ASSERT_TRUE(done) << done.error().message;
   }
   void expect_refused(const std::string& keys, int line, int column, const std::string& key,
                       const std::string& words) const {

@@ -76,9 +76,9 @@ TEST(SceneData, FarSpheresAreRoundedAfterSubtractingOrigins) {
   SphereArrays too_far = exact(0);
   too_far.centers[1].y = 1e300;
   std::vector<Sphere> spheres(3);
-  const Status bad = too_far.append_to(spheres, {});
-  ASSERT_TRUE(bad);
-  EXPECT_THAT(bad->message, HasSubstr("row 1"));
+  const Status done = too_far.append_to(spheres, {});
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("row 1"));
   EXPECT_EQ(spheres.size(), 3u);
 }
 
@@ -87,8 +87,8 @@ TEST(SceneData, SpheresAreMovedFromTheirBase) {
   arrays.spheres = {{{1, 2, 3}, 1, MaterialRef()}};
   arrays.base = {10, 0, 0};
   std::vector<Sphere> spheres;
-  ASSERT_FALSE(arrays.append_to(spheres, {10, 0, 0}));
-  ASSERT_FALSE(arrays.append_to(spheres, {4, 0, 0}));
+  ASSERT_TRUE(arrays.append_to(spheres, {10, 0, 0}));
+  ASSERT_TRUE(arrays.append_to(spheres, {4, 0, 0}));
   EXPECT_EQ(spheres[0].center, (Vec3f{1, 2, 3}));
   EXPECT_EQ(spheres[1].center, (Vec3f{7, 2, 3}));
 }

@@ -93,11 +93,11 @@ TEST(ShadowEpsilon, IsALength) {
   const Scene scene = ball_scene(1);
   RenderOptions options = options_of(scene);
   options.shadow_epsilon = -1.0F;
-  EXPECT_TRUE(validate(options));
-  options.shadow_epsilon = std::numeric_limits<float>::infinity();
-  EXPECT_TRUE(validate(options));
-  options.shadow_epsilon = 0.0F;
   EXPECT_FALSE(validate(options));
+  options.shadow_epsilon = std::numeric_limits<float>::infinity();
+  EXPECT_FALSE(validate(options));
+  options.shadow_epsilon = 0.0F;
+  EXPECT_TRUE(validate(options));
 }
 
 }  // namespace

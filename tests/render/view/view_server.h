@@ -70,7 +70,7 @@ class RunningServer {
     });
     ready_.wait(false);
   }
-  ~RunningServer() { stop(); }
+  ~RunningServer() { static_cast<void>(stop()); }
 
   [[nodiscard]] ServerPlace place() const { return ServerPlace(url_); }
   [[nodiscard]] bool ended() const { return ended_; }
