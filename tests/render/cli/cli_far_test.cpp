@@ -2,7 +2,6 @@
 // that it has at 0, to the byte.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -36,11 +35,6 @@ std::vector<Ball> balls() {
   return all;
 }
 
-std::string text_of(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.17g", x);
-  return digits;
-}
 std::string words(const Vec3d& v) {
   return text_of(v.x) + " " + text_of(v.y) + " " + text_of(v.z) + " ";
 }

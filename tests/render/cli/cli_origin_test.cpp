@@ -1,7 +1,6 @@
 // A chain of atoms, as proteins are, a million units from 0: with an origin it has the picture and
 // the hits that it has at 0, to the byte; rounded out there it has others.
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -15,14 +14,8 @@ using testing::HasSubstr;
 
 constexpr Vec3d moved{1000000, -2000000, 500000};
 
-std::string text_of(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.17g", x);
-  return digits;
-}
-
 /// A multiple of 2^-13, about a ten-thousandth: exact in double out there, too.
-double on_grid(double x) { return std::nearbyint(x * 8192) / 8192; }
+double on_fine_grid(double x) { return std::nearbyint(x * 8192) / 8192; }
 
 /// 400 atoms, each 1.5 from the one before, inside a ball.
 std::vector<Vec3d> chain() {
@@ -31,7 +24,7 @@ std::vector<Vec3d> chain() {
   while (atoms.size() < 400) {
     const Vec3d next = atoms.back() + random.direction() * 1.5;
     if (dot(next, next) > 144) continue;
-    atoms.push_back({on_grid(next.x), on_grid(next.y), on_grid(next.z)});
+    atoms.push_back({on_fine_grid(next.x), on_fine_grid(next.y), on_fine_grid(next.z)});
   }
   return atoms;
 }
@@ -70,7 +63,8 @@ class Origin : public Trace {
     std::vector<RayRow> rows;
     for (const Vec3d& atom : atoms_) {
       const Vec3d from = random.direction() * 50.0, to = atom - from;
-      const Vec3d org = Vec3d{on_grid(from.x), on_grid(from.y), on_grid(from.z)} + center;
+      const Vec3d org =
+          Vec3d{on_fine_grid(from.x), on_fine_grid(from.y), on_fine_grid(from.z)} + center;
       rows.push_back({org.x, org.y, org.z, 0, to.x, to.y, to.z, 1e9});
     }
     write("r.npy", ray_file64(rows));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@
 namespace boule::test {
 
 using Arguments = std::vector<std::string>;
+
+/// All digits of a double.
+inline std::string text_of(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.17g", x);
+  return digits;
+}
 
 /// A test of `boule trace`, with a folder and scenes of its own.
 class Trace : public ProgramTest {
