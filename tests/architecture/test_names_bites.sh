@@ -39,7 +39,6 @@ echo 'TEST(Suite, AThingOfAKindIsX) {}' | expect passes core/a_test.cpp
 echo 'TEST(Suite, ASixAThingOfAKindIs) {}' | expect '8 words' core/a_test.cpp
 echo 'def test_one_two_three_four_five_six_seven(x):' | expect passes core/test_a.py
 echo 'def test_one_two_three_four_five_six_seven_eight():' | expect '8 words' core/test_a.py
-echo 'TEST(Suite, NearestHitIsLowestIdAtEqualT) {' | expect passes render/cli/a_test.cpp  # to be done
 
 ((failures == 0)) || { echo "$failures faults slipped through"; exit 1; }
 echo "the limit bites"
