@@ -200,7 +200,7 @@ class LoadBench {
     add_read(name, request.path, bytes.size());
     rows_.push_back({name + ": append_spheres", bytes.size(), [request] {
                        std::vector<Sphere> spheres;
-                       return !append_spheres(request, spheres) ? 0 : spheres.size();
+                       return append_spheres(request, spheres) ? spheres.size() : 0;
                      }});
     add_load(name, scene, bytes.size());
   }

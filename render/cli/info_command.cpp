@@ -58,7 +58,7 @@ ExitCode tell(const InfoCommand& command, const std::string& scene, std::optiona
 ExitCode run(const InfoCommand& command) {
   if (!command.frames) {
     const auto done = check_single_scene(command.scene);
-    return !done ? report(done.error(), wrong_usage) : tell(command, command.scene, std::nullopt);
+    return done ? tell(command, command.scene, std::nullopt) : report(done.error(), wrong_usage);
   }
   const FrameRange& range = *command.frames;
   for (int frame = range.first; frame <= range.last; frame += range.step) {

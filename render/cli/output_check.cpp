@@ -50,7 +50,7 @@ Status check_stats_target(const StatsTarget& target) {
 Status check_standard_output() {
   const int flags = fcntl(STDOUT_FILENO, F_GETFL);
   const bool writable = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY;
-  return writable ? Status() : Status(refusal("standard output", EBADF));
+  return writable ? Status() : refusal("standard output", EBADF);
 }
 
 }  // namespace boule::cli

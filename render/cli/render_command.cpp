@@ -67,7 +67,7 @@ ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
     status = write_text_file(legend_svg(loader.colors()), command.legend);
   }
   exit_if_interrupted();
-  return !status ? report(status.error(), failed) : done;
+  return status ? done : report(status.error(), failed);
 }
 
 /// A series, frame by frame; with --claim only frames that no other process has.

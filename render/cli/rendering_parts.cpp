@@ -169,7 +169,7 @@ ExitCode Rendering::write_film(const PartRun& run, const FilmHead& head) {
   }
   exit_if_interrupted();
   stats_.write_seconds = watch.seconds();
-  return !status ? refuse(status.error(), command_, failed) : done;
+  return status ? done : refuse(status.error(), command_, failed);
 }
 
 /// What was stopped is told with what the checkpoint holds.

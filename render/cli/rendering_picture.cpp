@@ -119,7 +119,7 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   exit_if_interrupted();
   if (!status && StopGuard::caught() != caught) leave_as_caught();
   stats_.write_seconds = watch.seconds();
-  return !status ? refuse(status.error(), command_, failed) : done;
+  return status ? done : refuse(status.error(), command_, failed);
 }
 
 /// Rendering and writing at the same time.

@@ -102,7 +102,7 @@ ExitCode RunReport::finish(const Stats& stats) const {
     status = write_stats(stats, options_.stats);
   }
   exit_if_interrupted();
-  return !status ? report(status.error(), failed) : done;
+  return status ? done : report(status.error(), failed);
 }
 
 }  // namespace boule::cli

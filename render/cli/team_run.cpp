@@ -50,7 +50,7 @@ Status TeamRun::run(const std::vector<PixelRect>& blocks) {
   if (!done) team_.stop();
   Status ended = team_.end();
   failed_ = failed_ || !done || (!ended && !StopGuard::flag());
-  if (!saved_) return saved_;
+  if (!last_save_) return last_save_;
   if (!done) return done;
   if (ended || checkpoint_ == nullptr) return ended;
   if (auto saved = save(); !saved) {
@@ -110,8 +110,8 @@ void TeamRun::tick() {
   if (checkpoint_ == nullptr || !is_due()) return;
   if (!std::exchange(saves_soon_, true)) return team_.be_patient(600);
   saves_soon_ = false;
-  saved_ = save();
-  if (saved_) return;
+  last_save_ = save();
+  if (last_save_) return;
   failed_ = true;
   team_.stop();
 }

@@ -41,7 +41,7 @@ class TeamRun : public PartRun {
   int number_;
   Cost cost_;
   bool failed_ = false;
-  Status saved_;             ///< an error if a checkpoint could not be replaced
+  Status last_save_;         ///< an error if a checkpoint could not be replaced
   bool saves_soon_ = false;  ///< the ranks were told to be patient
 };
 

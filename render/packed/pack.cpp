@@ -129,7 +129,7 @@ Status Packer::add_apart() {
   chunks_.push_back(
       {.spheres = survey_.size(), .scanned = tree.slots.size(), .material = survey_.material()});
   const auto node = writer_.append(tree, ids);
-  return node ? Status() : Status(node.error());
+  return node ? Status() : node.error();
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Status PackTree::add(const Partition& partition, BucketStore& store) {
   for (std::size_t i = 0; i < store.size(); ++i) count += store.count(i);
   if (count == 0) return {};
   const auto part = add(partition, store, 1);
-  return part ? Status() : Status(part.error());
+  return part ? Status() : part.error();
 }
 
 Result<PackTree::Part> PackTree::add(const Partition& partition, BucketStore& store, int depth) {

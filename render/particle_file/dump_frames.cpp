@@ -39,7 +39,7 @@ class DumpFrameFinder {
     }
     if (read) read = find_cut_row();
     if (read) read = finish_frame();
-    if (!read && !is_cut(read.error())) return std::move(read).error();
+    if (!read && !is_cut(read.error())) return read.error();
     found_.whole = std::move(read);
     return std::move(found_);
   }

@@ -1,7 +1,6 @@
 #include "render/particle_file/npy_particles.h"
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "render/file/npy_header.h"

@@ -81,7 +81,7 @@ Result<FramePlaces<XyzFrame>> find_xyz_frames(const MappedText& bytes) {
     if (auto done = add_frame_place(found.frames, frame); !done) return done.error();
   }
   if (!found.frames.empty()) return found;
-  return !found.whole ? found.whole.error() : Diagnostic::of("it holds no frames");
+  return found.whole ? Diagnostic::of("it holds no frames") : found.whole.error();
 }
 
 bool is_velocity(const std::string& name) {

@@ -199,15 +199,15 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.frame_ = std::make_unique<ParticleFrame>(std::move(read));
   ParticleFrame& frame = *made.frame_;
   const std::size_t count = frame.size();
-  if (auto done = check_style(style); !done) return std::move(done).error();
-  if (auto done = check_cell(frame, style, frame.notes); !done) return std::move(done).error();
+  if (auto done = check_style(style); !done) return done.error();
+  if (auto done = check_cell(frame, style, frame.notes); !done) return done.error();
   auto source = find_radius_source(frame, style.radius, style.chosen, made.own_, parallel_for);
   // A frame without particles may lack the columns that the others of its series have.
   if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
   auto selected = apply_select(frame, style, parallel_for);
   if (!selected) return selected.error();
-  if (auto done = check_room(frame.size(), style); !done) return std::move(done).error();
+  if (auto done = check_room(frame.size(), style); !done) return done.error();
   const ParticleNamer name_of = [&](std::size_t shown) {
     return particle_text(place_of(shown, selected.value()), count);
   };
@@ -218,7 +218,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (!materials && count == 0) materials = ParticleMaterials{};
   if (!materials) return materials.error();
   made.keep_own(std::move(materials.value().own));
-  if (auto done = made.place(style, parallel_for); !done) return std::move(done).error();
+  if (auto done = made.place(style, parallel_for); !done) return done.error();
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
   made.materials_ = std::move(materials.value().materials);

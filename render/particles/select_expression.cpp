@@ -32,7 +32,7 @@ class Parser {
       fail(token_, comparison_in(token_) ? "comparisons do not chain, join two of them with &&"
                                          : "expected && or ||, " + found_text(token_));
     }
-    if (!status_) return std::move(status_).error();
+    if (!status_) return status_.error();
     return std::move(expression_);
   }
 

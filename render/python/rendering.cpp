@@ -246,8 +246,8 @@ Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outli
   if (!status)
     parts.partial = cli::PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
   parts.noise = noise_reached(measured, options.spp);
-  parts.image = !status ? partial_picture(film, measured, options.order, alpha_of(options))
-                        : measured.image(alpha_of(options));
+  parts.image = status ? measured.image(alpha_of(options))
+                       : partial_picture(film, measured, options.order, alpha_of(options));
   if (options.outline > 0) lines.draw(parts.image);
   for (ImageChannel& channel : measured_channels(options.aovs, measured))
     parts.channels.push_back(std::move(channel));
@@ -313,7 +313,7 @@ py::tuple Rendering::end() const {
   const auto& raised = waiting_.raised();
   const py::object stopped = raised ? py::object(raised->value()) : py::none();
   if (end == CallEnd::left) return py::make_tuple(py::none(), stopped);
-  if (end == CallEnd::done && !(*status_)) throw_error((*status_).error());
+  if (end == CallEnd::done && !*status_) throw_error(status_->error());
   if (end == CallEnd::stopped_by_time && !raised) return py::make_tuple(picture(), "time");
   return py::make_tuple(picture(), stopped);
 }

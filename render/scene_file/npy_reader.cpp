@@ -255,7 +255,7 @@ SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_fo
     all.add(some);
     return {};
   };
-  return !read_rows(opened.value().file, layout, parallel_for, take) ? SphereExtent{} : all;
+  return read_rows(opened.value().file, layout, parallel_for, take) ? all : SphereExtent{};
 }
 
 }  // namespace boule

@@ -55,7 +55,7 @@ class NpySource final : public SphereSource {
 
   explicit NpySource(const ParallelFor& parallel_for) : parallel_for_(parallel_for) {}
   Status add(const std::string& path);
-  static Status named(const File& file, Status bad);
+  static Status named(const File& file, Status status);
   /// Reads the next rows into `rows_`; none at the end.
   Status next_rows(std::size_t most, Rows& rows);
   Status read_rows(File& file, std::uint64_t first, std::size_t count);

@@ -79,7 +79,7 @@ std::optional<TomlParticles> ParticleTable::read() {
   auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
   if (!made) {
     const Status place = made.error().key == "radius" ? find_wrong_radius() : Status();
-    !place ? report_file(place.error()) : report_key(made.error());
+    place ? report_key(made.error()) : report_file(place.error());
     return std::nullopt;
   }
   TomlParticles particles{std::move(made).value(), std::move(facts_), {}};

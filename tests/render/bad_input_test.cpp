@@ -146,13 +146,13 @@ TEST(BadInput, OptionsOfAnySizeAreJudged) {
     }
     RenderOptions options;
     options.spp = options.max_depth = value;
-    EXPECT_EQ(!validate(options).ok(), value < 1) << value;
+    EXPECT_EQ(validate(options).ok(), value >= 1) << value;
     for (const PixelRect& crop :
          {PixelRect{value, 0, 9, 9}, PixelRect{0, value, 9, 9}, PixelRect{0, 0, value, 9},
           PixelRect{0, 0, 9, value}, PixelRect{INT_MIN, value, INT_MAX, INT_MAX}}) {
       RenderOptions cropped;
       cropped.crop = crop;
-      EXPECT_EQ(!validate(cropped).ok(), !(crop == PixelRect{0, 0, 9, 9}) || value != 0);
+      EXPECT_EQ(validate(cropped).ok(), (crop == PixelRect{0, 0, 9, 9} && value == 0));
     }
   }
   RenderOptions options;

@@ -96,7 +96,7 @@ TEST_F(HostLocale, ChangesNoSceneAndNoFile) {
     for (const char* extension : {"exr", "hdr", "png", "jpg", "ppm"}) {
       const std::string name = prefix + "." + extension;
       const Status done = write_image(image, path(name), options);
-      all += !done ? done.error().message : read(name);
+      all += done ? read(name) : done.error().message;
     }
     return all;
   };

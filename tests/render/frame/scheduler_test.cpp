@@ -36,7 +36,7 @@ TEST(Scheduler, WorkersDoOneIndexAtATime) {
   Scheduler scheduler(4);
   std::vector<std::atomic<int>> inside(4);
   std::atomic<int> collisions{0};
-  EXPECT_FALSE(!scheduler.run(2000, [&](unsigned worker, std::size_t) {
+  EXPECT_TRUE(scheduler.run(2000, [&](unsigned worker, std::size_t) {
     if (inside[worker]++ != 0) ++collisions;
     --inside[worker];
   }));
@@ -47,7 +47,7 @@ TEST(Scheduler, WorkerZeroIsTheCaller) {
   Scheduler scheduler(3);
   const auto caller = std::this_thread::get_id();
   std::atomic<int> strangers{0};
-  EXPECT_FALSE(!scheduler.run(500, [&](unsigned worker, std::size_t) {
+  EXPECT_TRUE(scheduler.run(500, [&](unsigned worker, std::size_t) {
     if ((worker == 0) != (std::this_thread::get_id() == caller)) ++strangers;
   }));
   EXPECT_EQ(strangers, 0);
@@ -79,7 +79,7 @@ TEST(Scheduler, ExceptionsBecomeDiagnostics) {
   const Status memory = Scheduler(1).run(1, [](unsigned, std::size_t) { throw std::bad_alloc(); });
   ASSERT_FALSE(memory);
   EXPECT_EQ(memory.error().message, "out of memory");
-  EXPECT_TRUE(!Scheduler(2).run(3, [](unsigned, std::size_t) { throw 1; }));
+  EXPECT_FALSE(Scheduler(2).run(3, [](unsigned, std::size_t) { throw 1; }));
 }
 
 TEST(Scheduler, CancelStopsItWithoutAnError) {
@@ -91,10 +91,10 @@ TEST(Scheduler, CancelStopsItWithoutAnError) {
     if (index == 10) cancel = true;
     if (index == far_too_many) throw std::runtime_error("not stopped");
   };
-  EXPECT_FALSE(!scheduler.run(endless, body, &cancel));
+  EXPECT_TRUE(scheduler.run(endless, body, &cancel));
   EXPECT_GE(calls, 11u);
   const std::size_t before = calls;
-  EXPECT_FALSE(!scheduler.run(10, body, &cancel));
+  EXPECT_TRUE(scheduler.run(10, body, &cancel));
   EXPECT_EQ(calls, before);
 }
 

@@ -33,7 +33,7 @@ int run_in_child(const std::function<int()>& run) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string message(const Status& status) { return !status ? status.error().message : ""; }
+std::string message(const Status& status) { return status ? "" : status.error().message; }
 
 class ImageStartTest : public testing::TestWithParam<std::string> {
  protected:
@@ -91,7 +91,7 @@ TEST_P(ImageStartTest, ForkedChildrenWriteOrReportWhyNot) {
     });
     if (child != 0) return 10 + child;
     // The parent goes on.
-    return !write_image(noise(200, 300), picture(), with_threads(3)) ? 5 : 0;
+    return write_image(noise(200, 300), picture(), with_threads(3)) ? 0 : 5;
   });
   EXPECT_EQ(code, 0);
 }
@@ -100,7 +100,7 @@ TEST_P(ImageStartTest, ChildrenWriteIfParentsHaveNoPools) {
   const int code = run_in_child([&] {
     if (!write_image(noise(20, 30), at("a.png"), with_threads(1))) return 1;
     return run_in_child(
-        [&] { return !write_image(noise(200, 300), picture(), with_threads(3)) ? 2 : 0; });
+        [&] { return write_image(noise(200, 300), picture(), with_threads(3)) ? 0 : 2; });
   });
   EXPECT_EQ(code, 0);
 }

@@ -108,7 +108,7 @@ TEST(Metadata, ManyHugeOrOddEntriesAreHarmless) {
       for (const std::string name : names)
         options.metadata.emplace_back(name, std::string(4000, 'x'));
       const Status many = write_image(Image(4, 4), path, options);
-      std::fprintf(out, "%s of many\n", !many ? many.error().message.c_str() : "done");
+      std::fprintf(out, "%s of many\n", many ? "done" : many.error().message.c_str());
       write_with(out, path, "ImageDescription", std::string(10'000'000, 'x'));
       const std::string huge = write_with(out, path, "Artist", std::string(17'000'000, 'x'));
       if (huge.find("metadata 'Artist' has 17000000 bytes") == std::string::npos)

@@ -170,7 +170,7 @@ TEST(NodeCheck, NamesWhatIsWrong) {
     std::vector<BvhNode> nodes = two_nodes();
     change(nodes);
     const Status done = check_nodes(nodes, leaves, serial_for);
-    return !done ? done.error().message : "";
+    return done ? "" : done.error().message;
   };
   const auto none = [](auto&) {};
   EXPECT_EQ(problem(1, none), "it is damaged: node 0 leads to a leaf that is not there");

@@ -206,7 +206,7 @@ TEST_P(CallersFloatEnvironment, ChangesNoFile) {
     const std::string odd = "odd." + extension, plain = "plain." + extension;
     // Outside of the odd environment: joining paths raises the inexact flag.
     const std::string odd_path = path(odd), plain_path = path(plain);
-    EXPECT_FALSE(!oddly([&] { return write_image(image, odd_path, options); }));
+    EXPECT_TRUE(oddly([&] { return write_image(image, odd_path, options); }));
     ASSERT_TRUE(write_image(image, plain_path, options));
     EXPECT_EQ(read(odd), read(plain)) << extension;
     const auto content = PictureContent::colors;

@@ -138,10 +138,10 @@ TEST(RayColumns, ZeroIsSubtractedInDouble) {
   double t = 0;
   std::int32_t id = 0;
   float normal[3];
-  ASSERT_FALSE(!tracer.closest_of_columns(columns, {&t, &id, normal}));
+  ASSERT_TRUE(tracer.closest_of_columns(columns, {&t, &id, normal}));
   TracedHit hit;
   const Ray near{{0.25, 0.5, 20}, {0, 0, -1}};
-  ASSERT_FALSE(!tracer.closest({&near, 1}, {&hit, 1}));
+  ASSERT_TRUE(tracer.closest({&near, 1}, {&hit, 1}));
   EXPECT_EQ(t, hit.t);
   EXPECT_EQ(id, hit.id);
 }
@@ -150,7 +150,7 @@ TEST(RayColumns, RefuseResultsOfAnotherSize) {
   Tracer tracer = Tracer::create(cloud()).value();
   std::uint8_t one = 0;
   const RayColumns columns{3, {}, {}, {}, {}, {}};
-  EXPECT_TRUE(!tracer.any_of_columns(columns, {&one, 1}));
+  EXPECT_FALSE(tracer.any_of_columns(columns, {&one, 1}));
 }
 
 }  // namespace

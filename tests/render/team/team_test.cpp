@@ -121,7 +121,7 @@ TEST_F(TeamTest, FramesAreDealtOnceEach) {
 TEST_F(TeamTest, ARankWithAnotherSceneIsNamed) {
   const auto codes = run(3, [&](Team& team, int rank) {
     const Status done = render(team, picture(0, 1'000'000, rank == 2 ? "xyz" : "abc"));
-    return !done && rank == 0 ? 1 : 0;
+    return done || rank != 0 ? 0 : 1;
   });
   EXPECT_EQ(codes, std::vector<int>(3, 1));
   EXPECT_EQ(failures_, "rank 2 (process 102 on host) is of another scene: hash xyz, not abc");
@@ -132,7 +132,7 @@ TEST_F(TeamTest, ARankOfAnotherVersionIsNamed) {
       3,
       [&](Team& team, int rank) {
         const Status done = render(team, picture(0, 1'000'000));
-        return !done && rank == 0 ? 1 : 0;
+        return done || rank != 0 ? 0 : 1;
       },
       [](TeamSettings& own, int rank) { own.version = rank == 1 ? "0.9" : "1"; });
   EXPECT_EQ(codes, std::vector<int>(3, 1));
@@ -143,7 +143,7 @@ TEST_F(TeamTest, ARankThatFailsEndsAll) {
   const auto codes = run(3, [&](Team& team, int rank) {
     if (rank == 1) return 3;
     const Status done = render(team, picture(0, 1'000'000));
-    return !done && rank == 0 ? 1 : 0;
+    return done || rank != 0 ? 0 : 1;
   });
   EXPECT_EQ(codes[0], 1);
   EXPECT_EQ(failures_, "rank 1 (process 101 on host) failed: bad");
