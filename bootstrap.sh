@@ -81,7 +81,7 @@ render() {
 }
 
 run_tests() {
-  announce 1800 "compiles Boule and its tests in build/test and runs them"
+  announce 2300 "compiles Boule and its tests in build/test and runs them"
   install_missing "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}" \
     "${python_test_packages[@]}"
   # As users run it, and a warning is an error.
