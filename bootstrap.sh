@@ -97,9 +97,9 @@ python() {
   cmake --preset release -G Ninja -B build/python -DBOULE_PYTHON=ON -DBOULE_TESTS=OFF
   cmake --build build/python
   local tests
-  for tests in tests/render/python/test_*.py; do
+  for tests in tests/render/apps/python/test_*.py; do
     PYTHONPATH="$PWD/build/python" BOULE_PROGRAM="$PWD/build/python/bin/boule" PYTHONDONTWRITEBYTECODE=1 \
-      /usr/bin/python3 tests/render/python/run_pytest.py "$tests"
+      /usr/bin/python3 tests/render/apps/python/run_pytest.py "$tests"
   done
   echo "bootstrap: import it by  PYTHONPATH=$PWD/build/python /usr/bin/python3 -c 'import boule'"
 }

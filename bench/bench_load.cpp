@@ -20,11 +20,11 @@
 
 #include "bench/random4.h"
 #include "bench/uniform_spheres.h"
-#include "render/file/input_file.h"
-#include "render/particle_file/particle_file.h"
-#include "render/scene_file/nff_reader.h"
-#include "render/scene_file/npy_reader.h"
-#include "render/scene_file/scene_file.h"
+#include "render/files/file/input_file.h"
+#include "render/files/particle_file/particle_file.h"
+#include "render/files/scene_file/nff/nff_reader.h"
+#include "render/files/scene_file/npy/npy_reader.h"
+#include "render/files/scene_file/scene_file.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::bench {

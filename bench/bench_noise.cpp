@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bench/noise_errors.h"
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 
 namespace boule::bench {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/base/parallel.h"
+#include "render/files/particle_file/particle_file.h"
 #include "render/frame/scheduler.h"
-#include "render/particle_file/particle_file.h"
 
 namespace boule::bench {
 namespace {

@@ -16,12 +16,12 @@
 
 #include "bench/rank_simulation.h"
 #include "bench/thread_seconds.h"
+#include "render/apps/parts/part_blocks.h"
+#include "render/apps/team/block_dealer.h"
+#include "render/files/scene_file/scene_file.h"
 #include "render/frame/pixel_order.h"
-#include "render/parts/part_blocks.h"
 #include "render/renderer/block_tools.h"
 #include "render/renderer/renderer.h"
-#include "render/scene_file/scene_file.h"
-#include "render/team/block_dealer.h"
 
 namespace boule::bench {
 namespace {

@@ -14,8 +14,8 @@
 #include "bench/median.h"
 #include "bench/uniform_spheres.h"
 #include "bench/wall_seconds.h"
+#include "render/files/scene_file/scene_file.h"
 #include "render/renderer/renderer.h"
-#include "render/scene_file/scene_file.h"
 
 namespace boule::bench {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/math/geometry.h"
-#include "render/scene_file/scene_file.h"
-#include "tests/render/view/view_server.h"
+#include "render/files/scene_file/scene_file.h"
+#include "tests/render/apps/view/view_server.h"
 
 namespace boule::bench {
 namespace {

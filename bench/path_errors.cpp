@@ -5,7 +5,7 @@
 
 #include "bench/thread_seconds.h"
 #include "core/optics/cameras.h"
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 
 namespace boule::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "render/team/block_dealer.h"
+#include "render/apps/team/block_dealer.h"
 
 namespace boule::bench {
 namespace {

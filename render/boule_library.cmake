@@ -1,6 +1,6 @@
-# boule_library(NAME header function source macro otherwise): a library that one source uses, whose
-# header declares the function. Without it, `otherwise` holds.
-function(boule_library name header function source macro otherwise)
+# boule_library(TARGET NAME header function source macro otherwise): a library that one source of the
+# target uses, whose header declares the function. Without it, `otherwise` holds.
+function(boule_library target name header function source macro otherwise)
   set(program "#include <${header}>\nint main() { auto* volatile used = &${function}; return !used; }\n")
   boule_compiles(compiles ${name} "${program}" LIBRARIES ${name})
   set(linked ${name})  # by name: an installation can be moved
@@ -17,12 +17,12 @@ function(boule_library name header function source macro otherwise)
       message(STATUS "Without ${header}: ${otherwise}")
       return()
     endif()
-    target_include_directories(boule SYSTEM PRIVATE $<BUILD_INTERFACE:${BOULE_${upper}_INCLUDE_DIR}>)
+    target_include_directories(${target} SYSTEM PRIVATE $<BUILD_INTERFACE:${BOULE_${upper}_INCLUDE_DIR}>)
     set(linked ${BOULE_${upper}_LIBRARY})
     cmake_path(GET linked PARENT_PATH folder)
     set_property(GLOBAL APPEND PROPERTY BOULE_PC_FOLDERS ${folder})
   endif()
-  set_property(SOURCE ${source} TARGET_DIRECTORY boule APPEND PROPERTY COMPILE_DEFINITIONS ${macro})
-  target_link_libraries(boule PRIVATE ${linked})
+  set_property(SOURCE ${source} TARGET_DIRECTORY ${target} APPEND PROPERTY COMPILE_DEFINITIONS ${macro})
+  target_link_libraries(${target} PRIVATE ${linked})
   set_property(GLOBAL APPEND PROPERTY BOULE_PC_LIBRARIES ${name})
 endfunction()

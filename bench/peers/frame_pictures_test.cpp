@@ -8,8 +8,8 @@
 #include "bench/peers/frame_pictures.h"
 #include "bench/peers/frame_programs.h"
 #include "bench/peers/frame_scene.h"
+#include "render/files/scene_file/scene_file.h"
 #include "render/renderer/renderer.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/support/temp_dir.h"
 
 namespace boule::bench {

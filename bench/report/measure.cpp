@@ -6,7 +6,7 @@
 #include "bench/cpu_model.h"
 #include "bench/report/commit.h"
 #include "bench/report/figures.h"
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

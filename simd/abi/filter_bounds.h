@@ -14,7 +14,8 @@ namespace boule::filter {
 
 inline constexpr double u = unit_roundoff;
 
-// ---- Reject: simd/kernel/search/sphere.h, simd/geometry/geometry.cpp --------------------------
+// ---- Reject: simd/kernel/search/leaf/sphere.h, simd/geometry/geometry.cpp
+// --------------------------
 
 /// A pair of ray and sphere is rejected where b*b + (r2p - f.f) < 0, with b = f.h, h = d / |d| (1 +
 /// slack u / 2) rounded to float, and r2p = r^2 (1 + slack u) + squared_floor rounded outward. The
@@ -33,14 +34,16 @@ inline constexpr double floor = 1e-18;
 /// decides nothing, so filters let everything through.
 inline constexpr float limit = 1e18f;
 
-// ---- Bounds of roots: simd/kernel/search/root_bounds.h ----------------------------------------
+// ---- Bounds of roots: simd/kernel/search/leaf/root_bounds.h
+// ----------------------------------------
 
 /// b and l = f - b unit have an error of at most spread u (|b| + 2 r) + E (1 + 48 u); 12 would be
 /// enough instead of 14. The discriminant has an error of at most spread' (2 r + 3 spread') +
 /// spread u r^2, where spread' is the error of b and l.
 inline constexpr double spread = 14;
 
-// ---- Boxes: simd/kernel/search/slabs.h, bundle_sides.h, simd/geometry/build_box.h -------------
+// ---- Boxes: simd/kernel/search/leaf/slabs.h, bundle_sides.h, simd/geometry/build_box.h
+// -------------
 
 /// Against a side of a bundle, the distance of a box corner has an error of 1.25 (1 + 1 + 3) u of
 /// itself, and the v that it is compared with an error of 16 u. Against a ray, both ends of the
@@ -64,7 +67,8 @@ inline constexpr double reach = 16;
 /// remaining 3 u |x| cover the rounding of origins and of plane tests.
 inline constexpr double box_step = 0x1p-22;
 
-// ---- Parts: simd/kernel/search/parts.h, simd/geometry/parts.cpp -------------------------------
+// ---- Parts: simd/kernel/search/packet/parts.h, simd/geometry/parts.cpp
+// -------------------------------
 
 /// A box of a part's tree is moved by its centre and by half its size, in float. It grows on each
 /// side by moved_box u (|shift| + scale |R| m), where m is the largest coordinate of the box.

@@ -12,8 +12,8 @@
 namespace boule {
 namespace {
 
-/// The box of a node's child k, moved as the kernels move it (simd/kernel/search/parts.h), but in
-/// double.
+/// The box of a node's child k, moved as the kernels move it (simd/kernel/search/packet/parts.h),
+/// but in double.
 BuildBox moved_box(const BvhNode& node, std::size_t k, const PlacementView& placement) {
   const double low[3] = {node.min_x[k], node.min_y[k], node.min_z[k]};
   const double high[3] = {node.max_x[k], node.max_y[k], node.max_z[k]};

@@ -1,7 +1,7 @@
 // Coherent rays, traced as bundles.
-#include "simd/kernel/search/bundle_stream.h"
-#include "simd/kernel/search/bundled.h"
-#include "simd/kernel/search/shadow_stream.h"
+#include "simd/kernel/search/bundle/bundle_stream.h"
+#include "simd/kernel/search/bundle/bundled.h"
+#include "simd/kernel/search/bundle/shadow_stream.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 

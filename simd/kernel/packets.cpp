@@ -1,8 +1,8 @@
 // Packets and single rays against all primitives.
-#include "simd/kernel/search/packet_hits.h"
-#include "simd/kernel/search/packet_stream.h"
-#include "simd/kernel/search/short_search.h"
-#include "simd/kernel/search/traverse.h"
+#include "simd/kernel/search/packet/packet_hits.h"
+#include "simd/kernel/search/packet/packet_stream.h"
+#include "simd/kernel/search/packet/short_search.h"
+#include "simd/kernel/search/packet/traverse.h"
 
 namespace boule::BOULE_KERNEL_ISA {
 namespace {

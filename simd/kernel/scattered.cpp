@@ -1,11 +1,11 @@
 // Rays without a promise of coherence: sets, flights, and the trials between these and packets.
-#include "simd/kernel/search/scattered_stream.h"
+#include "simd/kernel/search/flock/scattered_stream.h"
 
 #include <type_traits>
 
-#include "simd/kernel/search/flight_stream.h"
-#include "simd/kernel/search/ray_sets.h"
-#include "simd/kernel/search/ticks.h"
+#include "simd/kernel/search/flock/flight_stream.h"
+#include "simd/kernel/search/flock/ray_sets.h"
+#include "simd/kernel/search/flock/ticks.h"
 #include "simd/kernel/tuning.h"
 
 namespace boule::BOULE_KERNEL_ISA {

@@ -32,7 +32,7 @@ int one(int a) { return a + secret(); }
 std::string text() { return "text"; }
 }  // namespace boule
 TEXT
-"$cmake" -DHEADERS="$work/api.h" -DOUTPUT="$work/api.map" -P "$here/../../render/shared/version_script.cmake"
+"$cmake" -DHEADERS="$work/api.h" -DOUTPUT="$work/api.map" -P "$here/../../render/apps/library/version_script.cmake"
 "$cxx" -std=c++20 -fPIC -c api.cpp -o api.o
 
 # check MAP: the library with this version script.

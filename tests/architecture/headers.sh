@@ -61,7 +61,7 @@ while read -r header; do
       add "$header" "${isas[0]}"
       add "$header" "${isas[-1]}"
       ;;
-    render/python/*) [[ -z "$has_python" ]] || compiled_first "$header" || add "$header" "" ;;
+    render/apps/python/*) [[ -z "$has_python" ]] || compiled_first "$header" || add "$header" "" ;;
     *) compiled_first "$header" || add "$header" "" ;;
   esac
 done < <(find core simd render tests bench -name '*.h' | LC_ALL=C sort)

@@ -20,33 +20,38 @@ BEGIN {
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
-  layer("^render/include/", "^(core|simd/(abi|geometry|stream|dispatch)|render/(frame|image|renderer|scene_file))/", any)
-  layer("^render/memory/", "^(core|render/memory)/", any)
-  layer("^render/file/", "^(core|render/(memory|file))/", any)
-  layer("^render/particle_file/", "^(core|render/(memory|file|particle_file))/", any)
-  layer("^render/particles/", "^(core|render/(memory|file|particle_file|particles))/", any)
-  layer("^render/packed/", narrow "|^render/(memory|file|packed)/|^render/image/output_file\\.h$", any)
-  # Scenes name pictures: their reader returns plain numbers, which core can hold.
-  layer("^render/scene_file/", "^(core|render/(memory|file|particle_file|particles|packed|scene_file))/|^render/image/(read_)?image\\.h$", any)
+  # The engine: it includes nothing of the wings.
+  engine = "memory|threads|image|frame|prepare|shading|integrators|renderer"
   layer("^render/threads/", "^render/threads/", plain_std "|^<pthread\\.h>$")
+  layer("^render/memory/", "^(core|render/memory)/", any)
   layer("^render/image/", "^(core|render/(memory|threads|image))/", any)
   layer("^render/frame/", "^(core|render/(memory|threads|image|frame))/", any)
-  layer("^render/trace_file/", "^(core|render/(file|image|frame|trace_file))/", any)
   layer("^render/prepare/", narrow "|^render/prepare/", any)
   layer("^render/shading/", narrow "|^render/(prepare|shading)/", any)
   layer("^render/integrators/", narrow "|^render/(prepare|shading|integrators)/", any)
   layer("^render/renderer/",
         narrow "|^render/(memory|image|frame|prepare|shading|integrators|renderer)/", any)
-  layer("^render/view/",
-        narrow "|^render/(memory|threads|particles|scene_file|image|frame|prepare|shading|integrators|renderer|view)/", any)
-  layer("^render/cli/", narrow "|^render/(memory|threads|file|particle_file|particles|packed|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team|cli)/", any)
-  # Of the program, what says how files are shown and written; nothing that owns the terminal or the
-  # process.
-  layer("^render/manual/", "^(core|simd/(abi|dispatch)|render/(image|particle_file|cli|manual))/", any)
-  layer("^render/python/", narrow "|^render/(memory|threads|file|particle_file|particles|scene_file|image|frame|prepare|renderer|parts|python)/|^render/cli/(legend|look_values|option_values|options|particle_scene|picture_header|scene_loader|source_date)\\.h$", any)
-  layer("^render/parts/",
-        narrow "|^render/(memory|file|image|frame|prepare|integrators|renderer|parts)/", any)
-  layer("^render/team/", "^(core|render/(threads|image|frame|renderer|parts|team))/", any)
+
+  # The wing of files: nothing of apps, and of the engine what says how much memory there is, and pictures.
+  layer("^render/files/file/", "^(core|render/(memory|files/file))/", any)
+  layer("^render/files/particle_file/", "^(core|render/(memory|files/(file|particle_file)))/", any)
+  layer("^render/files/particles/", "^(core|render/(memory|files/(file|particle_file|particles)))/", any)
+  layer("^render/files/packed/", narrow "|^render/(memory|files/(file|packed))/|^render/image/output_file\\.h$", any)
+  # Scenes name pictures: their reader returns plain numbers, which core can hold.
+  layer("^render/files/scene_file/", "^(core|render/(memory|files/(file|particle_file|particles|packed|scene_file)))/|^render/image/(read_)?image\\.h$", any)
+  layer("^render/files/trace_file/", "^(core|render/(image|frame|files/(file|trace_file)))/", any)
+
+  # The wing of apps: what people start. None of them includes another.
+  below = narrow "|^render/(" engine "|files/[a-z_]+)/"
+  layer("^render/apps/library/", narrow "|^render/(frame|image|renderer|files/scene_file)/", any)
+  layer("^render/apps/parts/", below "|^render/apps/parts/", any)
+  layer("^render/apps/job/", below "|^render/apps/(parts|job)/", any)
+  layer("^render/apps/team/", below "|^render/apps/(parts|team)/", any)
+  layer("^render/apps/view/", below "|^render/apps/(job|view)/", any)
+  layer("^render/apps/cli/", below "|^render/apps/(parts|job|team|view|cli)/", any)
+  layer("^render/apps/python/", narrow "|^render/(memory|threads|image|frame|prepare|renderer|files/[a-z_]+|apps/(parts|job|python))/", any)
+  layer("^render/apps/manual/", below "|^render/apps/(job|cli|manual)/", any)
+
   # These tests run on machines without the renderer's packages.
   layer("^tests/core/", "^(core|tests/(core|support))/", any)
   layer("^tests/simd/lanes/", narrow "|^simd/lanes/|^tests/(simd|support)/", any)
@@ -54,24 +59,24 @@ BEGIN {
   layer("^tests/equivalence/", narrow "|^tests/(equivalence|support)/", any)
   layer("^tests/support/", narrow "|^tests/support/", any)
   # The command line is fuzzed and tested without its program, and so is what tells the time.
-  layer("^tests/(fuzz/fuzz_options|render/cli/)", narrow "|^render/|^tests/", any)
-  layer("^(tests|bench)/", narrow "|^render/(memory|threads|file|particle_file|particles|packed|scene_file|image|frame|trace_file|prepare|shading|integrators|renderer|view|parts|team)/|^tests/|^bench/", any)
+  layer("^tests/(fuzz/fuzz_options|render/apps/(cli|job)/)", narrow "|^render/|^tests/", any)
+  layer("^(tests|bench)/", below "|^render/apps/(parts|job|team|view)/|^tests/|^bench/", any)
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <png\\.h>", "^render/image/png_table\\.cpp$", "libpng")
-  owner("#include <boost/", "^render/view/web_server\\.cpp$", "Boost")
-  owner("#include <turbojpeg", "^render/view/jpeg\\.cpp$", "libjpeg-turbo")
-  owner("#include <pybind11/|#include <Python\\.h>", "^render/python/", "Python")
-  owner("#include <mpi\\.h>", "^render/team/mpi_module\\.cpp$", "MPI")
-  owner("#include <(gemmi|tao)/", "^render/particle_file/gemmi_", "gemmi")
+  owner("#include <boost/", "^render/apps/view/web_server\\.cpp$", "Boost")
+  owner("#include <turbojpeg", "^render/apps/view/jpeg\\.cpp$", "libjpeg-turbo")
+  owner("#include <pybind11/|#include <Python\\.h>", "^render/apps/python/", "Python")
+  owner("#include <mpi\\.h>", "^render/apps/team/mpi_module\\.cpp$", "MPI")
+  owner("#include <(gemmi|tao)/", "^render/files/particle_file/molecule/gemmi_", "gemmi")
   owner("#include <(thread|future|execution|pthread\\.h|tbb/.*)>", "^render/threads/", "threads")
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
-  owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/cli/", "the terminal")
-  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/(cli/|python/call\\.cpp$)", "the end of the process")
-  owner(word "(secure_)?getenv[ ]*\\(", "^(render/cli|simd/dispatch)/", "the environment")
+  owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/apps/cli/", "the terminal")
+  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/apps/(cli/|python/call\\.cpp$)", "the end of the process")
+  owner(word "(secure_)?getenv[ ]*\\(", "^(render/apps/cli|simd/dispatch)/|^render/apps/job/source_date\\.cpp$", "the environment")
   anywhere("^[ \t]*#[ \t]*define[ \t]", "^core/base/platform\\.h$", "a macro")
 }
 

@@ -6,12 +6,12 @@ shopt -s lastpipe  # expect() counts in this shell
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/tests/"{core,render/cli}
+mkdir -p "$work/tests/"{core,render/apps/cli}
 failures=0
 
 # expect COMPLAINT_OR_passes FILE: the test on standard input, in that file alone.
 expect() {
-  rm -f "$work"/tests/core/* "$work"/tests/render/cli/*
+  rm -f "$work"/tests/core/* "$work"/tests/render/apps/cli/*
   echo 'TEST(A, B) {}' >"$work/tests/core/z_test.cpp"
   cat >"$work/tests/$2"
   if "$here/test_names.sh" "$work" >"$work/out" 2>&1; then

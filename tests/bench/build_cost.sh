@@ -22,7 +22,7 @@ job 0 4000 simd/CMakeFiles/boule_kernel_avx2.dir/kernel/packets.cpp.o
 job 0 1500 simd/CMakeFiles/boule_simd.dir/geometry/split.cpp.o
 job 1500 3000 core/CMakeFiles/boule_core.dir/surface.cpp.o
 job 0 2000 render/CMakeFiles/boule.dir/frame/film.cpp.o
-job 0 1000 render/cli/CMakeFiles/boule_cli.dir/options.cpp.o
+job 0 1000 render/apps/cli/CMakeFiles/boule_cli.dir/options.cpp.o
 "$build_cost" "$work" --dearest 1 >"$work/out"
 for row in '| all | 10 |' '| kernels | 4 |' '| core, simd | 3 |' '| render library | 2 |' '| program | 1 |' \
   '| simd/boule_kernel_avx2/kernel/packets.cpp.o | 4.0 |'; do

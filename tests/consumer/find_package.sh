@@ -4,7 +4,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
 prefix="$1"
-lib="$(dirname "$(find "$prefix" -name libboule.a)")"
+lib="$(dirname "$(find "$prefix" -name libboule_files.a)")"
 
 build find_package -DCMAKE_PREFIX_PATH="$prefix"
 inherits example.cpp "-isystem $prefix/include -isystem $prefix/include/boule"

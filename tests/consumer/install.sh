@@ -9,7 +9,7 @@ rm -rf "$prefix" "$prefix-before"
 mv "$prefix-before" "$prefix"
 cd "$prefix"
 
-lib="$(dirname "$(find . -name libboule.a)")"
+lib="$(dirname "$(find . -name libboule_files.a)")"
 for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.so" \
   "$lib"/cmake/boule/boule-config{,-version}.cmake "$lib"/pkgconfig/boule{,-static}.pc "$lib/libboule.so" \
   include/boule/boule.h share/doc/boule/{README.md,CHANGELOG.md,LICENSE,docs/library.md,examples/example.cpp} \

@@ -74,7 +74,7 @@ try_cpp() {
   local compiler="${CXX:-c++}"
   command -v "$compiler" >/dev/null && grep -q '<boule/boule.h>' "$1" || return 0
   tail -n +2 "$1" >block.cpp
-  expect "$(head -n 1 "$1")" 0 "$compiler" -std=c++20 -fsyntax-only -I "$source" -I "$source/render/include" block.cpp
+  expect "$(head -n 1 "$1")" 0 "$compiler" -std=c++20 -fsyntax-only -I "$source" -I "$source/render/apps/library/include" block.cpp
 }
 
 # has WHERE WORD TEXT WHAT: the text has it as a word.

@@ -1,5 +1,5 @@
 // Lens prescriptions of any bytes. One that is read is checked as the camera of a scene.
-#include "render/scene_file/lens_file.h"
+#include "render/files/scene_file/toml/lens_file.h"
 #include "tests/fuzz/fuzz_scene.h"
 #include "tests/fuzz/input_budget.h"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "render/scene_file/npy_reader.h"
-#include "render/scene_file/scene_file.h"
-#include "render/trace_file/ray_file.h"
+#include "render/files/scene_file/npy/npy_reader.h"
+#include "render/files/scene_file/scene_file.h"
+#include "render/files/trace_file/ray_file.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/input_folder.h"
 

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/options.h"
+#include "render/apps/cli/options/options.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"
 
 namespace {
 
+using namespace boule;
 using namespace boule::cli;
 using boule::fuzz::require;
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/packed/packed_file.h"
+#include "render/files/packed/packed_file.h"
 #include "render/prepare/extreme_spheres.h"
 #include "render/prepare/scene_geometry.h"
 #include "simd/dispatch/dispatch.h"

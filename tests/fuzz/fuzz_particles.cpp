@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/particle_file/particle_file.h"
+#include "render/files/particle_file/particle_file.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/input_folder.h"
 

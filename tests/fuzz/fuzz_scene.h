@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 #include "tests/fuzz/input_folder.h"
 
 namespace boule::fuzz {

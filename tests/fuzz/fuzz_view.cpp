@@ -5,9 +5,9 @@
 #include <string_view>
 #include <variant>
 
-#include "render/view/access.h"
-#include "render/view/client_message.h"
-#include "render/view/frame_message.h"
+#include "render/apps/view/access.h"
+#include "render/apps/view/client_message.h"
+#include "render/apps/view/frame_message.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"
 

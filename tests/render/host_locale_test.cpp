@@ -6,9 +6,9 @@
 #include <locale>
 #include <string>
 
+#include "render/files/scene_file/scene_file.h"
 #include "render/image/write_image.h"
 #include "render/renderer/scene_hash.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"
 

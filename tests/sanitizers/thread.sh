@@ -22,4 +22,4 @@ done
 setarch -R "$build/tests/render/boule_test_render" \
   --gtest_filter='Scheduler*:Renderer*:Live*:Tracer*:Picture.*:Determinism.*Rays*'
 setarch -R "$build/tests/render/boule_test_path"
-setarch -R "$build/tests/render/cli/boule_test_cli_time" --gtest_filter='-*DeathTest*'
+setarch -R "$build/tests/render/apps/cli/boule_test_cli_time" --gtest_filter='-*DeathTest*'

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 #include "tests/scenes/shipped.h"
 #include "tests/support/temp_dir.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "render/files/scene_file/scene_file.h"
 #include "render/renderer/renderer.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/scenes/shipped.h"
 
 namespace boule::test {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/camera.h"
-#include "render/scene_file/scene_file.h"
+#include "render/files/scene_file/scene_file.h"
 #include "tests/scenes/shipped.h"
 #include "tests/support/temp_dir.h"
 

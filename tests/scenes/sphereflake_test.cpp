@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/scene_file/npy_reader.h"
+#include "render/files/scene_file/npy/npy_reader.h"
 #include "tests/scenes/shipped.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_dir.h"

@@ -6,7 +6,7 @@
 
 #include "core/optics/reflectance.h"
 #include "simd/abi/paths.h"
-#include "simd/kernel/search/ray_lanes.h"
+#include "simd/kernel/search/leaf/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
 /// Rays that leave surfaces, W at a time. The chosen ones are stored packed.

@@ -7,7 +7,7 @@
 #include "core/math/geometry.h"
 #include "core/math/ray.h"
 #include "simd/abi/shading.h"
-#include "simd/kernel/search/ray_lanes.h"
+#include "simd/kernel/search/leaf/ray_lanes.h"
 #include "simd/kernel/vectors.h"
 
 /// Shadow rays from many points to one light, W at a time. The rays of points that face the light

@@ -7,9 +7,9 @@
 #include "core/optics/incidence.h"
 #include "simd/abi/geometry.h"
 #include "simd/abi/shading.h"
-#include "simd/kernel/search/parts.h"
-#include "simd/kernel/search/primitive_access.h"
-#include "simd/kernel/search/ray_lanes.h"
+#include "simd/kernel/search/leaf/primitive_access.h"
+#include "simd/kernel/search/leaf/ray_lanes.h"
+#include "simd/kernel/search/packet/parts.h"
 #include "simd/kernel/vectors.h"
 
 /// Hit points, normals and origins of leaving rays, W at a time.

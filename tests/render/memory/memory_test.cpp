@@ -6,13 +6,13 @@
 #include <fstream>
 #include <string>
 
+#include "render/files/scene_file/scene_file.h"
 #include "render/image/read_image.h"
 #include "render/image/write_image.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/tracer.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/render/npy_files.h"
 #include "tests/support/file_bytes.h"
 #include "tests/support/temp_dir.h"

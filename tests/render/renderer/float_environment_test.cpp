@@ -7,6 +7,8 @@
 #include <string>
 
 #include "core/math/srgb.h"
+#include "render/files/scene_file/scene_file.h"
+#include "render/files/trace_file/ray_file.h"
 #include "render/frame/partial_picture.h"
 #include "render/image/read_image.h"
 #include "render/image/tone.h"
@@ -14,8 +16,6 @@
 #include "render/prepare/default_camera.h"
 #include "render/renderer/scene_hash.h"
 #include "render/renderer/tracer.h"
-#include "render/scene_file/scene_file.h"
-#include "render/trace_file/ray_file.h"
 #include "tests/render/npy_files.h"
 #include "tests/render/path_scenes.h"
 #include "tests/render/ray_clouds.h"

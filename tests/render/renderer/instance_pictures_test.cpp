@@ -5,8 +5,8 @@
 
 #include "render/renderer/scene_hash.h"
 #include "render/renderer/tracer.h"
+#include "tests/render/files/scene_file/scene_folder.h"
 #include "tests/render/picture_comparison.h"
-#include "tests/render/scene_file/scene_folder.h"
 #include "tests/support/grouped_scene.h"
 
 namespace boule::test {

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "render/files/scene_file/scene_file.h"
 #include "render/image/write_image.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/renderer/block_tools.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/tracer.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/render/path_scenes.h"
 #include "tests/render/renderer/counted_allocations.h"
 #include "tests/support/temp_dir.h"

@@ -7,9 +7,9 @@
 #include <cstdio>
 
 #include "core/math/srgb.h"
+#include "render/files/scene_file/scene_file.h"
 #include "render/image/write_image.h"
 #include "render/renderer/renderer.h"
-#include "render/scene_file/scene_file.h"
 #include "tests/render/path_scenes.h"
 #include "tests/render/renderer/noise_scenes.h"
 #include "tests/support/temp_dir.h"

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "render/apps/cli/commands/commands.h"
+#include "render/apps/cli/process/interrupt.h"
+#include "render/apps/cli/process/messages.h"
+#include "render/apps/cli/process/reading_limit.h"
+#include "render/apps/cli/report/live_report.h"
+#include "render/apps/cli/report/output_check.h"
+#include "render/apps/cli/report/run_report.h"
+#include "render/apps/job/scene_loader.h"
+#include "render/files/scene_file/scene_file.h"
+#include "render/files/trace_file/hit_file.h"
+#include "render/files/trace_file/ray_file.h"
+#include "render/frame/scheduler.h"
+#include "render/frame/stopwatch.h"
+#include "render/renderer/tracer.h"
+
+namespace boule::cli {
+namespace {
+
+/// Rays in memory at a time, so that a file of any length will do.
+constexpr std::uint64_t rays_of_chunk = std::uint64_t{1} << 18;
+
+/// Errors in the command that show without reading any file.
+Status check(const TraceCommand& command) {
+  if (!is_npy_name(command.output)) {
+    return wrong_option(
+        "hits are written as .npy, which is not the extension of " + quote(command.output),
+        "--output");
+  }
+  return check_run(command, command, "hits", {command.scene, command.rays});
+}
+
+/// An error and the exit code it leads to.
+struct Failure {
+  Diagnostic error;
+  ExitCode code;
+};
+
+/// One run of `boule trace`, step by step; each step that fails leaves its exit code.
+class Tracing {
+ public:
+  explicit Tracing(const TraceCommand& command)
+      : command_(command),
+        live_(command),
+        report_(command, command, live_),
+        limit_(command.load_limit),
+        scheduler_(command.threads) {}
+
+  ExitCode run();
+
+ private:
+  Result<LoadedScene> load();
+  Result<RayFile> open_rays();
+  Status read_chunk(RayFile& rays);
+  ExitCode write(RayFile& rays, Tracer& tracer);
+  std::optional<Failure> trace_to_file(RayFile& rays, Tracer& tracer);
+  std::optional<Failure> trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file);
+  Status trace_chunk(Tracer& tracer);
+  Status append_chunk(HitFile& file);
+  void show_progress(const Progress& progress, std::uint64_t all);
+  ExitCode finish(const Tracer& tracer);
+  void tell_end() const;
+
+  const TraceCommand& command_;
+  LiveReport live_;
+  RunReport report_;
+  ReadingLimit limit_;
+  Scheduler scheduler_;
+  Stopwatch watch_;
+  Stats stats_;
+  std::vector<Ray> rays_;        ///< of the chunk
+  std::vector<TracedHit> hits_;  ///< likewise
+  std::vector<std::uint8_t> met_;
+  std::uint64_t traced_ = 0;  ///< rays of the chunks before
+  std::uint64_t hit_count_ = 0;
+  std::uint64_t lost_ = 0;  ///< as RayFile::lost()
+};
+
+Result<LoadedScene> Tracing::load() {
+  live_.start_stage("reading " + printable(command_.scene));
+  const ReadingLimit::Reading reading(limit_, command_.scene);
+  return SceneLoader({command_}).load(std::nullopt);
+}
+
+Result<RayFile> Tracing::open_rays() {
+  const ReadingLimit::Reading reading(limit_, command_.rays);
+  return RayFile::open(command_.rays);
+}
+
+Status Tracing::read_chunk(RayFile& rays) {
+  const ReadingLimit::Reading reading(limit_, command_.rays);
+  return rays.read(rays_);
+}
+
+ExitCode Tracing::run() {
+  if (auto done = check(command_); !done) return report(done.error(), wrong_usage);
+  if (auto done = check_stats_target(command_.stats); !done) return report(done.error(), failed);
+  if (auto done = check_output(command_.output); !done) return report(done.error(), failed);
+  auto loaded = load();
+  if (!loaded) return report(loaded.error(), code_of_loading(loaded.error()));
+  if (auto done = check_data_files(command_, "hits", loaded.value().data_files); !done)
+    return report(done.error(), wrong_usage);
+  auto rays = open_rays();
+  if (!rays) return report(rays.error(), invalid_input);
+  stats_.load_seconds = watch_.seconds();
+  report_.loaded(loaded.value(), stats_.load_seconds);
+  rays.value().count_from(loaded.value().origin);
+  live_.start_stage("preparing " + printable(command_.scene));
+
+  TraceOptions options;
+  options.solver = command_.solver;
+  options.threads = command_.threads;
+  options.isa = command_.isa;
+  options.progress = [this, all = rays.value().size()](const Progress& progress) {
+    show_progress(progress, all);
+  };
+  auto tracer = Tracer::create(std::move(loaded.value().scene), options);
+  if (!tracer) return report(tracer.error(), failed);
+  live_.end_stage();
+  report_.prepared(tracer.value().statistics());
+  return write(rays.value(), tracer.value());
+}
+
+ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
+  std::optional<Failure> failure;
+  {
+    const WriteGuard guard;
+    failure = trace_to_file(rays, tracer);
+    if (!failure) set_written("the hits had been written");
+  }
+  exit_if_interrupted();
+  live_.end_pass();
+  return failure ? report(failure->error, failure->code) : finish(tracer);
+}
+
+std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
+  auto file = HitFile::create(command_.output, command_.any_hit ? HitKind::any : HitKind::closest,
+                              rays.size(), [] { return WriteGuard::interrupted(); });
+  if (!file) return Failure{file.error(), failed};
+  {
+    const RemovalGuard removal(file.value().temporary());
+    live_.start_pass("rays");
+    if (auto bad = trace_chunks(rays, tracer, file.value())) return bad;
+    live_.end_pass();
+    live_.start_stage("writing " + printable(command_.output));
+    const Stopwatch watch;
+    if (auto done = file.value().sync(); !done) return Failure{done.error(), failed};
+    stats_.write_seconds += watch.seconds();
+  }
+  tell_sending(command_.output);
+  const Stopwatch watch;
+  if (auto done = file.value().commit([] { return WriteGuard::interrupted(); }); !done) {
+    return Failure{done.error(), failed};
+  }
+  stats_.write_seconds += watch.seconds();
+  return std::nullopt;
+}
+
+/// Traces at least one chunk: a file without rays is no special case.
+std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file) {
+  do {
+    const std::uint64_t left = rays.size() - traced_;
+    rays_.resize(static_cast<std::size_t>(std::min(left, rays_of_chunk)));
+    const Stopwatch reading;
+    if (auto done = read_chunk(rays); !done) return Failure{done.error(), invalid_input};
+    stats_.load_seconds += reading.seconds();
+    if (auto done = trace_chunk(tracer); !done) return Failure{done.error(), failed};
+    const Stopwatch writing;
+    if (auto done = append_chunk(file); !done) return Failure{done.error(), failed};
+    stats_.write_seconds += writing.seconds();
+    traced_ += rays_.size();
+  } while (traced_ < rays.size());
+  lost_ = rays.lost();
+  return std::nullopt;
+}
+
+Status Tracing::trace_chunk(Tracer& tracer) {
+  if (command_.any_hit) {
+    met_.resize(rays_.size());
+    return tracer.any(rays_, met_);
+  }
+  hits_.resize(rays_.size());
+  return tracer.closest(rays_, hits_);
+}
+
+Status Tracing::append_chunk(HitFile& file) {
+  hit_count_ += static_cast<std::uint64_t>(
+      std::count(met_.begin(), met_.end(), std::uint8_t{1}) +
+      std::count_if(hits_.begin(), hits_.end(),
+                    [](const TracedHit& hit) { return hit.id != no_primitive; }));
+  return command_.any_hit ? file.append(met_) : file.append(hits_);
+}
+
+/// Shows the progress of one chunk as part of `all` rays.
+void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
+  const std::uint64_t done = traced_ + progress.rays;
+  const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
+  live_.update({share, done});
+}
+
+/// Writes the final line and the statistics.
+ExitCode Tracing::finish(const Tracer& tracer) {
+  const TraceStatistics tracing = tracer.statistics();
+  static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(tracing);
+  stats_.work_seconds = tracing.trace_seconds;
+  stats_.rays = tracing.rays;
+  stats_.total_seconds = watch_.seconds();
+  live_.end_stage();
+  try {
+    tell_end();
+  } catch (const std::bad_alloc&) {  // the hits are written: a missing line is no failure
+  }
+  return report_.finish(stats_);
+}
+
+void Tracing::tell_end() const {
+  if (lost_ > 0) {
+    report_.note(fmt::format(
+        "{}: warning: {} beyond the range of float32 in origin or direction: a miss for each",
+        command_.rays, counted(lost_, "ray")));
+  }
+  report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
+  report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,
+                           counted(stats_.rays, "ray"), counted(hit_count_, "hit"),
+                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
+                           counted(stats_.threads, "thread")));
+}
+
+}  // namespace
+
+ExitCode run(const TraceCommand& command) { return Tracing(command).run(); }
+
+}  // namespace boule::cli

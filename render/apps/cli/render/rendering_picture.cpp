@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "render/apps/cli/process/interrupt.h"
+#include "render/apps/cli/process/messages.h"
+#include "render/apps/cli/render/rendering.h"
+#include "render/apps/cli/report/picture_stream.h"
+#include "render/frame/partial_picture.h"
+#include "render/frame/scheduler.h"
+#include "render/frame/stopwatch.h"
+#include "render/image/band_writer.h"
+
+/// The picture itself: as a whole, or in bands that are written while the next ones are rendered.
+namespace boule::cli {
+namespace {
+
+ImageForm form_of(const RenderOptions& options) {
+  const PixelRect rect = rendered_rect(options);
+  return {rect.width(), rect.height(), alpha_of(options)};
+}
+
+}  // namespace
+
+ExitCode Rendering::render_whole(Renderer& renderer) {
+  std::vector<ImageChannel> channels;
+  if (command_.aovs.any_traced()) {  // first: a picture that is stopped has them too
+    live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
+    auto aovs = renderer.render_aovs();
+    if (!aovs) return explain(aovs.error());
+    channels = std::move(aovs).value();
+  }
+  live_.start_pass("pixels");
+  const bool is_measured = renderer.options().noise > 0;
+  const auto image = is_measured ? make_measured_image(renderer, channels) : make_image(renderer);
+  live_.end_pass();
+  live_.end_time_limit();
+  if (!image) return explain(image.error());
+  ImageFileOptions options = file_options(renderer);
+  options.channels = std::move(channels);
+  live_.start_stage("writing " + printable(shown_output(command_.output)));
+  const ExitCode written = write(image.value(), options);
+  return written == done ? finish(renderer, image.value()) : written;
+}
+
+/// The finished picture; or, with --partial, the unfinished one where it was stopped.
+Result<Image> Rendering::make_image(Renderer& renderer) {
+  if (!command_.partial) return renderer.render();
+  // First: a picture that is stopped has its lines too.
+  const auto lines = renderer.render_outline();
+  if (!lines) return lines.error();
+  Film film(renderer.rect());
+  const Status status = renderer.render_live(film);
+  const Alpha alpha = alpha_of(renderer.options());
+  const auto with_lines = [&lines](Image image) {
+    lines.value().draw(image);
+    return image;
+  };
+  if (status) return with_lines(film.to_image(alpha));
+  const PartialSamples samples{
+      film.total_samples(),
+      renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
+  if (!StopGuard::flag() || samples.done == 0) return status.error();
+  partial_ = samples;
+  return with_lines(partial_picture(film, renderer.options().order, alpha));
+}
+
+/// With --partial each pixel has a sample before any gets all, so that there is something to see.
+Result<Image> Rendering::make_measured_image(Renderer& renderer,
+                                             std::vector<ImageChannel>& channels) {
+  const RenderOptions& options = renderer.options();
+  const auto lines = renderer.render_outline();
+  if (!lines) return lines.error();
+  MeasuredPicture measured(renderer.rect());
+  Film film(command_.partial ? renderer.rect() : PixelRect{});
+  Status status = renderer.render_measured(measured, command_.partial ? &film : nullptr);
+  if (!status && (!StopGuard::flag() || film.total_samples() == 0)) return status.error();
+  if (!status)
+    partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
+  noise_ = noise_reached(measured, options.spp);
+  for (ImageChannel& channel : measured_channels(options.aovs, measured))
+    channels.push_back(std::move(channel));
+  Image image = partial_ ? partial_picture(film, measured, options.order, alpha_of(options))
+                         : measured.image(alpha_of(options));
+  if (options.outline > 0) lines.value().draw(image);
+  return image;
+}
+
+template <class Write>
+Status Rendering::guarded_write(ImageFileOptions options, const Write& write) {
+  Status status;
+  // After rendering, a signal that StopGuard catches ends the waiting for a pipe's reader.
+  const auto caught = [before = StopGuard::caught()] { return StopGuard::caught() != before; };
+  const WriteGuard guard;
+  std::optional<RemovalGuard> removal;
+  options.stop = [&caught, stream = is_stream(command_.output)] {
+    return WriteGuard::interrupted() || (stream && caught());
+  };
+  options.temporary = [&](const std::string& path) {
+    removal.reset();
+    path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
+  };
+  status = write(options);
+  removal.reset();
+  if (status) {
+    set_written(live_.is_series() ? "the frames up to this one had been written"
+                                  : "the picture had been written");
+  }
+  return status;
+}
+
+ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
+  const Stopwatch watch;
+  const int caught = StopGuard::caught();
+  const Status status = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
+    return command_.output == standard_output ? send_picture(image, *command_.format, file)
+                                              : write_image(image, command_.output, file);
+  });
+  exit_if_interrupted();
+  if (!status && StopGuard::caught() != caught) leave_as_caught();
+  stats_.write_seconds = watch.seconds();
+  return status ? done : refuse(status.error(), command_, failed);
+}
+
+/// Rendering and writing at the same time.
+ExitCode Rendering::render_bands(Renderer& renderer) {
+  const Stopwatch watch;
+  bool cancelled = false;
+  ImageFileOptions options = file_options(renderer);
+  options.threads = static_cast<int>(Scheduler(renderer.options().threads).workers());
+  const Status status = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
+    auto writer = BandWriter::open(form_of(renderer.options()), command_.output, file);
+    if (!writer) return Status(writer.error());
+    live_.start_pass("pixels");
+    Status done =
+        renderer.render_bands([&](const Image& band) { return writer.value().put(band); });
+    live_.end_pass();
+    live_.end_time_limit();
+    cancelled = !done && StopGuard::flag();
+    if (!done) return done;
+    live_.start_stage("writing " + printable(shown_output(command_.output)));
+    return writer.value().finish();
+  });
+  exit_if_interrupted();
+  if (cancelled) return explain(status.error());
+  stats_.write_seconds = std::max(watch.seconds() - renderer.statistics().render_seconds, 0.0);
+  if (!status) return refuse(status.error(), command_, failed);
+  Image size;
+  size.width = renderer.rect().width();
+  size.height = renderer.rect().height();
+  return finish(renderer, size);
+}
+
+}  // namespace boule::cli

@@ -1,0 +1,157 @@
+#include "render/apps/job/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace boule {
+namespace {
+
+// In pixels of SVG.
+constexpr double text_size = 14, letter_width = 8.6, border = 12;
+constexpr double bar_width = 18, bar_height = 220, tick_length = 5;
+constexpr double row_height = 22, dot_radius = 7;
+constexpr std::size_t rows_in_column = 20;
+
+/// Text as XML has it; what XML cannot have becomes a question mark.
+std::string escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '<') {
+      escaped += "&lt;";
+    } else if (c == '>') {
+      escaped += "&gt;";
+    } else if (c == '&') {
+      escaped += "&amp;";
+    } else {
+      escaped += byte < 0x20 || byte >= 0x7f ? '?' : c;
+    }
+  }
+  return escaped;
+}
+
+double width_of(const std::string& text) { return letter_width * static_cast<double>(text.size()); }
+
+/// The parts of a picture, one below the other.
+class Legend {
+ public:
+  void add_scale(const ParticleColors::Scale& scale);
+  void add_species(const std::vector<ParticleColors::Species>& all);
+  [[nodiscard]] bool empty() const { return parts_.empty(); }
+  [[nodiscard]] std::string svg() const;
+
+ private:
+  void add_text(double x, double y, const std::string& text);
+  void add_ticks(double left, double top, double low, double high);
+
+  std::string parts_;
+  double width_ = 0, height_ = border;
+  int gradients_ = 0;
+};
+
+/// A text whose middle is at the height `y`.
+void Legend::add_text(double x, double y, const std::string& text) {
+  parts_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y + 0.35 * text_size,
+                        escaped(text));
+  width_ = std::max(width_, x + width_of(text) + border);
+}
+
+void Legend::add_ticks(double left, double top, double low, double high) {
+  const std::vector<double> ticks = ticks_within(low, high);
+  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
+  const double size = std::max(std::fabs(low), std::fabs(high));
+  const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 300);
+  const bool is_short = size < 1e6 && digits <= 6;
+  for (const double tick : ticks) {
+    const double y = top + bar_height * (high - tick) / (high - low);
+    parts_ +=
+        fmt::format("<path d=\"M{:.1f} {:.2f}h{:.1f}\" stroke=\"#222\"/>\n", left, y, tick_length);
+    // Numbers that differ in their last digits only need these.
+    const int precise = std::clamp(static_cast<int>(std::ceil(std::log10(size / step))) + 1, 1, 17);
+    add_text(
+        left + tick_length + 4, y,
+        is_short ? fmt::format("{:.{}f}", tick, digits) : fmt::format("{:.{}g}", tick, precise));
+  }
+}
+
+void Legend::add_scale(const ParticleColors::Scale& scale) {
+  constexpr int stops = 64;
+  const double low = scale.range[0], high = scale.range[1];
+  add_text(border, height_ + text_size / 2, scale.by);
+  const double top = height_ + text_size + 10;
+  parts_ += fmt::format("<linearGradient id=\"map{}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n",
+                        gradients_);
+  for (int i = 0; i <= stops; ++i) {
+    const double at = static_cast<double>(i) / stops;
+    parts_ +=
+        fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>\n", at, hex_text(scale.map.color(at)));
+  }
+  parts_ += fmt::format(
+      "</linearGradient>\n<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" "
+      "fill=\"url(#map{})\" stroke=\"#222\" stroke-width=\"0.75\"/>\n",
+      border, top, bar_width, bar_height, gradients_++);
+  add_ticks(border + bar_width, top, low, high);
+  height_ = top + bar_height + text_size;
+  if (scale.missing > 0) add_species({{"missing", missing_color, scale.missing}});
+}
+
+void Legend::add_species(const std::vector<ParticleColors::Species>& all) {
+  const std::size_t columns = (all.size() + rows_in_column - 1) / rows_in_column;
+  const std::size_t rows = (all.size() + columns - 1) / columns;
+  double left = border, right = border;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0 && i % rows == 0) left = right + border;
+    const double y = height_ + (static_cast<double>(i % rows) + 0.5) * row_height;
+    parts_ += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"#222\" "
+        "stroke-width=\"0.75\"/>\n",
+        left + dot_radius, y, dot_radius, hex_text(all[i].color));
+    const double text = left + 2 * dot_radius + 8;
+    const std::string name = all[i].name.empty() ? "missing" : all[i].name;
+    add_text(text, y, name);
+    right = std::max(right, text + width_of(name));
+  }
+  height_ += static_cast<double>(rows) * row_height;
+}
+
+std::string Legend::svg() const {
+  const double height = height_ + border;
+  return fmt::format(
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+             "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"Helvetica, Arial, sans-serif\" "
+             "font-size=\"{2}\" fill=\"#222\">\n",
+             width_, height, text_size) +
+         parts_ + "</svg>\n";
+}
+
+}  // namespace
+
+std::vector<double> ticks_within(double low, double high) {
+  const double rough = high / 5 - low / 5;  // of the difference, which may be too large
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = power;
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power <= rough) step = factor * power;
+  }
+  std::vector<double> ticks;
+  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  for (double i = first; i <= last && ticks.size() < 16; ++i) {
+    ticks.push_back(std::clamp(i == 0 ? 0.0 : i * step, low, high));
+  }
+  return ticks;
+}
+
+std::string legend_svg(const std::vector<ParticleColors>& colors) {
+  Legend legend;
+  for (const ParticleColors& one : colors) {
+    if (one.scale) legend.add_scale(*one.scale);
+    if (!one.species.empty()) legend.add_species(one.species);
+  }
+  return legend.empty() ? std::string() : legend.svg();
+}
+
+}  // namespace boule

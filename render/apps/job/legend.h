@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/files/particles/particle_spheres.h"
+
+namespace boule {
+
+/// What the colours of a picture mean, as an SVG file to be put beside it: a bar with ticks for
+/// each map of numbers, and a list for each set of species. Empty if the colours mean neither.
+std::string legend_svg(const std::vector<ParticleColors>& colors);
+
+/// The numbers of the ticks of an axis: some of the multiples of 1, 2 or 5 times a power of ten
+/// that lie within low .. high, four to ten of them where doubles are fine enough.
+/// Precondition: low < high, both finite.
+std::vector<double> ticks_within(double low, double high);
+
+}  // namespace boule

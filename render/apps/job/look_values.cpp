@@ -1,0 +1,121 @@
+#include "render/apps/job/look_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/math/geometry.h"
+#include "core/math/srgb.h"
+#include "render/apps/job/option_values.h"
+#include "render/files/file/nearest_name.h"
+#include "render/files/particle_file/particle_file.h"
+#include "render/files/particles/color_map.h"
+#include "render/files/particles/particle_style.h"
+
+namespace boule {
+namespace {
+
+constexpr double largest = std::numeric_limits<double>::max();
+
+/// The `count` finite numbers, with commas between them, that the text consists of.
+std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, ',')) {
+    const auto number = parse_number(part, -largest, largest);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> parse_above_0(const std::string& text) {
+  return parse_number(text, std::numeric_limits<double>::min(), largest);
+}
+
+std::optional<std::string> parse_particle_format(const std::string& text) {
+  const auto formats = particle_formats();
+  const bool known = std::find(formats.begin(), formats.end(), text) != formats.end();
+  return known ? std::optional(text) : std::nullopt;
+}
+
+std::string list_particle_formats() { return list_names(particle_formats()); }
+
+std::optional<std::string> parse_words(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+std::optional<std::string> parse_svg_name(const std::string& text) {
+  return text.ends_with(".svg") ? std::optional(text) : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> parse_names(const std::string& text) {
+  const std::vector<std::string> names = split(text, ',');
+  const bool any_empty =
+      std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
+  return any_empty ? std::nullopt : std::optional(names);
+}
+
+std::optional<std::string> parse_radius(const std::string& text) {
+  const bool is_number = parse_number(text, -HUGE_VAL, HUGE_VAL).has_value();
+  return text.empty() || (is_number && !parse_above_0(text)) ? std::nullopt : std::optional(text);
+}
+
+std::optional<std::string> parse_particle_color(const std::string& text) {
+  const bool is_broken = text.starts_with('#') && !parse_hex_color(text);
+  return text.empty() || is_broken ? std::nullopt : std::optional(text);
+}
+
+bool may_have_color_map(const std::string& color) {
+  const bool is_kind = color == "element" || color == "species";
+  return !color.empty() && !is_kind && !color.starts_with('#');
+}
+
+bool has_color_map(const std::string& color) {
+  return may_have_color_map(color) && three_names(color).empty();
+}
+
+std::optional<std::string> parse_map(const std::string& text) {
+  const auto& known = names<NamedColorMap>;
+  const bool is_name = std::find(known.begin(), known.end(), text) != known.end();
+  const std::vector<std::string> parts = split(text, ',');
+  const bool are_colors = std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
+    return parse_hex_color(part).has_value();
+  });
+  return is_name || are_colors ? std::optional(text) : std::nullopt;
+}
+
+std::string list_color_maps() {
+  std::string list;
+  for (const std::string_view name : names<NamedColorMap>) {
+    list += (list.empty() ? "" : ", ") + std::string(name);
+  }
+  return list;
+}
+
+std::optional<std::array<double, 2>> parse_range(const std::string& text) {
+  const auto ends = parse_numbers(text, 2);
+  if (!ends || !((*ends)[0] < (*ends)[1])) return std::nullopt;
+  return std::array{(*ends)[0], (*ends)[1]};
+}
+
+std::optional<Vec3d> parse_direction(const std::string& text) {
+  const bool is_negative = text.starts_with('-');
+  const std::string axis = text.substr(is_negative ? 1 : 0);
+  const double sign = is_negative ? -1 : 1;
+  if (axis == "x") return Vec3d{sign, 0, 0};
+  if (axis == "y") return Vec3d{0, sign, 0};
+  if (axis == "z") return Vec3d{0, 0, sign};
+  const auto numbers = parse_numbers(text, 3);
+  if (!numbers) return std::nullopt;
+  const Vec3d v{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  // Cameras take vectors of floats: of those that are too long or too short, only the way counts.
+  const double longest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!(longest > 0)) return std::nullopt;
+  const bool is_extreme = longest > 1e18 || longest < 1e-18;
+  return is_extreme ? Vec3d{v.x / longest, v.y / longest, v.z / longest} : v;
+}
+
+}  // namespace boule

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace boule {
+
+/// A finite number above 0.
+std::optional<double> parse_above_0(const std::string& text);
+
+/// One of particle_formats(), and the list of them.
+std::optional<std::string> parse_particle_format(const std::string& text);
+std::string list_particle_formats();
+
+/// Any text but an empty one.
+std::optional<std::string> parse_words(const std::string& text);
+/// The name of an SVG file, by its ending.
+std::optional<std::string> parse_svg_name(const std::string& text);
+
+/// Names with commas between them, none of them empty.
+std::optional<std::vector<std::string>> parse_names(const std::string& text);
+
+/// A radius of particles: any text but an empty one and a number that is not above 0.
+std::optional<std::string> parse_radius(const std::string& text);
+
+/// Colours of particles: any text but an empty one and "#..." that is no colour.
+std::optional<std::string> parse_particle_color(const std::string& text);
+
+/// True if these colours of particles are a column, whose numbers a map turns into colours. Three
+/// words are the names of three columns, unless the file has one of that name.
+bool has_color_map(const std::string& color);
+
+/// True if they may be such a column, as three words may: it shows when the file is read.
+bool may_have_color_map(const std::string& color);
+
+/// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.
+std::optional<std::string> parse_map(const std::string& text);
+std::string list_color_maps();
+
+/// "A,B" with A < B, both finite.
+std::optional<std::array<double, 2>> parse_range(const std::string& text);
+
+/// "x", "-x", "y", "-y", "z", "-z", or "X,Y,Z": a vector that is not zero, as float too.
+std::optional<Vec3d> parse_direction(const std::string& text);
+
+}  // namespace boule

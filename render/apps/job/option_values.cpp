@@ -1,0 +1,131 @@
+#include "render/apps/job/option_values.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/scene/scene.h"
+
+namespace boule {
+namespace {
+
+/// The `count` whole numbers from `low` on that `text` consists of.
+std::optional<std::vector<int>> split_numbers(const std::string& text, char separator,
+                                              std::size_t count, int low, int high) {
+  std::vector<int> numbers;
+  for (const std::string& part : split(text, separator)) {
+    const auto number = parse_number(part, low, high);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+/// The switch that an AOV's name stands for, or null.
+bool* find_aov(AovSelection& aovs, const std::string& name) {
+  for (const AovName& aov : aov_names) {
+    if (name == aov.name) return &(aovs.*aov.wanted);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+std::optional<FrameRange> parse_frames(const std::string& text) {
+  constexpr int last_frame = 999'999'999;
+  if (const auto one = parse_number(text, 0, last_frame)) return FrameRange{*one, *one};
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto ends = split_numbers(text.substr(0, colon), '-', 2, 0, last_frame);
+  if (!ends || (*ends)[0] > (*ends)[1]) return std::nullopt;
+  if (colon == text.size()) return FrameRange{(*ends)[0], (*ends)[1]};
+  const auto step = parse_number(text.substr(colon + 1), 1, last_frame);
+  if (!step) return std::nullopt;
+  return FrameRange{(*ends)[0], (*ends)[1], *step};
+}
+
+std::optional<Size> parse_size(const std::string& text) {
+  const char cross = text.find('X') == std::string::npos ? 'x' : 'X';
+  const auto sides = split_numbers(text, cross, 2, 1, max_image_side);
+  if (!sides) return std::nullopt;
+  return Size{(*sides)[0], (*sides)[1]};
+}
+
+std::optional<PixelRect> parse_crop(const std::string& text) {
+  const auto corners = split_numbers(text, ',', 4, 0, max_image_side);
+  if (!corners) return std::nullopt;
+  const PixelRect rect{(*corners)[0], (*corners)[1], (*corners)[2], (*corners)[3]};
+  return rect.empty() ? std::nullopt : std::optional(rect);
+}
+
+std::optional<AovSelection> parse_aovs(const std::string& text) {
+  AovSelection aovs;
+  for (const std::string& name : split(text, ',')) {
+    bool* const aov = find_aov(aovs, name);
+    if (aov == nullptr || *aov) return std::nullopt;
+    *aov = true;
+  }
+  return aovs;
+}
+
+std::string list_aovs() {
+  std::string list;
+  for (const AovName& aov : aov_names) list += (list.empty() ? "" : ",") + std::string(aov.name);
+  return list;
+}
+
+std::optional<double> parse_duration(const std::string& text) {
+  struct Unit {
+    const char* name;
+    double seconds;
+  };
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
+  if (!number) return std::nullopt;
+  for (const auto& [name, seconds] :
+       {Unit{"", 1}, Unit{"ms", 1e-3}, Unit{"s", 1}, Unit{"m", 60}, Unit{"h", 3600}}) {
+    if (text.substr(digits) != name) continue;
+    const double duration = *number * seconds;
+    return duration > 0 && duration <= 1e9 ? std::optional(duration) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<BackgroundChoice> parse_background(const std::string& text) {
+  if (text == "transparent") return BackgroundChoice{};
+  const auto color = parse_hex_color(text);
+  return color ? std::optional(BackgroundChoice{color}) : std::nullopt;
+}
+
+std::optional<std::uint64_t> parse_bytes(const std::string& text) {
+  constexpr std::uint64_t least = std::uint64_t{16} << 20, most = std::uint64_t{1} << 50;
+  const std::string units = "KMGT";
+  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  const bool has_unit = unit != std::string::npos;
+  const int shift = has_unit ? 10 * (static_cast<int>(unit) + 1) : 0;
+  const auto number = parse_number<std::uint64_t>(text.substr(0, text.size() - (has_unit ? 1 : 0)),
+                                                  1, most >> shift);
+  if (!number || *number << shift < least) return std::nullopt;
+  return *number << shift;
+}
+
+std::optional<std::uint64_t> parse_seed(const std::string& text) {
+  return parse_number(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::optional<float> parse_shadow_epsilon(const std::string& text) {
+  if (text == "none") return 0.0F;
+  return parse_number(text, 0.0F, std::numeric_limits<float>::max());
+}
+
+}  // namespace boule

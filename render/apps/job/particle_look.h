@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "core/scene/names.h"
+
+namespace boule {
+
+/// How a picture of particles looks that have no scene: paths of light on white, Whitted's method
+/// on white, paths of light on black.
+enum class Look { paper, plain, dark };
+
+template <>
+inline constexpr std::array<std::string_view, 3> names<Look>{"paper", "plain", "dark"};
+
+/// What the command line says about the picture of a particle file. What it leaves out is chosen to
+/// fit, most of it by [[particles]] itself.
+struct LookOptions {
+  Look look = Look::paper;
+  bool quick = false;                            ///< a sketch, in place of the look's light
+  bool floor = false;                            ///< a plane below the particles
+  std::string format{};                          ///< of the file; empty: as it seems to be
+  std::vector<std::string> columns{};            ///< names for the columns; empty: the file's own
+  std::optional<int> frame{};                    ///< of the file; negative: from its end
+  bool water = false;                            ///< PDB and mmCIF: with water
+  std::string color{};                           ///< "element", "#rrggbb" or a column
+  std::string map{};                             ///< a name, or colours "#rrggbb,#rrggbb"
+  std::optional<std::array<double, 2>> range{};  ///< of the map; least < largest
+  std::string radius{};                          ///< a number, "vdw", "covalent" or a column
+  std::optional<double> scale{};                 ///< of the radii, > 0
+  std::string select{};                          ///< which particles
+  std::optional<Vec3d> view{};                   ///< in which the camera looks
+  std::optional<Vec3d> up{};                     ///< upward in the picture
+  std::string first{};  ///< the first option of these that was given: "--look"; empty: none
+};
+
+/// The floor of a scene, in the coordinates of the file: a plane through `point` with the normal
+/// `up`.
+struct LookFloor {
+  Vec3d point, up;
+};
+
+/// The name of the floor's material, which the scene has if `floor` is asked for.
+inline constexpr const char* floor_material = "floor";
+
+/// The scene in which a particle file is shown, as TOML (docs/scene_format.md). `file` is its name
+/// as seen from where the scene is.
+std::string look_scene(const std::string& file, const LookOptions& options,
+                       const std::optional<LookFloor>& floor = {});
+
+}  // namespace boule

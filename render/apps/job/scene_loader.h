@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/camera.h"
+#include "render/apps/job/particle_look.h"
+#include "render/apps/job/render_job.h"
+#include "render/apps/job/series_survey.h"
+#include "render/files/scene_file/loaded/particle_file_cache.h"
+#include "render/files/scene_file/scene_file.h"
+#include "render/frame/scheduler.h"
+
+namespace boule {
+
+/// Reads the scene that a command names, or makes that of a particle file; in a series anew for
+/// each frame. What the scene leaves to be chosen is chosen once for a series, from all of its
+/// frames, so that nothing jumps from frame to frame: radii, what colours mean, the origin of
+/// coordinates, the floor, the camera.
+class SceneLoader {
+ public:
+  /// How much of a series is read for its choices: about ten seconds.
+  static constexpr std::uint64_t most_spheres = 50'000'000;
+
+  /// `files`, if not null, keeps the files of particles open, and outlives the loader.
+  explicit SceneLoader(const RenderJob& job, ParticleFileCache* files = nullptr,
+                       std::uint64_t most = most_spheres);
+  SceneLoader(const SceneLoader&) = delete;
+  SceneLoader& operator=(const SceneLoader&) = delete;
+
+  /// The scene of a frame, or that of a single picture. Whichever frame comes first, the choices
+  /// are those of all: processes that share a series make the same ones.
+  Result<LoadedScene> load(std::optional<int> frame);
+  /// The same where particles look otherwise from now on, unless that is an error.
+  Result<LoadedScene> load_as(const LookOptions& look, std::optional<int> frame);
+
+  /// Whether a scene was made for a particle file.
+  [[nodiscard]] bool is_made() const { return is_made_; }
+  /// What colours mean, one for each table of particles: those of a series include what is only in
+  /// some of its frames.
+  [[nodiscard]] const std::vector<ParticleColors>& colors() const { return choices_.colors; }
+  /// What was chosen for the tables of a series.
+  [[nodiscard]] const SeriesChoices& particle_choices() const { return choices_.particles; }
+
+ private:
+  /// What is chosen once.
+  struct Choices {
+    bool are_made = false;
+    std::optional<Vec3d> origin;
+    SeriesChoices particles;
+    std::vector<ParticleColors> colors;
+    std::optional<LookFloor> floor;  ///< of a particle file
+    std::optional<Camera> camera;    ///< if the scene has none
+    std::vector<std::string> notes;  ///< that are still to be told
+  };
+
+  Result<LoadedScene> read(std::optional<int> frame);
+  Result<LoadedScene> read_file(std::optional<int> frame);
+  Result<LoadedScene> choose_for_series();
+  [[nodiscard]] std::uint64_t find_shown(const LoadedScene& first);
+  [[nodiscard]] bool needs_others(const LoadedScene& first) const;
+  SeriesSurvey look_at(const std::vector<int>& frames, SeriesSurvey survey);
+  void keep_floor_and_camera(const SeriesSurvey& survey, std::size_t frames);
+  void keep_colors(const LoadedScene& shown);
+  void use_choices(LoadedScene& loaded);
+
+  const std::string path_;  ///< with a slot for the frame's number
+  LookOptions look_;
+  const std::string camera_keys_;
+  const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
+  const std::optional<Size> size_;
+  const std::uint64_t most_;
+  Scheduler scheduler_;
+  ParticleFileCache own_files_;
+  SceneFileOptions options_;
+  Choices choices_;
+  bool is_made_ = false;
+};
+
+}  // namespace boule

@@ -1,0 +1,75 @@
+#include "render/apps/job/series_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scene/instances.h"
+#include "render/apps/job/particle_scene.h"
+#include "render/prepare/default_camera.h"
+
+namespace boule {
+
+std::vector<int> surveyed_frames(const FrameRange& range, std::uint64_t spheres,
+                                 std::uint64_t most_spheres) {
+  constexpr std::size_t most_frames = 1000;
+  const std::size_t most =
+      std::clamp(static_cast<std::size_t>(most_spheres / std::max<std::uint64_t>(spheres, 1)),
+                 std::size_t{2}, most_frames);
+  const auto count = static_cast<std::size_t>(range.count());
+  const std::size_t every = (count + most - 2) / (most - 1);
+  std::vector<int> frames;
+  for (std::size_t i = 0; i + 1 < count; i += count <= most ? 1 : every) {
+    frames.push_back(range.first + static_cast<int>(i) * range.step);
+  }
+  frames.push_back(range.first + static_cast<int>(count - 1) * range.step);
+  return frames;
+}
+
+bool shows_particles(const LoadedScene& loaded) {
+  return loaded.particles.empty() ||
+         std::any_of(loaded.particles.begin(), loaded.particles.end(),
+                     [](const ParticleFacts& one) { return one.spheres > 0; });
+}
+
+void SeriesSurvey::add(int frame, const LoadedScene& loaded,
+                       const std::optional<LookFloor>& floor) {
+  ++frames_;
+  for (const ParticleFacts& facts : loaded.particles) choices_[facts.table].add(facts.own);
+  if (!first_shown_ && shows_particles(loaded)) first_shown_ = frame;
+  const Scene& scene = loaded.scene;
+  if (count_primitives(scene).spheres == 0) return;
+  if (!fitter_) {
+    fitter_.emplace(scene.fit, view_of(scene), size_ ? size_->width : scene.image.width,
+                    size_ ? size_->height : scene.image.height);
+  }
+  add_spheres(scene, *fitter_);
+  if (!floor) return;
+  const double lowest = *lowest_along(floor->up, loaded);
+  lowest_ = std::min(lowest_.value_or(lowest), lowest);
+}
+
+SeriesChoices SeriesSurvey::choices(std::size_t count) const {
+  SeriesChoices all = choices_;
+  for (auto& [table, one] : all) one.finish(text(count));
+  return all;
+}
+
+bool SeriesSurvey::radii_differ() const {
+  return std::any_of(choices_.begin(), choices_.end(),
+                     [](const auto& one) { return one.second.radii_differ; });
+}
+
+std::optional<Camera> SeriesSurvey::camera() const {
+  if (!fitter_) return std::nullopt;
+  Camera camera = fitter_->camera();
+  return find_problem(camera) ? std::nullopt : std::optional(std::move(camera));
+}
+
+std::string SeriesSurvey::text(std::size_t count) const {
+  return frames_ == count ? fmt::format("all {} frames", count)
+                          : fmt::format("{} of the {} frames", frames_, count);
+}
+
+}  // namespace boule

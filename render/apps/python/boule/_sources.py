@@ -1,0 +1,168 @@
+"""Scenes from files, from trajectories and from arrays of particles."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+
+from . import _core
+from ._objects import error, path_of
+from ._scene import Scene
+
+
+def look_keys(
+    *, look=None, quick=False, floor=False, input_format=None, columns=None, water=False,
+    color=None, map=None, range=None, radius=None, scale=None, select=None, view=None, up=None,
+):  # fmt: skip
+    """The arguments that say how particles are shown, as a dictionary."""
+    return dict(locals())
+
+
+def with_look(*names, also=()):
+    """Takes the arguments of look_keys(), or those named, as the function's own: help(), type checkers and
+    errors have them. So it does with the arguments `also`, whose default is None: not given."""
+    look = inspect.signature(look_keys).parameters
+    kind = inspect.Parameter.KEYWORD_ONLY
+    shown = [inspect.Parameter(name, kind, default=None) for name in also]
+    shown += [look[name] for name in names or look]
+
+    def decorate(function):
+        own = inspect.signature(function)
+        kept = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
+        signature = own.replace(parameters=kept + shown)
+
+        @functools.wraps(function)
+        def call(*arguments, **keywords):
+            for name in keywords:
+                if name not in signature.parameters:
+                    raise TypeError(
+                        f"{function.__name__}() got an unexpected keyword argument {name!r}"
+                    )
+            return function(*arguments, **keywords)
+
+        call.__signature__ = signature
+        return call
+
+    return decorate
+
+
+# What is said of particles in memory: not how a file is read.
+_OF_MEMORY = (
+    "look", "quick", "floor", "color", "map", "range", "radius", "scale", "select", "view", "up",
+)  # fmt: skip
+
+
+@with_look()
+def load(source, *, frame=None, polygons="plane", **look):
+    """Reads a scene: .toml, .nff, .npy, or a file of particles, for which a scene is made.
+
+    source: the name of the file.
+    frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
+    polygons: NFF polygons become planes ("plane"), are left out ("skip"), or refused ("error").
+    look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
+        quick, floor, input_format, columns (names, "-" skips one), water, color, map, range,
+        radius, scale, select, view, up.
+
+    Raises boule.Error with file, line, column and key.
+    """
+    keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
+    return Scene._of(_core.read(path_of(source), keys))
+
+
+@with_look()
+def frames(source, frames=None, *, polygons="plane", **look):
+    """The scenes of a series, one after the other: frames of a file of particles, or of files whose
+    names have #### for the number of the frame.
+
+    frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
+
+    Boule makes its choices once, from all of them, as `boule render --frames` does: radii, the ranges
+    of colour maps, the colours of kinds, the floor, the camera. A file of one frame without #### in
+    its name shows it under every number, as there.
+    """
+    path = path_of(source)
+    keys = {**look_keys(**look), "polygons": polygons}
+    if frames is None:
+        frames = range(_core.count_frames(path, keys))
+    if not isinstance(frames, range) or len(frames) == 0 or frames.step < 1:
+        raise error("frames", f"expected a range of frames, counting up, got {frames!r}")
+    if frames.start < 0 or frames[-1] > 2**31 - 1:
+        raise error("frames", f"must be from 0 to {2**31 - 1}")
+    return _frames(_core.Series(path, frames[0], frames[-1], frames.step, keys), frames)
+
+
+def _frames(series, frames):
+    for frame in frames:
+        yield Scene._of(series.read(frame))
+
+
+def particles(positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0):
+    """Particles in memory, as a file of particles would hold them."""
+    if columns is not None and not isinstance(columns, dict):
+        raise error("columns", f"expected a dictionary, got {type(columns).__name__}")
+    return _core.particles(positions, species, columns or {}, cell, _along(periodic), angstrom)
+
+
+def _along(periodic):
+    """For each edge of a cell whether it is periodic."""
+    if type(periodic).__name__ in ("bool", "bool_"):  # of Python, or of numpy 2 or 1
+        return [bool(periodic)] * 3
+    try:
+        along = [bool(one) for one in periodic]
+    except (TypeError, ValueError):
+        raise error("periodic", f"expected three bools, got {type(periodic).__name__}") from None
+    if len(along) not in (0, 3):
+        raise error("periodic", f"expected three bools, got {len(along)}")
+    return along
+
+
+@with_look(*_OF_MEMORY)
+def from_particles(
+    positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0, **look
+):
+    """The scene that shows particles, as `boule render` shows a file of them.
+
+    positions: N x 3, finite. species: N symbols, as text or bytes, or atomic numbers, whole from 0
+        (ASE's X) to 118; other texts are species that are not elements.
+    columns: a dictionary of N numbers or texts by name, which color, radius and select may name. A
+        number is missing if it is NaN, or masked by numpy.ma; other masked arrays are refused.
+    cell: 3 x 3, its edges; periodic: along which of them, three bools, or one for all.
+    angstrom: how many one unit of length has (10 for nm), finite and above 0.
+    look: as for load().
+
+    Raises boule.Error with the argument as its key, such as "species".
+    """
+    data = particles(
+        positions, species=species, columns=columns, cell=cell, periodic=periodic,
+        angstrom=angstrom,
+    )  # fmt: skip
+    return Scene._of(_core.show_particles(data, look_keys(**look)))
+
+
+@with_look(*_OF_MEMORY)
+def from_ase(atoms, **look):
+    """The scene that shows atoms of ASE: anything with get_positions(), get_atomic_numbers() and
+    cell. look: as for load(); the arrays of the atoms are columns ("tags", "momenta_x", ...)."""
+    columns = {}
+    count = len(atoms.get_atomic_numbers())
+    for name, values in getattr(atoms, "arrays", {}).items():
+        if name in ("positions", "numbers"):
+            continue
+        if values.shape == (count,):
+            columns[name] = values
+        elif values.shape == (count, 3):
+            columns.update({f"{name}_{axis}": values[:, i] for i, axis in enumerate("xyz")})
+    edges = [[float(x) for x in edge] for edge in atoms.cell]
+    return from_particles(
+        atoms.get_positions(),
+        species=atoms.get_atomic_numbers(),
+        columns=columns,
+        cell=edges if _volume(edges) != 0 else None,
+        periodic=[bool(one) for one in getattr(atoms, "pbc", ())],
+        **look,
+    )
+
+
+def _volume(edges):
+    (a, b, c), (d, e, f), (g, h, i) = edges
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)

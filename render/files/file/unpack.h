@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/base/error.h"
+#include "render/files/file/growing_bytes.h"
+
+namespace boule {
+
+/// What a file's content is packed by.
+enum class Packing { none, gzip, zstandard };
+
+/// By the first bytes of a file.
+Packing packing_of(std::string_view bytes);
+
+/// Nothing, or an error that names what the bytes are packed by and what unpacks them: bzip2, xz,
+/// LZ4 and others that Boule does not read.
+Status check_packing(std::string_view bytes);
+
+struct Unpacked {
+  GrowingBytes bytes;
+  Status whole;  ///< an error if the packed bytes end too early: `bytes` is what they hold; a
+                 ///< message only
+};
+
+/// What `packed` holds: all members of gzip's format, or all frames of Zstandard's. Zeros that pad
+/// the end are skipped. An error, with a message only, if the bytes are damaged, if the build has
+/// no library for them, or if memory does not suffice, as soon as that is known.
+Result<Unpacked> unpack(Packing packing, std::string_view packed);
+
+}  // namespace boule

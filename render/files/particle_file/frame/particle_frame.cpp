@@ -1,0 +1,53 @@
+#include "render/files/particle_file/frame/particle_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/geometry.h"
+
+namespace boule {
+namespace {
+
+template <class Column>
+const Column* find_column(const std::vector<Column>& columns, const std::string& name) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const Column& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool is_finite(const ParticleCell& cell) {
+  return is_finite(cell.a) && is_finite(cell.b) && is_finite(cell.c) && is_finite(cell.origin);
+}
+
+ColumnExtent column_extent(const NumberColumn& column) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  ColumnExtent extent{inf, -inf};
+  for (const double value : column.values) {
+    if (std::isnan(value)) {
+      ++extent.missing;
+    } else if (std::isinf(value)) {
+      ++extent.infinite;
+    } else {
+      extent.least = std::min(extent.least, value);
+      extent.largest = std::max(extent.largest, value);
+    }
+  }
+  return extent;
+}
+
+const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name) {
+  return find_column(frame.numbers, name);
+}
+
+const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name) {
+  return find_column(frame.texts, name);
+}
+
+bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name) {
+  return !wanted || std::find(wanted->begin(), wanted->end(), name) != wanted->end();
+}
+
+}  // namespace boule

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "render/files/particle_file/frame/particle_frame.h"
+
+namespace boule {
+
+/// How a particle file is read.
+struct ParticleFileOptions {
+  /// A name of particle_formats(); empty: by the file's name, else its content.
+  std::string format{};
+  /// Names for the columns, for files that do not name them themselves; empty: those of the format.
+  std::vector<std::string> columns{};
+  bool water = false;  ///< PDB and mmCIF: with water
+  /// The columns to keep besides positions and species; none: all.
+  std::optional<std::vector<std::string>> wanted{};
+  /// A column whose numbers must be above 0: the first that is not is an error with its place, in
+  /// formats of text rows (xyz, dump, data, table). Empty: none.
+  std::string positive{};
+  /// What is no finite number in a column besides the positions is an error, but for missing ones.
+  /// With this it is kept: infinite, or missing where it is no number at all.
+  bool lenient = false;
+};
+
+/// One format's reader of one open file.
+class ParticleReader {
+ public:
+  ParticleReader() = default;
+  ParticleReader(const ParticleReader&) = delete;
+  ParticleReader& operator=(const ParticleReader&) = delete;
+  virtual ~ParticleReader() = default;
+
+  /// How many whole frames the file has, >= 1.
+  [[nodiscard]] virtual std::size_t frames() const = 0;
+
+  /// OK if the file ends with a whole frame. Else it was cut off behind these frames: what is wrong
+  /// with the next one, a message and a line.
+  [[nodiscard]] virtual Status whole() const { return {}; }
+
+  /// Frame `frame`, from 0. The Diagnostic has line, column and, as its key, the column's name
+  /// where they are known; its file is set by ParticleFile. Precondition: frame < frames().
+  virtual Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) = 0;
+};
+
+}  // namespace boule

@@ -1,0 +1,215 @@
+#include "render/files/particle_file/particle_file.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/base/ascii.h"
+#include "core/base/float_environment.h"
+#include "render/files/file/input_file.h"
+#include "render/files/file/mapped_text.h"
+#include "render/files/file/npz_member.h"
+#include "render/files/particle_file/frame/other_formats.h"
+#include "render/files/particle_file/frame/particle_format.h"
+#include "render/files/particle_file/text/named_columns.h"
+
+namespace boule {
+namespace {
+
+/// The file's name in lower case, without its folder and without an ending of compression.
+std::string bare_name(std::string_view path) {
+  std::string name = ascii_lower(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
+  for (const std::string_view packed : {".gz", ".zst"}) {
+    if (!name.ends_with(packed)) continue;
+    name.resize(name.size() - packed.size());
+    break;
+  }
+  return name;
+}
+
+std::string_view ending_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1);
+}
+
+const ParticleFormat* format_of_ending(std::string_view name) {
+  const std::string_view ending = ending_of(name);
+  if (ending.empty()) return nullptr;
+  for (const ParticleFormat& format : all_particle_formats()) {
+    if (std::count(format.endings.begin(), format.endings.end(), ending) > 0) return &format;
+  }
+  return nullptr;
+}
+
+const ParticleFormat* format_of_name(std::string_view name) {
+  for (const ParticleFormat& format : all_particle_formats()) {
+    if (format.name == name) return &format;
+  }
+  return nullptr;
+}
+
+const ParticleFormat* format_of_content(std::string_view text) {
+  constexpr std::size_t start = std::size_t{1} << 16;
+  for (const ParticleFormat& format : all_particle_formats()) {
+    if (format.starts_like != nullptr && format.starts_like(text.substr(0, start))) return &format;
+  }
+  return nullptr;
+}
+
+/// True for names that LAMMPS's users give: "data.film", "dump.melt". Those that other readers of
+/// this library take are none.
+bool has_lammps_prefix(std::string_view name) {
+  constexpr std::array others{"toml", "nff", "npy", "lens"};
+  if (std::count(others.begin(), others.end(), ending_of(name)) > 0) return false;
+  return name.starts_with("data.") || name.starts_with("dump.");
+}
+
+/// What reads the file, by the request, else its name, else its content.
+Result<const ParticleFormat*> find_format(const std::string& path, std::string_view text,
+                                          const std::string& requested) {
+  if (!requested.empty()) {
+    if (const ParticleFormat* format = format_of_name(requested)) return format;
+    std::string names;
+    for (const std::string_view name : particle_formats()) {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+    return Diagnostic::about("format", "there is no format " + quote(requested) +
+                                           " of particle files, expected one of " + names);
+  }
+  const std::string name = bare_name(path);
+  const ParticleFormat* const named = format_of_ending(name);
+  if (named != nullptr && ending_of(name) != "txt") return named;
+  if (const ParticleFormat* format = format_of_content(text)) return format;
+  if (named != nullptr) return named;  // a text of no other format
+  if (has_lammps_prefix(name)) {
+    if (const ParticleFormat* format = format_of_name(name.substr(0, 4))) return format;
+  }
+  return Diagnostic::in_file(path,
+                             "neither its ending nor its content tells a format of particle files, "
+                             "expected one of " +
+                                 known_particle_endings() + advice_for(path));
+}
+
+/// An error about names for columns, if the format leaves nothing to be named, or if one of them
+/// occurs twice.
+Status check_columns(const std::vector<std::string>& columns, std::string_view format) {
+  constexpr std::array fixed{"ply", "gro", "pdb", "pqr", "mmcif"};
+  if (!columns.empty() && std::count(fixed.begin(), fixed.end(), format) > 0) {
+    return Diagnostic::about("columns",
+                             "a file of the format " + quote(format) + " names its columns itself");
+  }
+  const auto repeated = find_repeated(columns);
+  if (!repeated) return {};
+  return Diagnostic::about("columns", "two columns have the name " + quote(*repeated));
+}
+
+Result<MappedText> open_bytes(const std::string& path) {
+  const auto in_archive = npz_name(path);
+  if (!in_archive) return MappedText::open(path, MappedText::Cut::keep);
+  auto bytes = read_npz_array(*in_archive);
+  if (!bytes) return bytes.error();
+  return MappedText::of(std::move(bytes).value());
+}
+
+Diagnostic in_file(Diagnostic error, const std::string& path) {
+  if (error.file.empty()) error.file = path;
+  return error;
+}
+
+/// A frame that is in memory already.
+class FrameInMemory final : public ParticleReader {
+ public:
+  explicit FrameInMemory(ParticleFrame frame) : frame_(std::move(frame)) {}
+
+  [[nodiscard]] std::size_t frames() const override { return 1; }
+  Result<ParticleFrame> read(std::size_t, const ParallelFor&) override { return frame_; }
+
+ private:
+  ParticleFrame frame_;
+};
+
+}  // namespace
+
+std::vector<std::string_view> particle_formats() {
+  std::vector<std::string_view> names;
+  for (const ParticleFormat& format : all_particle_formats()) names.push_back(format.name);
+  return names;
+}
+
+std::string known_particle_endings() {
+  std::string endings;
+  for (const ParticleFormat& format : all_particle_formats()) {
+    for (const std::string_view ending : format.endings) {
+      if (!ending.empty()) endings += (endings.empty() ? "." : " .") + std::string(ending);
+    }
+  }
+  return endings;
+}
+
+bool is_particle_name(std::string_view path) {
+  const std::string name = bare_name(path);
+  return format_of_ending(name) != nullptr || has_lammps_prefix(name) ||
+         npz_name(std::string(path));
+}
+
+bool has_particle_content(const std::string& path) {
+  const auto bytes = open_bytes(path);
+  return bytes && format_of_content(bytes.value().text()) != nullptr;
+}
+
+ParticleFile::ParticleFile(std::string path, std::string_view format,
+                           std::unique_ptr<ParticleReader> reader)
+    : path_(std::move(path)), format_(format), reader_(std::move(reader)) {}
+
+ParticleFile ParticleFile::of(ParticleFrame frame) {
+  return {"", "memory", std::make_unique<FrameInMemory>(std::move(frame))};
+}
+
+Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleFileOptions& options,
+                                        const ParallelFor& parallel_for) {
+  const FloatEnvironment environment;
+  auto bytes = open_bytes(path);
+  if (!bytes) return bytes.error();
+  const auto format = find_format(path, bytes.value().text(), options.format);
+  if (!format) return in_file(format.error(), path);
+  if (auto done = check_columns(options.columns, format.value()->name); !done) return done.error();
+  const Status whole = bytes.value().whole();
+  auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
+  if (!whole && !(reader && format.value()->is_trajectory))
+    return cannot_read(path, whole.error().message);
+  if (!reader) return in_file(reader.error(), path);
+  ParticleFile opened(path, format.value()->name, std::move(reader).value());
+  opened.packing_whole_ = whole;
+  return opened;
+}
+
+std::string ParticleFile::cut_text() const {
+  const Status whole = reader_->whole();
+  if (whole && !packing_whole_) {
+    return "the file is cut off behind frame " + std::to_string(frames() - 1) + ": " +
+           packing_whole_.error().message;
+  }
+  if (whole) return {};
+  return "the file is cut off in frame " + std::to_string(frames()) + " (line " +
+         std::to_string(whole.error().line) + ": " + whole.error().message + ")";
+}
+
+Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel_for) {
+  const FloatEnvironment environment;
+  const auto count = static_cast<long>(frames());
+  if (frame < -count || frame >= count) {
+    const std::string cut = frame == count ? cut_text() : std::string();
+    return Diagnostic{.message = "there is no frame " + std::to_string(frame) + ", it has " +
+                                 std::to_string(count) + (count == 1 ? " frame" : " frames") +
+                                 (cut.empty() ? "" : ": ") + cut,
+                      .key = "frame",
+                      .file = path_};
+  }
+  auto read =
+      reader_->read(static_cast<std::size_t>(frame < 0 ? frame + count : frame), parallel_for);
+  if (!read) return in_file(read.error(), path_);
+  if (std::string cut = cut_text(); !cut.empty()) read.value().notes.push_back(std::move(cut));
+  return read;
+}
+
+}  // namespace boule

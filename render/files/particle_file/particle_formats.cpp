@@ -1,0 +1,27 @@
+#include <array>
+#include <span>
+
+#include "render/files/particle_file/frame/particle_format.h"
+#include "render/files/particle_file/lammps/dump_reader.h"
+#include "render/files/particle_file/lammps/lammps_data_reader.h"
+#include "render/files/particle_file/molecule/gro_reader.h"
+#include "render/files/particle_file/molecule/mmcif_reader.h"
+#include "render/files/particle_file/molecule/pdb_reader.h"
+#include "render/files/particle_file/molecule/pqr_reader.h"
+#include "render/files/particle_file/table/npy_particles.h"
+#include "render/files/particle_file/table/ply_reader.h"
+#include "render/files/particle_file/table/table_reader.h"
+#include "render/files/particle_file/table/xyz_reader.h"
+
+namespace boule {
+
+std::span<const ParticleFormat> all_particle_formats() {
+  // A row for each format. The first whose content looks right is taken: the strictest come first.
+  static const std::array formats{
+      npy_format, ply_format, dump_format, lammps_data_format, xyz_format,
+      gro_format, pdb_format, pqr_format,  mmcif_format,       table_format,
+  };
+  return formats;
+}
+
+}  // namespace boule

@@ -1,0 +1,160 @@
+#include "render/files/particles/particle_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "render/files/particles/elements.h"
+#include "render/files/particles/species_palette.h"
+
+namespace boule {
+namespace {
+
+using Materials = Result<ParticleMaterials>;
+
+bool has_hex_colors(const TextColumn& texts) {
+  return std::any_of(texts.texts.begin(), texts.texts.end(),
+                     [](const std::string& text) { return text.starts_with('#'); });
+}
+
+/// What is done where nothing is said.
+ColorRule default_rule(const ParticleFrame& frame) {
+  const TextColumn* const texts = find_text_column(frame, "color");
+  if (texts != nullptr && has_hex_colors(*texts)) return ColorColumns{{"color"}};
+  const std::vector<std::string> rgb{"red", "green", "blue"};
+  const bool has_rgb = std::all_of(rgb.begin(), rgb.end(), [&](const std::string& name) {
+    return find_number_column(frame, name) != nullptr;
+  });
+  if (has_rgb) return ColorColumns{rgb};
+  if (frame.species) return SpeciesColors{};
+  return std::monostate{};
+}
+
+/// The colours of rules for one frame.
+class Coloring {
+ public:
+  explicit Coloring(const ColoredFrame& colored)
+      : colored_(colored),
+        frame_(colored.frame),
+        known_(colored.chosen != nullptr ? colored.chosen->kinds : KnownKinds()) {}
+
+  Materials operator()(std::monostate) const {
+    return ParticleMaterials{{{MaterialRef(colored_.material)}}};
+  }
+
+  Materials operator()(const SrgbColor& color) const {
+    return ParticleMaterials{{{colored_.in(color)}}};
+  }
+
+  Materials operator()(const SpeciesColors& /*species*/) const {
+    if (!frame_.species) return Diagnostic::about("color", "the file tells no species");
+    const std::vector<std::string>& texts = frame_.species->texts;
+    const auto unknown = std::count_if(texts.begin(), texts.end(), [](const std::string& text) {
+      return find_element(text) == nullptr;
+    });
+    ParticleMaterials made = of_groups(*frame_.species, species_colors(texts, known_),
+                                       static_cast<std::size_t>(unknown));
+    made.own.are_species = true;
+    return made;
+  }
+
+  Materials operator()(const ColorColumns& columns) const {
+    if (columns.names.size() == 3) return take_components(colored_, columns.names);
+    if (columns.names.size() != 1) {
+      return Diagnostic::about("color", "expected the name of one column or of three, found " +
+                                            std::to_string(columns.names.size()));
+    }
+    const std::string& name = columns.names.front();
+    const TextColumn* const texts = find_particle_texts(frame_, name);
+    const bool has_numbers = find_number_column(frame_, name) != nullptr;
+    if (const auto names = three_names(name); !names.empty() && !texts && !has_numbers) {
+      return take_components(colored_, names);
+    }
+    if (texts == nullptr || has_numbers) {
+      auto made = map_numbers(colored_, {.by = name}, "color");
+      return made || name.find(' ') == std::string::npos ? made : with_three_columns(made.error());
+    }
+    if (has_hex_colors(*texts)) return of_hex_texts(*texts);
+    if (frame_.species && texts == &*frame_.species) return (*this)(SpeciesColors{});
+    return of_groups(*texts, palette_colors(texts->texts, known_), texts->texts.size());
+  }
+
+  Materials operator()(const MappedColors& mapped) const {
+    return map_numbers(colored_, mapped, "color.by");
+  }
+
+ private:
+  /// Words may have been meant as the names of columns, unless the error tells what was meant.
+  static Diagnostic with_three_columns(Diagnostic error) {
+    if (!error.message.ends_with('?')) error.message += ", or three columns: 'red green blue'";
+    return error;
+  }
+
+  /// A colour for each text.
+  [[nodiscard]] ParticleValues<MaterialRef> by_text(const TextColumn& texts,
+                                                    const std::vector<SrgbColor>& colors) const {
+    ParticleValues<MaterialRef> refs{{}, &texts};
+    refs.values.reserve(colors.size());
+    for (const SrgbColor& color : colors) refs.values.push_back(colored_.in(color));
+    return refs;
+  }
+
+  /// The particles of each text are told apart; `from_palette` of the colours are the palette's.
+  [[nodiscard]] ParticleMaterials of_groups(const TextColumn& texts,
+                                            const std::vector<SrgbColor>& colors,
+                                            std::size_t from_palette) const {
+    ParticleMaterials made{by_text(texts, colors)};
+    std::vector<std::size_t> counts(colors.size());
+    for (const std::uint32_t index : texts.indices) ++counts[index];
+    auto& kinds = made.own.kinds;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      kinds.push_back({texts.texts[i], colors[i], counts[i]});
+    std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(made.colors.species),
+                 [](const auto& kind) { return kind.count > 0; });
+    if (from_palette > palette_size) {
+      made.notes.push_back("the column " + quote(texts.name) + " has " +
+                           std::to_string(from_palette) + " kinds and the palette " +
+                           std::to_string(palette_size) + " colours, so they repeat");
+    }
+    return made;
+  }
+
+  [[nodiscard]] Materials of_hex_texts(const TextColumn& texts) const {
+    std::vector<SrgbColor> colors;
+    std::vector<bool> wrong;
+    for (const std::string& text : texts.texts) {
+      const auto color = parse_hex_color(text);
+      colors.push_back(color.value_or(SrgbColor{}));
+      wrong.push_back(!color);
+    }
+    const auto first = std::find_if(texts.indices.begin(), texts.indices.end(),
+                                    [&](std::uint32_t index) { return wrong[index]; });
+    if (first == texts.indices.end()) return ParticleMaterials{by_text(texts, colors)};
+    const auto particle = static_cast<std::size_t>(first - texts.indices.begin());
+    return Diagnostic::about("color", "the colour of " + colored_.name_of(particle) + " is " +
+                                          quote(texts.texts[*first]) + ", expected '#rrggbb'");
+  }
+
+  ColoredFrame colored_;
+  const ParticleFrame& frame_;
+  const KnownKinds known_;
+};
+
+}  // namespace
+
+Result<ParticleMaterials> make_materials(const ParticleFrame& frame, const ParticleStyle& style,
+                                         const ParticleNamer& name_of,
+                                         const ParallelFor& parallel_for) {
+  const ColorRule rule =
+      std::holds_alternative<std::monostate>(style.color) ? default_rule(frame) : style.color;
+  const bool colored = !std::holds_alternative<std::monostate>(rule);
+  if (colored && style.material >= MaterialRef::max_colored) {
+    return Diagnostic::about("material", "only the first " +
+                                             std::to_string(MaterialRef::max_colored) +
+                                             " materials can be given colours");
+  }
+  return std::visit(Coloring({frame, style.material, name_of, style.chosen, parallel_for}), rule);
+}
+
+}  // namespace boule

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/math/srgb.h"
+#include "core/math/vec.h"
+#include "core/scene/material_ref.h"
+#include "core/scene/primitive.h"
+#include "render/files/particle_file/frame/particle_frame.h"
+#include "render/files/particles/cell_images.h"
+#include "render/files/particles/color_meaning.h"
+#include "render/files/particles/particle_choices.h"
+#include "render/files/particles/particle_style.h"
+#include "render/files/particles/particle_values.h"
+
+namespace boule {
+
+/// The spheres of one frame, before they are rounded: which particles are shown, their images,
+/// radii and colours.
+class ParticleSpheres {
+ public:
+  /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
+  /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "wrap",
+  /// "replicate"): an unknown column (with the one that was meant, if any), a radius that is not
+  /// above 0 or not finite with its particle (from 1, in the order of the frame), no cell to wrap
+  /// into, more spheres than there is memory for or than ids allow. Throws std::bad_alloc. The
+  /// same for any threads.
+  static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
+                                      const ParallelFor& parallel_for = serial_for);
+
+  /// Spheres, images included.
+  [[nodiscard]] std::size_t size() const { return frame_->size() * images_.size(); }
+
+  /// The smallest box of the spheres' centres; two equal corners where there are none.
+  [[nodiscard]] const std::array<Vec3d, 2>& center_bounds() const { return bounds_; }
+  /// 0 where there are no spheres.
+  [[nodiscard]] double smallest_radius() const { return smallest_radius_; }
+  [[nodiscard]] const ParticleColors& colors() const { return colors_; }
+  /// How radii were chosen: "the column radius", "van der Waals radii, in angstrom", ...
+  [[nodiscard]] const std::string& radius_source() const { return radius_source_; }
+  [[nodiscard]] const std::optional<ParticleCell>& cell() const { return frame_->cell; }
+  /// What the frame by itself has for what is chosen: the frames of a series are added up.
+  [[nodiscard]] const ParticleChoices& own_choices() const { return own_; }
+  /// What was decided for the user, a sentence each; the frame's own are among them.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return frame_->notes; }
+
+  /// Appends the spheres: `origin` is subtracted in double, then all is rounded to float, once.
+  /// The particles come in the order of the file, all of one image before those of the next
+  /// (CellImages). An error, and no sphere more, if a centre is too large for a float or there is
+  /// no memory. It uses the particles up: their memory goes back to the system as the spheres
+  /// appear, so that both never stand there whole.
+  Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                   const ParallelFor& parallel_for = serial_for) &&;
+
+  /// Whether there are so many images that they had better be instances of the first one.
+  [[nodiscard]] bool shares_images(std::uint64_t fewest_spheres = fewest_shared) const;
+  static constexpr std::uint64_t fewest_shared = 1U << 24;  ///< spheres, images included
+  /// The same as append_to() for the first image only.
+  Status append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,
+                               const ParallelFor& parallel_for = serial_for) &&;
+  [[nodiscard]] const CellImages& images() const { return images_; }
+
+ private:
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+
+  void keep_own(ParticleChoices colors);
+  Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
+  Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
+                          const ParallelFor& parallel_for);
+  std::size_t make_spheres(const Range& range, const Vec3d& origin, Sphere* spheres,
+                           const ParallelFor& parallel_for) const;
+  void let_go(std::size_t begin, std::size_t end);
+
+  /// The particles that are shown, with the columns that the next two look into.
+  std::unique_ptr<ParticleFrame> frame_;
+  ParticleValues<float> radii_;
+  ParticleValues<MaterialRef> materials_;
+  CellImages images_;
+  std::array<Vec3d, 2> bounds_{};
+  double smallest_radius_ = 0;
+  ParticleColors colors_;
+  std::string radius_source_;
+  ParticleChoices own_;
+};
+
+}  // namespace boule

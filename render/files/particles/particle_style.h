@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/math/srgb.h"
+#include "core/scene/names.h"
+#include "render/files/particles/color_map.h"
+#include "render/files/particles/particle_choices.h"
+
+namespace boule {
+
+/// The tables of radii by element: van der Waals (S. Alvarez, Dalton Trans. 42, 8617, 2013) and
+/// covalent (B. Cordero et al., Dalton Trans., 2832, 2008).
+enum class RadiusTable { vdw, covalent };
+template <>
+inline constexpr std::array<std::string_view, 2> names<RadiusTable>{"vdw", "covalent"};
+
+/// The column that holds every particle's radius.
+struct RadiusColumn {
+  std::string name;
+};
+
+/// What a particle's radius is, in the units of the file. Nothing: the column "radius" if there is
+/// one, else half of "diameter", else van der Waals if most particles are elements, else half the
+/// typical distance to the nearest neighbour, of all particles, those that are not shown too. A
+/// table gives that distance to species it lacks, and a note.
+using RadiusRule = std::variant<std::monostate, double, RadiusColumn, RadiusTable>;
+
+/// Colours of the species: elements as in Jmol's table, others from a qualitative palette.
+struct SpeciesColors {};
+
+/// Columns that hold a colour each: one of texts "#rrggbb", or three of numbers from 0 to 1 on the
+/// sRGB curve (or, with a note, whole ones to 255). One column may also be of numbers, or "|NAME|":
+/// then it is MappedColors by it, unless its numbers are few and whole, as types are
+/// (most_kinds()): those are like texts. If it is the species', they are SpeciesColors; other
+/// texts, such as names of residues, have a colour of the palette each.
+struct ColorColumns {
+  /// One or three. One name of three words, where no column has it, is the names of three columns.
+  std::vector<std::string> names;
+};
+
+/// The three names that a text is, "red green blue"; none if it has fewer words or more.
+std::vector<std::string> three_names(const std::string& text);
+
+/// The colour map's colour of a number of each particle.
+struct MappedColors {
+  /// A column, "x", "y" or "z", or "|NAME|": the norm of columns NAMEx NAMEy NAMEz, or NAME_x ...
+  std::string by;
+  ColorMap map{};
+  /// What the map's ends stand for, least < largest; none: the 1st to 99th percentile of the
+  /// particles that are shown, which a note tells.
+  std::optional<std::array<double, 2>> range{};
+};
+
+/// What a particle's colour is. Nothing: columns "color" or "red", "green", "blue" if there are
+/// some, else species if there are any, else the material's own.
+using ColorRule =
+    std::variant<std::monostate, SrgbColor, SpeciesColors, ColorColumns, MappedColors>;
+
+/// How the particles of a frame become spheres: what [[particles]] says.
+struct ParticleStyle {
+  RadiusRule radius{};
+  double scale = 1;  ///< the radii times that, > 0
+  ColorRule color{};
+  /// Of a series: what all its frames choose; null: the frame chooses by itself. A view.
+  const ParticleChoices* chosen = nullptr;
+  /// The index of the spheres' material; below MaterialRef::max_colored, unless they keep its
+  /// colour.
+  std::uint32_t material = 0;
+  /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
+  std::string select{};
+  bool wrap = false;                      ///< into the cell, along its periodic directions
+  std::array<int, 3> replicate{1, 1, 1};  ///< periodic images along a, b, c, >= 1 each
+};
+
+/// The columns that the style reads besides positions and species, for
+/// ParticleFileOptions::wanted. Those it would take by default are among them.
+std::vector<std::string> columns_of(const ParticleStyle& style);
+
+}  // namespace boule

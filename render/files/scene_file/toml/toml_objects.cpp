@@ -1,0 +1,317 @@
+#include "render/files/scene_file/toml/toml_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/scene/instances.h"
+#include "render/files/file/float32.h"
+#include "render/files/file/nearest_name.h"
+#include "render/files/file/sphere_room.h"
+#include "render/files/scene_file/loaded/scene_data.h"
+#include "render/files/scene_file/npy/npy_reader.h"
+#include "render/files/scene_file/toml/toml_color_map.h"
+#include "render/files/scene_file/toml/toml_entities.h"
+#include "render/memory/scene_memory.h"
+
+namespace boule {
+namespace {
+
+/// The number that `ids` has for the name under `key` of a table; an unknown name is reported.
+std::uint32_t find_id(TomlTable& table, const char* key,
+                      const std::map<std::string, std::uint32_t>& ids) {
+  std::string name;
+  table.read(key, name);
+  const auto found = ids.find(name);
+  if (found != ids.end()) return found->second;
+  std::vector<std::string_view> names;
+  names.reserve(ids.size());
+  for (const auto& [known, id] : ids) names.push_back(known);
+  table.report(key, std::string("unknown ") + key + " " + quote(name) + did_you_mean(name, names));
+  return 0;
+}
+
+/// Subtracts the point from which the group of an instance is counted, where the group is shown.
+void count_from(const Vec3d& group_origin, TomlTable& table, Instance& instance) {
+  if (group_origin == Vec3d{}) return;
+  Vec3d translate;
+  table.read("translate", translate);
+  Similarity by = transform_of(instance);
+  by.shift = translate;
+  const Vec3d shown = by.apply(group_origin) - table.origin();
+  const auto x = to_float32(shown.x), y = to_float32(shown.y), z = to_float32(shown.z);
+  if (!x || !y || !z) return table.report("translate", "is too large for a 32-bit float");
+  instance.translate = {*x, *y, *z};
+}
+
+}  // namespace
+
+const SphereArrays* find_arrays(TomlTable& table) {
+  std::string name;
+  if (table.data() == nullptr || !table.has_text("file")) return nullptr;
+  table.read("file", name);
+  return find_data(&table.data()->spheres, name);
+}
+
+ObjectTables object_tables(TomlTable& table) {
+  ObjectTables tables;
+  tables.planes = table.tables("plane");
+  tables.instances = table.tables("instance");
+  auto& all = tables.spheres;
+  constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto source = static_cast<ObjectTables::Source>(i);
+    for (TomlTable& one : table.tables(keys[i])) all.push_back({std::move(one), source});
+  }
+  // Ids follow the order in the file, of all of them together.
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    const TextPlace p = a.table.place(), q = b.table.place();
+    return std::tie(p.line, p.column) < std::tie(q.line, q.column);
+  });
+  return tables;
+}
+
+void TomlObjects::read_materials(std::vector<TomlTable> tables) {
+  for (std::uint32_t id = 0; id < scene_.materials.size(); ++id)
+    material_ids_.emplace(scene_.materials[id].name, id);
+  for (TomlTable& table : tables) {
+    const auto id = static_cast<std::uint32_t>(scene_.materials.size());
+    if (!material_ids_.emplace(table.name(), id).second)
+      table.report("type", "the packed scene has a material of this name already");
+    scene_.materials.push_back({table.name(), read_material(table)});
+  }
+}
+
+template <class T>
+T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_view> required) {
+  T value;
+  TomlFields(table, this).read(value);
+  table.finish(required);
+  table.check(find_problem(value));
+  return value;
+}
+
+void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
+                               std::vector<Sphere>& spheres) {
+  for (auto& [table, source, particles] : tables) {
+    switch (source) {
+      case ObjectTables::Source::sphere:
+        read_sphere(table, spheres);
+        break;
+      case ObjectTables::Source::spheres:
+        read_bulk(table, spheres);
+        break;
+      case ObjectTables::Source::particles:
+        add_particles(table, particles, spheres);
+        break;
+    }
+  }
+}
+
+void TomlObjects::load_particles(ObjectTables& tables) {
+  for (auto& [table, source, particles] : tables.spheres) {
+    if (source != ObjectTables::Source::particles) continue;
+    const std::uint32_t material = colorable_material_of(table, "material");
+    particles = read_particles(table, material, options_);
+    if (!particles) return;
+    notes_.insert(notes_.end(), particles->notes.begin(), particles->notes.end());
+    facts_.push_back(particles->facts);
+  }
+}
+
+/// Makes spheres of particles, and lets go of these.
+void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
+                                std::vector<Sphere>& spheres) {
+  if (!particles || !error_.status()) return;
+  const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
+  if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
+    add_images(table, std::move(particles->spheres));
+    return particles.reset();
+  }
+  make_room(spheres, particles->spheres.size());
+  const std::size_t before = spheres.size();
+  if (auto done =
+          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for);
+      !done) {
+    spheres.resize(before);
+    table.report("file", done.error().message);
+  }
+  particles.reset();
+}
+
+/// Shows images of particles as instances of a group.
+void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
+  Group group{"images of " + table.path(), {}, {}, {}};
+  const CellImages images = particles.images();
+  if (auto done = std::move(particles).append_first_image_to(group.spheres, table.origin(),
+                                                             options_.parallel_for);
+      !done) {
+    return table.report("file", done.error().message);
+  }
+  const auto index = static_cast<std::uint32_t>(scene_.groups.size());
+  scene_.groups.push_back(std::move(group));
+  for (std::size_t image = 0; image < images.size(); ++image) {
+    const Vec3f shift = vec_cast<float>(images.shift(image));
+    scene_.instances.push_back({index, shift, {}, 1, {}});
+  }
+}
+
+void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
+  spheres.push_back(read_checked<Sphere>(table));
+}
+
+/// Appends spheres in memory, whose materials are those of the scene that have their names.
+void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
+                             std::vector<Sphere>& spheres) {
+  std::vector<std::uint32_t> ids;
+  for (const std::string& name : arrays.materials) {
+    const auto found = material_ids_.find(name);
+    if (found == material_ids_.end()) {
+      return table.report("material", "unknown material " + quote(name));
+    }
+    ids.push_back(found->second);
+  }
+  const MaterialRef common = ids.empty() ? colored_material_of(table) : MaterialRef();
+  if (ids.empty()) ids.push_back(common.index());
+  table.finish({"file"});
+  const std::uint32_t last = *std::max_element(ids.begin(), ids.end());
+  if (arrays.has_colors && last >= MaterialRef::max_colored) {
+    return table.report("material", "is not one of the first " +
+                                        std::to_string(MaterialRef::max_colored) +
+                                        " of the scene: those can be given colours");
+  }
+  if (!error_.status()) return;
+  const std::size_t before = spheres.size();
+  if (auto done = arrays.append_to(spheres, table.origin(), options_.parallel_for); !done) {
+    return table.report("file", done.error().message);
+  }
+  for (Sphere& sphere : std::span(spheres).subspan(before)) {
+    MaterialRef& ref = sphere.material;
+    const std::uint32_t id = ids[std::min<std::size_t>(ref.index(), ids.size() - 1)];
+    ref = ref.has_color()      ? MaterialRef::colored(id, ref.color())
+          : common.has_color() ? common
+                               : MaterialRef(id);
+  }
+}
+
+void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
+  if (const SphereArrays* arrays = find_arrays(table)) return add_arrays(table, *arrays, spheres);
+  std::string name;
+  NpySpheres request;
+  table.read_file_name("file", name);
+  if (table.has("radius")) table.read("radius", request.radius.emplace());
+  request.material = colored_material_of(table);
+  const SphereColors colors = read_sphere_colors(table);
+  table.finish({"file"});
+  if (request.radius) table.check(find_problem(Sphere{{}, *request.radius}));
+  if (colors.any()) colorable_material_of(table, "material");
+  if (!error_.status()) return;
+  request.path = table.file_path(name);
+  request.origin = table.origin();
+  const std::size_t before = spheres.size();
+  if (auto done = append_spheres(request, spheres, options_.parallel_for); !done) {
+    return table.report("file", quote(name) + ": " + done.error().message);
+  }
+  if (colors.any()) color_bulk(table, colors, request.path, std::span(spheres).subspan(before));
+}
+
+void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
+                             std::span<Sphere> spheres) {
+  auto mapped = color_spheres(table, colors, spheres, options_);
+  if (!mapped) return;
+  facts_.push_back({.table = table.path(),
+                    .file = path,
+                    .format = "npy",
+                    .particles = spheres.size(),
+                    .spheres = spheres.size(),
+                    .radius_source = table.has("radius") ? "the key radius" : "column 3"});
+  facts_.back().colors.scale = std::move(mapped->scale);
+  facts_.back().own = std::move(mapped->own);
+  if (!mapped->note.empty()) notes_.push_back(std::move(mapped->note));
+}
+
+void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {
+  default_ = &default_plane_material_;
+  planes.push_back(read_checked<Plane>(table));
+  default_ = &default_material_;
+}
+
+void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
+                                 const std::vector<Vec3d>& origins,
+                                 std::vector<Instance>& instances) {
+  for (TomlTable& table : tables) {
+    Instance& instance = instances.emplace_back(read_checked<Instance>(table, {"group"}));
+    if (instance.group < origins.size()) count_from(origins[instance.group], table, instance);
+    instance_tables_.push_back({.group = group, .instance = instances.size() - 1, .table = table});
+  }
+}
+
+void TomlObjects::start_groups(const std::vector<TomlTable>& tables) {
+  for (const TomlTable& table : tables) {
+    group_ids_.emplace(table.name(), static_cast<std::uint32_t>(scene_.groups.size()));
+    scene_.groups.push_back({table.name(), {}, {}, {}});
+  }
+}
+
+void TomlObjects::read_group(std::size_t group, ObjectTables& tables,
+                             const std::vector<Vec3d>& origins) {
+  Group& own = scene_.groups[group];
+  read_spheres(tables.spheres, own.spheres);
+  for (TomlTable& plane : tables.planes) read_plane(plane, own.planes);
+  read_instances(tables.instances, group, origins, own.instances);
+}
+
+void TomlObjects::read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins) {
+  read_spheres(tables.spheres, scene_.spheres);
+  for (TomlTable& plane : tables.planes) read_plane(plane, scene_.planes);
+  read_instances(tables.instances, std::nullopt, group_origins, scene_.instances);
+}
+
+void TomlObjects::check_instances() {
+  if (!error_.status() || instance_tables_.empty()) return;
+  if (const auto room = check_scene_memory(scene_); !room) {
+    return error_.report(instance_tables_.front().table.place(), room.error().key,
+                         room.error().message);
+  }
+  const auto bad = find_instance_problem(scene_);
+  if (!bad) return;
+  for (InstanceTable& one : instance_tables_) {
+    if (one.group == bad->group && one.instance == bad->instance) one.table.check(bad->problem);
+  }
+}
+
+std::uint32_t TomlObjects::group_of(TomlTable& table) {
+  return table.has("group") ? find_id(table, "group", group_ids_) : 0;
+}
+
+std::uint32_t TomlObjects::material_of(TomlTable& table) {
+  return table.has("material") ? find_id(table, "material", material_ids_) : add(*default_);
+}
+
+MaterialRef TomlObjects::colored_material_of(TomlTable& table) {
+  const std::uint32_t index = material_of(table);
+  if (!table.has("color")) return index;
+  const SrgbColor color = read_color_codes(table, "color");
+  return MaterialRef::colored(colorable_material_of(table, "color"), color);
+}
+
+std::uint32_t TomlObjects::colorable_material_of(TomlTable& table, const char* key) {
+  const std::uint32_t index = material_of(table);
+  if (index < MaterialRef::max_colored) return index;
+  table.report(key, "has a material that is not one of the first " +
+                        std::to_string(MaterialRef::max_colored) +
+                        " of the scene: those can be given colours");
+  return 0;
+}
+
+std::uint32_t TomlObjects::add(DefaultMaterial& material) {
+  if (!material.id) {
+    material.id = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back({material.name, material.matte});
+  }
+  return *material.id;
+}
+
+}  // namespace boule

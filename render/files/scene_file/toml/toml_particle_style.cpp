@@ -1,0 +1,100 @@
+#include "render/files/scene_file/toml/toml_particle_style.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/number_text.h"
+#include "render/files/scene_file/toml/toml_color_map.h"
+
+namespace boule {
+namespace {
+
+/// The number under `key`, which must be above 0 and finite.
+double read_positive(TomlTable& table, std::string_view key, double otherwise) {
+  double number = otherwise;
+  table.read(key, number);
+  if (!std::isfinite(number) || !(number > 0)) {
+    table.report(key, "must be finite and above 0, is " + number_text(number));
+  }
+  return number;
+}
+
+RadiusRule read_radius(TomlTable& table) {
+  if (!table.has("radius")) return {};
+  if (!table.has_text("radius")) return read_positive(table, "radius", 1);
+  std::string text;
+  table.read("radius", text);
+  if (text.empty()) table.report("radius", "expected a number, a column, \"vdw\" or \"covalent\"");
+  const auto& tables = names<RadiusTable>;
+  const auto found = std::find(tables.begin(), tables.end(), text);
+  if (found == tables.end()) return RadiusColumn{std::move(text)};
+  return static_cast<RadiusTable>(found - tables.begin());
+}
+
+/// The words of a text, which blanks divide.
+std::vector<std::string> split_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t i = text.find_first_not_of(' '); i != std::string::npos;) {
+    const std::size_t end = std::min(text.find(' ', i), text.size());
+    words.push_back(text.substr(i, end - i));
+    i = text.find_first_not_of(' ', end);
+  }
+  return words;
+}
+
+ColorRule read_color_text(TomlTable& table) {
+  std::string text;
+  table.read("color", text);
+  if (text.starts_with('#')) return read_color_codes(table, "color");
+  if (text == "element" || text == "species") return SpeciesColors{};
+  std::vector<std::string> words = split_words(text);
+  if (words.empty()) {
+    table.report("color", quote(text) +
+                              " is no colour, expected \"#rrggbb\", \"element\", a column or three "
+                              "columns: \"red green blue\"");
+    return {};
+  }
+  // The name of a column may have blanks.
+  return ColorColumns{{words.size() == 1 ? std::move(words.front()) : std::move(text)}};
+}
+
+MappedColors read_mapped_colors(TomlTable table) {
+  MappedColors colors;
+  table.read("by", colors.by);
+  ColorMapKeys keys = read_color_map(table);
+  table.finish({"by"});
+  if (colors.by.empty()) table.report("by", "expected the name of a column, or \"|v|\"");
+  colors.map = std::move(keys.map);
+  colors.range = keys.range;
+  return colors;
+}
+
+ColorRule read_color(TomlTable& table) {
+  if (!table.has("color")) return {};
+  if (table.has_table("color")) return read_mapped_colors(*table.table("color"));
+  if (table.has_text("color")) return read_color_text(table);
+  return read_color_codes(table, "color");
+}
+
+}  // namespace
+
+ParticleStyle read_particle_style(TomlTable& table) {
+  ParticleStyle style;
+  style.radius = read_radius(table);
+  style.scale = read_positive(table, "scale", style.scale);
+  style.color = read_color(table);
+  table.read("select", style.select);
+  table.read("wrap", style.wrap);
+  table.read("replicate", style.replicate);
+  for (const int images : style.replicate) {
+    if (images >= 1) continue;
+    table.report("replicate", "must be 1 or above, is " + std::to_string(images));
+  }
+  return style;
+}
+
+}  // namespace boule

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "render/files/particles/particle_style.h"
+#include "render/files/scene_file/toml/toml_table.h"
+
+namespace boule {
+
+/// Reads the keys of a table [[particles]] that say how particles become spheres: all but
+/// `material`. Errors are reported through the table.
+ParticleStyle read_particle_style(TomlTable& table);
+
+}  // namespace boule

@@ -1,0 +1,200 @@
+#include "render/files/scene_file/toml/toml_particles.h"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "render/files/file/nearest_name.h"
+#include "render/files/particle_file/particle_file.h"
+#include "render/files/scene_file/loaded/frame_name.h"
+#include "render/files/scene_file/loaded/particle_file_cache.h"
+#include "render/files/scene_file/loaded/scene_data.h"
+#include "render/files/scene_file/toml/toml_particle_style.h"
+
+namespace boule {
+namespace {
+
+/// What the keys of a table say.
+struct ParticleKeys {
+  std::string written;  ///< the name of the file in the scene file, with a place for the number
+  std::string name;     ///< with the frame's number
+  std::string path;
+  std::optional<int> frame;  ///< of the file
+  ParticleFileOptions file;
+  ParticleStyle style;
+};
+
+void check_format(TomlTable& table, const std::string& format) {
+  if (!table.has("format")) return;
+  const std::vector<std::string_view> known = particle_formats();
+  if (std::find(known.begin(), known.end(), format) != known.end()) return;
+  table.report("format", "unknown format " + quote(format) + ", expected " + list_names(known) +
+                             did_you_mean(format, known));
+}
+
+ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
+  ParticleKeys keys;
+  table.read("file", keys.written);
+  table.read_file_name("file", keys.name);
+  if (table.has("frame")) table.read("frame", keys.frame.emplace());
+  table.read("format", keys.file.format);
+  check_format(table, keys.file.format);
+  table.read("columns", keys.file.columns);
+  table.read("water", keys.file.water);
+  keys.style = read_particle_style(table);
+  keys.style.material = material;
+  table.finish({"file"});
+  return keys;
+}
+
+/// Reads the file that the keys name.
+class ParticleTable {
+ public:
+  ParticleTable(TomlTable& table, ParticleKeys keys, const SceneFileOptions& options)
+      : table_(table), keys_(std::move(keys)), options_(options) {}
+
+  std::optional<TomlParticles> read();
+
+ private:
+  std::optional<ParticleFrame> read_frame();
+  Status find_wrong_radius() const;
+  std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
+  std::optional<std::size_t> choose_frame(const ParticleFile& file);
+  void report_file(const Diagnostic& error);
+  void report_key(const Diagnostic& error);
+
+  TomlTable& table_;
+  ParticleKeys keys_;
+  const SceneFileOptions& options_;
+  ParticleFacts facts_;
+};
+
+std::optional<TomlParticles> ParticleTable::read() {
+  keys_.style.chosen = find_choices(options_.choices, table_.path());
+  keys_.file.wanted = columns_of(keys_.style);
+  auto frame = read_frame();
+  if (!frame) return std::nullopt;
+  const std::size_t of_file = frame->notes.size();
+  auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
+  if (!made) {
+    const Status place = made.error().key == "radius" ? find_wrong_radius() : Status();
+    place ? report_key(made.error()) : report_file(place.error());
+    return std::nullopt;
+  }
+  TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
+  const ParticleSpheres& spheres = particles.spheres;
+  particles.facts.spheres = spheres.size();
+  particles.facts.radius_source = spheres.radius_source();
+  particles.facts.colors = spheres.colors();
+  particles.facts.cell = spheres.cell();
+  particles.facts.own = spheres.own_choices();
+  // What is decided is told once for all files of a series.
+  for (std::size_t i = 0; i < spheres.notes().size(); ++i) {
+    const std::string& name = i < of_file ? keys_.name : keys_.written;
+    particles.notes.push_back(printable(name) + ": " + spheres.notes()[i]);
+  }
+  return particles;
+}
+
+std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& file) {
+  if (options_.data != nullptr) {
+    const auto found = options_.data->particles.find(keys_.name);
+    if (found != options_.data->particles.end()) return found->second;
+  }
+  ParticleFileCache own;
+  ParticleFileCache& cache = options_.particle_files != nullptr ? *options_.particle_files : own;
+  auto opened = cache.open(keys_.path, file, options_.parallel_for);
+  if (opened) return opened.value();
+  report_file(opened.error());
+  return nullptr;
+}
+
+std::optional<ParticleFrame> ParticleTable::read_frame() {
+  const std::shared_ptr<ParticleFile> file = open(keys_.file);
+  if (!file) return std::nullopt;
+  const auto number = choose_frame(*file);
+  if (!number) return std::nullopt;
+  auto frame = file->read(static_cast<long>(*number), options_.parallel_for);
+  if (!frame) {
+    report_file(frame.error());
+    return std::nullopt;
+  }
+  facts_ = {.table = table_.path(),
+            .file = keys_.path,
+            .format = std::string(file->format()),
+            .frames = file->frames(),
+            .frame = *number,
+            .time = frame.value().time,
+            .particles = frame.value().size()};
+  return std::move(frame).value();
+}
+
+/// Reads the file once more, to say in which line a radius is that cannot be used; none, if the
+/// format has no lines, or where a particle that is not shown may be the first such.
+Status ParticleTable::find_wrong_radius() const {
+  std::vector<std::string> columns{"radius", "diameter"};
+  if (const auto* rule = std::get_if<RadiusColumn>(&keys_.style.radius)) columns = {rule->name};
+  if (!keys_.style.select.empty()) return {};
+  for (const std::string& column : columns) {
+    ParticleFileOptions options = keys_.file;
+    options.positive = column;
+    auto file = ParticleFile::open(keys_.path, options, options_.parallel_for);
+    if (!file) return {};
+    const auto frame = file.value().read(static_cast<long>(facts_.frame), options_.parallel_for);
+    if (!frame && frame.error().line > 0) return frame.error();
+  }
+  return {};
+}
+
+/// The frame that the keys or the series ask for, from 0.
+std::optional<std::size_t> ParticleTable::choose_frame(const ParticleFile& file) {
+  const std::size_t frames = file.frames();
+  const bool of_series =
+      !keys_.frame && options_.frame && frames > 1 && !has_frame_slot(keys_.written);
+  const long asked = of_series ? *options_.frame : keys_.frame.value_or(-1);
+  const long count = static_cast<long>(frames);
+  if (asked >= -count && asked < count) {
+    return static_cast<std::size_t>(asked < 0 ? asked + count : asked);
+  }
+  const std::string cut = asked == count ? file.cut_text() : std::string();
+  table_.report(
+      keys_.frame ? "frame" : "file",
+      quote(keys_.name) + " has no frame " + std::to_string(asked) + ", it has " +
+          (count == 1 ? "one frame, number 0"
+                      : std::to_string(count) + " frames, from 0 to " + std::to_string(count - 1)) +
+          (cut.empty() ? "" : ": ") + cut);
+  return std::nullopt;
+}
+
+/// Reports an error of the file: at its own line, else where the scene file names it.
+void ParticleTable::report_file(const Diagnostic& error) {
+  if (error.line > 0) return table_.report(error);
+  for (const char* key : {"columns", "format"}) {
+    if (error.key == key && table_.has(key)) return table_.report(key, error.message);
+  }
+  const std::string column = error.key.empty() ? "" : "column " + quote(error.key) + " ";
+  table_.report("file", quote(keys_.name) + ": " + column + error.message);
+}
+
+/// Reports what ParticleSpheres::make() refuses, at the key that is at fault.
+void ParticleTable::report_key(const Diagnostic& error) {
+  const std::size_t dot = error.key.find('.');
+  const std::string key = error.key.empty() ? "file" : error.key.substr(0, dot);
+  if (dot != std::string::npos && table_.has_table(key)) {
+    return table_.table(key)->report(error.key.substr(dot + 1), error.message);
+  }
+  table_.report(key, error.message);
+}
+
+}  // namespace
+
+std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
+                                            const SceneFileOptions& options) {
+  ParticleKeys keys = read_particle_keys(table, material);
+  if (!table.ok()) return std::nullopt;
+  keys.path = table.file_path(keys.name);
+  return ParticleTable(table, std::move(keys), options).read();
+}
+
+}  // namespace boule

@@ -1,0 +1,106 @@
+#include "render/files/trace_file/hit_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "core/base/ascii.h"
+
+namespace boule {
+namespace {
+
+constexpr std::size_t hit_bytes = 24;
+constexpr std::size_t rows_per_write = 4096;
+
+/// The header as numpy.save writes it: the count has room to grow to 21 digits, and the data begin
+/// at a multiple of 64 bytes.
+std::string npy_start(const std::string& descr, std::uint64_t count) {
+  constexpr std::size_t alignment = 64, before = 10, most_digits = 21;
+  const std::string digits = std::to_string(count);
+  std::string dict =
+      "{'descr': " + descr + ", 'fortran_order': False, 'shape': (" + digits + ",), }";
+  dict.append(most_digits - digits.size(), ' ');
+  while ((before + dict.size() + 1) % alignment != 0) dict += ' ';
+  dict += '\n';
+  std::string start("\x93NUMPY\x01\x00", 8);
+  start += static_cast<char>(dict.size() & 255);
+  start += static_cast<char>(dict.size() >> 8);
+  return start + dict;
+}
+
+/// Writes the lowest `width` bytes, the lowest first on every machine.
+unsigned char* put(unsigned char* to, std::uint64_t bits, std::size_t width) {
+  for (std::size_t i = 0; i < width; ++i) *to++ = static_cast<unsigned char>(bits >> (8 * i));
+  return to;
+}
+unsigned char* put(unsigned char* to, float x) {
+  return put(to, std::bit_cast<std::uint32_t>(x), 4);
+}
+
+unsigned char* put(unsigned char* to, const TracedHit& hit) {
+  to = put(to, std::bit_cast<std::uint64_t>(hit.t), 8);
+  to = put(to, static_cast<std::uint32_t>(hit.id), 4);
+  to = put(to, hit.normal.x);
+  to = put(to, hit.normal.y);
+  return put(to, hit.normal.z);
+}
+
+}  // namespace
+
+HitFile::HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t count)
+    : file_(std::move(file)), name_(std::move(name)), kind_(kind), left_(count) {}
+
+Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count,
+                                const std::function<bool()>& stop) {
+  Result<OutputFile> file = OutputFile::create(path, stop);
+  if (!file) return file.error();
+  const std::string start = npy_start(
+      kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",
+      count);
+  if (auto done = file.value().write(start.data(), start.size()); !done) return done.error();
+  return HitFile(std::move(file).value(), path, kind, count);
+}
+
+Status HitFile::take(HitKind kind, std::size_t hits) {
+  if (kind != kind_) return cannot_write(name_, "hits of the other kind");
+  if (hits > left_) return cannot_write(name_, "more hits than it is made for");
+  left_ -= hits;
+  return {};
+}
+
+Status HitFile::append(std::span<const TracedHit> hits) {
+  if (auto done = take(HitKind::closest, hits.size()); !done) return done;
+  rows_.resize(rows_per_write * hit_bytes);
+  for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
+    unsigned char* end = rows_.data();
+    for (const TracedHit& hit :
+         hits.subspan(first, std::min(rows_per_write, hits.size() - first))) {
+      end = put(end, hit);
+    }
+    const auto bytes = static_cast<std::size_t>(end - rows_.data());
+    if (auto done = file_.write(rows_.data(), bytes); !done) return done;
+  }
+  return {};
+}
+
+Status HitFile::append(std::span<const std::uint8_t> met) {
+  if (auto done = take(HitKind::any, met.size()); !done) return done;
+  return file_.write(met.data(), met.size());
+}
+
+Status HitFile::sync() { return file_.sync(); }
+
+Status HitFile::commit(const std::function<bool()>& stop) {
+  if (left_ > 0) return cannot_write(name_, std::to_string(left_) + " hits are missing");
+  return file_.commit(stop);
+}
+
+bool is_npy_name(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = ascii_lower(c);
+  return extension == ".npy";
+}
+
+}  // namespace boule

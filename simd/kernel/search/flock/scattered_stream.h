@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/abi/geometry.h"
+#include "simd/abi/isa.h"
+#include "simd/kernel/search/leaf/padded_stream.h"
+#include "simd/kernel/search/packet/packet_stream.h"
+#include "simd/kernel/search/packet/parts.h"
+
+/// Streams of rays without a promise of coherence, as sets, as packets or, for nearest hits, in
+/// flight. From time to time some rays are traced each way, and the fastest way traces the next
+/// ones. The way of a ray affects only the time. Answers: HitStream, or std::uint8_t*.
+/// (scattered.cpp)
+namespace boule::BOULE_KERNEL_ISA {
+
+enum class Way : std::size_t { set, packet, flight };
+
+/// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic; or flight or set,
+/// which run without trials. `known`: Query::experience.
+template <class Answers>
+void trace_scattered(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                     std::size_t end, Form form, Experience* known, const Answers& answers);
+/// The same through parts: as packets.
+template <class Answers>
+BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStream& stream,
+                                  std::size_t begin, std::size_t end, Form form,
+                                  Experience* /*known*/, const Answers& answers) {
+  trace_groups(geometry, stream, begin, end, Solver::robust, form, answers);
+}
+
+/// The work of sets: how often a ray was tested against a node or a leaf, and how often a node or a
+/// leaf was visited.
+struct SetEffort {
+  std::size_t steps = 0, visits = 0;
+};
+
+/// Traces rays begin .. end - 1 as sets; `begin` is a multiple of W.
+template <class Answers>
+SetEffort trace_sets(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
+                     std::size_t end, const Answers& answers);
+
+}  // namespace boule::BOULE_KERNEL_ISA

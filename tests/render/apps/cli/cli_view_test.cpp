@@ -1,0 +1,142 @@
+// boule view from the command line; what it serves is tested in tests/render/apps/view.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "tests/render/apps/cli/program.h"
+#include "tests/render/apps/cli/running_program.h"
+
+namespace boule::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+class View : public ProgramTest {};
+
+constexpr const char* url_line = "http://127\\.0\\.0\\.1:[0-9]+/\\?token=[0-9a-f]{32}\n";
+
+TEST_F(View, PrintsItsAddressAndEndsIdle) {
+  const ProgramRun run = boule_run({"view", small_scene(), "--idle", "50ms"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, MatchesRegex(url_line));
+}
+
+TEST_F(View, EndsAtASignal) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    RunningProgram program({"view", small_scene()});
+    ASSERT_TRUE(program.wait_for("?token="));
+    program.send(signal);
+    const ProgramRun run = program.finish();
+    EXPECT_EQ(run.exit_code, 128 + signal);
+    EXPECT_THAT(run.out, HasSubstr(signal == SIGINT ? "ended (SIGINT)" : "ended (SIGTERM)"));
+  }
+}
+
+TEST_F(View, RefusesWhatItCannotShow) {
+  refused_run({"view", path("nothing.toml")}, 3);
+  refused_run({"view", write("broken.toml", "schema = 1\nsphere = 5\n")}, 3);
+  refused_run({"view", small_scene(), "--color", "q"}, 2);
+  refused_run({"view", small_scene(), "--listen", "somewhere"}, 2);
+  refused_run({"view", small_scene(), "--port", "65536"}, 2);
+  refused_run({"view", small_scene(), "--listen", "203.0.113.1"}, 1);
+  refused_run({"view"}, 2);
+}
+
+/// All of this machine's addresses mean one that others can open.
+TEST_F(View, TellsAnAddressThatCanBeOpened) {
+  const ProgramRun run =
+      boule_run({"view", small_scene(), "--listen", "0.0.0.0", "--idle", "100ms"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_TRUE(run.out.starts_with("http://")) << run.out;
+  const std::string host = run.out.substr(7, run.out.rfind(':') - 7);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  ASSERT_EQ(inet_pton(AF_INET, host.c_str(), &place.sin_addr), 1) << host;
+  EXPECT_NE(place.sin_addr.s_addr, INADDR_ANY);
+  const int own = socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_EQ(bind(own, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0) << host;
+  close(own);
+}
+
+class RenderedCamera : public ProgramTest {
+ protected:
+  std::string picture(const std::string& name, std::vector<std::string> options) const {
+    options.insert(options.begin(), {"render", small_scene(), "-o", path(name), "-q"});
+    const ProgramRun run = boule_run(options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read(name);
+  }
+};
+
+TEST_F(RenderedCamera, IsTheOneOfTheCommandLine) {
+  const std::string own = picture("own.ppm", {});
+  EXPECT_EQ(picture("same.ppm", {"--camera", "eye = [0, 1, 5], look_at = [0, 0.8, 0]"}), own);
+  const std::string other =
+      picture("other.ppm", {"--camera",
+                            "type = \"orthographic\", eye = [1, 1, 5], look_at = [0, "
+                            "0.8, 0], height = 3"});
+  EXPECT_NE(other, own);
+  std::string text = read("scene.toml");
+  const std::string before = "eye = [0.0, 1.0, 5.0]\nlook_at = [0.0, 0.8, 0.0]\n";
+  text.replace(text.find(before), before.size(),
+               "type = \"orthographic\"\neye = [1, 1, 5]\nlook_at = [0, 0.8, 0]\nheight = 3\n");
+  const ProgramRun run =
+      boule_run({"render", write("moved.toml", text), "-o", path("moved.ppm"), "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("moved.ppm"), other);
+}
+
+TEST_F(RenderedCamera, MayBeFitted) {
+  const std::string fitted =
+      picture("fitted.ppm", {"--camera", "fit = true, direction = [0, 0, -1]"});
+  EXPECT_NE(fitted, picture("own.ppm", {}));
+  std::string text = read("scene.toml");
+  const std::string before = "eye = [0.0, 1.0, 5.0]\nlook_at = [0.0, 0.8, 0.0]\n";
+  text.replace(text.find(before), before.size(), "fit = true\ndirection = [0, 0, -1]\n");
+  const ProgramRun run =
+      boule_run({"render", write("moved.toml", text), "-o", path("moved.ppm"), "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("moved.ppm"), fitted);
+}
+
+TEST_F(RenderedCamera, MayBeDistortedAndMove) {
+  const std::string still = "eye = [0, 1, 5], look_at = [0, 0.8, 0]";
+  const std::string own = picture("own.ppm", {"--camera", still});
+  EXPECT_NE(picture("barrel.ppm", {"--camera", still + ", distortion = {file = \"" BOULE_SCENES
+                                                       "/barrel.exr\"}"}),
+            own);
+  picture("moved.#.ppm", {"--frames", "1-2", "--camera",
+                          "look_at = [0, 0.8, 0], key = [{frame = 1, eye = [0, 1, 5]}, "
+                          "{frame = 3, eye = [0, 1, 9]}]"});
+  EXPECT_EQ(read("moved.1.ppm"), own);
+  EXPECT_EQ(read("moved.2.ppm"),
+            picture("far.ppm", {"--camera", "eye = [0, 1, 7], look_at = [0, 0.8, 0]"}));
+}
+
+TEST_F(RenderedCamera, IsRefusedIfItIsNone) {
+  for (const char* keys : {"eye = [0, 1, 5]", "fov = 3", "eye = 5, look_at = [0, 0, 0]", "}{",
+                           "eye = [0, 1, 5], look_at = [0, 1, 5]", "roll = 1"}) {
+    const ProgramRun run =
+        refused_run({"render", small_scene(), "-o", path("x.ppm"), "--camera", keys}, 2);
+    EXPECT_THAT(run.err, HasSubstr("--camera")) << keys;
+  }
+  const ProgramRun run =
+      refused_run({"render", small_scene(), "-o", path("x.ppm"), "--camera", "eye = [0, 1, 5]"}, 2);
+  EXPECT_THAT(run.err, HasSubstr("error: missing key 'look_at' (key '--camera')"));
+}
+
+TEST_F(RenderedCamera, ShadowsStartByAnEpsilonIfAsked) {
+  const std::string own = picture("own.ppm", {});
+  EXPECT_NE(picture("none.ppm", {"--shadow-epsilon", "none"}), own);
+  EXPECT_EQ(picture("zero.ppm", {"--shadow-epsilon", "0"}), read("none.ppm"));
+  EXPECT_NE(picture("large.ppm", {"--shadow-epsilon", "5"}), own);
+  for (const char* text : {"-1", "nan", "inf", "much", ""})
+    refused_run({"render", small_scene(), "-o", path("x.ppm"), "--shadow-epsilon", text}, 2);
+}
+
+}  // namespace
+}  // namespace boule::test

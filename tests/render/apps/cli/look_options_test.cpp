@@ -1,0 +1,145 @@
+// The options of particle files: what is typed and what is answered.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "render/apps/cli/options/options.h"
+#include "render/apps/job/look_values.h"
+
+namespace boule::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Command parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "boule");
+  return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
+LookOptions look_of(std::vector<const char*> options) {
+  options.insert(options.begin(), {"render", "a.xyz", "-o", "a.png"});
+  const Command command = parse(options);
+  const auto* render = std::get_if<RenderCommand>(&command);
+  EXPECT_NE(render, nullptr);
+  return render != nullptr ? render->look : LookOptions{};
+}
+
+TEST(LookOptions, AreKept) {
+  const LookOptions look = look_of({"--look",         "dark",
+                                    "--color",        "|v|",
+                                    "--map",          "#000000,#ff0000",
+                                    "--range",        "-1,2.5",
+                                    "--radius",       "vdw",
+                                    "--scale",        "0.8",
+                                    "--select",       "type == 1 && x > 0",
+                                    "--view",         "-z",
+                                    "--up",           "0,1,0.5",
+                                    "--frame",        "-2",
+                                    "--input-format", "xyz",
+                                    "--columns",      "id,-,x,y,z",
+                                    "--floor",        "--water"});
+  EXPECT_EQ(look.look, Look::dark);
+  EXPECT_EQ(look.color, "|v|");
+  EXPECT_EQ(look.map, "#000000,#ff0000");
+  EXPECT_EQ(look.range, (std::array{-1.0, 2.5}));
+  EXPECT_EQ(look.radius, "vdw");
+  EXPECT_EQ(look.scale, 0.8);
+  EXPECT_EQ(look.select, "type == 1 && x > 0");
+  EXPECT_EQ(look.view, (Vec3d{0, 0, -1}));
+  EXPECT_EQ(look.up, (Vec3d{0, 1, 0.5}));
+  EXPECT_EQ(look.frame, -2);
+  EXPECT_EQ(look.format, "xyz");
+  EXPECT_EQ(look.columns, (std::vector<std::string>{"id", "-", "x", "y", "z"}));
+  EXPECT_TRUE(look.floor);
+  EXPECT_TRUE(look.water);
+  EXPECT_FALSE(look.quick);
+  EXPECT_THAT(look.first, StartsWith("--"));
+}
+
+TEST(LookOptions, MapColumnNamesMayHaveBlanks) {
+  for (const char* color : {"Velocity Magnitude", "Mean Flow Speed"}) {
+    EXPECT_EQ(look_of({"--color", color, "--map", "turbo", "--range", "0,1"}).map, "turbo");
+  }
+}
+
+TEST(LookOptions, NoneIsGivenByDefault) {
+  EXPECT_EQ(look_of({}).first, "");
+  EXPECT_EQ(look_of({"--spp", "4"}).first, "");
+  EXPECT_EQ(look_of({"--quick"}).first, "--quick");
+}
+
+TEST(LookOptions, OfAllCommandsAreTheSame) {
+  const Command command = parse({"scene", "a.xyz", "--color", "vz", "--map", "turbo"});
+  const auto* scene = std::get_if<SceneCommand>(&command);
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(scene->scene, "a.xyz");
+  EXPECT_EQ(scene->look.color, "vz");
+  EXPECT_EQ(scene->look.map, "turbo");
+  const Command told = parse({"info", "a.xyz", "--frame", "3"});
+  const auto* info = std::get_if<InfoCommand>(&told);
+  ASSERT_NE(info, nullptr);
+  EXPECT_EQ(info->look.frame, 3);
+  EXPECT_EQ(info->look.first, "--frame");
+}
+
+struct Wrong {
+  std::vector<const char*> options;
+  std::string text;
+};
+
+std::ostream& operator<<(std::ostream& out, const Wrong& wrong) { return out << wrong.text; }
+
+class WrongLooks : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongLooks, AreRefused) {
+  std::vector<const char*> words = {"render", "a.xyz", "-o", "a.png"};
+  words.insert(words.end(), GetParam().options.begin(), GetParam().options.end());
+  const Command command = parse(words);
+  const auto* error = std::get_if<UsageError>(&command);
+  ASSERT_NE(error, nullptr);
+  EXPECT_THAT(error->text, HasSubstr(GetParam().text));
+  EXPECT_EQ(error->help, "boule render --help");
+}
+
+const Wrong wrong_looks[] = {
+    {{"--look", "pretty"}, "--look: 'pretty' is not understood, expected one of paper|plain|dark"},
+    {{"--map", "viridis"}, "--map needs --color COLUMN"},
+    {{"--map", "viridis", "--color", "element"}, "--map needs --color COLUMN"},
+    {{"--range", "0,1", "--color", "#ffffff"}, "--range needs --color COLUMN"},
+    {{"--color", "v", "--map", "rainbow"}, "--map: 'rainbow' is not understood"},
+    {{"--color", "v", "--map", "#ffffff,red"}, "--map: '#ffffff,red' is not understood"},
+    {{"--color", "v", "--range", "1,1"}, "--range: '1,1' is not understood"},
+    {{"--color", "v", "--range", "0"}, "--range: '0' is not understood"},
+    {{"--color", "v", "--range", "0,inf"}, "--range: '0,inf' is not understood"},
+    {{"--color", "#12345"}, "--color: '#12345' is not understood"},
+    {{"--radius", "0"}, "--radius: '0' is not understood"},
+    {{"--radius", "-1"}, "--radius: '-1' is not understood"},
+    {{"--scale", "big"}, "--scale: 'big' is not understood, expected a number above 0"},
+    {{"--view", "w"}, "--view: 'w' is not understood"},
+    {{"--view", "0,0,0"}, "--view: '0,0,0' is not understood"},
+    {{"--up", "1,2"}, "--up: '1,2' is not understood"},
+    {{"--frame", "1.5"}, "--frame: '1.5' is not understood"},
+    {{"--input-format", "png"}, "--input-format: 'png' is not understood, expected one of 'npy'"},
+    {{"--columns", "x,,z"}, "--columns: 'x,,z' is not understood, expected names such as id,type"},
+    {{"--quick", "--look", "dark"}, "excludes"},
+    {{"--frame", "1", "--frames", "1-2"}, "excludes"},
+};
+INSTANTIATE_TEST_SUITE_P(Words, WrongLooks, testing::ValuesIn(wrong_looks));
+
+TEST(LookValues, DirectionsOfAnyLength) {
+  EXPECT_EQ(parse_direction("x"), (Vec3d{1, 0, 0}));
+  EXPECT_EQ(parse_direction("-y"), (Vec3d{0, -1, 0}));
+  EXPECT_EQ(parse_direction("1,-2,0.5"), (Vec3d{1, -2, 0.5}));
+  EXPECT_EQ(parse_direction("0,0,1e300"), (Vec3d{0, 0, 1}));
+  EXPECT_EQ(parse_direction("1e-300,0,0"), (Vec3d{1, 0, 0}));
+  for (const char* text : {"", "-", "xy", "1,2,nan", "1,2,3,4", "1;2;3", "--x"}) {
+    EXPECT_FALSE(parse_direction(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace boule::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/render/apps/cli/program.h"
+
+namespace boule::test {
+
+/// Tests of runs that are interrupted, shared out and put together.
+class PartTest : public ProgramTest {
+ protected:
+  /// With everything that a film holds: alpha, lines, channels.
+  std::vector<std::string> options(const std::string& spp = "20") const {
+    return {"--size",     "97x61",     "--spp", spp,        "--aov", "depth,id",
+            "-q",         "--outline", "1.5",   "--method", "path",  "--seed",
+            "3",          "--tile",    "16",    "--filter", "tent",  "--background",
+            "transparent"};
+  }
+  /// `render` with those options and more, into a file of the folder.
+  std::vector<std::string> render(const std::string& output,
+                                  const std::vector<std::string>& more = {},
+                                  const std::string& spp = "20") const {
+    std::vector<std::string> words = {"render", small_scene(), "-o", path(output)};
+    for (const auto& list : {options(spp), more})
+      words.insert(words.end(), list.begin(), list.end());
+    return words;
+  }
+  /// `render` of a picture whose noise is asked for, with everything that its film holds.
+  std::vector<std::string> render_noise(const std::string& output,
+                                        const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"render",
+                                      small_scene(),
+                                      "-o",
+                                      path(output),
+                                      "--size",
+                                      "97x61",
+                                      "--noise",
+                                      "0.1",
+                                      "--min-spp",
+                                      "16",
+                                      "--spp",
+                                      "64",
+                                      "--outline",
+                                      "1",
+                                      "--aov",
+                                      "id,noise,samples",
+                                      "--method",
+                                      "path",
+                                      "--background",
+                                      "transparent",
+                                      "--tile",
+                                      "16",
+                                      "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  /// The bytes of the picture of one run without interruption.
+  std::string whole_picture(const std::string& spp = "20") const {
+    const ProgramRun run = boule_run(render("whole.exr", {}, spp));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read("whole.exr");
+  }
+};
+
+}  // namespace boule::test

@@ -1,0 +1,103 @@
+// The scene that is made for a particle file, as text.
+#include "render/apps/job/particle_look.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/apps/job/look_values.h"
+
+namespace boule {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string scene_of(const LookOptions& look, const std::optional<LookFloor>& floor = {}) {
+  return look_scene("run.xyz", look, floor);
+}
+
+TEST(ParticleLook, HasExactlyTheOptions) {
+  EXPECT_THAT(scene_of({}), HasSubstr("[[particles]]\n"
+                                      "file = \"run.xyz\"\n"
+                                      "material = \"particles\"\n\n"));
+  LookOptions look;
+  look.format = "dump";
+  look.columns = {"x", "-", "z"};
+  look.frame = -3;
+  look.water = true;
+  look.radius = "0.50";
+  look.scale = 0.1;
+  look.select = "name == \"CA\"";
+  look.color = "|v|";
+  look.map = "#000000,#ff8000";
+  look.range = {{-1, 2.5}};
+  EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
+                                        "format = \"dump\"\n"
+                                        "columns = [\"x\", \"-\", \"z\"]\n"
+                                        "frame = -3\n"
+                                        "water = true\n"
+                                        "radius = 0.50\n"
+                                        "scale = 0.1\n"
+                                        "select = \"name == \\\"CA\\\"\"\n"
+                                        "material = \"particles\"\n"
+                                        "[particles.color]\n"
+                                        "by = \"|v|\"\n"
+                                        "map = [\"#000000\", \"#ff8000\"]\n"
+                                        "range = [-1, 2.5]\n\n"));
+}
+
+TEST(ParticleLook, ColorsOfOneKindStandByThemselves) {
+  LookOptions look;
+  for (const char* color : {"element", "species", "#4080c0", "red green blue"}) {
+    look.color = color;
+    EXPECT_FALSE(has_color_map(look.color)) << color;
+    EXPECT_THAT(scene_of(look), HasSubstr("\ncolor = \"" + look.color + "\"\n"));
+  }
+  // A column may be of numbers or of names.
+  look.color = "energy";
+  EXPECT_TRUE(has_color_map(look.color));
+  EXPECT_THAT(scene_of(look), HasSubstr("\ncolor = \"energy\"\n"));
+  look.map = "magma";
+  EXPECT_THAT(scene_of(look), HasSubstr("\n[particles.color]\nby = \"energy\"\nmap = \"magma\"\n"));
+  look.color = "Velocity Magnitude";
+  EXPECT_TRUE(has_color_map(look.color));
+  EXPECT_THAT(scene_of(look), HasSubstr("\nby = \"Velocity Magnitude\"\nmap = \"magma\"\n"));
+}
+
+TEST(ParticleLook, NamesOfFilesMayHaveAnyCharacters) {
+  EXPECT_THAT(look_scene("a \"b\"\\c\n.xyz", {}),
+              HasSubstr("file = \"a \\\"b\\\"\\\\c\\u000a.xyz\"\n"));
+}
+
+TEST(ParticleLook, TheCameraIsFitted) {
+  LookOptions look;
+  EXPECT_THAT(scene_of(look), HasSubstr("[camera]\nfit = true\nfov = 20\n"));
+  look.view = Vec3d{0, 0, -2};
+  look.up = Vec3d{0, 1, 0};
+  EXPECT_THAT(scene_of(look), HasSubstr("\ndirection = [0, 0, -2]\nup = [0, 1, 0]\n"));
+}
+
+TEST(ParticleLook, LooksDiffer) {
+  LookOptions paper, plain, dark, quick;
+  plain.look = Look::plain;
+  dark.look = Look::dark;
+  quick.quick = true;
+  EXPECT_THAT(scene_of(paper), AllOf(HasSubstr("\"path\""), HasSubstr("\"#ffffff\"")));
+  EXPECT_THAT(scene_of(plain), AllOf(HasSubstr("\"whitted\""), HasSubstr("\"#ffffff\"")));
+  EXPECT_THAT(scene_of(dark), AllOf(HasSubstr("\"path\""), Not(HasSubstr("\"#ffffff\""))));
+  EXPECT_THAT(scene_of(quick), AllOf(HasSubstr("\"whitted\""), HasSubstr("\nspp = 4\n")));
+}
+
+TEST(ParticleLook, AFloorIsAPlane) {
+  LookOptions look;
+  look.floor = true;
+  const LookFloor floor{{0, 0, -1.5}, {0, 0, 1}};
+  EXPECT_THAT(scene_of(look, floor), HasSubstr("[[plane]]\n"
+                                               "point = [0, 0, -1.5]\n"
+                                               "normal = [0, 0, 1]\n"
+                                               "material = \"floor\"\n"));
+}
+
+}  // namespace
+}  // namespace boule
