@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 
 namespace boule {
 namespace {

@@ -87,13 +87,7 @@ std::optional<std::string> parse_map(const std::string& text) {
   return is_name || are_colors ? std::optional(text) : std::nullopt;
 }
 
-std::string list_color_maps() {
-  std::string list;
-  for (const std::string_view name : names<NamedColorMap>) {
-    list += (list.empty() ? "" : ", ") + std::string(name);
-  }
-  return list;
-}
+std::string list_color_maps() { return joined(names<NamedColorMap>, ", "); }
 
 std::optional<std::array<double, 2>> parse_range(const std::string& text) {
   const auto ends = parse_numbers(text, 2);

@@ -31,17 +31,6 @@ bool* find_aov(AovSelection& aovs, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (;;) {
-    const std::size_t end = text.find(separator, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string::npos) return parts;
-    begin = end + 1;
-  }
-}
-
 std::optional<FrameRange> parse_frames(const std::string& text) {
   constexpr int last_frame = 999'999'999;
   if (const auto one = parse_number(text, 0, last_frame)) return FrameRange{*one, *one};
@@ -79,9 +68,9 @@ std::optional<AovSelection> parse_aovs(const std::string& text) {
 }
 
 std::string list_aovs() {
-  std::string list;
-  for (const AovName& aov : aov_names) list += (list.empty() ? "" : ",") + std::string(aov.name);
-  return list;
+  std::vector<std::string_view> names;
+  for (const AovName& aov : aov_names) names.emplace_back(aov.name);
+  return joined(names, ",");
 }
 
 std::optional<double> parse_duration(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "render/apps/job/render_job.h"
 
 namespace boule {
@@ -20,9 +21,6 @@ std::optional<Number> parse_number(const std::string& text, Number low, Number h
   const bool good = error == std::errc{} && next == end && number >= low && number <= high;
   return good ? std::optional(number) : std::nullopt;
 }
-
-/// The parts of `text` between the separators, empty ones too.
-std::vector<std::string> split(const std::string& text, char separator);
 
 /// "A-B" with 0 <= A <= B, or "A" alone; "A-B:N" is every Nth of them, from A on, N >= 1.
 std::optional<FrameRange> parse_frames(const std::string& text);

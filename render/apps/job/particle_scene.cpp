@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 #include "core/math/geometry.h"
 #include "render/files/file/mapped_text.h"
 #include "render/files/file/npy_header.h"

@@ -7,7 +7,7 @@ namespace {
 
 /// "fast robust|" or "|.png .exr"; a list's words end with a comma.
 std::string value_of(const ValueFacts& facts) {
-  return joined(facts.words) + (facts.list ? "," : "") + "|" + joined(facts.endings);
+  return joined(facts.words, " ") + (facts.list ? "," : "") + "|" + joined(facts.endings, " ");
 }
 
 std::string entry(const std::string& key, const std::string& text) {
@@ -24,7 +24,7 @@ std::string options_entry(const CommandFacts& command) {
     if (!option.letter.empty()) names.push_back("-" + option.letter);
     names.push_back("--" + option.name);
   }
-  return entry(name_of(command), joined(names));
+  return entry(name_of(command), joined(names, " "));
 }
 
 std::string takes_of(const CommandFacts& command, const std::string& commands) {
@@ -53,9 +53,9 @@ std::string bash_completion(const std::vector<CommandFacts>& commands,
   }
   for (const CommandFacts& command : commands) {
     options += options_entry(command);
-    takes += takes_of(command, joined(names));
+    takes += takes_of(command, joined(names, " "));
   }
-  return "# Completes boule in bash (4.3 or newer).\n_boule_commands='" + joined(names) +
+  return "# Completes boule in bash (4.3 or newer).\n_boule_commands='" + joined(names, " ") +
          "'\ndeclare -gA _boule_options=(\n" + options + ")\ndeclare -gA _boule_takes=(\n" + takes +
          ")\n" + functions;
 }

@@ -3,15 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/text.h"
 #include "render/apps/manual/command_facts.h"
 
 namespace boule::manual {
-
-inline std::string joined(const std::vector<std::string>& words, const char* separator = " ") {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : separator) + word;
-  return line;
-}
 
 /// Scripts that complete command lines: commands, options, the names that are values of options,
 /// and the files that fit, by their endings. Where no file fits, all are offered.

@@ -17,10 +17,10 @@ std::string fish_string(std::string_view text) {
 /// The options of `complete` for a value.
 std::string takes_of(const ValueFacts& facts) {
   if (facts.list)
-    return " -x -a '(__fish_complete_list , \"printf \\\\\"%s\\\\n\\\\\" " + joined(facts.words) +
-           "\")'";
-  if (!facts.words.empty()) return " -x -a " + fish_string(joined(facts.words));
-  if (!facts.endings.empty()) return " -x -a '(__boule_files " + joined(facts.endings) + ")'";
+    return " -x -a '(__fish_complete_list , \"printf \\\\\"%s\\\\n\\\\\" " +
+           joined(facts.words, " ") + "\")'";
+  if (!facts.words.empty()) return " -x -a " + fish_string(joined(facts.words, " "));
+  if (!facts.endings.empty()) return " -x -a '(__boule_files " + joined(facts.endings, " ") + ")'";
   return " -x";
 }
 

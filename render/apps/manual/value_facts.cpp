@@ -4,6 +4,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "core/base/text.h"
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
 #include "render/files/particle_file/particle_file.h"
@@ -24,21 +25,16 @@ bool is_word(std::string_view text) {
 }
 
 /// The parts of `text` between any of the separators, none of them empty.
-Words words_of(std::string_view text, std::string_view separators) {
-  Words words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != text.npos;) {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    words.emplace_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
+Words parts_of(std::string_view text, std::string_view separators) {
+  const auto parts = boule::words_of(text, separators);
+  return {parts.begin(), parts.end()};
 }
 
 /// "text", "json" of "text|json[:FILE]": the alternatives that are names.
 Words alternatives(const std::string& value) {
   Words names;
   if (value.find('|') == std::string::npos) return names;
-  for (const std::string& part : words_of(value, "|")) {
+  for (const std::string& part : parts_of(value, "|")) {
     const std::string name = part.substr(0, part.find('['));
     if (is_word(name)) names.push_back(name);
   }
@@ -48,7 +44,7 @@ Words alternatives(const std::string& value) {
 /// Every ".toml" that a text names.
 Words endings_in(const std::string& text) {
   Words endings;
-  for (const std::string& word : words_of(text, " ,;:()")) {
+  for (const std::string& word : parts_of(text, " ,;:()")) {
     if (word.size() > 1 && word[0] == '.' && is_word(word.substr(1))) endings.push_back(word);
   }
   return endings;
@@ -73,14 +69,14 @@ Words known_words(const std::string& name) {
   if (name == "color") return {"element"};
   if (name == "input-format") return format_names();
   if (name == "isa") return isa_names();
-  if (name == "map") return words_of(list_color_maps(), ", ");
+  if (name == "map") return parts_of(list_color_maps(), ", ");
   if (name == "radius") return {"vdw", "covalent"};
   if (name == "view" || name == "up") return {"x", "-x", "y", "-y", "z", "-z"};
   return {};
 }
 
 Words image_endings() {
-  Words endings = words_of(known_image_extensions(), ", ");
+  Words endings = parts_of(known_image_extensions(), ", ");
   for (std::string& ending : endings) ending.insert(ending.begin(), '.');
   endings.emplace_back(film_ending);  // shards
   return endings;
@@ -96,7 +92,7 @@ Words file_endings(const OptionFacts& option) {
     return dot == std::string::npos ? Words{} : Words{option.value.substr(dot)};
   }
   if (option.value == "SCENE" || option.value == "FILE") {
-    for (const std::string& ending : words_of(known_particle_endings(), " "))
+    for (const std::string& ending : parts_of(known_particle_endings(), " "))
       endings.push_back(ending);
     for (const char* packed : {".gz", ".zst"}) endings.emplace_back(packed);
   }

@@ -21,8 +21,8 @@ std::string escaped(std::string_view text) {
 
 /// What fits: names, files by their endings (all where none fits), or a message only.
 std::string action_of(const ValueFacts& facts) {
-  if (facts.list) return "_values -s , name " + joined(facts.words);
-  if (!facts.words.empty()) return "(" + joined(facts.words) + ")";
+  if (facts.list) return "_values -s , name " + joined(facts.words, " ");
+  if (!facts.words.empty()) return "(" + joined(facts.words, " ") + ")";
   if (facts.endings.empty()) return " ";
   std::vector<std::string> endings;
   for (const std::string& ending : facts.endings) endings.push_back(ending.substr(1));

@@ -6,12 +6,10 @@
 #include <array>
 #include <charconv>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 
 namespace boule::view {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_port(std::string_view text) {
   return !text.empty() && text.size() <= 5 && std::all_of(text.begin(), text.end(), is_digit);

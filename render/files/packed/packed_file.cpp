@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 #include "core/scene/instances.h"
 #include "render/files/file/input_file.h"
 #include "render/files/packed/node_check.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "core/base/ascii.h"
 #include "core/base/float_environment.h"
+#include "core/base/text.h"
 #include "render/files/file/input_file.h"
 #include "render/files/file/mapped_text.h"
 #include "render/files/file/npz_member.h"
@@ -56,12 +56,15 @@ const ParticleFormat* format_of_content(std::string_view text) {
   return nullptr;
 }
 
-/// True for names that LAMMPS's users give: "data.film", "dump.melt". Those that other readers of
-/// this library take are none.
-bool has_lammps_prefix(std::string_view name) {
+/// The format whose prefix the name has: "data.film", "dump.melt". Names with an ending that other
+/// readers of this library take are none.
+const ParticleFormat* format_of_prefix(std::string_view name) {
   constexpr std::array others{"toml", "nff", "npy", "lens"};
-  if (std::count(others.begin(), others.end(), ending_of(name)) > 0) return false;
-  return name.starts_with("data.") || name.starts_with("dump.");
+  if (std::count(others.begin(), others.end(), ending_of(name)) > 0) return nullptr;
+  for (const ParticleFormat& format : all_particle_formats()) {
+    if (!format.prefix.empty() && name.starts_with(format.prefix)) return &format;
+  }
+  return nullptr;
 }
 
 /// What reads the file, by the request, else its name, else its content.
@@ -69,21 +72,16 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
                                           const std::string& requested) {
   if (!requested.empty()) {
     if (const ParticleFormat* format = format_of_name(requested)) return format;
-    std::string names;
-    for (const std::string_view name : particle_formats()) {
-      names += (names.empty() ? "" : ", ") + std::string(name);
-    }
     return Diagnostic::about("format", "there is no format " + quote(requested) +
-                                           " of particle files, expected one of " + names);
+                                           " of particle files, expected one of " +
+                                           joined(particle_formats(), ", "));
   }
   const std::string name = bare_name(path);
   const ParticleFormat* const named = format_of_ending(name);
   if (named != nullptr && ending_of(name) != "txt") return named;
   if (const ParticleFormat* format = format_of_content(text)) return format;
   if (named != nullptr) return named;  // a text of no other format
-  if (has_lammps_prefix(name)) {
-    if (const ParticleFormat* format = format_of_name(name.substr(0, 4))) return format;
-  }
+  if (const ParticleFormat* format = format_of_prefix(name)) return format;
   return Diagnostic::in_file(path,
                              "neither its ending nor its content tells a format of particle files, "
                              "expected one of " +
@@ -92,11 +90,10 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
 
 /// An error about names for columns, if the format leaves nothing to be named, or if one of them
 /// occurs twice.
-Status check_columns(const std::vector<std::string>& columns, std::string_view format) {
-  constexpr std::array fixed{"ply", "gro", "pdb", "pqr", "mmcif"};
-  if (!columns.empty() && std::count(fixed.begin(), fixed.end(), format) > 0) {
-    return Diagnostic::about("columns",
-                             "a file of the format " + quote(format) + " names its columns itself");
+Status check_columns(const std::vector<std::string>& columns, const ParticleFormat& format) {
+  if (!columns.empty() && format.names_columns) {
+    return Diagnostic::about(
+        "columns", "a file of the format " + quote(format.name) + " names its columns itself");
   }
   const auto repeated = find_repeated(columns);
   if (!repeated) return {};
@@ -148,7 +145,7 @@ std::string known_particle_endings() {
 
 bool is_particle_name(std::string_view path) {
   const std::string name = bare_name(path);
-  return format_of_ending(name) != nullptr || has_lammps_prefix(name) ||
+  return format_of_ending(name) != nullptr || format_of_prefix(name) != nullptr ||
          npz_name(std::string(path));
 }
 
@@ -172,7 +169,7 @@ Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleF
   if (!bytes) return bytes.error();
   const auto format = find_format(path, bytes.value().text(), options.format);
   if (!format) return in_file(format.error(), path);
-  if (auto done = check_columns(options.columns, format.value()->name); !done) return done.error();
+  if (auto done = check_columns(options.columns, *format.value()); !done) return done.error();
   const Status whole = bytes.value().whole();
   auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
   if (!whole && !(reader && format.value()->is_trajectory))

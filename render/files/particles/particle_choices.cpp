@@ -6,8 +6,8 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "core/base/ascii.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/scene/number_text.h"
 #include "render/files/particles/species_palette.h"
 

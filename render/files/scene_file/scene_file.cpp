@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/ascii.h"
 #include "core/base/float_environment.h"
+#include "core/base/text.h"
 #include "render/files/file/input_file.h"
 #include "render/files/packed/packed_file.h"
 #include "render/files/scene_file/loaded/particle_file_cache.h"

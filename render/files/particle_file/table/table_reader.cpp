@@ -1,4 +1,5 @@
 #include "render/files/particle_file/table/table_reader.h"
+#include "render/files/particle_file/frame/particle_format.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 #include "render/files/particle_file/table/table_head.h"
 #include "render/files/particle_file/text/named_columns.h"
 #include "render/files/particle_file/text/text_lines.h"
@@ -242,6 +243,7 @@ Result<std::unique_ptr<ParticleReader>> open_points(MappedText bytes,
 }
 
 // Any text could be a table: only the ending tells.
-constinit const ParticleFormat table_format = {"table", {"csv", "tsv", "txt"}, nullptr, open_table};
+constinit const ParticleFormat table_format = {
+    .name = "table", .endings = {"csv", "tsv", "txt"}, .open = open_table};
 
 }  // namespace boule

@@ -40,17 +40,6 @@ void TextLines::skip_blank_lines() {
   }
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t i = 0; i < line.size();) {
-    const std::size_t begin = i;
-    while (i < line.size() && !is_blank(line[i])) ++i;
-    if (i > begin) words.push_back(line.substr(begin, i - begin));
-    while (i < line.size() && is_blank(line[i])) ++i;
-  }
-  return words;
-}
-
 int place_number(std::uint64_t value) {
   constexpr std::uint64_t most = std::numeric_limits<int>::max();
   return static_cast<int>(std::min(value, most));

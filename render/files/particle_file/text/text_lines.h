@@ -38,9 +38,6 @@ class TextLines {
   std::uint64_t line_ = 1;
 };
 
-/// The words of a line, between blanks. They are views of the line.
-std::vector<std::string_view> words_of(std::string_view line);
-
 /// An error at the start of a line, or at a word of it: `word` is a view of `line_text`.
 Diagnostic error_at_line(std::uint64_t line, std::string message, std::string key = {});
 Diagnostic error_at_word(std::uint64_t line, std::string_view line_text, std::string_view word,

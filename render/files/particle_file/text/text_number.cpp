@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-#include "core/base/ascii.h"
+#include "core/base/text.h"
 
 namespace boule {
 namespace {

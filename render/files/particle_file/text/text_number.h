@@ -6,18 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/text.h"
+
 namespace boule {
-
-inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
-inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// Without the blanks at its ends.
-inline std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 /// The nearest double to a decimal number in any notation: "1", "-.5", "+1e3", Fortran's "1.5D+02",
 /// "nan", "inf"; too large a number gives infinity. Nothing for any other text.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/scene/number_text.h"
 #include "render/files/scene_file/toml/toml_color_map.h"
 
@@ -35,23 +36,12 @@ RadiusRule read_radius(TomlTable& table) {
   return static_cast<RadiusTable>(found - tables.begin());
 }
 
-/// The words of a text, which blanks divide.
-std::vector<std::string> split_words(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t i = text.find_first_not_of(' '); i != std::string::npos;) {
-    const std::size_t end = std::min(text.find(' ', i), text.size());
-    words.push_back(text.substr(i, end - i));
-    i = text.find_first_not_of(' ', end);
-  }
-  return words;
-}
-
 ColorRule read_color_text(TomlTable& table) {
   std::string text;
   table.read("color", text);
   if (text.starts_with('#')) return read_color_codes(table, "color");
   if (text == "element" || text == "species") return SpeciesColors{};
-  std::vector<std::string> words = split_words(text);
+  const auto words = words_of(text);
   if (words.empty()) {
     table.report("color", quote(text) +
                               " is no colour, expected \"#rrggbb\", \"element\", a column or three "
@@ -59,7 +49,7 @@ ColorRule read_color_text(TomlTable& table) {
     return {};
   }
   // The name of a column may have blanks.
-  return ColorColumns{{words.size() == 1 ? std::move(words.front()) : std::move(text)}};
+  return ColorColumns{{words.size() == 1 ? std::string(words.front()) : std::move(text)}};
 }
 
 MappedColors read_mapped_colors(TomlTable table) {

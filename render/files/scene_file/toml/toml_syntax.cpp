@@ -4,19 +4,13 @@
 #include <cstddef>
 #include <map>
 
+#include "core/base/text.h"
 #include "render/files/file/nearest_name.h"
 
 namespace boule {
 namespace {
 
 constexpr int most_key_parts = 32, most_values = 1024;
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// Cuts the first line off `rest`.
 std::string_view take_line(std::string_view& rest) {
@@ -30,7 +24,7 @@ std::string_view take_line(std::string_view& rest) {
 std::string_view header_name(std::string_view line) {
   if (line.substr(0, 1) != "[") return {};
   line.remove_prefix(line.substr(0, 2) == "[[" ? 2 : 1);
-  return trim(line.substr(0, line.find(']')));
+  return without_blanks(line.substr(0, line.find(']')));
 }
 
 /// Where the string that begins at `from` ends: behind its closing quote, or at the line's end.
@@ -98,7 +92,7 @@ std::string key_on_line(std::string_view text, int line) {
   std::map<std::string_view, int> seen;  // how often each [[name]] came
   std::string header;
   for (int number = 1; number <= line && !text.empty(); ++number) {
-    const std::string_view shown = trim(take_line(text));
+    const std::string_view shown = without_blanks(take_line(text));
     const std::string_view name = header_name(shown);
     if (!name.empty()) {
       header = safe_name(name);
@@ -107,7 +101,7 @@ std::string key_on_line(std::string_view text, int line) {
     }
     const std::size_t equals = shown.find('=');
     if (number < line || equals == std::string_view::npos) continue;
-    const std::string key = safe_name(trim(shown.substr(0, equals)));
+    const std::string key = safe_name(without_blanks(shown.substr(0, equals)));
     return header.empty() ? key : header + "." + key;
   }
   return "";
