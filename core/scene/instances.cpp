@@ -15,8 +15,18 @@ constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
 
 /// The sum of two counts, limited to `most`, because nested groups multiply counts beyond 64 bits.
 PrimitiveCount add(const PrimitiveCount& a, const PrimitiveCount& b) {
-  return {std::min(a.spheres + b.spheres, most), std::min(a.planes + b.planes, most),
-          std::min(a.placements + b.placements, most)};
+  PrimitiveCount sum;
+  each_kind([&](auto kind) { kind.of(sum) = std::min(kind.of(a) + kind.of(b), most); });
+  sum.placements = std::min(a.placements + b.placements, most);
+  return sum;
+}
+
+/// The primitives of a scene or a group, without those of its instances.
+template <class Owner>
+PrimitiveCount count_own(const Owner& owner) {
+  PrimitiveCount count;
+  each_kind([&](auto kind) { kind.of(count) = kind.of(owner).size(); });
+  return count;
 }
 
 /// Goes through all groups, each once and inner ones first. It counts the spheres and planes in
@@ -44,7 +54,8 @@ class GroupSurvey {
     states_[group] = State::open;
     way_.push_back(group);
     const Group& own = scene_.groups[group];
-    PrimitiveCount count{own.spheres.size(), own.planes.size(), own.spheres.empty() ? 0U : 1U};
+    PrimitiveCount count = count_own(own);
+    count.placements = own.spheres.empty() ? 0 : 1;
     std::size_t depth = 1;
     for (std::size_t i = 0; i < own.instances.size() && !problem_; ++i) {
       const std::size_t inner = own.instances[i].group;
@@ -90,24 +101,10 @@ class GroupSurvey {
 };
 
 PrimitiveCount count_with(const Scene& scene, const std::vector<PrimitiveCount>& groups) {
-  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  PrimitiveCount count = count_own(scene);
   for (const Instance& instance : scene.instances) count = add(count, groups[instance.group]);
   return count;
 }
-
-/// Accessors for the primitives of one kind in a group, and for their number in a count.
-template <class Primitive>
-struct Kind;
-template <>
-struct Kind<Sphere> {
-  static const std::vector<Sphere>& of(const Group& group) { return group.spheres; }
-  static std::uint64_t count(const PrimitiveCount& count) { return count.spheres; }
-};
-template <>
-struct Kind<Plane> {
-  static const std::vector<Plane>& of(const Group& group) { return group.planes; }
-  static std::uint64_t count(const PrimitiveCount& count) { return count.planes; }
-};
 
 /// Calls function(shown) for all groups with primitives of one kind, of their own or of their
 /// instances', that instances show. It recurses at most max_nesting deep.
@@ -120,11 +117,12 @@ class Walk {
   void visit(const std::vector<Instance>& instances, const Similarity& outer,
              Replacement material) {
     for (const Instance& instance : instances) {
-      if (Kind<Primitive>::count(counts_[instance.group]) == 0) continue;
+      if (PrimitiveKind<Primitive>::of(counts_[instance.group]) == 0) continue;
       const Group& group = scene_.groups[instance.group];
       const Similarity transform = compose(outer, transform_of(instance));
       const Replacement inside = material ? material : instance.material;
-      if (!Kind<Primitive>::of(group).empty()) function_({instance.group, transform, inside});
+      if (!PrimitiveKind<Primitive>::of(group).empty())
+        function_({instance.group, transform, inside});
       visit(group.instances, transform, inside);
     }
   }
@@ -147,9 +145,17 @@ template <class Primitive, class Function>
 void walk(const Scene& scene, const std::vector<PrimitiveCount>& counts,
           const std::vector<Instance>& instances, const Function& function) {
   walk_groups<Primitive>(scene, counts, instances, [&](const ShownGroup& shown) {
-    for (const Primitive& one : Kind<Primitive>::of(scene.groups[shown.group]))
+    for (const Primitive& one : PrimitiveKind<Primitive>::of(scene.groups[shown.group]))
       function(transformed(one, shown.transform, shown.material));
   });
+}
+
+/// Adds the primitives of a kind that the scene's instances show to its own.
+template <class Primitive>
+void expand(Scene& scene, const std::vector<PrimitiveCount>& counts,
+            PrimitiveKind<Primitive> kind) {
+  walk<Primitive>(scene, counts, scene.instances,
+                  [&](const Primitive& one) { kind.of(scene).push_back(one); });
 }
 
 /// The first Problem of an instance by itself, or of its references to a group and a material.
@@ -207,7 +213,7 @@ std::vector<SphereRange> ranges_of(const std::vector<Group>& groups) {
   return ranges;
 }
 
-/// True if every sphere and plane that an instance shows is still valid after rounding to float.
+/// True if every primitive that an instance shows is still valid after rounding to float.
 /// Skips groups that certainly stay in range.
 bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& counts,
                     const std::vector<SphereRange>& ranges, const Instance& instance) {
@@ -217,8 +223,11 @@ bool stays_in_range(const Scene& scene, const std::vector<PrimitiveCount>& count
     for (const Sphere& sphere : scene.groups[shown.group].spheres)
       good = good && is_valid(transformed(sphere, shown.transform, {}));
   });
-  walk<Plane>(scene, counts, {instance},
-              [&good](const Plane& plane) { good = good && !find_problem(plane); });
+  each_other_kind([&](auto kind) {
+    using Primitive = typename decltype(kind)::Primitive;
+    walk<Primitive>(scene, counts, {instance},
+                    [&good](const Primitive& one) { good = good && !find_problem(one); });
+  });
   return good;
 }
 
@@ -244,7 +253,7 @@ std::optional<InstanceProblem> find_reference_problem(const Scene& scene) {
   if (auto bad = find_own_problem(scene, scene.instances, {})) return bad;
   const GroupSurvey survey(scene);
   if (survey.problem()) return survey.problem();
-  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  PrimitiveCount count = count_own(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     count = add(count, survey.counts()[scene.instances[i].group]);
     const bool many = count.total() > max_primitives;
@@ -276,7 +285,7 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
 }
 
 PrimitiveCount count_primitives(const Scene& scene) {
-  PrimitiveCount count{scene.spheres.size(), scene.planes.size()};
+  PrimitiveCount count = count_own(scene);
   if (!scene.instances.empty()) count = count_with(scene, GroupSurvey(scene).counts());
   if (scene.packed) count.spheres += scene.packed->count;
   return count;
@@ -319,19 +328,18 @@ std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene) {
   return fits ? std::optional(std::move(groups)) : std::nullopt;
 }
 
-void expand_planes(Scene& scene) {
+void expand_all_but_spheres(Scene& scene) {
   if (scene.instances.empty()) return;
   const GroupSurvey survey(scene);
-  std::vector<Plane> planes = std::move(scene.planes);
-  walk<Plane>(scene, survey.counts(), scene.instances,
-              [&planes](const Plane& plane) { planes.push_back(plane); });
-  scene.planes = std::move(planes);
-  for (Group& group : scene.groups) group.planes = {};
+  each_other_kind([&](auto kind) {
+    expand(scene, survey.counts(), kind);
+    for (Group& group : scene.groups) kind.of(group) = {};
+  });
 }
 
 std::optional<std::vector<ShownGroup>> share_or_expand(Scene& scene) {
   auto groups = groups_to_share(scene);
-  groups ? expand_planes(scene) : expand_instances(scene);
+  groups ? expand_all_but_spheres(scene) : expand_instances(scene);
   return groups;
 }
 
@@ -339,12 +347,10 @@ void expand_instances(Scene& scene) {
   if (!scene.instances.empty()) {
     const GroupSurvey survey(scene);
     const PrimitiveCount count = count_with(scene, survey.counts());
-    scene.spheres.reserve(static_cast<std::size_t>(count.spheres));
-    scene.planes.reserve(static_cast<std::size_t>(count.planes));
-    walk<Sphere>(scene, survey.counts(), scene.instances,
-                 [&scene](const Sphere& sphere) { scene.spheres.push_back(sphere); });
-    walk<Plane>(scene, survey.counts(), scene.instances,
-                [&scene](const Plane& plane) { scene.planes.push_back(plane); });
+    each_kind([&](auto kind) {
+      kind.of(scene).reserve(static_cast<std::size_t>(kind.of(count)));
+      expand(scene, survey.counts(), kind);
+    });
   }
   scene.instances = {};
   scene.groups = {};

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/kinds.h"
 #include "core/scene/scene.h"
 
 namespace boule {
@@ -37,13 +38,17 @@ std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 /// no ids. One tree holds at most max_primitives.
 inline constexpr std::uint64_t max_shown_primitives = 4294967293;
 
-/// The numbers of spheres and planes of a scene, those of its instances included.
+/// The numbers of primitives of a scene, those of its instances included.
 struct PrimitiveCount {
   std::uint64_t spheres = 0, planes = 0;
   std::uint64_t placements = 0;  ///< number of times that groups with spheres of their own are
                                  ///< shown
 
-  [[nodiscard]] std::uint64_t total() const { return spheres + planes; }
+  [[nodiscard]] std::uint64_t total() const {
+    std::uint64_t sum = 0;
+    each_kind([&](auto kind) { sum += kind.of(*this); });
+    return sum;
+  }
 };
 /// Precondition of this function and of all below, unchecked: find_reference_problem() finds
 /// nothing.
@@ -83,9 +88,9 @@ std::optional<std::vector<ShownGroup>> share_or_expand(Scene& scene);
 /// range of the kernels' filters.
 inline constexpr double most_shared_coordinate = 1e17;
 
-/// Turns the planes that a valid scene's instances show into planes of the scene, with the same
-/// ids, and removes those of its groups. Throws std::bad_alloc.
-void expand_planes(Scene& scene);
+/// Turns all but the spheres that a valid scene's instances show into primitives of the scene, with
+/// the same ids, and removes those of its groups. Throws std::bad_alloc.
+void expand_all_but_spheres(Scene& scene);
 
 /// Replaces a valid scene's instances by the spheres and planes that they show, and removes its
 /// groups. The spheres and planes of a scene without instances stay in place. Throws

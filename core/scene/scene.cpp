@@ -125,12 +125,17 @@ Status check_packed(const Scene& scene) {
 Status check_objects(const Scene& scene, const ParallelFor& parallel_for) {
   if (auto done = check_primitives("sphere", scene.spheres, scene, parallel_for); !done)
     return done;
-  if (auto done = check_primitives("plane", scene.planes, scene); !done) return done;
+  Status done;
+  each_other_kind([&](auto kind) {
+    if (done) done = check_primitives(kind.name, kind.of(scene), scene);
+  });
   for (const Group& group : scene.groups) {
-    const std::string path = "group." + group.name + ".";
-    if (auto done = check_primitives(path + "sphere", group.spheres, scene); !done) return done;
-    if (auto done = check_primitives(path + "plane", group.planes, scene); !done) return done;
+    each_kind([&](auto kind) {
+      if (done)
+        done = check_primitives("group." + group.name + "." + kind.name, kind.of(group), scene);
+    });
   }
+  if (!done) return done;
   const auto bad = find_instance_problem(scene);
   if (!bad) return check_packed(scene);
   const std::string path = bad->group ? "group." + scene.groups[*bad->group].name + "." : "";
@@ -148,9 +153,11 @@ Status validate_all_but_primitives(const Scene& scene) {
   const SectionCheck sections(scene);
   if (!sections.status()) return sections.status();
   const std::uint64_t packed = scene.packed ? scene.packed->count : 0;
+  std::uint64_t own = 0;
+  each_kind([&](auto kind) { own += kind.of(scene).size(); });
   const std::uint64_t most =
       packed > 0 && scene.packed->trees.size() > 1 ? max_shown_primitives : max_primitives;
-  if (packed > most || packed + scene.spheres.size() + scene.planes.size() > most) {
+  if (packed > most || packed + own > most) {
     return Diagnostic::about("sphere",
                              "a scene has at most " + std::to_string(most) + " primitives");
   }

@@ -27,10 +27,13 @@ Status check_scene_memory(const Scene& scene) {
   if (const auto groups = groups_to_share(scene)) return check_shared_memory(scene, *groups);
   PrimitiveCount count = count_primitives(scene);
   if (scene.packed) count.spheres -= scene.packed->count;  // they are in their tree already
-  const std::uint64_t planes = count.planes - scene.planes.size();
+  std::uint64_t others = 0;
+  each_other_kind([&](auto kind) {
+    others += (kind.of(count) - kind.of(scene).size()) * sizeof(typename decltype(kind)::Primitive);
+  });
   // The scene's own spheres are in memory already.
-  const std::uint64_t bytes = bytes_of_tree(count.spheres) + planes * sizeof(Plane) -
-                              bytes_of_spheres(scene.spheres.size());
+  const std::uint64_t bytes =
+      bytes_of_tree(count.spheres) + others - bytes_of_spheres(scene.spheres.size());
   const bool instances = !scene.instances.empty();
   return check_memory(bytes,
                       std::to_string(count.total()) + " spheres and planes" +

@@ -57,7 +57,8 @@ bool any_object(const Scene& scene, const Wanted& wanted) {
       return is_wanted[object.material.index()];
     });
   };
-  bool found = any(scene.packed ? scene.packed->emissive : scene.spheres) || any(scene.planes);
+  bool found = any(scene.packed ? scene.packed->emissive : scene.spheres);
+  each_other_kind([&](auto kind) { found = found || any(kind.of(scene)); });
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
     if (found) return;
     found = shown.material ? is_wanted[*shown.material] : any(scene.groups[shown.group].spheres);

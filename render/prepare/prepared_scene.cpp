@@ -43,8 +43,11 @@ bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
                [&](char& some, const Sphere& sphere) { some |= colored(sphere) ? 1 : 0; },
                [](char& some, char other) { some |= other; }) != 0;
   };
-  return (scene.packed && scene.packed->has_own_colors) ||
-         std::any_of(scene.planes.begin(), scene.planes.end(), colored) ||
+  bool others_colored = false;
+  each_other_kind([&](auto kind) {
+    others_colored |= std::any_of(kind.of(scene).begin(), kind.of(scene).end(), colored);
+  });
+  return (scene.packed && scene.packed->has_own_colors) || others_colored ||
          any_colored(scene.spheres) ||
          std::any_of(scene.groups.begin(), scene.groups.end(),
                      [&](const Group& group) { return any_colored(group.spheres); });

@@ -104,19 +104,14 @@ class SceneHasher {
     if (scene_.packed) return hash_.add(scene_.packed->digest);
     hash_.add(digest_of(spheres, !shares_));
   }
-  void add(const std::vector<Plane>& planes) {
-    hash_.add(count_primitives(scene_).planes);
-    for (const Plane& one : planes) hash_.add(one);
-    if (shares_) return;
-    visit_shown(scene_, std::function([this](const Plane& one) { hash_.add(one); }));
-  }
-  /// Shared groups are added as they are: their planes in order, and their spheres.
+  void add(const std::vector<Plane>& planes) { add_with_shown(planes); }
+  /// Shared groups are added as they are: their spheres, and all others in order.
   void add(const std::vector<Group>& groups) {
     if (!shares_) return;
     hash_.add(std::uint64_t{groups.size()});
     for (const Group& group : groups) {
       hash_.add(digest_of(group.spheres, false));
-      hash_.add(group.planes);
+      each_other_kind([&](auto kind) { hash_.add(kind.of(group)); });
       hash_.add(group.instances);
     }
   }
@@ -124,6 +119,15 @@ class SceneHasher {
     if (shares_) hash_.add(instances);
   }
   void add(const std::shared_ptr<const PackedSpheres>&) {}
+
+  /// The scene's own primitives of a kind, and those that its instances show.
+  template <class Primitive>
+  void add_with_shown(const std::vector<Primitive>& own) {
+    hash_.add(PrimitiveKind<Primitive>::of(count_));
+    for (const Primitive& one : own) hash_.add(one);
+    if (shares_) return;
+    visit_shown(scene_, std::function([this](const Primitive& one) { hash_.add(one); }));
+  }
 
   std::uint64_t digest_of(const std::vector<Sphere>& spheres, bool shown_too) const {
     SphereDigest digest;
@@ -135,6 +139,7 @@ class SceneHasher {
 
   const Scene& scene_;
   const ParallelFor& parallel_for_;
+  const PrimitiveCount count_ = count_primitives(scene_);
   bool shares_;
   Hasher hash_;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/kinds.h"
 #include "render/apps/job/legend.h"
 #include "render/apps/python/errors.h"
 #include "render/apps/python/field_values.h"
@@ -37,7 +38,8 @@ class SceneValues {
   [[nodiscard]] py::list materials() const;
   [[nodiscard]] py::list lights() const;
   [[nodiscard]] py::object spheres(std::vector<Sphere>&& spheres, const Vec3d& base) const;
-  [[nodiscard]] py::list planes(const std::vector<Plane>& planes, const FieldValues& values) const;
+  template <class Owner>
+  void add_others(py::dict& to, const Owner& owner, const FieldValues& values) const;
   [[nodiscard]] py::list instances(const std::vector<Instance>& all, const Vec3d& origin) const;
   [[nodiscard]] py::list groups();
   [[nodiscard]] py::object origin() const;
@@ -145,15 +147,18 @@ py::object SceneValues::spheres(std::vector<Sphere>&& spheres, const Vec3d& base
   return py::cast(data_of(std::move(arrays)));
 }
 
-py::list SceneValues::planes(const std::vector<Plane>& planes, const FieldValues& values) const {
-  py::list all;
-  for (const Plane& plane : planes) {
-    py::dict one = values.of(plane);
-    one["material"] = names_[plane.material.index()];
-    if (plane.material.has_color()) one["color"] = hex_text(plane.material.color());
-    all.append(one);
-  }
-  return all;
+template <class Owner>
+void SceneValues::add_others(py::dict& to, const Owner& owner, const FieldValues& values) const {
+  each_other_kind([&](auto kind) {
+    py::list all;
+    for (const auto& primitive : kind.of(owner)) {
+      py::dict one = values.of(primitive);
+      one["material"] = names_[primitive.material.index()];
+      if (primitive.material.has_color()) one["color"] = hex_text(primitive.material.color());
+      all.append(one);
+    }
+    to[kind.plural] = all;
+  });
 }
 
 py::list SceneValues::instances(const std::vector<Instance>& all, const Vec3d& origin) const {
@@ -174,7 +179,7 @@ py::list SceneValues::groups() {
     const Vec3d origin = loaded_.origin_of(i);
     py::dict one;
     one["spheres"] = spheres(std::move(group.spheres), origin);
-    one["planes"] = planes(group.planes, FieldValues(origin));
+    add_others(one, group, FieldValues(origin));
     one["instances"] = instances(group.instances, origin);
     all.append(py::make_tuple(group.name, one));
   }
@@ -198,7 +203,7 @@ py::dict SceneValues::all() {
   values["backdrop"] = scene.backdrop ? to_python(*scene.backdrop) : py::object(py::none());
   values["materials"] = materials();
   values["lights"] = lights();
-  values["planes"] = planes(scene.planes, world_);
+  add_others(values, scene, world_);
   values["instances"] = instances(scene.instances, loaded_.origin);
   values["groups"] = groups();
   values["spheres"] = spheres(std::move(scene.spheres), loaded_.origin);

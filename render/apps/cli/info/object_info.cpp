@@ -42,8 +42,10 @@ Json spheres_info(const Scene& scene, const Vec3d& origin) {
   });
   return first_info(scene, first, origin);
 }
-Json planes_info(const Scene& scene, const Vec3d& origin) {
-  return first_info(scene, scene.planes, origin);
+void add_others(Json& json, const Scene& scene, const Vec3d& origin) {
+  each_other_kind([&](auto kind) {
+    json[std::string("first_") + kind.plural] = first_info(scene, kind.of(scene), origin);
+  });
 }
 Json instances_info(const LoadedScene& loaded) {
   return instances_info(loaded, loaded.scene.instances, loaded.origin);
@@ -55,13 +57,14 @@ Json groups_info(const LoadedScene& loaded) {
   for (std::size_t i = 0; i < scene.groups.size(); ++i) {
     const Group& group = scene.groups[i];
     const Vec3d origin = loaded.origin_of(i);
-    list.push_back({{"name", group.name},
-                    {"spheres", group.spheres.size()},
-                    {"planes", group.planes.size()},
-                    {"instances", group.instances.size()},
-                    {"first_spheres", first_info(scene, group.spheres, origin)},
-                    {"first_planes", first_info(scene, group.planes, origin)},
-                    {"first_instances", instances_info(loaded, group.instances, origin)}});
+    Json one = {{"name", group.name}};
+    each_kind([&](auto kind) { one[kind.plural] = kind.of(group).size(); });
+    one["instances"] = group.instances.size();
+    each_kind([&](auto kind) {
+      one[std::string("first_") + kind.plural] = first_info(scene, kind.of(group), origin);
+    });
+    one["first_instances"] = instances_info(loaded, group.instances, origin);
+    list.push_back(std::move(one));
   }
   return list;
 }

@@ -13,7 +13,8 @@ inline constexpr std::size_t most_told = 8;
 /// The first spheres, planes and instances of a valid scene, whose points are counted from
 /// `origin`, and its groups with those of each. Points are told as the scene file counts them.
 nlohmann::ordered_json spheres_info(const Scene& scene, const Vec3d& origin);
-nlohmann::ordered_json planes_info(const Scene& scene, const Vec3d& origin);
+/// Adds the first few of all other kinds: "first_planes".
+void add_others(nlohmann::ordered_json& json, const Scene& scene, const Vec3d& origin);
 nlohmann::ordered_json instances_info(const LoadedScene& loaded);
 nlohmann::ordered_json groups_info(const LoadedScene& loaded);
 

@@ -31,7 +31,9 @@ Json materials_info(const Scene& scene) {
   });
   for (std::size_t i = 0; i < shown_groups.size(); ++i)
     count(scene.groups[i].spheres, shown_groups[i]);
-  for (const Plane& plane : scene.planes) ++objects[plane.material.index()];
+  each_other_kind([&](auto kind) {
+    for (const auto& one : kind.of(scene)) ++objects[one.material.index()];
+  });
   if (scene.packed) {
     for (std::size_t i = 0; i < scene.packed->made_of.size(); ++i)
       objects[i] += scene.packed->made_of[i];
@@ -138,16 +140,16 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
                {"hash", fmt::format("{:016x}", hash)}};
   FieldInfo(json).add(scene.image);
   FieldInfo(json).add(scene.render);
-  json.update({{"spheres", count_primitives(scene).spheres},
-               {"planes", scene.planes.size()},
-               {"groups", group_count},
+  const PrimitiveCount count = count_primitives(scene);
+  each_kind([&](auto kind) { json[kind.plural] = kind.of(count); });
+  json.update({{"groups", group_count},
                {"instances", instance_count},
                {"bounds", bounds_info(scene, origin)},
                {"origin", {origin.x, origin.y, origin.z}}});
   add_surroundings(json, scene, origin);
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene, origin);
-  json["first_planes"] = planes_info(scene, origin);
+  add_others(json, scene, origin);
   json["group_list"] = std::move(groups);
   json["first_instances"] = std::move(instances);
   for (const std::string& note : loaded.notes) json["notes"].push_back(note);

@@ -84,8 +84,9 @@ void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
                   [](const ParticleFacts& facts) { return facts.particles > 0; });
   if (count.total() == 0 && !has_particles)
     note_once("boule: note: no objects in the scene: nothing to be hit");
-  detail(fmt::format("{}: {}, {}, {}, {}, read in {:.3f} s", job_.scene,
-                     counted(count.spheres, "sphere"), counted(count.planes, "plane"),
+  std::string objects;
+  each_kind([&](auto kind) { objects += counted(kind.of(count), kind.name) + ", "; });
+  detail(fmt::format("{}: {}{}, {}, read in {:.3f} s", job_.scene, objects,
                      counted(scene.lights.size(), "light"),
                      counted(scene.materials.size(), "material"), seconds));
 }

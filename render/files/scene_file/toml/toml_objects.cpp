@@ -57,7 +57,7 @@ const SphereArrays* find_arrays(TomlTable& table) {
 
 ObjectTables object_tables(TomlTable& table) {
   ObjectTables tables;
-  tables.planes = table.tables("plane");
+  each_other_kind([&](auto kind) { kind.of(tables) = table.tables(kind.name); });
   tables.instances = table.tables("instance");
   auto& all = tables.spheres;
   constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
@@ -232,10 +232,14 @@ void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const
   if (!mapped->note.empty()) notes_.push_back(std::move(mapped->note));
 }
 
-void TomlObjects::read_plane(TomlTable& table, std::vector<Plane>& planes) {
-  default_ = &default_plane_material_;
-  planes.push_back(read_checked<Plane>(table));
-  default_ = &default_material_;
+/// All but spheres, of a scene or a group. A floor is darker than what stands on it.
+template <class Owner>
+void TomlObjects::read_others(ObjectTables& tables, Owner& owner) {
+  each_other_kind([&]<class Primitive>(PrimitiveKind<Primitive> kind) {
+    if (std::is_same_v<Primitive, Plane>) default_ = &default_plane_material_;
+    for (TomlTable& one : kind.of(tables)) kind.of(owner).push_back(read_checked<Primitive>(one));
+    default_ = &default_material_;
+  });
 }
 
 void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
@@ -259,13 +263,13 @@ void TomlObjects::read_group(std::size_t group, ObjectTables& tables,
                              const std::vector<Vec3d>& origins) {
   Group& own = scene_.groups[group];
   read_spheres(tables.spheres, own.spheres);
-  for (TomlTable& plane : tables.planes) read_plane(plane, own.planes);
+  read_others(tables, own);
   read_instances(tables.instances, group, origins, own.instances);
 }
 
 void TomlObjects::read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins) {
   read_spheres(tables.spheres, scene_.spheres);
-  for (TomlTable& plane : tables.planes) read_plane(plane, scene_.planes);
+  read_others(tables, scene_);
   read_instances(tables.instances, std::nullopt, group_origins, scene_.instances);
 }
 

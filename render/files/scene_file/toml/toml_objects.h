@@ -85,7 +85,8 @@ class TomlObjects final : private TomlNames {
   void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                      std::vector<Sphere>& spheres);
   void add_images(TomlTable& table, ParticleSpheres particles);
-  void read_plane(TomlTable& table, std::vector<Plane>& planes);
+  template <class Owner>
+  void read_others(ObjectTables& tables, Owner& owner);
   void read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,
                       const std::vector<Vec3d>& origins, std::vector<Instance>& instances);
   /// Reads a struct that may refer to materials and groups, with these keys required.
