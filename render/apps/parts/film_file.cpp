@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "render/apps/parts/film_text.h"
+#include "render/files/file/byte_fields.h"
 #include "render/files/file/checksum.h"
 #include "render/files/file/input_file.h"
 #include "render/image/output_file.h"
@@ -15,7 +15,7 @@ namespace boule::film_file {
 namespace {
 
 constexpr char magic[8] = {'b', 'o', 'u', 'l', 'f', 'i', 'l', 'm'};
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::uint32_t transparent_flag = 1, outline_flag = 2, measured_flag = 4;
 constexpr std::uint32_t order_shift = 8, order_mask = 3;  // the order is a number of the flags
 static_assert(names<PixelOrder>.size() == order_mask + 1);
@@ -107,7 +107,7 @@ Status write_parts(Writer& writer, const FilmHead& head, const PartSheet& sheet)
 
 Status write_all(OutputFile& file, const FilmHead& head, const PartSheet& sheet,
                  const std::function<bool()>& stop) {
-  const std::string text = film_text(head);
+  const std::string text = ByteWriter().put(head.facts, head.share, head.metadata).take();
   const Numbers numbers = numbers_of(head, text.size());
   Writer writer(file, stop);
   if (auto done = writer.write(bytes_of_values(&numbers, 1)); !done) return done;
@@ -156,6 +156,14 @@ bool has_right_sum(std::string_view all) {
   Checksum real;
   real.add(summed);
   return real.value() == sum;
+}
+
+bool read_texts(std::string_view bytes, FilmHead& head) {
+  ByteReader reader(bytes);
+  reader.read(head.facts);
+  reader.read(head.share);
+  reader.read(head.metadata);
+  return reader.finished();
 }
 
 }  // namespace
@@ -216,7 +224,7 @@ std::string Reader::parse() {
            std::to_string(expected);
   }
   const bool whole = expected == all.size() && has_right_sum(all) &&
-                     read_film_text(all.substr(sizeof n, n.text_bytes), head_);
+                     read_texts(all.substr(sizeof n, n.text_bytes), head_);
   if (!whole) return changed;
   head_.frame_width = n.frame_width;
   head_.frame_height = n.frame_height;

@@ -30,8 +30,8 @@ struct FilmHead {
 
 /// Film files hold samples of pixels in full, so that rendering can go on, or parts be put
 /// together, with the same bits. A file is little-endian: a head of 64 bytes with numbers, the
-/// facts as text, the blocks as four int32 each, their parts (PartSheet), and the XXH3 checksum of
-/// all that in 8 bytes.
+/// facts and the header (ByteWriter), the blocks as four int32 each, their parts (PartSheet), and
+/// the XXH3 checksum of all that in 8 bytes.
 namespace film_file {
 
 /// An error if this build can neither write nor read film files, because it has no checksum.

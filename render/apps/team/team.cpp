@@ -59,8 +59,8 @@ void Team::run(const OpenPost& open) {
 
 void Team::send_hello() {
   for (int to = leads() ? 1 : 0; to < (leads() ? size_ : 1); ++to) {
-    LetterWriter hello(LetterKind::hello);
-    hello.add_text(settings_.version).add_text(hello_letter(settings_.name));
+    ByteWriter hello = letter_of(LetterKind::hello);
+    hello.put(settings_.version, settings_.name);
     send(to, hello.take());
   }
 }
@@ -124,8 +124,8 @@ void Team::send(int to, const std::string& letter) {
 }
 
 void Team::read(const Letter& letter) {
-  LetterReader reader(letter.bytes);
-  const auto kind = reader.get<LetterKind>();
+  ByteReader reader(letter.bytes);
+  const auto kind = kind_of(reader);
   Rank& rank = ranks_[static_cast<std::size_t>(letter.from)];
   {
     const std::lock_guard lock(mutex_);
@@ -142,19 +142,17 @@ void Team::read(const Letter& letter) {
   changed_.notify_all();
 }
 
-void Team::read_from_leader(LetterKind kind, LetterReader& letter) {
+void Team::read_from_leader(LetterKind kind, ByteReader& letter) {
   const std::lock_guard lock(mutex_);
   switch (kind) {
     case LetterKind::hello: {
-      static_cast<void>(letter.get_text());  // the version: the leader compares it
-      LetterReader name(letter.get_text());
-      static_cast<void>(name.get<LetterKind>());
-      ranks_.front().name = read_hello(name);
+      static_cast<void>(letter.get<std::string>());  // the version: the leader compares it
+      letter.read(ranks_.front().name);
       break;
     }
     case LetterKind::work: {
       const int picture = letter.get<int>();
-      const auto blocks = letter.get_list();
+      const auto blocks = letter.get<std::vector<std::uint32_t>>();
       if (picture == number_) queue_.insert(queue_.end(), blocks.begin(), blocks.end());
       break;
     }
@@ -185,9 +183,9 @@ void Team::begin(TeamPicture picture) {
     for (Rank& rank : ranks_) rank.in_hand = rank.last_portion = 0;
     ranks_.front().ready = number_;
   } else {
-    LetterWriter letter(LetterKind::facts);
+    ByteWriter letter = letter_of(LetterKind::facts);
     letter.add(number_);
-    for (const auto& [name, value] : picture_.facts) letter.add_text(name).add_text(value);
+    for (const auto& [name, value] : picture_.facts) letter.put(name, value);
     outbox_.emplace_back(0, letter.take());
   }
   to_send_.notify_all();
@@ -227,10 +225,9 @@ void Team::send_results() {
   const auto now = Clock::now();
   const bool is_low = queue_.size() <= static_cast<std::size_t>(settings_.name.threads);
   if (!is_low && bytes < large_letter && now - sent_ < beat_interval) return;
-  LetterWriter letter(LetterKind::result);
+  ByteWriter letter = letter_of(LetterKind::result);
   letter.add(number_);
-  for (const Given& one : given_)
-    letter.add(one.block).add(one.rays).add(one.seconds).add_text(one.part);
+  for (const Given& one : given_) letter.put(one.block, one.rays, one.seconds, one.part);
   given_.clear();
   sent_ = now;
   outbox_.emplace_back(0, letter.take());
@@ -242,7 +239,7 @@ void Team::beat() {
   if (now - beaten_ < beat_interval) return;
   beaten_ = now;
   for (int to = leads() ? 1 : 0; to < (leads() ? size_ : 1); ++to) {
-    LetterWriter letter(LetterKind::beat);
+    ByteWriter letter = letter_of(LetterKind::beat);
     letter.add(std::exchange(patience_, 0));
     outbox_.emplace_back(to, letter.take());
   }
@@ -279,7 +276,7 @@ void Team::stop() {
   if (leads()) {
     stopped_ = true;
   } else if (!std::exchange(caught_told_, true)) {
-    outbox_.emplace_back(0, LetterWriter(LetterKind::caught).take());
+    outbox_.emplace_back(0, letter_of(LetterKind::caught).take());
   }
   changed_.notify_all();
   to_send_.notify_all();
@@ -304,7 +301,7 @@ std::optional<int> Team::next_frame(int count) {
     return frames_dealt_++;
   }
   frame_answer_.reset();
-  outbox_.emplace_back(0, LetterWriter(LetterKind::frame).take());
+  outbox_.emplace_back(0, letter_of(LetterKind::frame).take());
   to_send_.notify_all();
   changed_.wait(lock, [this] { return frame_answer_ || may_leave_; });
   if (!frame_answer_ || *frame_answer_ < 0) return std::nullopt;
@@ -323,8 +320,8 @@ int Team::leave(int code, const std::string& text) {
     number_ = std::numeric_limits<int>::max();  // no rank waits for a picture that never begins
     finish_picture();
   } else {
-    LetterWriter letter(LetterKind::ended);
-    letter.add(code).add_text(text);
+    ByteWriter letter = letter_of(LetterKind::ended);
+    letter.put(code, text);
     outbox_.emplace_back(0, letter.take());
   }
   to_send_.notify_all();

@@ -135,9 +135,9 @@ class Team {
   void work_until_left();
   void send(int to, const std::string& letter);
   void read(const Letter& letter);
-  void read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader& letter);
-  void read_from_leader(LetterKind kind, LetterReader& letter);
-  void read_result(Rank& rank, LetterReader& letter);
+  void read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& letter);
+  void read_from_leader(LetterKind kind, ByteReader& letter);
+  void read_result(Rank& rank, ByteReader& letter);
   void take(Rank& rank, const Given& one);
   void call_lost();
   void check_facts(Rank& rank, int number);

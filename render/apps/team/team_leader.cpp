@@ -5,15 +5,13 @@
 
 namespace boule {
 
-void Team::read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader& letter) {
+void Team::read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& letter) {
   if (kind == LetterKind::result) return read_result(rank, letter);
   const std::lock_guard lock(mutex_);
   switch (kind) {
     case LetterKind::hello: {
-      const std::string version(letter.get_text());
-      LetterReader name(letter.get_text());
-      static_cast<void>(name.get<LetterKind>());
-      rank.name = read_hello(name);
+      const auto version = letter.get<std::string>();
+      letter.read(rank.name);
       rank.work.host = rank.name.host;
       rank.here = true;
       if (version != settings_.version) {
@@ -26,7 +24,7 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader&
       rank.ready = letter.get<int>();
       rank.facts.clear();
       while (letter.good() && !letter.at_end())
-        rank.facts.append(letter.get_text()).push_back('\n');
+        rank.facts.append(letter.get<std::string>()).push_back('\n');
       break;
     case LetterKind::frame:
       frame_askers_.push_back(number);
@@ -37,7 +35,7 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader&
     case LetterKind::ended: {
       rank.ended = true;
       const int code = letter.get<int>();
-      const std::string text(letter.get_text());
+      const auto text = letter.get<std::string>();
       if (code != 0 && failure_code_ == 0) {
         fail(called(number) + " failed" + (text.empty() ? "" : ": " + text));
         failure_code_ = code;
@@ -49,14 +47,14 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, LetterReader&
   }
 }
 
-void Team::read_result(Rank& rank, LetterReader& letter) {
+void Team::read_result(Rank& rank, ByteReader& letter) {
   const int picture = letter.get<int>();
   while (letter.good() && !letter.at_end()) {
     Given one{};
     one.block = letter.get<std::uint32_t>();
     one.rays = letter.get<std::uint64_t>();
     one.seconds = letter.get<double>();
-    one.part = letter.get_text();
+    one.part = letter.get<std::string>();
     if (picture == number_ && letter.good()) take(rank, one);
   }
 }
@@ -94,7 +92,7 @@ void Team::deal() {
   for (const int number : std::exchange(frame_askers_, {})) answer_frame(number);
   if (leaving_ && all_ended() && !may_leave_) {
     for (int to = 1; to < size_; ++to) {
-      LetterWriter letter(LetterKind::leave);
+      ByteWriter letter = letter_of(LetterKind::leave);
       letter.add(code_ != 0 ? code_ : failure_code_);
       outbox_.emplace_back(to, letter.take());
     }
@@ -121,8 +119,8 @@ void Team::deal_to(Rank& rank, int number) {
       queue_.insert(queue_.end(), blocks.begin(), blocks.end());
       changed_.notify_all();
     } else {
-      LetterWriter letter(LetterKind::work);
-      letter.add(number_).add_list(blocks);
+      ByteWriter letter = letter_of(LetterKind::work);
+      letter.put(number_, blocks);
       outbox_.emplace_back(number, letter.take());
     }
   }
@@ -156,15 +154,15 @@ void Team::check_facts(Rank& rank, int number) {
 void Team::answer_frame(int number) {
   if (frame_count_ < 0) return frame_askers_.push_back(number);  // the leader is not there yet
   const bool is_left = frames_dealt_ < frame_count_ && !stopped_ && failure_code_ == 0;
-  LetterWriter letter(LetterKind::frame);
+  ByteWriter letter = letter_of(LetterKind::frame);
   letter.add(is_left ? frames_dealt_++ : -1);
   outbox_.emplace_back(number, letter.take());
 }
 
 void Team::finish_picture() {
   for (int to = 1; to < size_; ++to) {
-    LetterWriter letter(LetterKind::stop);
-    letter.add(number_).add(stopped_ || failure_code_ != 0);
+    ByteWriter letter = letter_of(LetterKind::stop);
+    letter.put(number_, stopped_ || failure_code_ != 0);
     outbox_.emplace_back(to, letter.take());
   }
   stop_number_ = number_;

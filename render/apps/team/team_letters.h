@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
+
+#include "core/scene/field.h"
+#include "render/files/file/byte_fields.h"
 
 namespace boule {
 
@@ -24,60 +22,12 @@ enum class LetterKind : std::uint8_t {
   leave,   ///< from the leader: leave, with an exit code
 };
 
-/// Puts a letter together.
-class LetterWriter {
- public:
-  explicit LetterWriter(LetterKind kind) { add(kind); }
-
-  template <class T>
-  LetterWriter& add(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  LetterWriter& add_text(std::string_view text) {
-    add(static_cast<std::uint64_t>(text.size()));
-    text_ += text;
-    return *this;
-  }
-  LetterWriter& add_list(const std::vector<std::uint32_t>& list) {
-    return add_text({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0])});
-  }
-
-  [[nodiscard]] std::string take() { return std::move(text_); }
-  [[nodiscard]] std::size_t size() const { return text_.size(); }
-
- private:
-  std::string text_;
-};
-
-/// Takes a letter apart. A letter that is too short gives zeros, and is not good().
-class LetterReader {
- public:
-  explicit LetterReader(std::string_view letter) : rest_(letter) {}
-
-  template <class T>
-  T get() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    T value{};
-    if (rest_.size() < sizeof value) {
-      good_ = false;
-      return value;
-    }
-    std::memcpy(&value, rest_.data(), sizeof value);
-    rest_.remove_prefix(sizeof value);
-    return value;
-  }
-  std::string_view get_text();
-  std::vector<std::uint32_t> get_list();
-
-  [[nodiscard]] bool good() const { return good_; }
-  [[nodiscard]] bool at_end() const { return rest_.empty(); }
-
- private:
-  std::string_view rest_;
-  bool good_ = true;
-};
+inline ByteWriter letter_of(LetterKind kind) {
+  return ByteWriter().put(static_cast<std::uint8_t>(kind));
+}
+inline LetterKind kind_of(ByteReader& letter) {
+  return static_cast<LetterKind>(letter.get<std::uint8_t>());
+}
 
 /// What a rank says of itself.
 struct RankName {
@@ -86,7 +36,11 @@ struct RankName {
   std::string processes;  ///< which system's processes `process` is one of
   int threads = 1;
 };
-std::string hello_letter(const RankName& name);
-RankName read_hello(LetterReader& letter);
+
+template <>
+inline constexpr auto fields<RankName> = field_list("rank", field("host", &RankName::host),
+                                                    field("process", &RankName::process),
+                                                    field("processes", &RankName::processes),
+                                                    field("threads", &RankName::threads));
 
 }  // namespace boule

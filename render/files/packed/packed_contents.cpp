@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "render/files/packed/byte_fields.h"
+#include "core/scene/kinds.h"
+#include "core/scene/scene_check.h"
+#include "render/files/file/byte_fields.h"
 #include "render/files/packed/packed_format.h"
 
 namespace boule {
@@ -96,10 +98,11 @@ Result<PackedContents> decode(std::string_view bytes) {
   if (auto done = validate_all_but_primitives(scene); !done) return done.error();
   if (!scene.spheres.empty() || !scene.groups.empty() || !scene.instances.empty()) return damaged();
   const PackedSpheres& spheres = contents.spheres;
-  const bool valid = are_valid(scene.planes, scene) && are_valid(spheres.emissive, scene) &&
-                     are_valid(spheres.first, scene) && are_valid(spheres.extremes, scene) &&
-                     spheres.extremes.empty() == (spheres.count == 0) && add_up(contents) &&
-                     spheres.made_of.size() == scene.materials.size();
+  bool valid = true;
+  each_other_kind([&](auto kind) { valid = valid && are_valid(kind.of(scene), scene); });
+  valid = valid && are_valid(spheres.emissive, scene) && are_valid(spheres.first, scene) &&
+          are_valid(spheres.extremes, scene) && spheres.extremes.empty() == (spheres.count == 0) &&
+          add_up(contents) && spheres.made_of.size() == scene.materials.size();
   if (!valid) return damaged();
   return contents;
 }

@@ -203,8 +203,8 @@ TEST_F(TeamTest, DeadRanksAreNamed) {
     if (!lost.exchange(true)) why = text;
   };
   MemoryPost other(mail, 1);
-  LetterWriter hello(LetterKind::hello);
-  hello.add_text("1").add_text(hello_letter(settings(1).name));
+  ByteWriter hello = letter_of(LetterKind::hello);
+  hello.put(std::string("1"), settings(1).name);
   other.send(0, hello.take());
   auto team = Team::join(
       [&] { return Result<std::unique_ptr<Post>>(std::make_unique<MemoryPost>(mail, 0)); }, own);
@@ -220,16 +220,16 @@ TEST_F(TeamTest, NoPostIsAnError) {
   EXPECT_EQ(team.error().message, "no module");
 }
 
-TEST(LetterReader, RefusesLettersThatAreTooShort) {
-  LetterWriter writer(LetterKind::result);
-  writer.add(7).add_text("part").add_list({1, 2, 3});
+TEST(Letters, RefusesLettersThatAreTooShort) {
+  ByteWriter writer = letter_of(LetterKind::result);
+  writer.put(7, std::string("part"), std::vector<std::uint32_t>{1, 2, 3});
   const std::string whole = writer.take();
   for (std::size_t length = 0; length <= whole.size(); ++length) {
-    LetterReader reader(std::string_view(whole).substr(0, length));
-    reader.get<LetterKind>();
+    ByteReader reader(std::string_view(whole).substr(0, length));
+    kind_of(reader);
     reader.get<int>();
-    reader.get_text();
-    reader.get_list();
+    reader.get<std::string>();
+    reader.get<std::vector<std::uint32_t>>();
     EXPECT_EQ(reader.good(), length == whole.size());
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -15,9 +16,10 @@
 
 #include "core/scene/scene.h"
 
-/// Values as bytes, exactly, and back. A struct has its fields by their keys (each_field()), so
-/// that a file can still be read when the struct has got more of them; enums and variants have
-/// names. What a file of bytes holds may be anything: the reader says whether it was such a value.
+/// Values as bytes, exactly, and back: in packed scenes, film files, and letters between ranks. A
+/// struct has its fields by their keys (each_field()), so that a file can still be read when the
+/// struct has got more of them; enums, and variants of such structs, have names. What a file of
+/// bytes holds may be anything: the reader says whether it was such a value.
 namespace boule {
 
 /// Types that are their own bytes.
@@ -25,9 +27,20 @@ template <class T>
 concept PlainBytes = std::is_arithmetic_v<T> || std::is_same_v<T, Vec3f> ||
     std::is_same_v<T, Vec3d> || std::is_same_v<T, Color> || std::is_same_v<T, MaterialRef>;
 
+template <class... Kinds>
+inline constexpr bool have_names = (HasFields<Kinds> && ...);
+
 class ByteWriter {
  public:
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+  /// Adds them one after the other.
+  template <class... Values>
+  ByteWriter& put(const Values&... values) {
+    (add(values), ...);
+    return *this;
+  }
 
   template <PlainBytes T>
   void add(const T& value) {
@@ -53,12 +66,22 @@ class ByteWriter {
   }
   template <class... Kinds>
   void add(const std::variant<Kinds...>& one_of) {
+    if constexpr (!have_names<Kinds...>) add(static_cast<std::uint32_t>(one_of.index()));
     std::visit(
         [this](const auto& value) {
-          this->add(fields<std::remove_cvref_t<decltype(value)>>.type);
+          if constexpr (have_names<Kinds...>)
+            this->add(fields<std::remove_cvref_t<decltype(value)>>.type);
           this->add(value);
         },
         one_of);
+  }
+  template <class A, class B>
+  void add(const std::pair<A, B>& both) {
+    put(both.first, both.second);
+  }
+  template <PlainBytes T, std::size_t n>
+  void add(const std::array<T, n>& list) {
+    for (const T& one : list) add(one);
   }
   template <class T>
   void add(const std::vector<T>& list) {
@@ -95,6 +118,7 @@ class ByteReader {
   /// Whether all values were there, with nothing behind them.
   [[nodiscard]] bool finished() const { return good_ && rest_.empty(); }
   [[nodiscard]] bool good() const { return good_; }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
   /// A key that no struct here has: a newer version of the program has written it.
   [[nodiscard]] const std::string& unknown() const { return unknown_; }
 
@@ -106,6 +130,13 @@ class ByteReader {
     } else {
       std::memcpy(static_cast<void*>(&value), taken_.data(), sizeof value);
     }
+  }
+  /// The next value; where there is none, one of the default, and the reader is not good().
+  template <class T>
+  T get() {
+    T value{};
+    read(value);
+    return value;
   }
   void read(std::string& text) { text = read_text(); }
   template <class Enum>
@@ -130,8 +161,25 @@ class ByteReader {
   }
   template <class... Kinds>
   void read(std::variant<Kinds...>& one_of) {
-    const std::string_view name = read_text();
-    if (!(read_kind<Kinds>(name, one_of) || ...)) good_ = false;
+    if constexpr (have_names<Kinds...>) {
+      const std::string_view name = read_text();
+      if (!(read_kind<Kinds>(name, one_of) || ...)) good_ = false;
+    } else {
+      const auto wanted = get<std::uint32_t>();
+      std::uint32_t index = 0;
+      const bool found =
+          ((index++ == wanted && (read(one_of.template emplace<Kinds>()), true)) || ...);
+      if (!found) good_ = false;
+    }
+  }
+  template <class A, class B>
+  void read(std::pair<A, B>& both) {
+    read(both.first);
+    read(both.second);
+  }
+  template <PlainBytes T, std::size_t n>
+  void read(std::array<T, n>& list) {
+    for (T& one : list) read(one);
   }
   template <class T>
   void read(std::vector<T>& list) {
