@@ -14,10 +14,7 @@
 namespace boule {
 namespace {
 
-using image_module::Table;
 namespace fs = std::filesystem;
-
-constexpr const char* module_name = "boule_image_io.so";
 
 /// The folder of the shared library that holds this code, or of the program that does.
 fs::path own_folder() {
@@ -49,19 +46,20 @@ Result<std::string> contents_of(const fs::path& file) {
   return Diagnostic::of(file.string() + ": " + std::generic_category().message(code));
 }
 
-Result<const Table*> open_module(const fs::path& file) {
-  const Diagnostic other = Diagnostic::of(file.string() + ": made for another version of boule");
+Diagnostic of_other_version(const std::string& file) {
+  return Diagnostic::of(file + ": made for another version of boule");
+}
+
+Result<void*> load_symbol(const fs::path& file, std::string_view mark, const char* symbol) {
   const auto bytes = contents_of(file);
   if (!bytes) return bytes.error();
-  if (bytes.value().find(image_module::version_mark) == std::string::npos) return other;
+  if (bytes.value().find(mark) == std::string::npos) return of_other_version(file.string());
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) return Diagnostic::of(dlerror());
-  using EntryPoint = const Table* (*)();
-  const auto entry = reinterpret_cast<EntryPoint>(dlsym(handle, image_module::entry_point));
-  const Table* const table = entry != nullptr ? entry() : nullptr;
-  if (table != nullptr && table->version == image_module::version) return table;
+  void* const found = dlsym(handle, symbol);
+  if (found != nullptr) return found;
   dlclose(handle);
-  return other;
+  return of_other_version(file.string());
 }
 
 }  // namespace
@@ -84,22 +82,32 @@ std::vector<fs::path> module_folders(const fs::path& own) {
   return folders;
 }
 
-fs::path own_module_folder() { return own_folder(); }
-
-Result<const Table*> open_image_module() {
+Result<void*> load_from_module(const std::string& module, std::string_view mark,
+                               const char* symbol) {
   std::string searched;
   std::optional<Diagnostic> reason;
   for (const fs::path& folder : module_folders(own_folder())) {
-    const fs::path file = folder / module_name;
+    const fs::path file = folder / module;
     searched += (searched.empty() ? "" : " nor in ") + folder.string();
     std::error_code ignored;
     if (!fs::exists(file, ignored)) continue;
-    auto opened = open_module(file);
-    if (opened) return opened;
-    if (!reason) reason = opened.error();
+    auto found = load_symbol(file, mark, symbol);
+    if (found) return found;
+    if (!reason) reason = found.error();
   }
   if (reason) return *reason;
-  return Diagnostic::of(std::string(module_name) + " is not in " + searched);
+  return Diagnostic::of(module + " is not in " + searched);
+}
+
+Result<const image_module::Table*> open_image_module() {
+  using image_module::Table;
+  constexpr const char* module = "boule_image_io.so";
+  const auto entry =
+      load_from_module(module, image_module::version_mark, image_module::entry_point);
+  if (!entry) return entry.error();
+  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
+  if (table == nullptr || table->version != image_module::version) return of_other_version(module);
+  return table;
 }
 
 }  // namespace boule

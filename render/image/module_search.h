@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
@@ -15,12 +17,13 @@ namespace boule {
 /// that tree.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own);
 
-/// The folder of the running library or program.
-std::filesystem::path own_module_folder();
+/// A symbol of a module, which is loaded from the first of the folders for the running library or
+/// program that has a file with this mark. The mark is read before any of its code runs. The
+/// Diagnostic names the folders, or gives the system's error.
+Result<void*> load_from_module(const std::string& module, std::string_view mark,
+                               const char* symbol);
 
-/// Loads the module from the first of these folders that has one of this version. The version is
-/// read from the file before any of its code runs. The Diagnostic names the folders, or gives the
-/// system's error.
+/// The table of the image module.
 Result<const image_module::Table*> open_image_module();
 
 }  // namespace boule

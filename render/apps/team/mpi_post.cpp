@@ -1,10 +1,5 @@
 #include "render/apps/team/mpi_post.h"
 
-#include <dlfcn.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "render/apps/team/mpi_module.h"
@@ -14,7 +9,6 @@ namespace boule {
 namespace {
 
 using mpi_module::Table;
-namespace fs = std::filesystem;
 
 class MpiPost : public Post {
  public:
@@ -39,37 +33,14 @@ class MpiPost : public Post {
   int rank_, size_;
 };
 
-bool has_mark(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return bytes.find(mpi_module::version_mark) != std::string::npos;
-}
-
-/// The file of the module; the error says where it was looked for.
-Result<fs::path> find_module(const std::string& module) {
-  std::string searched;
-  for (const fs::path& folder : module_folders(own_module_folder())) {
-    std::error_code ignored;
-    if (fs::exists(folder / module, ignored)) return folder / module;
-    searched += (searched.empty() ? "" : " nor in ") + folder.string();
-  }
-  return Diagnostic::of(module + " is not in " + searched);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Post>> open_mpi_post(const std::string& module) {
-  const auto file = find_module(module);
-  if (!file) return file.error();
-  const Diagnostic other =
-      Diagnostic::of(file.value().string() + ": made for another version of boule");
-  if (!has_mark(file.value())) return other;
-  void* const handle = dlopen(file.value().c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return Diagnostic::of(dlerror());
-  using EntryPoint = const Table* (*)();
-  const auto entry = reinterpret_cast<EntryPoint>(dlsym(handle, mpi_module::entry_point));
-  const Table* const table = entry != nullptr ? entry() : nullptr;
-  if (table == nullptr || table->version != mpi_module::version) return other;
+  const auto entry = load_from_module(module, mpi_module::version_mark, mpi_module::entry_point);
+  if (!entry) return entry.error();
+  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
+  if (table == nullptr || table->version != mpi_module::version)
+    return Diagnostic::of(module + ": made for another version of boule");
   int rank = 0, size = 1;
   if (!table->start(&rank, &size)) return Diagnostic::of("MPI does not start");
   return std::unique_ptr<Post>(std::make_unique<MpiPost>(*table, rank, size));
