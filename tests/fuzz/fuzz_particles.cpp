@@ -17,10 +17,10 @@ using fuzz::require;
 
 /// Bits 0 to 3: the format, 0: by content. Bit 4: few columns are wanted. Bit 5: names are given.
 ParticleFileOptions options_of(std::uint8_t byte) {
-  constexpr std::array formats{"",    "npy",   "ply", "dump",  "data", "xyz",  "table", "gro",
-                               "pdb", "mmcif", "pqr", "table", "xyz",  "data", "dump",  "ply"};
+  const auto formats = particle_formats();
   ParticleFileOptions options;
-  options.format = formats[byte % formats.size()];
+  const std::size_t format = byte % 16U % (formats.size() + 1);
+  if (format > 0) options.format = formats[format - 1];
   if ((byte & 16) != 0) options.wanted = std::vector<std::string>{"radius", "name", "vx"};
   if ((byte & 32) != 0) options.columns = {"id", "type", "x", "y", "z"};
   options.water = (byte & 64) != 0;

@@ -2,16 +2,6 @@
 #include <span>
 
 #include "render/files/particle_file/frame/particle_format.h"
-#include "render/files/particle_file/lammps/dump_reader.h"
-#include "render/files/particle_file/lammps/lammps_data_reader.h"
-#include "render/files/particle_file/molecule/gro_reader.h"
-#include "render/files/particle_file/molecule/mmcif_reader.h"
-#include "render/files/particle_file/molecule/pdb_reader.h"
-#include "render/files/particle_file/molecule/pqr_reader.h"
-#include "render/files/particle_file/table/npy_particles.h"
-#include "render/files/particle_file/table/ply_reader.h"
-#include "render/files/particle_file/table/table_reader.h"
-#include "render/files/particle_file/table/xyz_reader.h"
 
 namespace boule {
 

@@ -1,5 +1,3 @@
-#include "render/files/particle_file/lammps/dump_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "core/math/geometry.h"
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/lammps/dump_frames.h"
 #include "render/files/particle_file/lammps/id_order.h"
 #include "render/files/particle_file/lammps/lammps_box.h"
@@ -277,7 +276,11 @@ bool starts_like_dump(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat dump_format = {
-    "dump", {"dump", "lammpstrj"}, starts_like_dump, open_dump, true};
+constinit const ParticleFormat dump_format = {.name = "dump",
+                                              .endings = {"dump", "lammpstrj"},
+                                              .starts_like = starts_like_dump,
+                                              .open = open_dump,
+                                              .is_trajectory = true,
+                                              .prefix = "dump."};
 
 }  // namespace boule

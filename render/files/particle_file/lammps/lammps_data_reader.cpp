@@ -1,9 +1,8 @@
-#include "render/files/particle_file/lammps/lammps_data_reader.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/lammps/id_order.h"
 #include "render/files/particle_file/lammps/lammps_data_columns.h"
 #include "render/files/particle_file/lammps/lammps_data_sections.h"
@@ -148,7 +147,10 @@ bool starts_like_data(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat lammps_data_format = {
-    "data", {"data", "lmp"}, starts_like_data, open_data};
+constinit const ParticleFormat lammps_data_format = {.name = "data",
+                                                     .endings = {"data", "lmp"},
+                                                     .starts_like = starts_like_data,
+                                                     .open = open_data,
+                                                     .prefix = "data."};
 
 }  // namespace boule

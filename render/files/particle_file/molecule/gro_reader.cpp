@@ -1,5 +1,3 @@
-#include "render/files/particle_file/molecule/gro_reader.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/molecule/gro_rows.h"
 #include "render/files/particle_file/text/frame_places.h"
 #include "render/files/particle_file/text/text_lines.h"
@@ -158,6 +157,11 @@ bool starts_like_gro(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat gro_format = {"gro", {"gro"}, starts_like_gro, open_gro, true};
+constinit const ParticleFormat gro_format = {.name = "gro",
+                                             .endings = {"gro"},
+                                             .starts_like = starts_like_gro,
+                                             .open = open_gro,
+                                             .is_trajectory = true,
+                                             .names_columns = true};
 
 }  // namespace boule

@@ -1,10 +1,9 @@
-#include "render/files/particle_file/molecule/mmcif_reader.h"
-
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/molecule/gemmi_particles.h"
 #include "render/files/particle_file/molecule/molecule_columns.h"
 #include "render/files/particle_file/text/text_lines.h"
@@ -74,7 +73,10 @@ bool starts_like_mmcif(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat mmcif_format = {
-    "mmcif", {"cif", "mmcif"}, starts_like_mmcif, open_mmcif};
+constinit const ParticleFormat mmcif_format = {.name = "mmcif",
+                                               .endings = {"cif", "mmcif"},
+                                               .starts_like = starts_like_mmcif,
+                                               .open = open_mmcif,
+                                               .names_columns = true};
 
 }  // namespace boule

@@ -1,10 +1,9 @@
-#include "render/files/particle_file/molecule/pdb_reader.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/molecule/gemmi_particles.h"
 #include "render/files/particle_file/molecule/molecule_columns.h"
 #include "render/files/particle_file/molecule/pdb_records.h"
@@ -92,7 +91,11 @@ bool starts_like_pdb(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat pdb_format = {
-    "pdb", {"pdb", "ent"}, starts_like_pdb, open_pdb, true};
+constinit const ParticleFormat pdb_format = {.name = "pdb",
+                                             .endings = {"pdb", "ent"},
+                                             .starts_like = starts_like_pdb,
+                                             .open = open_pdb,
+                                             .is_trajectory = true,
+                                             .names_columns = true};
 
 }  // namespace boule

@@ -1,5 +1,3 @@
-#include "render/files/particle_file/molecule/pqr_reader.h"
-
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "render/files/particle_file/frame/element_guess.h"
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/molecule/molecule_columns.h"
 #include "render/files/particle_file/molecule/pdb_records.h"
 #include "render/files/particle_file/text/text_lines.h"
@@ -163,6 +162,10 @@ Result<std::unique_ptr<ParticleReader>> open_pqr(MappedText bytes,
 }  // namespace
 
 // Its records look like those of PDB: only the ending tells.
-constinit const ParticleFormat pqr_format = {"pqr", {"pqr"}, nullptr, open_pqr, true};
+constinit const ParticleFormat pqr_format = {.name = "pqr",
+                                             .endings = {"pqr"},
+                                             .open = open_pqr,
+                                             .is_trajectory = true,
+                                             .names_columns = true};
 
 }  // namespace boule

@@ -1,10 +1,9 @@
-#include "render/files/particle_file/table/npy_particles.h"
-
 #include <memory>
 #include <utility>
 
 #include "render/files/file/npy_header.h"
 #include "render/files/file/npy_rows.h"
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/table/binary_table.h"
 #include "render/files/particle_file/table/npy_columns.h"
 
@@ -54,6 +53,7 @@ bool starts_like_npy(std::string_view start) { return start.starts_with("\x93NUM
 
 }  // namespace
 
-const ParticleFormat npy_format{"npy", {"npz"}, starts_like_npy, open_npy};
+const ParticleFormat npy_format{
+    .name = "npy", .endings = {"npz"}, .starts_like = starts_like_npy, .open = open_npy};
 
 }  // namespace boule

@@ -1,10 +1,9 @@
-#include "render/files/particle_file/table/ply_reader.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
 
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/table/ply_elements.h"
 #include "render/files/particle_file/table/ply_header.h"
 #include "render/files/particle_file/text/named_columns.h"
@@ -110,6 +109,10 @@ bool starts_like_ply(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat ply_format = {"ply", {"ply"}, starts_like_ply, open_ply};
+constinit const ParticleFormat ply_format = {.name = "ply",
+                                             .endings = {"ply"},
+                                             .starts_like = starts_like_ply,
+                                             .open = open_ply,
+                                             .names_columns = true};
 
 }  // namespace boule

@@ -4,10 +4,6 @@
 
 namespace boule {
 
-/// Tables as text: a row for each particle, columns between commas, semicolons, tabs or blanks,
-/// named by a header line, a comment before the rows, or ParticleFileOptions::columns.
-extern const ParticleFormat table_format;
-
 /// True if the first row of a text is x, y, z, or a species before them.
 bool looks_like_points(std::string_view text);
 

@@ -1,5 +1,3 @@
-#include "render/files/particle_file/table/xyz_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -7,6 +5,7 @@
 
 #include "render/files/particle_file/frame/element_guess.h"
 #include "render/files/particle_file/frame/other_formats.h"
+#include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/table/table_reader.h"
 #include "render/files/particle_file/table/xyz_comment.h"
 #include "render/files/particle_file/text/frame_places.h"
@@ -297,7 +296,10 @@ bool starts_like_xyz(std::string_view start) {
 
 }  // namespace
 
-constinit const ParticleFormat xyz_format = {
-    "xyz", {"xyz", "extxyz"}, starts_like_xyz, open_xyz, true};
+constinit const ParticleFormat xyz_format = {.name = "xyz",
+                                             .endings = {"xyz", "extxyz"},
+                                             .starts_like = starts_like_xyz,
+                                             .open = open_xyz,
+                                             .is_trajectory = true};
 
 }  // namespace boule
