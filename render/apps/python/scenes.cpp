@@ -32,8 +32,8 @@ constexpr WholeRule any_frame{.low = std::numeric_limits<int>::min(),
 RenderJob job_of(const std::string& path, const py::dict& keys) {
   RenderJob job;
   job.scene = path;
-  py::dict of_look(keys);
-  if (of_look.contains("frame")) of_look.attr("pop")("frame");
+  const py::dict of_look = keys.attr("copy")();
+  of_look.attr("pop")("frame", py::none());
   job.look = look_of(of_look);
   SceneJob& scene = job;
   read_rows(Arguments(keys), scene_choices(), scene);

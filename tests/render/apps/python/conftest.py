@@ -11,7 +11,7 @@ import pytest
 
 import boule
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+ROOT = pathlib.Path(__file__).resolve().parents[4]
 
 
 @pytest.fixture
