@@ -34,7 +34,7 @@ class CMakeBuild(build_ext):
         )
         target = pathlib.Path(self.build_lib) / "boule"
         if self.inplace:
-            target = ROOT / "render" / "python" / "boule"
+            target = ROOT / "render" / "apps" / "python" / "boule"
         shutil.copytree(build / "boule", target, dirs_exist_ok=True)
         # Pictures are read and written by this module, which is looked for beside the package's own.
         shutil.copy2(build / "bin" / "boule_image_io.so", target)

@@ -13,7 +13,7 @@ from conftest import ROOT
 import boule
 
 HERE = pathlib.Path(__file__).resolve().parent
-EXAMPLES = ROOT / "render" / "python" / "examples"
+EXAMPLES = ROOT / "render" / "apps" / "python" / "examples"
 PACKAGE = pathlib.Path(boule.__file__).resolve().parent
 
 

@@ -239,14 +239,14 @@ def test_a_forked_process_renders_too(ball):
 @pytest.mark.parametrize(
     "options, key, words",
     [
-        ({"size": (0, 4)}, "size", "must be 1 to 65535, is 0"),
-        ({"size": 4}, "size", "expected 2 whole numbers"),
+        ({"size": (0, 4)}, "size", "expected WIDTHxHEIGHT in pixels, each 1 to 65535"),
+        ({"size": 4}, "size", "expected WIDTHxHEIGHT"),
         ({"spp": 1.5}, "spp", "expected a whole number, got float"),
         ({"spp": 10**30}, "spp", "must be 1 or above and at most 2147483647, is 1000000"),
         ({"max_depth": 2**31}, "max_depth", "at most 2147483647, is 2147483648"),
         ({"min_spp": 2**31}, "min_spp", "at most 2147483647, is 2147483648"),
         ({"frame": 2**40}, "frame", "at most 2147483647, is 1099511627776"),
-        ({"seed": -1}, "seed", "must be from 0"),
+        ({"seed": -1}, "seed", "expected a whole number from 0"),
         ({"filter": "tint"}, "filter", "did you mean 'tent'?"),
         ({"background": "red"}, "background", "expected a colour"),
         ({"outline": 101}, "outline", "is 101"),
