@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "render/apps/job/look_choices.h"
 #include "render/apps/job/render_choices.h"
 #include "render/apps/python/call.h"
 #include "render/apps/python/job_arguments.h"
@@ -206,19 +207,25 @@ py::tuple Rendering::end() const {
   return py::make_tuple(picture(), stopped);
 }
 
-/// The names of all options of a picture.
-py::tuple choice_names() {
-  py::list names;
-  const auto add = [&](const auto&... row) { (names.append(py::str(std::string(row.name))), ...); };
-  std::apply(add, render_choices());
-  std::apply(add, scene_choices());
-  return py::tuple(names);
+/// Adds the options of a list with the value that each has where it is not given.
+template <class List>
+void add_defaults(py::dict& defaults, const List& list) {
+  const auto add = [&]<class Row>(const Row& row) {
+    const bool is_flag = std::is_same_v<decltype(row.rule), FlagRule>;
+    defaults[py::str(std::string(row.name))] = is_flag ? py::object(py::bool_(false)) : py::none();
+  };
+  std::apply([&](const auto&... row) { (add(row), ...); }, list);
 }
 
 }  // namespace
 
 void bind_rendering(py::module_& module) {
-  module.attr("render_choices") = choice_names();
+  py::dict of_pictures, of_looks;
+  add_defaults(of_pictures, render_choices());
+  add_defaults(of_pictures, scene_choices());
+  add_defaults(of_looks, look_choices());
+  module.attr("render_choices") = of_pictures;
+  module.attr("look_choices") = of_looks;
   py::class_<Rendering>(module, "Rendering")
       .def(py::init<const py::object&, const py::dict&, const py::dict&>(), inside(),
            py::arg("source"), py::arg("keys"), py::arg("options"))

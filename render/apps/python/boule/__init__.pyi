@@ -709,7 +709,7 @@ def render(
     progress: bool | Callable[[float], object] = ...,
     frame: int | None = ...,
     polygons: _Polygons | None = ...,
-    trust: bool | None = ...,
+    trust: bool = ...,
     look: _Look | None = ...,
     quick: bool = ...,
     floor: bool = ...,

@@ -6,7 +6,8 @@ from . import Error as Error
 from . import Picture as Picture
 
 version: str
-render_choices: tuple[str, ...]
+render_choices: dict[str, Any]
+look_choices: dict[str, Any]
 
 class Data: ...
 

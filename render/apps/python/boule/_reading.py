@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import _objects as objects
 from ._core import Data
-from ._scene import Group, Spheres
+from ._scene import Group, Scene, Spheres
 
 _CLASSES = {
     kind: {cls._type: cls for cls in vars(objects).values() if getattr(cls, "_kind", "") == kind}
@@ -47,9 +47,9 @@ def _fill(target, values):
     target.instances = [_made(objects.Instance, keys) for keys in values["instances"]]
 
 
-def scene_of(cls, values):
+def scene_of(values):
     """A scene of what _core.read() returns."""
-    scene = cls(
+    scene = Scene(
         image=_made(objects.ImageSettings, values["image"]),
         render=_made(objects.RenderSettings, values["render"]),
         camera=_camera(values["camera"]),

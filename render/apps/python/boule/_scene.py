@@ -316,13 +316,6 @@ class Scene(_Objects):
         tree.update(_in_order(objects))
         return tree
 
-    @classmethod
-    def _of(cls, values):
-        """A scene that was read."""
-        from ._reading import scene_of
-
-        return scene_of(cls, values)
-
 
 def _in_order(tables):
     """Objects with their places: see _core.read."""

@@ -7,24 +7,27 @@ import inspect
 
 from . import _core
 from ._objects import error, path_of
-from ._scene import Scene
+from ._reading import scene_of
 
 
-def look_keys(
-    *, look=None, quick=False, floor=False, input_format=None, columns=None, water=False,
-    color=None, map=None, range=None, radius=None, scale=None, select=None, view=None, up=None,
-):  # fmt: skip
-    """The arguments that say how particles are shown, as a dictionary."""
-    return dict(locals())
+# How particles are shown, and the value of each argument that is not given. What "frame" means depends
+# on the function.
+_LOOK = {name: value for name, value in _core.look_choices.items() if name != "frame"}
+
+
+def look_keys(**look):
+    """All arguments that say how particles are shown, as a dictionary."""
+    return {**_LOOK, **look}
 
 
 def with_look(*names, also=()):
-    """Takes the arguments of look_keys(), or those named, as the function's own: help(), type checkers and
-    errors have them. So it does with the arguments `also`, whose default is None: not given."""
-    look = inspect.signature(look_keys).parameters
+    """Takes the arguments of _LOOK, or those named, as the function's own: help(), type checkers and errors
+    have them. So it does with those of `also`."""
+    defaults = {**dict(also), **{name: _LOOK[name] for name in names or _LOOK}}
     kind = inspect.Parameter.KEYWORD_ONLY
-    shown = [inspect.Parameter(name, kind, default=None) for name in also]
-    shown += [look[name] for name in names or look]
+    shown = [
+        inspect.Parameter(name, kind, default=default) for name, default in defaults.items()
+    ]
 
     def decorate(function):
         own = inspect.signature(function)
@@ -66,7 +69,7 @@ def load(source, *, frame=None, polygons="plane", **look):
     Raises boule.Error with file, line, column and key.
     """
     keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
-    return Scene._of(_core.read(path_of(source), keys))
+    return scene_of(_core.read(path_of(source), keys))
 
 
 @with_look()
@@ -93,7 +96,7 @@ def frames(source, frames=None, *, polygons="plane", **look):
 
 def _frames(series, frames):
     for frame in frames:
-        yield Scene._of(series.read(frame))
+        yield scene_of(series.read(frame))
 
 
 def particles(positions, *, species=None, columns=None, cell=None, periodic=(), angstrom=1.0):
@@ -136,7 +139,7 @@ def from_particles(
         positions, species=species, columns=columns, cell=cell, periodic=periodic,
         angstrom=angstrom,
     )  # fmt: skip
-    return Scene._of(_core.show_particles(data, look_keys(**look)))
+    return scene_of(_core.show_particles(data, look_keys(**look)))
 
 
 @with_look(*_OF_MEMORY)
