@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
-# pages.sh PROGRAM FOLDER SOURCE MANUAL VERSION: the manual pages in the folder are whole. Every command
-# has its page, with the options of its help and no others; boule-scene(5) has all that is set in `code`
-# in docs/scene_format.md; docs/command_line.md names the options. They are the same bytes when MANUAL
-# makes them again in other surroundings, and man, lexgrog and mandoc, where they are installed, find no
-# fault.
+# pages.sh PROGRAM FOLDER SOURCE MANUAL LOWDOWN VERSION: the manual pages in the folder are whole. Every
+# command has its page, with the options of its help and no others; boule-scene(5) has all that is set in
+# `code` in docs/scene_format.md; docs/command_line.md names the options. They are the same bytes when MANUAL
+# and LOWDOWN make them again in other surroundings, and man, lexgrog and mandoc, where they are installed,
+# find no fault. Exit code 77: there are no pages, or nothing that shows them.
 set -euo pipefail
-program="$(realpath "$1")" folder="$(realpath "$2")" source="$(realpath "$3")" manual="$(realpath "$4")" version="$5"
+program="$(realpath "$1")" folder="$(realpath "$2")" source="$(realpath "$3")" manual="$(realpath "$4")"
+lowdown="$5" version="$6"
+[[ -f "$folder/boule.1" ]] || { echo "there are no manual pages: lowdown is not installed"; exit 77; }
+command -v man >/dev/null || command -v mandoc >/dev/null || { echo "neither man nor mandoc is installed"; exit 77; }
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 export LC_ALL=C MANROFFOPT=
@@ -26,8 +29,7 @@ plain() {
   if command -v man >/dev/null; then
     man -l -Tascii "$1" 2>/dev/null | col -bx
   else
-    sed -E '/^\.TP/d; s/^(\\fB)/       \1/; s/\\f[BIP]//g; s/\\-/-/g; s/\\e/\\/g; s/\\\(dq/"/g; s/\\\(aq/'"'"'/g
-      s/\\\(ha/^/g; s/\\\(ti/~/g; s/\\\(ga/`/g; s/\\&//g; s/^\.S[HS] //' "$1"
+    mandoc -Tascii "$1" | col -bx
   fi
 }
 
@@ -72,8 +74,12 @@ done <<<"$texts"
 
 # The same bytes again.
 mkdir "$work/again"
-date="$(sed -n '1s/.* \([0-9-]*\) "boule .*/\1/p' "$folder/boule.1")"
-(cd / && TZ=Asia/Tokyo LANG=C.UTF-8 LC_ALL=C.UTF-8 "$manual" "$work/again" "$source" "$version" "$date")
+date="$(sed -n 's/^\.TH .* "\([0-9-]*\)" "boule .*/\1/p' "$folder/boule.1")"
+(
+  export TZ=Asia/Tokyo LANG=C.UTF-8 LC_ALL=C.UTF-8
+  cd / && "$manual" "$work/again" "$source"
+  "$source/render/apps/manual/pages.sh" "$lowdown" "$work/again" "$version" "$date"
+)
 diff -r "$folder" "$work/again" >/dev/null || complain "the pages are others when they are made again"
 
 # Found without fault by those who read them.
@@ -84,7 +90,7 @@ for page in "$folder"/*.[15]; do
     [[ -z "$faults" ]] || complain "man: $faults"
   fi
   ! command -v lexgrog >/dev/null || lexgrog "$page" | grep -qF "\"$name - " || complain "lexgrog: $page"
-  ! command -v mandoc >/dev/null || mandoc -Tlint "$page" || complain "mandoc: $page"
+  ! command -v mandoc >/dev/null || mandoc -Tlint -Wwarning "$page" || complain "mandoc: $page"
 done
 ((wrong == 0)) || exit 1
 echo "$(find "$folder" -name '*.[15]' | wc -l) pages, $count texts of the scene format"

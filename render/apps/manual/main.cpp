@@ -1,4 +1,4 @@
-// boule_manual FOLDER SOURCE VERSION DATE: writes the manual pages and the completions of the
+// boule_manual FOLDER SOURCE: writes the manual pages, in Markdown, and the completions of the
 // shells into FOLDER, from the command line's own options and the documents in SOURCE/docs.
 #include <exception>
 #include <fstream>
@@ -27,12 +27,13 @@ void write(const std::string& path, const std::string& text) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-void write_all(const std::string& folder, const std::string& functions,
-               const ManualSources& sources) {
+void write_all(const std::string& folder, const std::string& source) {
+  const std::string functions = source + "/render/apps/manual/functions", docs = source + "/docs";
   const std::vector<CommandFacts> commands = command_facts();
-  const auto pages = man_pages(commands, sources);
+  const auto pages =
+      man_pages(commands, read(docs + "/command_line.md"), read(docs + "/scene_format.md"));
   if (!pages) throw std::runtime_error(pages.error().message);
-  for (const ManualFile& page : pages.value()) write(folder + "/" + page.name, page.text);
+  for (const auto& [name, text] : pages.value()) write(folder + "/" + name + ".md", text);
   write(folder + "/boule.bash", bash_completion(commands, read(functions + ".bash")));
   write(folder + "/_boule", zsh_completion(commands));
   write(folder + "/boule.fish", fish_completion(commands, read(functions + ".fish")));
@@ -42,10 +43,8 @@ void write_all(const std::string& folder, const std::string& functions,
 
 int main(int argc, char** argv) {
   try {
-    if (argc != 5) throw std::runtime_error("usage: boule_manual FOLDER SOURCE VERSION DATE");
-    const std::string source = argv[2], docs = source + "/docs";
-    write_all(argv[1], source + "/render/apps/manual/functions",
-              {argv[3], argv[4], read(docs + "/command_line.md"), read(docs + "/scene_format.md")});
+    if (argc != 3) throw std::runtime_error("usage: boule_manual FOLDER SOURCE");
+    write_all(argv[1], argv[2]);
     return 0;
   } catch (const std::exception& error) {
     cli::print_note(std::string("boule_manual: ") + error.what());

@@ -1,56 +1,44 @@
 #include "render/apps/manual/man_pages.h"
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
+#include <sstream>
 
+#include "render/apps/manual/completions.h"
 #include "render/apps/manual/markdown.h"
-#include "render/apps/manual/roff.h"
 
 namespace boule::manual {
 namespace {
 
-using Blocks = std::vector<Block>;
+std::string bold(const std::string& text) { return "**" + literal(text) + "**"; }
+std::string slanted(const std::string& text) { return "*" + literal(text) + "*"; }
 
-std::string bold(const std::string& roff) { return "\\fB" + roff + "\\fP"; }
-std::string slanted(const std::string& roff) { return "\\fI" + roff + "\\fP"; }
-
-std::string reference(const std::string& page, int section) {
-  return bold(roff_literal(page)) + "(" + std::to_string(section) + ")";
+/// "boule(1)" of "boule.1".
+std::string reference(const std::string& page) {
+  return bold(page.substr(0, page.size() - 2)) + "(" + page.back() + ")";
 }
 
-/// The name of a page as the page's first lines have it.
-std::string head(const std::string& page, int section, const std::string& what,
-                 const ManualSources& sources) {
-  std::string title = roff_literal(page);
-  std::transform(title.begin(), title.end(), title.begin(), [](char letter) {
-    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-  });
-  return ".TH " + title + " " + std::to_string(section) + " " + sources.date + " \"boule " +
-         sources.version + "\" \"Boule manual\"\n.nh\n.ad l\n.SH NAME\n" + roff_literal(page) +
-         " \\- " + roff_text(what) + "\n";
+std::string described(const std::string& term, const std::string& meaning) {
+  return term + "\n: " + meaning + "\n\n";
 }
 
 /// "-o, --output IMAGE" with its fonts.
 std::string term_of(const OptionFacts& option) {
-  std::string term = option.letter.empty() ? "" : bold("\\-" + roff_literal(option.letter)) + ", ";
-  term += bold("\\-\\-" + roff_literal(option.name));
-  return option.value.empty() ? term : term + " " + slanted(roff_literal(option.value));
+  const std::string letter = option.letter.empty() ? "" : bold("-" + option.letter) + ", ";
+  const std::string value = option.value.empty() ? "" : " " + slanted(option.value);
+  return letter + bold("--" + option.name) + value;
 }
 
 /// The shortest command line: the command, its positionals, the options that must be there.
 std::string synopsis_of(const CommandFacts& command) {
-  std::string line = bold(roff_literal("boule " + command.name));
-  if (command.options.size() > 1) line += " [" + slanted("options") + "]";
+  std::string line = bold("boule " + command.name);
+  if (command.options.size() > 1) line += " \\[*options*\\]";
   for (const OptionFacts& positional : command.positionals) {
-    const std::string name =
-        slanted(roff_literal(positional.value)) + (positional.repeated ? " ..." : "");
-    line += " " + (positional.required ? name : "[" + name + "]");
+    const std::string name = slanted(positional.value) + (positional.repeated ? " ..." : "");
+    line += " " + (positional.required ? name : "\\[" + name + "\\]");
   }
   for (const OptionFacts& option : command.options) {
-    if (!option.required) continue;
-    const std::string name = option.letter.empty() ? "\\-\\-" + option.name : "\\-" + option.letter;
-    line += " " + bold(name) + " " + slanted(roff_literal(option.value));
+    const std::string name = option.letter.empty() ? "--" + option.name : "-" + option.letter;
+    if (option.required) line += " " + bold(name) + " " + slanted(option.value);
   }
   return line;
 }
@@ -61,178 +49,150 @@ std::string meaning_of(const OptionFacts& option) {
   const auto is_told = [&option](const std::string& word) {
     return (option.value + option.text).find(word) != std::string::npos;
   };
-  if (std::all_of(words.begin(), words.end(), is_told)) return roff_literal(option.text);
-  std::string names;
-  for (const std::string& word : words) names += (names.empty() ? "" : ", ") + word;
-  return roff_literal(option.text + ". Names: " + names);
+  if (std::all_of(words.begin(), words.end(), is_told)) return literal(option.text);
+  return literal(option.text + ". Names: " + joined(words, ", "));
 }
 
-/// The options of a command, under the headings of its help.
+/// The options of a command, under the headings of its help; those without one first.
 std::string options_section(const CommandFacts& command) {
-  std::vector<std::string> groups;
-  for (const OptionFacts& option : command.options) {
-    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
-      groups.push_back(option.group);
+  std::vector<OptionFacts> options = command.options;
+  const std::string none = "Options";
+  std::stable_partition(options.begin(), options.end(),
+                        [&](const OptionFacts& option) { return option.group == none; });
+  std::string text, group = none;
+  for (const OptionFacts& option : options) {
+    if (option.group != group) text += "## " + literal(option.group) + "\n\n";
+    group = option.group;
+    text += described(term_of(option), meaning_of(option));
   }
-  std::string roff;
-  for (const std::string& group : groups) {
-    if (groups.size() > 1 && group != "Options") roff += ".SS " + roff_literal(group) + "\n";
-    for (const OptionFacts& option : command.options) {
-      if (option.group == group) roff += roff_entry(term_of(option), meaning_of(option));
-    }
-  }
-  return roff;
+  return text;
 }
 
-/// The words of a heading: "isa, version, help".
-std::vector<std::string> words_of(const std::string& heading) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at <= heading.size();) {
-    const std::size_t end = std::min(heading.find(", ", at), heading.size());
-    words.push_back(heading.substr(at, end - at));
-    at = end + 2;
-  }
-  return words;
-}
-
-/// A section of docs/command_line.md, with the commands that head it; none: it is of all.
+/// A section of docs/command_line.md. Its tables of options, and what announces them, are left out:
+/// the options of the help say the same.
 struct Section {
-  std::string heading;
-  std::vector<const CommandFacts*> commands;
-  Blocks blocks;
+  std::vector<const CommandFacts*> commands;  ///< which head it; none: it is of all
+  std::string page;                           ///< "boule-isa.1" of "isa, version, help"
+  std::string text;                           ///< with its heading where it is of all
+  std::string examples;                       ///< commands to try
 };
 
-std::vector<Section> sections_of(const Blocks& page, const std::vector<CommandFacts>& commands) {
-  std::vector<Section> sections;
-  for (const Block& block : page) {
-    if (block.kind != BlockKind::heading || block.level != 2) continue;
-    Section section{block.text, {}, section_of(page, 2, block.text)};
-    for (const std::string& word : words_of(block.text)) {
-      for (const CommandFacts& command : commands) {
-        if (!word.empty() && command.name == word) section.commands.push_back(&command);
-      }
+Section section_of(const std::string& heading, const std::vector<CommandFacts>& commands) {
+  Section section;
+  std::istringstream words(heading.substr(3, heading.size() - 4));
+  for (std::string word; std::getline(words >> std::ws, word, ',');) {
+    for (const CommandFacts& command : commands) {
+      if (command.name == word) section.commands.push_back(&command);
     }
-    sections.push_back(std::move(section));
+  }
+  if (section.commands.empty()) {
+    section.text = page_piece(heading);
+  } else {
+    section.page = "boule-" + section.commands[0]->name + ".1";
+  }
+  return section;
+}
+
+std::vector<Section> sections_of(const std::string& document,
+                                 const std::vector<CommandFacts>& commands) {
+  const std::vector<std::string> pieces = pieces_of(document);
+  const auto is_options = [&pieces](std::size_t i) {
+    return i < pieces.size() && pieces[i].starts_with("| option |");
+  };
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool announces = pieces[i].ends_with(":\n") && is_options(i + 1);
+    if (pieces[i].starts_with("## ")) {
+      sections.push_back(section_of(pieces[i], commands));
+    } else if (!sections.empty() && !is_options(i) && !announces) {
+      Section& section = sections.back();
+      const bool is_example = !section.commands.empty() && pieces[i].starts_with("```sh");
+      (is_example ? section.examples : section.text) += page_piece(pieces[i]);
+    }
   }
   return sections;
 }
 
-/// The section's tables of options say what the options of the help say.
-bool is_option_table(const Block& block) {
-  return block.kind == BlockKind::table && block.rows.front().front() == "option";
-}
-
-/// Blocks that are commands to try, or the others but for tables of options and what announces
-/// them.
-Blocks blocks_of(const Section& section, bool examples) {
-  Blocks blocks;
-  for (const Block& block : section.blocks) {
-    const bool announced = !blocks.empty() && blocks.back().text.ends_with(':');
-    if (is_option_table(block) && announced) blocks.pop_back();
-    const bool is_example = block.kind == BlockKind::code && block.text == "sh";
-    if (is_example == examples && !is_option_table(block)) blocks.push_back(block);
-  }
-  return blocks;
-}
-
-std::string page_name(const Section& section) { return "boule-" + section.commands[0]->name; }
-
-std::string see_also(const std::vector<Section>& sections, const std::string& page) {
-  std::string list;
-  const auto add = [&](const std::string& name, int part) {
-    if (name != page) list += (list.empty() ? "" : ", ") + reference(name, part);
-  };
-  add("boule", 1);
+/// The page that describes a command; empty: none does.
+std::string page_of(const CommandFacts& command, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
-    if (!section.commands.empty()) add(page_name(section), 1);
+    if (std::count(section.commands.begin(), section.commands.end(), &command) > 0)
+      return section.page;
   }
-  add("boule-scene", 5);
-  return ".SH SEE ALSO\n" + roff_lines(list);
+  return "";
 }
 
-ManualFile command_page(const Section& section, const std::vector<Section>& sections,
-                        const ManualSources& sources) {
-  const std::string name = page_name(section);
-  std::string what = section.commands[0]->text;
+std::string head(const std::string& page, const std::string& what) {
+  return "# NAME\n\n" + page.substr(0, page.size() - 2) + " - " + literal(what) + "\n\n";
+}
+
+std::string command_page(const Section& section) {
+  std::string what = section.commands[0]->text, options;
   what.front() = static_cast<char>(what.front() - 'A' + 'a');
-  std::string text = head(name, 1, what, sources) + ".SH SYNOPSIS\n", options;
+  std::vector<std::string> lines;
   for (const CommandFacts* command : section.commands) {
-    text += (command == section.commands[0] ? "" : ".br\n") + synopsis_of(*command) + "\n";
+    lines.push_back(synopsis_of(*command));
     const bool has_own = command->options.size() > 1;  // besides --help
     if (has_own || command == section.commands[0]) options += options_section(*command);
   }
-  text += ".SH DESCRIPTION\n" + roff_blocks(blocks_of(section, false), 2);
-  text += ".SH OPTIONS\n" + options;
-  const Blocks examples = blocks_of(section, true);
-  if (!examples.empty()) text += ".SH EXAMPLES\n" + roff_blocks(examples, 2);
-  text += ".SH EXIT STATUS\nSee " + reference("boule", 1) + ".\n";
-  return {name + ".1", text + see_also(sections, name)};
+  std::string text = head(section.page, what) + "# SYNOPSIS\n\n" + joined(lines, "  \n") +
+                     "\n\n# DESCRIPTION\n\n" + section.text + "# OPTIONS\n\n" + options;
+  if (!section.examples.empty()) text += "# EXAMPLES\n\n" + section.examples;
+  return text + "# EXIT STATUS\n\nSee " + reference("boule.1") + ".\n\n";
 }
 
-/// The list of commands in boule(1), each with its page.
-std::string commands_of(const std::vector<Section>& sections,
-                        const std::vector<CommandFacts>& commands) {
-  std::string roff;
+std::string program_page(const std::vector<Section>& sections,
+                         const std::vector<CommandFacts>& commands) {
+  std::string text = head("boule.1", "ray tracer for spheres and planes") +
+                     "# SYNOPSIS\n\n**boule** *COMMAND* \\[*options*\\]\n\n# DESCRIPTION\n\n" +
+                     literal(commands.front().text) + "\n\n# COMMANDS\n\n";
   for (const CommandFacts& command : commands) {
-    for (const Section& section : sections) {
-      const bool has_page = !section.commands.empty() && section.commands[0] == &command;
-      if (has_page)
-        roff += roff_entry(synopsis_of(command),
-                           roff_literal(command.text) + ": " + reference(page_name(section), 1));
-    }
+    if (!command.name.empty())
+      text += described(synopsis_of(command),
+                        literal(command.text) + ": " + reference(page_of(command, sections)));
   }
-  for (const CommandFacts& command : commands) {
-    if (command.name == "help" || command.name == "version")
-      roff += roff_entry(synopsis_of(command), roff_literal(command.text));
-  }
-  return roff;
-}
-
-ManualFile program_page(const std::vector<Section>& sections,
-                        const std::vector<CommandFacts>& commands, const ManualSources& sources) {
-  std::string text = head("boule", 1, "ray tracer for spheres and planes", sources);
-  text += ".SH SYNOPSIS\n" + bold("boule") + " " + slanted("COMMAND") + " [" + slanted("options") +
-          "]\n.SH DESCRIPTION\n" + roff_lines(roff_literal(commands.front().text));
-  text += ".SH COMMANDS\n" + commands_of(sections, commands);
-  text += ".SH OPTIONS\n" + options_section(commands.front());
+  text += "# OPTIONS\n\n" + options_section(commands.front());
   for (const Section& section : sections) {
-    if (!section.commands.empty()) continue;
-    text += roff_blocks({{BlockKind::heading, 2, section.heading, {}, {}}}, 2);
-    text += roff_blocks(section.blocks, 2);
+    if (section.commands.empty()) text += section.text;
   }
-  text += ".SH ENVIRONMENT\n";
-  text += roff_entry(bold("BOULE_ISA"), roff_text("The instruction set, as the option `--isa`."));
-  text += roff_entry(bold("SOURCE_DATE_EPOCH"),
-                     roff_text("The date in the header of pictures, in seconds since 1970 (0)."));
-  return {"boule.1", text + see_also(sections, "boule")};
+  return text + "# ENVIRONMENT\n\n" +
+         described(bold("BOULE_ISA"), "The instruction set, as the option `--isa`.") +
+         described(bold("SOURCE_DATE_EPOCH"),
+                   "The date in the header of pictures, in seconds since 1970 (0).");
 }
 
-ManualFile scene_page(const std::vector<Section>& sections, const ManualSources& sources) {
-  Blocks blocks = parse_markdown(sources.scene_format);
-  blocks.erase(blocks.begin());  // the title
-  std::string text = head("boule-scene", 5, "scene files of Boule", sources);
-  text += ".SH DESCRIPTION\n" + roff_blocks(blocks, 2);
-  return {"boule-scene.5", text + see_also(sections, "")};
+std::string scene_page(const std::string& document) {
+  std::string text = head("boule-scene.5", "scene files of Boule") + "# DESCRIPTION\n\n";
+  for (const std::string& piece : pieces_of(document)) {
+    if (!piece.starts_with("# ")) text += page_piece(piece);
+  }
+  return text;
+}
+
+std::string see_also(const std::string& page, const Pages& pages) {
+  std::vector<std::string> others;
+  for (const auto& [name, text] : pages) {
+    if (name != page) others.push_back(reference(name));
+  }
+  return "# SEE ALSO\n\n" + joined(others, ", ") + "\n";
 }
 
 }  // namespace
 
-Result<std::vector<ManualFile>> man_pages(const std::vector<CommandFacts>& commands,
-                                          const ManualSources& sources) {
-  const std::vector<Section> sections = sections_of(parse_markdown(sources.command_line), commands);
+Result<Pages> man_pages(const std::vector<CommandFacts>& commands, const std::string& command_line,
+                        const std::string& scene_format) {
+  const std::vector<Section> sections = sections_of(command_line, commands);
   for (const CommandFacts& command : commands) {
-    const bool found = std::any_of(sections.begin(), sections.end(), [&](const Section& section) {
-      return std::count(section.commands.begin(), section.commands.end(), &command) > 0;
-    });
-    if (!found && !command.name.empty())
+    if (!command.name.empty() && page_of(command, sections).empty())
       return Diagnostic::of("docs/command_line.md: no section is headed by the command " +
                             quote(command.name));
   }
-  std::vector<ManualFile> pages{program_page(sections, commands, sources)};
+  Pages pages{{"boule.1", program_page(sections, commands)}};
   for (const Section& section : sections) {
-    if (!section.commands.empty()) pages.push_back(command_page(section, sections, sources));
+    if (!section.commands.empty()) pages.emplace_back(section.page, command_page(section));
   }
-  pages.push_back(scene_page(sections, sources));
+  pages.emplace_back("boule-scene.5", scene_page(scene_format));
+  for (auto& [name, text] : pages) text += see_also(name, pages);
   return pages;
 }
 

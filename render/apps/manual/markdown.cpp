@@ -1,131 +1,85 @@
 #include "render/apps/manual/markdown.h"
 
-#include <algorithm>
-#include <cctype>
-#include <utility>
+#include <regex>
+#include <sstream>
 
 namespace boule::manual {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 /// The cells of "| a | b |"; a bar behind a backslash is part of its cell.
-std::vector<std::string> cells_of(std::string_view line) {
+std::vector<std::string> cells_of(const std::string& row) {
+  static const std::regex cell(R"(\|\s*((?:\\.|[^|\\])*?)\s*(?=\|))"), bar(R"(\\\|)");
   std::vector<std::string> cells;
-  std::string cell;
-  line.remove_prefix(1);
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '\\' && i + 1 < line.size() && line[i + 1] == '|') {
-      cell += line[++i];
-    } else if (line[i] == '|') {
-      cells.emplace_back(trimmed(cell));
-      cell.clear();
-    } else {
-      cell += line[i];
-    }
-  }
+  for (std::sregex_iterator it(row.begin(), row.end(), cell), end; it != end; ++it)
+    cells.push_back(std::regex_replace(it->str(1), bar, "|"));
   return cells;
 }
 
-bool is_rule(std::string_view line) {
-  return line.find_first_not_of("|-: ") == std::string_view::npos;
-}
-
-/// The length of the mark at the start of a list's item, "- " or "12. "; 0 if there is none.
-std::size_t item_mark(std::string_view line) {
-  if (line.starts_with("- ")) return 2;
-  std::size_t digits = 0;
-  while (digits < line.size() && std::isdigit(static_cast<unsigned char>(line[digits])) != 0)
-    ++digits;
-  return digits > 0 && line.substr(digits).starts_with(". ") ? digits + 2 : 0;
-}
-
-/// Takes the lines of a document one after the other.
-class Parser {
- public:
-  void take(std::string_view line) {
-    if (fenced_) {
-      if (line.starts_with("```")) {
-        fenced_ = false;
-      } else {
-        blocks_.back().lines.emplace_back(line);
-      }
-    } else if (line.starts_with("```")) {
-      begin(BlockKind::code, line.substr(3));
-      fenced_ = true;
+/// All cells but the first, each with its column's name where that tells more.
+std::string meaning_of(const std::vector<std::string>& heads, const std::vector<std::string>& row) {
+  std::string meaning;
+  for (std::size_t i = 1; i < row.size(); ++i) {
+    if (row[i].empty()) continue;
+    if (heads.at(i) == "default") {
+      meaning += "(" + row[i] + ") ";
     } else {
-      take_text(line);
+      const bool is_named = row.size() > 2 && heads.at(i) != "meaning";
+      meaning += (is_named ? heads.at(i) + ": " : "") + row[i] + "; ";
     }
   }
+  return meaning.substr(0, meaning.find_last_not_of("; ") + 1);
+}
 
-  std::vector<Block> blocks() {
-    end();
-    return std::move(blocks_);
+std::string terms_of(const std::string& table) {
+  std::istringstream lines(table);
+  std::string line, terms;
+  std::getline(lines, line);
+  const std::vector<std::string> heads = cells_of(line);
+  std::getline(lines, line);  // the rule below the heads
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> row = cells_of(line);
+    if (!row.at(0).empty()) terms += "\n" + row[0] + "\n";
+    terms += ": " + meaning_of(heads, row) + "\n";
   }
-
- private:
-  void take_text(std::string_view line) {
-    const std::string_view text = trimmed(line);
-    const std::size_t level = line.find_first_not_of('#'), mark = item_mark(line);
-    if (text.empty()) {
-      end();
-    } else if (level != std::string_view::npos && level > 0 && line[level] == ' ') {
-      begin(BlockKind::heading, line.substr(level + 1));
-      blocks_.back().level = static_cast<int>(level);
-      end();
-    } else if (text.size() > 1 && text.front() == '|' && text.back() == '|') {
-      if (!open_ || blocks_.back().kind != BlockKind::table) begin(BlockKind::table, "");
-      if (!is_rule(text)) blocks_.back().rows.push_back(cells_of(text));
-    } else if (mark > 0) {
-      begin(mark == 2 ? BlockKind::bullet : BlockKind::number, line.substr(mark));
-    } else if (open_ && blocks_.back().kind != BlockKind::table) {
-      blocks_.back().text += "\n" + std::string(text);
-    } else {
-      begin(BlockKind::paragraph, text);
-    }
-  }
-
-  void begin(BlockKind kind, std::string_view text) {
-    end();
-    blocks_.push_back({kind, 0, std::string(text), {}, {}});
-    open_ = true;
-  }
-
-  void end() { open_ = false; }
-
-  std::vector<Block> blocks_;
-  bool open_ = false;    ///< the last block takes more lines
-  bool fenced_ = false;  ///< the last block is code that has not ended
-};
+  return terms;
+}
 
 }  // namespace
 
-std::vector<Block> parse_markdown(std::string_view text) {
-  Parser parser;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    parser.take(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+std::string literal(std::string_view text) {
+  std::string markdown;
+  for (const char letter : text) {
+    if (std::string_view("\\`*_[]<>&~").find(letter) != std::string_view::npos) markdown += '\\';
+    markdown += letter;
   }
-  return parser.blocks();
+  return markdown;
 }
 
-std::vector<Block> section_of(const std::vector<Block>& blocks, int level,
-                              std::string_view heading) {
-  std::vector<Block> section;
-  bool inside = false;
-  for (const Block& block : blocks) {
-    if (block.kind == BlockKind::heading && block.level <= level) {
-      inside = block.level == level && block.text == heading;
-    } else if (inside) {
-      section.push_back(block);
-    }
+std::vector<std::string> pieces_of(const std::string& document) {
+  std::istringstream lines(document);
+  std::vector<std::string> pieces;
+  bool open = false, fenced = false;  // the last piece takes more lines; these are code
+  for (std::string line; std::getline(lines, line);) {
+    if (!open && !line.empty()) pieces.emplace_back();
+    open = fenced || !line.empty();
+    if (line.starts_with("```")) fenced = !fenced;
+    if (open) pieces.back() += line + "\n";
   }
-  return section;
+  return pieces;
+}
+
+std::string page_piece(const std::string& piece) {
+  static const std::regex picture(R"(!\[[^\]]*\]\((?:[^)]*/)?([^)/]*)\))"),
+      heading("#(#+ )(.*\\n)");
+  std::smatch match;
+  if (piece.starts_with("```")) return piece + "\n";
+  if (std::regex_match(piece, match, heading)) {
+    std::string words = match.str(2);
+    std::erase(words, '`');
+    return match.str(1) + literal(words) + "\n";
+  }
+  const std::string text = std::regex_replace(piece, picture, R"(\[picture $1\])");
+  return (text.starts_with('|') ? terms_of(text) : text) + "\n";
 }
 
 }  // namespace boule::manual

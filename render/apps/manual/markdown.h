@@ -6,25 +6,15 @@
 
 namespace boule::manual {
 
-enum class BlockKind { heading, paragraph, code, bullet, number, table };
+/// Markdown that shows a text as it stands.
+std::string literal(std::string_view text);
 
-/// A piece of a document. Texts keep their marks for code, emphasis and links.
-struct Block {
-  BlockKind kind = BlockKind::paragraph;
-  int level = 0;     ///< heading: 1 to 6
-  std::string text;  ///< code: its language; table: none
-  /// code: its lines. A line of a table is a row of cells, its heading first.
-  std::vector<std::string> lines;
-  std::vector<std::vector<std::string>> rows;
-};
+/// What empty lines part in a document: headings, paragraphs, lists, tables. Fenced code is one.
+std::vector<std::string> pieces_of(const std::string& document);
 
-/// The blocks of a document in the Markdown of docs/: headings by #, paragraphs, fenced code, lists
-/// without lists in them, tables.
-std::vector<Block> parse_markdown(std::string_view text);
-
-/// The blocks of the section under a heading of this level, up to the next heading of that level or
-/// above it.
-std::vector<Block> section_of(const std::vector<Block>& blocks, int level,
-                              std::string_view heading);
+/// A piece of a document as a manual page has it. Headings of level 2 become sections. The rows of
+/// a table become terms: of the first cell, a default in brackets, and the rest; a row without a
+/// first cell says more of the term above. Pictures become their names.
+std::string page_piece(const std::string& piece);
 
 }  // namespace boule::manual
