@@ -131,7 +131,7 @@ class GroPieceReader {
     double& value = field.numbers[row_ * field.stride];
     const std::string_view token = without_blanks(text);
     const char* const end = token.data() + token.size();
-    if (read_short_number(token.data(), end, value) == end && !token.empty()) return true;
+    if (number_at(token.data(), end, value) == end && !token.empty()) return true;
     if (token.empty() && field.optional) return value = 0, true;
     if (token.empty()) {
       return fail(text,

@@ -7,6 +7,10 @@
 #include <string>
 #include <system_error>
 
+#if __has_include(<fast_float/fast_float.h>)
+#include <fast_float/fast_float.h>  // twice as fast as the standard library's, to the same bits
+#endif
+
 #include "core/base/text.h"
 
 namespace boule {
@@ -30,6 +34,15 @@ std::optional<double> out_of_range(std::string_view token) {
 }
 
 }  // namespace
+
+const char* number_at(const char* at, const char* end, double& value) {
+#if __has_include(<fast_float/fast_float.h>)
+  const auto read = fast_float::from_chars(at, end, value);
+#else
+  const auto read = std::from_chars(at, end, value);
+#endif
+  return read.ec == std::errc() && std::isfinite(value) ? read.ptr : nullptr;
+}
 
 std::optional<double> number_in(std::string_view token) {
   if (token.size() > 1 && token.front() == '+' && token[1] != '-') token.remove_prefix(1);

@@ -220,7 +220,7 @@ class PieceReader {
     const NumberTarget& target = planned_[i].numbers;
     double& value = target.first[row_ * target.stride];
     const bool has_comma = is_table && rows_.decimal_comma;
-    const char* const stop = has_comma ? nullptr : read_short_number(at_, end_, value);
+    const char* const stop = has_comma ? nullptr : number_at(at_, end_, value);
     if (stop != nullptr && ends_token(stop)) {
       at_ = stop;
       return true;
