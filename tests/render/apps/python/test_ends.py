@@ -198,8 +198,8 @@ def call():
 done = threading.Event()
 threading.Thread(target=call).start()
 time.sleep(1)
-print("begun", flush=True)
 try:
+    print("begun", flush=True)  # here: the signal may come at once
     done.wait()
 except KeyboardInterrupt:
     done.wait()
