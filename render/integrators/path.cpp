@@ -24,14 +24,6 @@ RandomSet random_set(int depth, unsigned use) {
                                 uses_per_depth * static_cast<unsigned>(depth) + use);
 }
 
-LightSphere light_sphere(const AreaLight& light, double before) {
-  return {{light.center.x, light.center.y, light.center.z},
-          light.radius,
-          light.share,
-          before,
-          {light.radiance.r, light.radiance.g, light.radiance.b}};
-}
-
 HitWeight hit_weight(LightSampling sampling) {
   if (sampling == LightSampling::both) return HitWeight::heuristic;
   return sampling == LightSampling::paths ? HitWeight::full : HitWeight::none;
@@ -58,9 +50,7 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
     use_light(light);
     delta_lights_ = true;
   }
-  for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
-    light_spheres_.push_back(light_sphere(scene.area_lights[i], scene.area_lights.before(i)));
-  use_seen({seen_background(scene.background), light_spheres_.data(),
+  use_seen({seen_background(scene.background), scene.area_lights.all().data(),
             scene.area_lights.sphere_light_count(), 1 - environment_share_, hit_weight_});
   kinds_.resize(most_points);
   lobes_.resize(most_points);
@@ -120,9 +110,9 @@ Color Path::emitted(const PathStream& stream, std::uint32_t ray, const Hit& met,
 /// is the same for all directions that meet it.
 double Path::emitter_density(const Vec3d& org, const Hit& hit, const Color& radiance) const {
   if (!scene_.is_sphere(hit)) return 0;
-  const AreaLight light = scene_.area_lights.light_of(scene_.geometry.sphere(hit.slot), radiance);
-  return (1 - environment_share_) * light.share *
-         LightCone(org, light.center, light.radius).density();
+  const Sphere sphere = scene_.geometry.sphere(hit.slot);
+  const LightCone cone(org, vec_cast<double>(sphere.center), double{sphere.radius});
+  return (1 - environment_share_) * scene_.area_lights.share_of(sphere, radiance) * cone.density();
 }
 
 /// Finds the surfaces on which point and directional lights fall.
@@ -167,8 +157,8 @@ void Path::continue_points(const Block& block, const LobePoints& points, Continu
                       .samples_lights = lit,
                       .goes_on = !last,
                       .weighs = !last && settings_.light_sampling != LightSampling::lights,
-                      .lights = light_spheres_.data(),
-                      .light_count = light_spheres_.size(),
+                      .lights = scene_.area_lights.all().data(),
+                      .light_count = scene_.area_lights.all().size(),
                       .environment_share = environment_share_,
                       .light = light_numbers_.view(),
                       .bounce = bounce_numbers_.view(),

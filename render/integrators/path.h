@@ -57,7 +57,6 @@ class Path final : public StreamIntegrator {
   bool samples_lights_;        ///< light sampling is on, and there is a light to sample
   bool delta_lights_ = false;  ///< there are point or directional lights
   HitWeight hit_weight_;
-  std::vector<LightSphere> light_spheres_;
   std::vector<RandomKey> random_keys_;  ///< by sample
   MaterialFinder<PathMaterial> materials_;
 

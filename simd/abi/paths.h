@@ -34,8 +34,8 @@ struct WeightedLight {
   std::size_t size;
 };
 
-/// A material of flatten() or flatten_for_paths() (render/prepare/flat_material.h), with the same
-/// meanings. The fourth number of a colour is 0.
+/// A material as the coefficients of one formula: CoefficientsOf (core/optics/reflectance.h). The
+/// fourth number of a colour is 0.
 struct LobeMaterial {
   float diffuse[4], mirror[4], transmission[4];
   double highlight, shininess, ior;
@@ -43,8 +43,8 @@ struct LobeMaterial {
   bool cosine_highlight;
 };
 
-/// An emitting sphere, as AreaLight (render/prepare/area_lights.h). Light sampling picks it by
-/// random numbers in [before, before + share).
+/// An emitting sphere: a sphere light, or an emissive sphere. Light sampling picks it by random
+/// numbers in [before, before + share).
 struct LightSphere {
   double center[3];
   double radius;

@@ -176,16 +176,16 @@ TEST(Prepare, PicksAreaLightsByPowerOrEvenly) {
   const AreaLights lights(scene.lights, scene.spheres, materials);  // powers 4, 12 and 3
   EXPECT_EQ(lights.sphere_light_count(), 1u);
   // By power in 19ths for one half, evenly in 3rds for the other.
-  ASSERT_EQ(lights.size(), 3u);
+  ASSERT_EQ(lights.all().size(), 3u);
   std::size_t i = 0;
   for (const auto& [before, share, x] :
        {std::tuple{0.0, 31.0, 1.0}, {31.0, 55.0, 4.0}, {86.0, 28.0, 7.0}}) {
-    EXPECT_NEAR(lights.before(i), before / 114, 1e-15);
-    EXPECT_NEAR(lights[i].share, share / 114, 1e-15);
-    EXPECT_EQ(lights[i].center.x, x);
-    ++i;
+    const LightSphere& light = lights.all()[i++];
+    EXPECT_NEAR(light.before, before / 114, 1e-15);
+    EXPECT_NEAR(light.share, share / 114, 1e-15);
+    EXPECT_EQ(light.center[0], x);
   }
-  EXPECT_NEAR(lights.light_of(scene.spheres[2], gray(1)).share, 28 / 114.0, 1e-15);
+  EXPECT_NEAR(lights.share_of(scene.spheres[2], gray(1)), 28 / 114.0, 1e-15);
   EXPECT_TRUE(AreaLights({}, {}, {}).empty());
 }
 
