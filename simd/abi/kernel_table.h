@@ -57,8 +57,7 @@ struct KernelTable {
   /// Computes Sobol points: see SobolStream.
   void (*sobol_points)(const SobolStream& points);
 
-  /// Adds light to the sums of samples, ray by ray: light_product() of throughput and radiance
-  /// (render/integrators/sample_faults.h).
+  /// Adds light to the sums of samples, ray by ray: light_product() of throughput and radiance.
   void (*add_weighted_light)(const WeightedLight& light, ColorSum* sums);
 
   // Path tracing, one block of rays at a time. The streams describe the arguments.

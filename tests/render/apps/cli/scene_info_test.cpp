@@ -13,8 +13,11 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
+#include "tests/render/apps/cli/made_fields.h"
 #include "tests/render/npy_files.h"
 #include "tests/support/temp_dir.h"
 
@@ -23,11 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Names = std::set<std::string>;
-
-/// A key, a value for it, and another one; no value: it is left out.
-struct Field {
-  std::string key, value, other;
-};
 
 /// A kind of table: what stands before it, its header, all its keys. `elsewhere` are keys that
 /// cannot stand beside these, or have no meaning there: another kind has them.
@@ -142,14 +140,10 @@ const Field fov{"fov", "40", "50"};
 const Field fov_axis{"fov_axis", "\"x\"", "\"y\""};
 const Field distortion{"distortion", "{file = \"a.exr\"}", "{file = \"b.exr\"}"};
 const Field focus{"focus", "4", "[0, 0, 2]"};
-const Field aperture{"aperture", "0.1", "0.2"};
 const Field color{"color", "[0.1, 0.2, 0.3]", "[0.1, 0.2, 0.4]"};
 const Field ambient{"ambient", "", "[0, 0, 0.1]"};
 const Field backdrop{"backdrop", "", "\"#ffffff\""};
-const Field shininess{"shininess", "5", "6"};
-const Field ior{"ior", "1.5", "1.25"};
 const Field intensity{"intensity", "[1, 2, 3]", "[1, 2, 4]"};
-const Field radiance{"radiance", "[1, 2, 3]", "[1, 2, 4]"};
 const Field relative_to{"relative_to", "\"scene\"", "\"camera\""};
 const Field center{"center", "[1, 2, 3]", "[1, 2, 4]"};
 const Field radius{"radius", "1", "2"};
@@ -160,6 +154,46 @@ const Field particles{"particles", "", "[{file = \"a.xyz\"}]"};
 const Field plane{"plane", "[{}]", "[{point = [0, 1, 0]}]"};
 const std::string materials = "[material.m]\n[material.n]\n";
 const std::string groups = materials + "[[group.g.sphere]]\n[[group.h.plane]]\n";
+
+/// The kinds of a variant, by their fields, each with those that all kinds have besides. Kinds that
+/// need a file are among those below.
+template <class Variant>
+struct MadeKinds;
+template <class... Types>
+struct MadeKinds<std::variant<Types...>> {
+  std::string section;
+  std::vector<Field> besides{};
+  Names elsewhere{};
+
+  void add_to(std::vector<Kind>& kinds) const { (add<Types>(kinds), ...); }
+
+ private:
+  template <class Type>
+  void add(std::vector<Kind>& kinds) const {
+    if (std::is_same_v<Type, LensCamera> || std::is_same_v<Type, EnvironmentBackground>) return;
+    const std::string type(boule::fields<Type>.type);
+    FieldMaker maker;
+    maker.add_all<Type>();
+    maker.fields.insert(maker.fields.end(), besides.begin(), besides.end());
+    Kind kind{.name = type + "_made",
+              .before = {},
+              .header = section + "\ntype = \"" + type + "\"",
+              .fields = maker.fields,
+              .elsewhere = elsewhere};
+    kind.elsewhere.insert("type");
+    kinds.push_back(std::move(kind));
+  }
+};
+
+std::vector<Kind> made_kinds() {
+  std::vector<Kind> kinds;
+  MadeKinds<Camera>{"[camera]", {distortion}, {"fit", "key", "f_number", "focal_length"}}.add_to(
+      kinds);
+  MadeKinds<Background>{"[background]", {ambient, backdrop}}.add_to(kinds);
+  MadeKinds<Material>{"[material.m]"}.add_to(kinds);
+  MadeKinds<Light>{"[[light]]"}.add_to(kinds);
+  return kinds;
+}
 
 const Kind kinds[] = {
     {"root",
@@ -203,21 +237,6 @@ const Kind kinds[] = {
      "[camera]",
      {{"type", "\"pinhole\"", "\"fisheye\""}, eye, look_at, up, fov, fov_axis, distortion},
      {"key", "fit"}},
-    {"orthographic",
-     "",
-     "[camera]\ntype = \"orthographic\"",
-     {eye, look_at, up, {"height", "2", "3"}, distortion},
-     {"type", "fit", "key"}},
-    {"fisheye",
-     "",
-     "[camera]",
-     {{"type", "\"fisheye\"", "\"pinhole\""}, eye, look_at, up, fov, fov_axis, distortion},
-     {"key", "fit"}},
-    {"thin_lens",
-     "",
-     "[camera]\ntype = \"thin_lens\"",
-     {eye, look_at, up, fov, fov_axis, distortion, focus, aperture},
-     {"type", "fit", "key", "f_number", "focal_length"}},
     {"thin_lens_by_number",
      "",
      "[camera]\ntype = \"thin_lens\"",
@@ -257,49 +276,12 @@ const Kind kinds[] = {
      "[background]",
      {{"type", "\"constant\"", "\"gradient\""}, ambient, backdrop},
      {"color"}},
-    {"constant", "", "[background]", {color, ambient, backdrop}, {"type"}},
-    {"gradient",
-     "",
-     "[background]\ntype = \"gradient\"",
-     {{"bottom", "[0, 0, 1]", "[0, 0, 2]"},
-      {"top", "[0, 0, 1]", "[0, 0, 2]"},
-      {"up", "[0, 1, 0]", "[1, 0, 0]"},
-      ambient,
-      backdrop},
-     {"type"}},
     {"environment",
      "",
      "[background]\ntype = \"environment\"",
      {{"file", "\"a.exr\"", "\"b.exr\""}, {"rotation", "0", "90"}, ambient, backdrop},
      {"type"}},
     {"matte", "", "[material.m]", {{"type", "\"matte\"", "\"metal\""}, color}},
-    {"plastic",
-     "",
-     "[material.m]\ntype = \"plastic\"",
-     {color, {"specular", "0.1", "0.2"}, shininess, {"reflect", "0.1", "0.2"}},
-     {"type"}},
-    {"metal", "", "[material.m]", {{"type", "\"metal\"", "\"glass\""}, color}},
-    {"glass", "", "[material.m]\ntype = \"glass\"", {color, ior}, {"type"}},
-    {"emissive", "", "[material.m]\ntype = \"emissive\"", {radiance}, {"type"}},
-    {"phong",
-     "",
-     "[material.m]\ntype = \"phong\"",
-     {color,
-      {"ka", "0.1", "0.2"},
-      {"kd", "0.1", "0.2"},
-      {"ks", "0.1", "0.2"},
-      shininess,
-      {"transmission", "0.1", "0.2"},
-      ior},
-     {"type"}},
-    {"point",
-     "",
-     "[[light]]\ntype = \"point\"",
-     {{"position", "[1, 2, 3]", "[1, 2, 4]"},
-      intensity,
-      {"falloff", "\"none\"", "\"inverse_square\""},
-      relative_to},
-     {"type"}},
     {"directional",
      "",
      "[[light]]",
@@ -307,11 +289,6 @@ const Kind kinds[] = {
       intensity,
       {"direction", "", "[0, 0, 1]"},
       relative_to}},
-    {"sphere_light",
-     "",
-     "[[light]]\ntype = \"sphere\"",
-     {center, radius, radiance, relative_to},
-     {"type"}},
     {"sphere", materials, "[[sphere]]", {center, radius, material, color}},
     {"spheres",
      materials,
@@ -369,6 +346,8 @@ const Kind kinds[] = {
       {"scale", "1", "2"},
       material}},
 };
+INSTANTIATE_TEST_SUITE_P(Made, SceneInfo, testing::ValuesIn(made_kinds()),
+                         [](const auto& kind) { return kind.param.name; });
 INSTANTIATE_TEST_SUITE_P(Keys, SceneInfo, testing::ValuesIn(kinds),
                          [](const auto& kind) { return kind.param.name; });
 
