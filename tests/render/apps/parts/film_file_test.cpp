@@ -139,8 +139,8 @@ TEST_F(FilmFile, EveryChangedByteIsRefused) {
 
 TEST_F(FilmFile, OtherVersionsAreNamed) {
   std::string bytes = written();
-  bytes[8] = 2;
-  EXPECT_EQ(refusal(bytes), "is a film file of version 2, expected 1");
+  bytes[8] = 3;
+  EXPECT_EQ(refusal(bytes), "is a film file of version 3, expected 2");
 }
 
 TEST_F(FilmFile, ImpossibleSamplesAreRefused) {
