@@ -3,24 +3,20 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <new>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "render/apps/cli/options/part_options.h"
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/process/messages.h"
+#include "render/apps/cli/render/render_checks.h"
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/picture_stream.h"
-#include "render/apps/job/legend.h"
 #include "render/apps/job/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
 #include "render/image/finished_picture.h"
-#include "render/image/image_format.h"
 #include "render/image/output_file.h"
 #include "render/memory/available_memory.h"
 #include "render/prepare/default_camera.h"
@@ -28,83 +24,6 @@
 
 namespace boule::cli {
 namespace {
-
-/// Errors in the command that show without reading the scene.
-Status check(const RenderCommand& command) {
-  if (auto done = check_part_options(command); !done) return done;
-  if (command.shard) return check_run(command, command, "film", {command.scene});
-  if (auto done = check_picture_stream(command); !done) return done;
-  const ImageFormat* const format = picture_format(command);
-  if (format == nullptr) {
-    return wrong_option("no picture format has the extension of " + quote(command.output) +
-                            ", expected one of " + known_image_extensions(),
-                        "--output");
-  }
-  if (command.aovs.any() && !format->channels) {
-    return wrong_option(
-        std::string("a .") + format->extension +
-            " file has no room for extra channels, expected --output to be an .exr file",
-        "--aov");
-  }
-  if (command.skip_existing && command.partial && !format->remarks) {
-    return wrong_option(std::string("a .") + format->extension +
-                            " file cannot say that it is partial: it would be skipped",
-                        "--skip-existing");
-  }
-  if (command.skip_existing && command.crop && !format->channels) {
-    return wrong_option(std::string("a .") + format->extension +
-                            " file cannot say which crop it is: another one would be skipped",
-                        "--skip-existing");
-  }
-  std::vector<std::string> others = {command.scene};
-  if (!command.legend.empty()) others.push_back(command.legend);
-  return check_run(command, command, "picture", others);
-}
-
-/// Errors with the files to be written. A picture that is there already and may be skipped need not
-/// be writable.
-Status check_outputs(const RenderCommand& command) {
-  if (auto done = check_stats_target(command.stats); !done) return done;
-  if (auto done = command.legend.empty() ? Status() : check_output(command.legend); !done)
-    return done;
-  if (command.output == standard_output) return check_standard_output();
-  std::error_code ignored;
-  const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
-  return may_stay ? Status() : check_output(command.output);
-}
-
-/// An error if a legend is asked for and there is none, or if it would replace a file that is read.
-Status check_legend(const RenderCommand& command, const std::vector<ParticleColors>& colors,
-                    const std::vector<std::string>& files) {
-  if (command.legend.empty()) return {};
-  if (legend_svg(colors).empty()) {
-    return wrong_option("the scene has no particles whose colours mean numbers or species",
-                        "--legend");
-  }
-  RunOptions legend;
-  legend.output = command.legend;
-  auto done = check_data_files(legend, "legend", files);
-  if (!done) done.error().key = "--legend";
-  return done;
-}
-
-/// An error if the scene cannot have the legend, or the picture would replace one of its files.
-Status check_loaded(const RenderCommand& command, const SceneLoader& loader,
-                    const LoadedScene& loaded) {
-  if (auto done = check_legend(command, loader.colors(), loaded.data_files); !done) return done;
-  return check_data_files(command, "picture", loaded.data_files);
-}
-
-/// An error if the picture is to be transparent and its format cannot be.
-Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
-  if (command.shard) return {};  // merge knows the picture's format
-  const ImageFormat& format = *picture_format(command);
-  if (!options.transparent || format.alpha) return {};
-  return wrong_option(std::string("a .") + format.extension +
-                          " file cannot be transparent, expected --output to be an .exr or .png "
-                          "file, or --background to be a colour",
-                      command.background ? "--background" : "image.transparent");
-}
 
 CropWindow crop_window(const RenderOptions& options) {
   if (!options.crop) return {};
@@ -164,7 +83,8 @@ ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
 }  // namespace
 
 ExitCode Rendering::run() {
-  if (auto done = check(command_); !done) return refuse(done.error(), command_, wrong_usage);
+  if (auto done = check_command(command_); !done)
+    return refuse(done.error(), command_, wrong_usage);
   auto date = source_date();
   if (!date) return refuse(date.error(), command_, wrong_usage);
   date_ = std::move(date).value();
