@@ -20,7 +20,7 @@ readonly test_packages=(bash-completion binutils chromium-driver clang-format cl
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
 readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
   python3-nbclient python3-pytest python3-sphinx)
-readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev)
+readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev python3-matplotlib)
 readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopenmpi-dev lintian)
 
 usage() {
@@ -109,9 +109,8 @@ report() {
   install_missing "${build_packages[@]}" "${bench_packages[@]}"
   cmake --preset release -G Ninja -B build/bench -DBOULE_BENCH=ON -DBOULE_TESTS=OFF
   cmake --build build/bench --target report
-  SOURCE_DATE_EPOCH="$(git log -1 --format=%ct)" build/bench/bin/report -o report.html \
-    --chart bench/report/speed_against_error.svg \
-    --path-chart bench/report/error_at_equal_time.svg --readme README.md
+  SOURCE_DATE_EPOCH="$(git log -1 --format=%ct)" build/bench/bin/report -o report.json
+  bench/report/publish.py report.json --charts bench/report --readme README.md
   echo "bootstrap: the page is $PWD/report.html, its figures are report.json"
 }
 

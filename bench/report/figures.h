@@ -49,7 +49,7 @@ struct SceneNoiseErrors {
   NoiseErrors errors;
 };
 
-/// All figures and pictures that the report shows.
+/// All figures and pictures of the report.
 struct Figures {
   ReportSettings settings;
   Provenance provenance;
@@ -68,23 +68,7 @@ struct Figures {
 /// Runs all measurements; names each on standard error as it starts.
 Figures measure(const ReportSettings& settings, const std::string& command);
 
-/// The figures as JSON, without the pictures' pixels.
-std::string to_json(Figures& figures);
-
-/// The page, one file by itself.
-std::string to_html(Figures& figures);
-
-/// The scene that is shown where there is room for one only.
-std::string main_scene(const Figures& figures);
-
-/// The text with a table of eight rows at most between its marks, "report: begin" and "report: end"
-/// as comments; nothing where it has none.
-std::optional<std::string> with_table(const std::string& readme, const Figures& figures);
-
-/// The main scene's chart by itself, as SVG.
-std::string main_chart(Figures& figures);
-
-/// Likewise the first chart of path tracing.
-std::string path_chart(const Figures& figures);
+/// The figures as JSON; the pictures as PNG in hexadecimal digits.
+std::string to_json(const Figures& figures);
 
 }  // namespace boule::bench

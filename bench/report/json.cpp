@@ -1,32 +1,32 @@
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/figures.h"
+#include "render/image/encode_image.h"
 
 namespace boule::bench {
+
+using Json = nlohmann::json;
+
+// Members under their own names.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportSettings, quick, seed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Provenance, cpu, cores, compiler, flags, commit, date, command)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolverSpeed, scene, structure, isa, solver, mrays_per_s, least,
+                                   most, rays, differ)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EpsilonFigure, experiment, remedy, x, points, false_shadows,
+                                   leaks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Growth, spheres, rays, isa, form, ns, least, most)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathError, samples, seconds, error)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NoiseError, asked, mean_samples, seconds, mrays, rms, within_95,
+                                   within_99)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PeerRow, scene, rays, contender, solver, mrays_per_s, least,
+                                   most, ratio, count, mismatches, one_solve)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PeerRows, embree, rows)
+
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json to_json(const Provenance& p, const ReportSettings& settings) {
-  return {{"cpu", p.cpu},         {"cores", p.cores},        {"compiler", p.compiler},
-          {"flags", p.flags},     {"commit", p.commit},      {"date", p.date},
-          {"command", p.command}, {"quick", settings.quick}, {"seed", settings.seed}};
-}
-
-Json to_json(const SolverSpeed& s) {
-  return {{"scene", s.scene},
-          {"structure", s.structure},
-          {"isa", s.isa},
-          {"solver", s.solver},
-          {"mrays_per_s", s.mrays_per_s},
-          {"min", s.least},
-          {"max", s.most},
-          {"rays", s.rays},
-          {"differ", s.differ}};
-}
-
 /// Three columns: decisions and roots, ulp of t, distance from the surface.
-Json to_json(test::HardFigures& f) {
+Json errors_of(test::HardFigures f) {
   return {{"pairs", f.pairs},
           {"hits", f.hits},
           {"wrong_decisions", f.wrong_decisions},
@@ -37,90 +37,57 @@ Json to_json(test::HardFigures& f) {
           {"residual_u", f.max_residual}};
 }
 
-Json to_json(CaseErrors& c) {
-  Json row = {{"case", c.hard_case}, {"isa", c.isa}, {"solver", c.errors.contender}};
-  row.update(to_json(c.errors.figures));
-  return row;
-}
-
-Json to_json(ErrorMap::Cell& cell) {
-  Json row = {{"solver", cell.contender}, {"distance", cell.distance}, {"grazing", cell.grazing}};
-  row.update(to_json(cell.figures));
-  return row;
-}
-
-Json to_json(const EpsilonFigure& e) {
-  return {
-      {"experiment", e.experiment},       {"remedy", e.remedy}, {"x", e.x}, {"points", e.points},
-      {"false_shadows", e.false_shadows}, {"leaks", e.leaks}};
-}
-
-Json to_json(const Growth& g) {
-  return {{"spheres", g.spheres}, {"rays", g.rays}, {"isa", g.isa}, {"form", g.form},
-          {"ns_per_ray", g.ns},   {"min", g.least}, {"max", g.most}};
-}
-
-Json to_json(const PathError& e) {
-  return {{"samples", e.samples}, {"seconds", e.seconds}, {"rms_error", e.error}};
-}
-
-Json to_json(const PeerRow& r) {
-  return {{"scene", r.scene},
-          {"rays", r.rays},
-          {"contender", r.contender},
-          {"solver", r.solver},
-          {"mrays_per_s", r.mrays_per_s},
-          {"min", r.least},
-          {"max", r.most},
-          {"ratio_to_best_embree", r.ratio},
-          {"count", r.count},
-          {"mismatches", r.mismatches},
-          {"one_solve_mrays_per_s", r.one_solve}};
-}
-
-Json to_json(const NoiseError& e) {
-  return {{"asked", e.asked},        {"mean_samples", e.mean_samples},
-          {"seconds", e.seconds},    {"mrays", e.mrays},
-          {"rms_error", e.rms},      {"within_95", e.within_95},
-          {"within_99", e.within_99}};
-}
-
-Json to_json(ScenePathErrors& s);
-Json to_json(SceneNoiseErrors& s);
-
-template <class T>
-Json list(std::vector<T>& values) {
-  Json all = Json::array();
-  for (T& value : values) all.push_back(to_json(value));
-  return all;
-}
-
-Json to_json(ScenePathErrors& s) {
-  return {
-      {"scene", s.scene}, {"sequence", list(s.errors.sequence)}, {"random", list(s.errors.random)}};
-}
-
-Json to_json(SceneNoiseErrors& s) {
-  return {{"scene", s.scene},
-          {"uniform", list(s.errors.uniform)},
-          {"random", list(s.errors.random)},
-          {"to_order", list(s.errors.to_order)}};
-}
-
 }  // namespace
 
-std::string to_json(Figures& figures) {
-  Json report = {{"provenance", to_json(figures.provenance, figures.settings)},
-                 {"speeds", list(figures.speeds)},
-                 {"hard_cases", list(figures.cases)},
-                 {"error_map", {{"isa", figures.widest}, {"cells", list(figures.map.cells)}}},
-                 {"epsilons", list(figures.epsilons)},
-                 {"growth", list(figures.growth)},
-                 {"path_errors", list(figures.paths)},
-                 {"noise_errors", list(figures.noise)},
-                 {"embree", nullptr}};
-  if (figures.peers)
-    report["embree"] = {{"version", figures.peers->embree}, {"rows", list(figures.peers->rows)}};
+static void to_json(Json& json, const CaseErrors& c) {
+  json = errors_of(c.errors.figures);
+  json.update({{"case", c.hard_case}, {"isa", c.isa}, {"solver", c.errors.contender}});
+}
+
+static void to_json(Json& json, const ErrorMap::Cell& cell) {
+  json = errors_of(cell.figures);
+  json.update({{"solver", cell.contender}, {"distance", cell.distance}, {"grazing", cell.grazing}});
+}
+
+static void to_json(Json& json, const EpsilonPicture& p) {
+  std::string png;
+  for (const char byte : encode_image(p.marked, StreamFormat::png, p.remedy).value())
+    png += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  json = {{"remedy", p.remedy},        {"width", p.marked.width},
+          {"height", p.marked.height}, {"false_shadows", p.false_shadows},
+          {"leaks", p.leaks},          {"png", png}};
+}
+
+static void to_json(Json& json, const ScenePathErrors& s) {
+  json = {{"scene", s.scene}, {"sequence", s.errors.sequence}, {"random", s.errors.random}};
+}
+
+/// Of pictures to order also how long others take until 99 % of their pixels are as good.
+static void to_json(Json& json, const SceneNoiseErrors& s) {
+  json = {{"scene", s.scene},
+          {"uniform", s.errors.uniform},
+          {"random", s.errors.random},
+          {"to_order", s.errors.to_order}};
+  for (Json& row : json["to_order"]) {
+    row["uniform_seconds"] = seconds_until(row["within_99"], s.errors.uniform);
+    row["random_seconds"] = seconds_until(row["within_99"], s.errors.random);
+  }
+}
+
+std::string to_json(const Figures& figures) {
+  const Json report = {{"provenance", figures.provenance},
+                       {"settings", figures.settings},
+                       {"speeds", figures.speeds},
+                       {"cases", figures.cases},
+                       {"widest", figures.widest},
+                       {"map", figures.map.cells},
+                       {"epsilons", figures.epsilons},
+                       {"pictures", figures.pictures},
+                       {"growth", figures.growth},
+                       {"path_size", {PathPicture::width, PathPicture::height}},
+                       {"paths", figures.paths},
+                       {"noise", figures.noise},
+                       {"peers", figures.peers ? Json(*figures.peers) : Json()}};
   return report.dump(2) + "\n";
 }
 

@@ -1,15 +1,11 @@
-// Speed against error: measures, and writes one page that shows it.
+// Speed against error: measures, and writes the figures as JSON. publish.py makes a page of them.
 //
-//   report [--quick] -o report.html [--chart chart.svg] [--path-chart chart.svg]
-//          [--readme README.md]
+//   report [--quick] -o report.json
 //
-// Beside the page come its figures, report.json. A README gets its table anew. Exit code 1: a
-// robust solver was wrong, or a file could not be written; 2: bad arguments.
+// Exit code 1: a robust solver was wrong, or the file could not be written; 2: bad arguments.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "bench/command_line.h"
 #include "bench/report/figures.h"
@@ -19,29 +15,13 @@ namespace {
 
 struct Arguments {
   ReportSettings settings;
-  std::string page, chart, path_chart, readme;
+  std::string file;
 };
 
-/// All or nothing: under another name first.
-bool write_file(const std::filesystem::path& path, const std::string& content) {
-  const std::filesystem::path temporary = path.string() + ".temp";
-  std::ofstream file(temporary, std::ios::binary);
-  file << content;
-  file.close();
-  std::error_code failed;
-  if (file) std::filesystem::rename(temporary, path, failed);
-  if (file && !failed) return true;
-  std::filesystem::remove(temporary, failed);
+bool write_file(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  if (file << content << std::flush) return true;
   std::fprintf(stderr, "report: cannot write '%s'\n", path.c_str());
-  return false;
-}
-
-bool update_readme(const std::string& path, const Figures& figures) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string old{std::istreambuf_iterator<char>(file), {}};
-  const std::optional<std::string> updated = with_table(old, figures);
-  if (updated) return write_file(path, *updated);
-  std::fprintf(stderr, "report: '%s' has no marks for a table\n", path.c_str());
   return false;
 }
 
@@ -58,29 +38,15 @@ bool robust_is_right(const Figures& figures) {
 }
 
 int run(const Arguments& arguments) {
-  const std::filesystem::path page = arguments.page;
   const std::string command =
-      std::string("report ") + (arguments.settings.quick ? "--quick " : "") + "-o report.html";
-  Figures figures = measure(arguments.settings, command);
-  std::filesystem::path json = page;
-  json.replace_extension(".json");
-  bool written = write_file(json, to_json(figures)) && write_file(page, to_html(figures));
-  if (!arguments.chart.empty())
-    written = written && write_file(arguments.chart, main_chart(figures));
-  if (!arguments.path_chart.empty())
-    written = written && write_file(arguments.path_chart, path_chart(figures));
-  if (!arguments.readme.empty()) written = written && update_readme(arguments.readme, figures);
-  return written && robust_is_right(figures) ? 0 : 1;
+      std::string("report ") + (arguments.settings.quick ? "--quick " : "") + "-o report.json";
+  const Figures figures = measure(arguments.settings, command);
+  return write_file(arguments.file, to_json(figures)) && robust_is_right(figures) ? 0 : 1;
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
   app.add_flag("--quick", arguments.settings.quick, "Under two minutes, smaller samples");
-  app.add_option("-o,--output", arguments.page, "The page, .html; figures go beside it, .json")
-      ->required();
-  app.add_option("--chart", arguments.chart, "The first chart by itself, .svg");
-  app.add_option("--path-chart", arguments.path_chart, "That of path tracing by itself, .svg");
-  app.add_option("--readme", arguments.readme, "A text whose table is brought up to date")
-      ->check(CLI::ExistingFile);
+  app.add_option("-o,--output", arguments.file, "The figures, .json")->required();
 }
 
 }  // namespace
@@ -88,6 +54,5 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace boule::bench;
-  return run_program<Arguments>("Measures speed against error and writes one page about it.", argc,
-                                argv, add_options, run);
+  return run_program<Arguments>("Measures speed against error.", argc, argv, add_options, run);
 }

@@ -31,5 +31,5 @@ commit="${BASH_REMATCH[1]}" changed="${BASH_REMATCH[2]}"
 git merge-base --is-ancestor "$commit" HEAD 2>/dev/null || { echo "the history has no commit $commit"; exit 1; }
 [[ "$page" != *"committed as"* ]] || exit 0
 heading="$(sed -n '/report: begin/,/report: end/p' "$1" | grep -m 1 '^| ' || true)"
-git show "$commit:bench/report/readme.cpp" | tr -d '\n' | sed 's/" *"//g' | grep -qF -- "$heading" ||
+git grep -qF -e "$heading" "$commit" -- bench/report/readme.py ||
   { echo "the report of $commit writes another table than '$heading'"; exit 1; }
