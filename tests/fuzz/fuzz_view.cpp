@@ -20,9 +20,11 @@ using boule::fuzz::require;
 struct Promises {
   void operator()(const CameraMessage& message) const {
     const CameraEdit& edit = message.edit;
-    for (const auto* point : {&edit.eye, &edit.look_at, &edit.up})
-      require(!*point || std::isfinite((*point)->x + (*point)->y + (*point)->z),
+    for (const auto& [key, value] : edit.values) {
+      const auto* const point = std::get_if<boule::Vec3d>(&value);
+      require(point == nullptr || std::isfinite(point->x + point->y + point->z),
               "points are finite");
+    }
     // Whatever is in it: a camera that is valid, or an error.
     const auto camera = edited(boule::PinholeCamera{}, edit, {});
     if (camera) {

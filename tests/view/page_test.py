@@ -277,6 +277,30 @@ class Page(unittest.TestCase):
         camera = browser.camera()
         self.assertLess(camera["focus"], distance(camera["eye"], camera["look_at"]))
 
+    def test_an_unknown_camera_gets_its_rows(self):
+        browser = self.browser
+        browser.script("""
+            const state = structuredClone(bouleView.session.state);
+            state.choices.camera_types.push('two_eyes');
+            state.choices.cameras.two_eyes = {projection: 'other', keys: {
+              eye: {kind: 'point'}, up: {kind: 'direction'},
+              eye_turn: {kind: 'number', low: -5, high: 5, unit: 'degrees', optional: true},
+              shown: {kind: 'name', names: ['left', 'right']}}};
+            state.number = bouleView.session.number;
+            Object.assign(state.camera, {type: 'two_eyes', eye_turn: 2.5, shown: 'right'});
+            bouleView.session.take(state);""")
+        labels = browser.script("""
+            return [...document.querySelectorAll('#camera-section .row label')].map(e => e.textContent)""")
+        self.assertEqual(labels, ["Kind", "Eye turn", "Shown"])
+        self.assertEqual(browser.find("#camera-type").get_attribute("value"), "two_eyes")
+        self.assertEqual(browser.find("#camera-eye_turn").get_attribute("value"), "2.5")
+        self.assertEqual(browser.find("#camera-shown").get_attribute("value"), "right")
+        self.enter("#camera-eye_turn", "6")
+        self.assertEqual(browser.find("#camera-eye_turn-wrong").text,
+                         "Expected a number from -5 to 5, or nothing.")
+        browser.choose("#camera-shown", "left")
+        self.assertEqual(browser.camera()["shown"], "left")
+
     def test_an_error_is_a_sentence(self):
         browser = self.browser
         browser.script("bouleView.session.change({size: [0, 5]})")
@@ -298,7 +322,7 @@ class Page(unittest.TestCase):
         fields = browser.script("""
             return [...document.querySelectorAll('#panel input[inputmode]')]
                 .filter((field) => field.offsetParent !== null).map((field) => field.id);""")
-        for name in ("fov-number", "aperture", "focus", "width", "picture-height", "spp", "max-depth",
+        for name in ("camera-fov", "camera-aperture", "camera-focus", "width", "picture-height", "spp", "max-depth",
                      "own-epsilon-0"):
             self.assertIn(name, fields)
         for name in fields:
@@ -321,7 +345,7 @@ class Page(unittest.TestCase):
         browser = self.browser
         for name, wrong, right, key in (("width", "1000000", "256", "size[0]"),
                                         ("spp", "99999999999", "2", "spp"),
-                                        ("fov-number", "359", "40", None)):
+                                        ("camera-fov", "180", "40", None)):
             self.enter(f"#{name}", wrong)
             text = browser.wait("document.querySelector('#problem p')?.textContent", "an alert")
             words = browser.find(f"#{name}-wrong").text

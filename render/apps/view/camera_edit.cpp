@@ -6,19 +6,15 @@
 #include <charconv>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "core/math/elementary.h"
 #include "core/math/geometry.h"
+#include "render/apps/view/camera_kinds.h"
 
 namespace boule::view {
 namespace {
 
 using Field = std::pair<std::string, std::string>;  ///< a key and its value
-
-Diagnostic no_such_key(const char* key, const std::string& type) {
-  return Diagnostic::about(std::string("camera.") + key, "a camera of type " + type + " has none");
-}
 
 std::string type_of(const Camera& camera) { return std::string(names<Camera>[camera.index()]); }
 
@@ -32,84 +28,103 @@ double look_distance(const CameraPose& pose) {
 
 /// The angle of view, in degrees, that a camera has or that shows as much where it looks.
 double shown_angle(const Camera& camera) {
-  if (const auto* parallel = std::get_if<OrthographicCamera>(&camera)) {
-    const double half = double{parallel->height} / (2 * look_distance(parallel->pose));
-    return 2 * std::atan(half) * 180 / elementary::pi;
-  }
-  if (const auto* fisheye = std::get_if<FisheyeCamera>(&camera)) return double{fisheye->fov};
-  if (const auto* lens = std::get_if<ThinLensCamera>(&camera)) return double{lens->fov};
-  if (const auto* pinhole = std::get_if<PinholeCamera>(&camera)) return double{pinhole->fov};
-  return 45;
+  const auto angle = [](const auto& any) {
+    if constexpr (requires { any.fov; }) {
+      return double{any.fov};
+    } else if constexpr (requires { any.height; }) {
+      const double half = double{any.height} / (2 * look_distance(any.pose));
+      return 2 * std::atan(half) * 180 / elementary::pi;
+    } else {
+      return 45.0;
+    }
+  };
+  return std::visit(angle, camera);
 }
 
 FovAxis axis_of(const Camera& camera) {
-  if (std::holds_alternative<OrthographicCamera>(camera)) return FovAxis::y;
-  if (const auto* fisheye = std::get_if<FisheyeCamera>(&camera)) return fisheye->fov_axis;
-  if (const auto* lens = std::get_if<ThinLensCamera>(&camera)) return lens->fov_axis;
-  if (const auto* pinhole = std::get_if<PinholeCamera>(&camera)) return pinhole->fov_axis;
-  return FovAxis::x;
+  const auto axis = [](const auto& any) {
+    if constexpr (requires { any.fov_axis; }) return any.fov_axis;
+    return projection_of<std::decay_t<decltype(any)>>() == Projection::parallel ? FovAxis::y
+                                                                                : FovAxis::x;
+  };
+  return std::visit(axis, camera);
 }
 
-float flat_angle(double degrees) { return static_cast<float>(std::clamp(degrees, 1.0, 170.0)); }
-
-Camera with_type(const Camera& camera, const std::string& type) {
-  const CameraPose pose = pose_of(camera);
-  const double angle = shown_angle(camera);
-  const FovAxis axis = axis_of(camera);
-  if (type == "pinhole") return PinholeCamera{pose, flat_angle(angle), axis};
-  if (type == "thin_lens") return ThinLensCamera{pose, flat_angle(angle), axis, 0, {}};
-  if (type == "fisheye")
-    return FisheyeCamera{pose, static_cast<float>(std::clamp(angle, 1.0, 360.0)), axis};
-  const double half = std::tan(double{flat_angle(angle)} * elementary::pi / 360);
-  return OrthographicCamera{pose, static_cast<float>(2 * half * look_distance(pose))};
-}
-
-bool is_editable(const std::string& type) {
-  return std::find(editable_cameras.begin(), editable_cameras.end(), type) !=
-         editable_cameras.end();
-}
-
-Status check_type(const Camera& camera, const std::string& type) {
-  if (type == type_of(camera)) return {};
-  if (std::holds_alternative<LensCamera>(camera))
-    return Diagnostic::about("camera.type", "a camera of real lenses stays one");
-  if (is_editable(type)) return {};
-  return Diagnostic::about("camera.type", "expected pinhole, orthographic, fisheye or thin_lens");
-}
-
-void move(CameraPose& pose, const CameraEdit& edit, const Vec3d& origin) {
-  if (edit.eye) pose.eye = vec_cast<float>(*edit.eye - origin);
-  if (edit.look_at) pose.look_at = vec_cast<float>(*edit.look_at - origin);
-  if (edit.up) pose.up = vec_cast<float>(*edit.up);
-}
-
-/// Sets the numbers of one kind of camera that the edit has; an error for one that this kind lacks.
+/// Gives a camera the pose of another, and as much of what that one shows as it can.
 template <class Kind>
-Status set_numbers(Kind& camera, const CameraEdit& edit) {
-  const std::string type(fields<Kind>.type);
-  if constexpr (requires { camera.fov; }) {
-    if (edit.fov) camera.fov = static_cast<float>(*edit.fov);
-    if (edit.fov_axis) camera.fov_axis = *edit.fov_axis;
-  } else {
-    if (edit.fov) return no_such_key("fov", type);
-    if (edit.fov_axis) return no_such_key("fov_axis", type);
-  }
+void show_as_much(Kind& camera, const Camera& other) {
+  camera.pose = pose_of(other);
+  const double widest = projection_of<Kind>() == Projection::angle ? 360 : 170;
+  const auto angle = static_cast<float>(std::clamp(shown_angle(other), 1.0, widest));
+  if constexpr (requires { camera.fov; }) camera.fov = angle;
+  if constexpr (requires { camera.fov_axis; }) camera.fov_axis = axis_of(other);
   if constexpr (requires { camera.height; }) {
-    if (edit.height) camera.height = static_cast<float>(*edit.height);
-  } else if (edit.height) {
-    return no_such_key("height", type);
+    const double half = std::tan(double{angle} * elementary::pi / 360);
+    camera.height = static_cast<float>(2 * half * look_distance(camera.pose));
   }
-  if constexpr (requires { camera.aperture; }) {
-    if (edit.aperture) camera.aperture = static_cast<float>(*edit.aperture);
-  } else if (edit.aperture) {
-    return no_such_key("aperture", type);
+}
+
+/// The camera as one of another kind, which edits can name.
+Result<Camera> with_type(const Camera& camera, const std::string& type) {
+  if (std::visit([](const auto& any) { return has_file<std::decay_t<decltype(any)>>; }, camera))
+    return Diagnostic::about("camera.type", "a camera of real lenses stays one");
+  std::optional<Camera> result;
+  each_kind([&](auto fresh) {
+    if (has_file<decltype(fresh)> || fields<decltype(fresh)>.type != type) return;
+    show_as_much(fresh, camera);
+    result = fresh;
+  });
+  if (result) return *result;
+  return Diagnostic::about("camera.type",
+                           fmt::format("expected {}", fmt::join(editable_cameras(), ", ")));
+}
+
+/// Sets a member to a value, and tells whether the value is one for it.
+struct Setter {
+  const CameraValue& value;
+  Vec3d origin;  ///< of a point; else 0
+
+  bool operator()(Vec3f& member) const {
+    const auto* const vector = std::get_if<Vec3d>(&value);
+    if (vector != nullptr) member = vec_cast<float>(*vector - origin);
+    return vector != nullptr;
   }
-  if constexpr (requires { camera.focus; }) {
-    if (!edit.focus) return {};
-    camera.focus.reset();
-    if (*edit.focus) camera.focus = static_cast<float>(**edit.focus);
-  } else if (edit.focus && *edit.focus) {
-    return no_such_key("focus", type);
+  bool operator()(float& member) const {
+    const auto* const number = std::get_if<double>(&value);
+    if (number != nullptr) member = static_cast<float>(*number);
+    return number != nullptr;
+  }
+  bool operator()(std::optional<float>& member) const {
+    member.reset();
+    return std::holds_alternative<std::monostate>(value) || (*this)(member.emplace());
+  }
+  template <class Enum>
+  bool operator()(Enum& member) const {
+    const auto* const name = std::get_if<std::string>(&value);
+    for (std::size_t i = 0; name != nullptr && i < names<Enum>.size(); ++i) {
+      if (names<Enum>[i] != *name) continue;
+      member = static_cast<Enum>(i);
+      return true;
+    }
+    return false;
+  }
+};
+
+/// Sets the keys of one kind of camera that the edit has; an error for one that this kind lacks,
+/// unless its value is null.
+template <class Kind>
+Status set_keys(Kind& camera, const CameraEdit& edit, const Vec3d& origin) {
+  auto left = edit.values;
+  each_key(camera, [&](const auto& field, auto& member) {
+    constexpr bool is_point = std::is_same_v<decltype(field.rule), PointRule>;
+    const auto found = left.find(field.key);
+    if (found != left.end() && Setter{found->second, is_point ? origin : Vec3d{}}(member))
+      left.erase(found);
+  });
+  for (const auto& [key, value] : left) {
+    if (std::holds_alternative<std::monostate>(value)) continue;
+    return Diagnostic::about("camera." + key,
+                             fmt::format("a camera of type {} has none", fields<Kind>.type));
   }
   return {};
 }
@@ -182,16 +197,23 @@ double file_coordinate(float coordinate, double origin) {
   return number;
 }
 
+std::vector<std::string_view> editable_cameras() {
+  std::vector<std::string_view> types;
+  each_kind([&types](const auto& camera) {
+    using Kind = std::decay_t<decltype(camera)>;
+    if (!has_file<Kind>) types.push_back(fields<Kind>.type);
+  });
+  return types;
+}
+
 Result<Camera> edited(const Camera& camera, const CameraEdit& edit, const Vec3d& origin) {
   Camera result = camera;
-  if (edit.type) {
-    if (auto done = check_type(camera, *edit.type); !done) return done.error();
-    if (*edit.type != type_of(camera)) result = with_type(camera, *edit.type);
+  if (edit.type && *edit.type != type_of(camera)) {
+    auto other = with_type(camera, *edit.type);
+    if (!other) return other.error();
+    result = other.value();
   }
-  const auto apply = [&](auto& any) {
-    move(any.pose, edit, origin);
-    return set_numbers(any, edit);
-  };
+  const auto apply = [&](auto& any) { return set_keys(any, edit, origin); };
   if (auto done = std::visit(apply, result); !done) return done.error();
   if (const auto problem = find_problem(result))
     return Diagnostic::about("camera." + problem->field, problem->message);

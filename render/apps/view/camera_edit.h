@@ -1,8 +1,12 @@
 #pragma once
 
-#include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/math/vec.h"
@@ -10,19 +14,18 @@
 
 namespace boule::view {
 
+/// The value of a camera's key: null, a number, the name of an enumerator, or a vector.
+using CameraValue = std::variant<std::monostate, double, std::string, Vec3d>;
+
 /// Some keys of a camera, as a client sends them; what is not there stays. Points are in the
 /// coordinates of the file.
 struct CameraEdit {
-  std::optional<std::string> type;
-  std::optional<Vec3d> eye, look_at, up;
-  std::optional<double> fov, height, aperture;
-  std::optional<FovAxis> fov_axis;
-  std::optional<std::optional<double>> focus;  ///< of a lens; none in it: the distance of look_at
+  std::optional<std::string> type{};
+  std::map<std::string, CameraValue, std::less<>> values{};
 };
 
-/// The kinds of camera that an edit can name.
-inline constexpr std::array<std::string_view, 4> editable_cameras{"pinhole", "orthographic",
-                                                                  "fisheye", "thin_lens"};
+/// The kinds of camera that an edit can name: those without a file of their own.
+std::vector<std::string_view> editable_cameras();
 
 /// The camera after an edit. `origin` was subtracted from the file's points. Another type keeps the
 /// pose, and shows about as much of what is looked at. Numbers are rounded to float once. An error

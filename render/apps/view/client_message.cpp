@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/apps/view/camera_kinds.h"
 #include "render/apps/view/message_keys.h"
 
 namespace boule::view {
@@ -13,13 +14,25 @@ Result<ClientMessage> finished(MessageKeys& keys, ClientMessage message) {
   return message;
 }
 
-/// A number that may be null.
-std::optional<std::optional<double>> number_or_null(MessageKeys& keys, const char* key) {
+// Values of the keys of cameras, by the members that take them.
+
+std::optional<CameraValue> value_of(MessageKeys& keys, const char* key, const Vec3f&) {
+  return keys.vector(key);
+}
+std::optional<CameraValue> value_of(MessageKeys& keys, const char* key, float) {
+  return keys.number(key);
+}
+std::optional<CameraValue> value_of(MessageKeys& keys, const char* key,
+                                    const std::optional<float>&) {
   const Json* const value = keys.find(key);
-  if (value == nullptr) return std::nullopt;
-  if (value->is_null()) return std::optional<double>();
-  if (const auto number = keys.number(key)) return number;
-  return std::nullopt;
+  if (value != nullptr && value->is_null()) return CameraValue();
+  return keys.number(key);
+}
+template <class Enum>
+std::optional<CameraValue> value_of(MessageKeys& keys, const char* key, Enum) {
+  const auto choice = keys.choice<Enum>(key);
+  if (!choice) return std::nullopt;
+  return std::string(name_of(*choice));
 }
 
 Result<ClientMessage> read_camera(MessageKeys& keys) {
@@ -31,14 +44,12 @@ Result<ClientMessage> read_camera(MessageKeys& keys) {
   MessageKeys inner(*camera, "camera.");
   CameraEdit& edit = message.edit;
   edit.type = inner.text("type");
-  edit.eye = inner.vector("eye");
-  edit.look_at = inner.vector("look_at");
-  edit.up = inner.vector("up");
-  edit.fov = inner.number("fov");
-  edit.fov_axis = inner.choice<FovAxis>("fov_axis");
-  edit.height = inner.number("height");
-  edit.aperture = inner.number("aperture");
-  edit.focus = number_or_null(inner, "focus");
+  each_kind([&](const auto& kind) {
+    each_key(kind, [&](const auto& field, const auto& member) {
+      const std::string key(field.key);
+      if (const auto value = value_of(inner, key.c_str(), member)) edit.values[key] = *value;
+    });
+  });
   if (auto done = inner.finish(); !done) return done.error();
   return finished(keys, message);
 }

@@ -7,6 +7,7 @@
 #include "core/base/version.h"
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
+#include "render/apps/view/camera_kinds.h"
 #include "render/apps/view/difference.h"
 #include "render/apps/view/message_keys.h"
 #include "render/files/particles/color_map.h"
@@ -36,23 +37,58 @@ Json epsilon(const std::optional<float>& length) {
   return shown(*length);
 }
 
+// Values of the keys of cameras, and their rules.
+
+Json value_json(const PointRule&, const Vec3f& p, const Vec3d& origin) { return point(p, origin); }
+Json value_json(const DirectionRule&, const Vec3f& v, const Vec3d&) { return point(v, {}); }
+Json value_json(const NumberRule&, float number, const Vec3d&) { return shown(number); }
+Json value_json(const NumberRule&, const std::optional<float>& number, const Vec3d&) {
+  return number ? Json(shown(*number)) : Json();
+}
+template <class Enum>
+Json value_json(const TypeRule&, Enum value, const Vec3d&) {
+  return name_of(value);
+}
+
+Json rule_json(const PointRule&, const Vec3f&) { return {{"kind", "point"}}; }
+Json rule_json(const DirectionRule&, const Vec3f&) { return {{"kind", "direction"}}; }
+template <class Number>
+Json rule_json(const NumberRule& rule, const Number&) {
+  const auto bound = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  const std::string_view unit = rule.unit;
+  return {{"kind", "number"},
+          {"low", bound(rule.low)},
+          {"high", bound(rule.high)},
+          {"unit", unit.substr(unit.starts_with(' ') ? 1 : 0)},
+          {"optional", std::is_same_v<Number, std::optional<float>>}};
+}
+template <class Enum>
+Json rule_json(const TypeRule&, Enum) {
+  return {{"kind", "name"}, {"names", all_names<Enum>()}};
+}
+
 Json camera_json(const Camera& camera, const Vec3d& origin) {
   Json json = {{"type", names<Camera>[camera.index()]}};
-  const auto add = [&](const auto& any) {
-    json["eye"] = point(any.pose.eye, origin);
-    json["look_at"] = point(any.pose.look_at, origin);
-    json["up"] = point(any.pose.up, {});
-    if constexpr (requires { any.fov; }) {
-      json["fov"] = shown(any.fov);
-      json["fov_axis"] = name_of(any.fov_axis);
-    }
-    if constexpr (requires { any.height; }) json["height"] = shown(any.height);
-    if constexpr (requires { any.aperture; }) json["aperture"] = shown(any.aperture);
-    if constexpr (requires { any.focus; })
-      json["focus"] = any.focus ? Json(shown(*any.focus)) : Json();
+  const auto add = [&](const auto& field, const auto& member) {
+    json[std::string(field.key)] = value_json(field.rule, member, origin);
   };
-  std::visit(add, camera);
+  std::visit([&add](const auto& any) { each_key(any, add); }, camera);
   return json;
+}
+
+/// Each kind of camera: its projection, and the rules of its keys.
+Json cameras_json() {
+  Json cameras;
+  each_kind([&cameras](const auto& camera) {
+    using Kind = std::decay_t<decltype(camera)>;
+    Json keys;
+    each_key(camera, [&keys](const auto& field, const auto& member) {
+      keys[std::string(field.key)] = rule_json(field.rule, member);
+    });
+    cameras[std::string(fields<Kind>.type)] = {{"projection", name_of(projection_of<Kind>())},
+                                               {"keys", keys}};
+  });
+  return cameras;
 }
 
 Json settings_json(const ViewSettings& settings) {
@@ -140,14 +176,13 @@ Json difference_json(Difference kind) {
 }
 
 Json choices_json() {
-  Json cameras = Json::array();
-  for (const std::string_view type : editable_cameras) cameras.push_back(type);
   return {{"orders", all_names<PixelOrder>()},
           {"solvers", all_names<Solver>()},
           {"methods", all_names<Method>()},
           {"shadow_epsilons", {nullptr, "none", 1e-6, 1e-4, 1e-3, 1e-2}},
           {"differences", all_names<Difference>()},
-          {"camera_types", cameras},
+          {"camera_types", editable_cameras()},
+          {"cameras", cameras_json()},
           {"formats", {"png"}},
           {"maps", all_names<NamedColorMap>()},
           {"colors", {"element"}},

@@ -15,6 +15,20 @@ const radians = (degrees) => degrees * Math.PI / 180;
 const narrowest = 1e-4;  // degrees of a long lens
 const nearestPole = radians(1);  // between the view and `up`
 
+let kinds = {};  // of cameras, as the server has them
+
+/** Takes the kinds of camera that the server knows. */
+export function learnKinds(cameras) { kinds = cameras; }
+
+/** The keys of a kind of camera, and their rules. */
+export const keysOf = ({type}) => kinds[type].keys;
+
+/** Where a camera's film shows a point: `flat`, `angle`, `parallel` or `other`. */
+export const projectionOf = ({type}) => kinds[type].projection;
+
+const isParallel = (camera) => projectionOf(camera) === 'parallel';
+const hasAngles = (camera) => projectionOf(camera) === 'angle';
+
 /** The frame of a camera: `ahead`, `right`, `above`, and the distance to what it looks at. */
 export function frameOf(camera) {
   const view = subtract(camera.look_at, camera.eye);
@@ -43,13 +57,13 @@ export function orbit(camera, yaw, pitch) {
   return {eye: add(camera.look_at, back)};
 }
 
-/** Half of the picture's width and height, at distance 1 or, for an orthographic camera, as it is. */
+/** Half of the picture's width and height, at distance 1 or, where rays are parallel, as it is. */
 export function halfExtent(camera, [width, height]) {
-  if (camera.type === 'orthographic') {
+  if (isParallel(camera)) {
     return [camera.height / 2 * width / height, camera.height / 2];
   }
   const half = radians((camera.fov ?? 40) / 2);
-  const reach = camera.type === 'fisheye' ? half : Math.tan(half);
+  const reach = hasAngles(camera) ? half : Math.tan(half);
   const axis = camera.fov_axis ?? 'x';
   const spansHeight = axis === 'y' || (axis === 'max' && height > width);
   return spansHeight ? [reach * width / height, reach] : [reach, reach * height / width];
@@ -59,28 +73,28 @@ export function halfExtent(camera, [width, height]) {
 export function pan(camera, size, shareX, shareY) {
   const {right, above, distance} = frameOf(camera);
   const [x, y] = halfExtent(camera, size);
-  const depth = camera.type === 'orthographic' ? 1 : distance;
+  const depth = isParallel(camera) ? 1 : distance;
   const step = add(scaled(right, -2 * shareX * x * depth), scaled(above, 2 * shareY * y * depth));
   return {eye: add(camera.eye, step), look_at: add(camera.look_at, step)};
 }
 
-/** Comes nearer: the distance is multiplied by `factor`; an orthographic camera's height is. */
+/** Comes nearer: the distance is multiplied by `factor`; where rays are parallel, the height is. */
 export function dolly(camera, factor) {
-  if (camera.type === 'orthographic') return {height: camera.height * factor};
+  if (isParallel(camera)) return {height: camera.height * factor};
   const back = scaled(subtract(camera.eye, camera.look_at), factor);
   const eye = add(camera.look_at, back);
   return length(subtract(eye, camera.look_at)) > 0 ? {eye} : {};
 }
 
 /** Sensible limits of `fov` in degrees; what the camera has is among them. */
-export function fovLimits({type, fov}) {
-  const [low, high] = type === 'fisheye' ? [10, 360] : [1, 170];
-  return [Math.min(low, fov), Math.max(high, fov)];
+export function fovLimits(camera) {
+  const [low, high] = hasAngles(camera) ? [10, 360] : [1, 170];
+  return [Math.min(low, camera.fov), Math.max(high, camera.fov)];
 }
 
 /** Sees more (factor above 1) or less. */
 export function widen(camera, factor) {
-  if (camera.type === 'orthographic') return {height: camera.height * factor};
+  if (isParallel(camera)) return {height: camera.height * factor};
   if (camera.fov === undefined) return {};
   const [, high] = fovLimits(camera);
   return {fov: Math.max(narrowest, Math.min(high, camera.fov * factor))};
@@ -93,10 +107,10 @@ export function fit(camera, {center, radius}, size) {
   const [x, y] = halfExtent(camera, size);
   let distance = length(subtract(camera.eye, camera.look_at));
   const changes = {look_at: center};
-  if (camera.type === 'orthographic') {
+  if (isParallel(camera)) {
     changes.height = 2 * radius * margin * Math.max(1, y / x);
     distance = Math.max(distance, 2 * radius);
-  } else if (camera.type === 'fisheye') {
+  } else if (hasAngles(camera)) {
     distance = radius * margin / Math.sin(Math.min(Math.PI / 2, x, y));
   } else {
     distance = radius * margin / Math.sin(Math.atan(Math.min(x, y)));
@@ -113,20 +127,21 @@ export function inFrame(camera, point) {
 }
 
 /** The pixel, with fractions, that shows a point of the camera's frame, or null where none does.
- * A lens' rays are not followed: null. */
+ * Rays of other projections are not followed: null. */
 export function pixelOf(camera, [x, y, z], size) {
   const [halfX, halfY] = halfExtent(camera, size);
   let film;
-  if (camera.type === 'orthographic') {
+  if (isParallel(camera)) {
     film = [x / halfX, y / halfY];
-  } else if (camera.type === 'fisheye') {
+  } else if (hasAngles(camera)) {
     const across = Math.hypot(x, y);
     const angle = Math.atan2(across, z);
     film = across === 0 ? [0, 0] : [x / across * angle / halfX, y / across * angle / halfY];
-  } else if (camera.type === 'lens' || !(z > 0)) {
+  } else if (projectionOf(camera) !== 'flat' || !(z > 0)) {
     return null;
   } else {
     film = [x / z / halfX, y / z / halfY];
   }
-  return [(film[0] + 1) / 2 * size[0], (1 - film[1]) / 2 * size[1]];
+  const pixel = [(film[0] + 1) / 2 * size[0], (1 - film[1]) / 2 * size[1]];
+  return pixel.every(Number.isFinite) ? pixel : null;
 }

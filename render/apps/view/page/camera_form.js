@@ -1,55 +1,102 @@
 // The fields of the camera.
 
-import {byId, fillSelect, onNumber, showValue} from './dom.js';
-import {fovLimits, frameOf} from './camera.js';
+import {byId, fillSelect, make, onNumber, showValue} from './dom.js';
+import {fovLimits, frameOf, keysOf} from './camera.js';
 import {cameraName, plain} from './words.js';
 
 // A number for a field, where it may be edited.
 const editable = (number, digits = 6) => plain(Number(number.toPrecision(digits)));
 
+// Keys that are not called by their own names, that say more, or that stay as the scene has them.
+const looks = {
+  fov: {label: 'Field of view', digits: 4},
+  focus: {placeholder: 'what it looks at'},
+  fov_axis: {isHidden: true},
+};
+
 export class CameraForm {
   constructor(session, gestures) {
     this.session = session;
     byId('camera-type').addEventListener('change', () => this.chooseType());
-    byId('fov').addEventListener('input', () => session.move({fov: this.fovOf(Number(byId('fov').value))}));
-    byId('fov').addEventListener('change', () => session.rest());
-    onNumber(byId('fov-number'), (fov) => session.move({fov}, false), {low: 0.01, high: 360});
-    onNumber(byId('height'), (height) => session.move({height}, false), {low: 0});
-    onNumber(byId('aperture'), (aperture) => session.move({aperture}, false), {low: 0});
-    onNumber(byId('focus'), (focus) => session.move({focus}, false), {low: 0, empty: null});
     byId('fit').addEventListener('click', () => gestures.fitAll());
     byId('reset').addEventListener('click', () => gestures.reset());
     session.on('camera', (camera) => this.show(camera));
     session.on('state', (state) => this.showTypes(state));
   }
 
+  /** A row for each number and each name of this kind of camera. */
+  makeRows(camera) {
+    this.type = camera.type;
+    this.rows = Object.entries(keysOf(camera))
+        .filter(([key, {kind}]) => ['number', 'name'].includes(kind) && !looks[key]?.isHidden)
+        .map(([key, rule]) => ({key, ...this.makeRow(key, rule)}));
+    byId('camera-rows').replaceChildren(...this.rows.map(({row}) => row));
+  }
+
+  makeRow(key, rule) {
+    const label = looks[key]?.label ?? (key[0].toUpperCase() + key.slice(1)).replaceAll('_', ' ');
+    const field = rule.kind === 'name' ? this.makeSelect(key, rule) : this.makeNumber(key, rule);
+    let cell = field;
+    if (rule.unit) {
+      field.setAttribute('aria-label', `${label} in ${rule.unit}`);
+      const unit = make('span', {'aria-hidden': 'true', textContent: rule.unit === 'degrees' ? '°' : rule.unit});
+      cell = make('span', {className: 'pair'}, ...(key === 'fov' ? [this.makeSlider()] : []), field, unit);
+    }
+    const htmlFor = (cell.querySelector('input') ?? field).id;
+    return {field, row: make('div', {className: 'row'}, make('label', {htmlFor, textContent: label}), cell)};
+  }
+
+  makeSelect(key, {names}) {
+    const select = make('select', {id: `camera-${key}`},
+                        ...names.map((value) => make('option', {value, text: value})));
+    select.addEventListener('change', () => this.session.move({[key]: select.value}, false));
+    return select;
+  }
+
+  makeNumber(key, {low, high, optional}) {
+    const input = make('input', {
+      id: `camera-${key}`, inputMode: 'decimal', autocomplete: 'off', placeholder: looks[key]?.placeholder,
+    });
+    onNumber(input, (number) => this.session.move({[key]: number}, false),
+             {low: low ?? -Infinity, high: high ?? Infinity, empty: optional ? null : undefined});
+    return input;
+  }
+
   // The slider is logarithmic: a degree matters more at 2 than at 100.
-  fovOf(position) { return Number(Math.exp(position).toPrecision(3)); }
+  makeSlider() {
+    const slider = make('input', {type: 'range', id: 'camera-fov-slider', step: 'any'});
+    slider.addEventListener('input', () =>
+      this.session.move({fov: Number(Math.exp(slider.value).toPrecision(3))}));
+    slider.addEventListener('change', () => this.session.rest());
+    return slider;
+  }
 
   chooseType() {
     const type = byId('camera-type').value;
     const changes = {type};
     // A lens that is open far enough for its blur to be seen.
-    if (type === 'thin_lens') changes.aperture = Number((frameOf(this.session.camera).distance / 60).toPrecision(2));
+    if (keysOf(changes).aperture) changes.aperture = Number((frameOf(this.session.camera).distance / 60).toPrecision(2));
     this.session.move(changes, false);
   }
 
   showTypes({choices, camera}) {
-    const types = camera.type === 'lens' ? ['lens'] : choices.camera_types;
+    const isFixed = !choices.camera_types.includes(camera.type);
+    const types = isFixed ? [camera.type] : choices.camera_types;
     fillSelect(byId('camera-type'), types.map((type) => [type, cameraName(type)]), camera.type);
-    byId('camera-type').disabled = camera.type === 'lens';
+    byId('camera-type').disabled = isFixed;
   }
 
   show(camera) {
-    for (const row of document.querySelectorAll('#camera-section [data-key]')) {
-      row.hidden = camera[row.dataset.key] === undefined;
-    }
+    if (camera.type !== this.type) this.makeRows(camera);
     byId('camera-type').value = camera.type;
-    if (camera.fov !== undefined) this.showFov(camera);
-    if (camera.height !== undefined) showValue(byId('height'), editable(camera.height));
-    if (camera.aperture !== undefined) showValue(byId('aperture'), editable(camera.aperture));
+    for (const {key, field, row} of this.rows) {
+      const value = camera[key];
+      row.hidden = value === undefined;  // until the server has chosen it
+      if (row.hidden) continue;
+      showValue(field, typeof value === 'number' ? editable(value, looks[key]?.digits) : value ?? '');
+      if (key === 'fov') this.showSlider(camera);
+    }
     const hasFocus = camera.focus !== undefined;
-    if (hasFocus) showValue(byId('focus'), camera.focus === null ? '' : editable(camera.focus));
     byId('click-focus').disabled = !hasFocus;
     byId('focus-hint').hidden = hasFocus;
     if (!hasFocus && byId('click-focus').checked) {
@@ -57,13 +104,12 @@ export class CameraForm {
     }
   }
 
-  showFov(camera) {
+  showSlider(camera) {
+    const slider = byId('camera-fov-slider');
     const [low, high] = fovLimits(camera);
-    const slider = byId('fov');
     slider.min = Math.log(low);
     slider.max = Math.log(high);
     if (document.activeElement !== slider) slider.value = Math.log(camera.fov);
     slider.setAttribute('aria-valuetext', `${editable(camera.fov, 4)} degrees`);
-    showValue(byId('fov-number'), editable(camera.fov, 4));
   }
 }

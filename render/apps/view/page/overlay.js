@@ -1,11 +1,11 @@
 // What is drawn over the pictures: the rays of a pixel where they run in space, and a cross that the
 // keyboard moves.
 
-import {add, inFrame, length, pixelOf, scaled} from './camera.js';
+import {add, inFrame, length, pixelOf, projectionOf, scaled} from './camera.js';
 import {makeSvg} from './dom.js';
 
 const mostRays = 300;
-const fisheyeSteps = 24;  // a straight line is curved there
+const curveSteps = 24;  // of a straight line where the film shows angles
 
 export class Overlay {
   constructor(session, panes) {
@@ -70,7 +70,6 @@ export class Overlay {
   }
 
   paths(camera, size, reach) {
-    if (camera.type === 'lens') return [];
     const elements = [];
     this.rays.forEach((ray, index) => {
       const points = pathOf(ray, camera, size, reach);
@@ -98,18 +97,18 @@ function pathOf(ray, camera, size, reach) {
   let from = inFrame(camera, ray.origin);
   let to = inFrame(camera, endOf(ray, reach));
   const mix = (share) => from.map((x, axis) => x + (to[axis] - x) * share);
-  if (camera.type === 'pinhole' || camera.type === 'thin_lens') {
+  if (projectionOf(camera) === 'flat') {
     const near = 1e-3 * Math.max(Math.abs(from[2]), Math.abs(to[2]));
     if (from[2] < near && to[2] < near) return null;
     const meets = (near - from[2]) / (to[2] - from[2]);
     if (from[2] < near) from = mix(meets);
     else if (to[2] < near) to = mix(meets);
   }
-  const steps = camera.type === 'fisheye' ? fisheyeSteps : 1;
+  const steps = projectionOf(camera) === 'angle' ? curveSteps : 1;
   const points = [];
   for (let i = 0; i <= steps; i += 1) {
     const point = pixelOf(camera, mix(i / steps), size);
-    if (point && point.every(Number.isFinite)) points.push(point);
+    if (point) points.push(point);
   }
   return points.length > 1 ? points : null;
 }

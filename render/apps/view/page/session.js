@@ -1,5 +1,7 @@
 // What the page knows of the server: its state, the camera, and what was asked for.
 
+import {learnKinds} from './camera.js';
+
 export class Session {
   constructor() {
     this.state = null;
@@ -46,6 +48,7 @@ export class Session {
   take(state) {
     const isFirst = this.state === null || this.state.scene.path !== state.scene.path;
     this.state = state;
+    learnKinds(state.choices.cameras);
     this.number = Math.max(this.number, state.number);  // the server may know a page before this one
     if (isFirst) {
       this.startCamera = structuredClone(state.start?.camera ?? state.camera);

@@ -78,17 +78,16 @@ function hideProblem() {
   byId('problem').replaceChildren();
 }
 
-// The fields of the keys that the server may refuse.
+// The fields of the keys that the server may refuse; `camera.fov` is `camera-fov`.
 const fields = {
-  size: ['width', 'picture-height'], spp: ['spp'], max_depth: ['max-depth'], fov: ['fov-number'],
-  height: ['height'], aperture: ['aperture'], focus: ['focus'], range: ['range-low', 'range-high'],
+  size: ['width', 'picture-height'], spp: ['spp'], max_depth: ['max-depth'], range: ['range-low', 'range-high'],
 };
 
 let entered = null;  // the field that was used last
 
 function showError({text, key}) {
   showProblem(key && !text.includes(key) ? `${key}: ${text}` : text);
-  const ids = fields[key?.split('.').pop()] ?? [];
+  const ids = fields[key] ?? [key?.replace('.', '-')].filter(byId);
   for (const id of ids.includes(entered) ? [entered] : ids) refuse(byId(id), sentence(text));
 }
 

@@ -2,14 +2,11 @@
 
 const orders = {rows: 'row-major', tiles: 'tiled', progressive: 'progressive', frameless: 'frameless'};
 const methods = {whitted: 'Whitted', path: 'paths'};
-const cameras = {
-  pinhole: 'pinhole', orthographic: 'orthographic', fisheye: 'fisheye', thin_lens: 'thin lens', lens: 'lens',
-};
 const differences = {none: 'none', color: 'in colour', ulp: 'in ulp of t'};
 
 export const orderName = (order) => orders[order] ?? order;
 export const methodName = (method) => methods[method] ?? method;
-export const cameraName = (type) => cameras[type] ?? type;
+export const cameraName = (type) => type.replaceAll('_', ' ');
 export const differenceName = (difference) => differences[difference] ?? difference;
 
 /** 0.0001 as 1e-4, as it is typed. */

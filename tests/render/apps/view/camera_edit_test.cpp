@@ -20,44 +20,55 @@ Camera good(const Result<Camera>& camera) {
   return {};
 }
 
+/// An edit of these keys.
+CameraEdit change(std::map<std::string, CameraValue, std::less<>> values) {
+  return {.type = {}, .values = std::move(values)};
+}
+
 TEST(CameraEdit, ChangesWhatItNames) {
   const Camera before = test::pinhole({1, 2, 3}, {0, 0, 0}, 40);
-  CameraEdit edit;
-  edit.eye = Vec3d{5, 6, 7};
+  const CameraEdit edit = change({{"eye", Vec3d{5, 6, 7}}, {"fov_axis", "max"}});
   const auto after = std::get<PinholeCamera>(good(edited(before, edit, nowhere)));
   EXPECT_EQ(after.pose.eye.y, 6);
   EXPECT_EQ(after.pose.look_at, Vec3f{});
   EXPECT_EQ(after.fov, 40);
+  EXPECT_EQ(after.fov_axis, FovAxis::max);
 }
 
-TEST(CameraEdit, SubtractsTheOrigin) {
-  CameraEdit edit;
-  edit.eye = Vec3d{1e9 + 2, 0, 5};
-  const Camera after =
-      good(edited(test::pinhole({1, 2, 3}, {0, 0, 0}, 40), edit, Vec3d{1e9, 0, 0}));
-  EXPECT_EQ(std::get<PinholeCamera>(after).pose.eye.x, 2);
+TEST(CameraEdit, NullTakesAFocusAway) {
+  const ThinLensCamera before{.focus = 3};
+  const auto focus_after = [&](const CameraValue& value) {
+    return std::get<ThinLensCamera>(good(edited(before, change({{"focus", value}}), nowhere)))
+        .focus;
+  };
+  EXPECT_EQ(focus_after({}), std::nullopt);
+  EXPECT_EQ(focus_after(2.5), 2.5F);
+  EXPECT_TRUE(edited(PinholeCamera{}, change({{"focus", {}}}), nowhere));
+}
+
+TEST(CameraEdit, SubtractsTheOriginFromPointsOnly) {
+  const CameraEdit edit = change({{"eye", Vec3d{1e9 + 2, 0, 5}}, {"up", Vec3d{1, 2, 0}}});
+  const Camera before = test::pinhole({1, 2, 3}, {0, 0, 0}, 40);
+  const auto after = std::get<PinholeCamera>(good(edited(before, edit, Vec3d{1e9, 0, 0})));
+  EXPECT_EQ(after.pose.eye.x, 2);
+  EXPECT_EQ(after.pose.up.x, 1);
 }
 
 TEST(CameraEdit, RefusesWhatACameraLacks) {
-  CameraEdit height;
-  height.height = 2;
-  EXPECT_EQ(edited(PinholeCamera{}, height, nowhere).error().key, "camera.height");
-  CameraEdit fov;
-  fov.fov = 20;
-  EXPECT_EQ(edited(OrthographicCamera{}, fov, nowhere).error().key, "camera.fov");
-  fov.fov = 180;
-  EXPECT_EQ(edited(PinholeCamera{}, fov, nowhere).error().key, "camera.fov");
-  CameraEdit blind;
-  blind.look_at = Vec3d{};
-  EXPECT_EQ(edited(PinholeCamera{}, blind, nowhere).error().key, "camera.look_at");
-  CameraEdit type;
-  type.type = "periscope";
-  EXPECT_EQ(edited(PinholeCamera{}, type, nowhere).error().key, "camera.type");
-  type.type = "pinhole";
-  EXPECT_EQ(edited(LensCamera{}, type, nowhere).error().key, "camera.type");
-  CameraEdit far;
-  far.eye = Vec3d{1e200, 0, 0};
-  EXPECT_FALSE(edited(PinholeCamera{}, far, nowhere));
+  const auto refused_key = [](const Camera& camera, const CameraEdit& edit) {
+    return edited(camera, edit, nowhere).error().key;
+  };
+  EXPECT_EQ(refused_key(PinholeCamera{}, change({{"height", 2.0}})), "camera.height");
+  EXPECT_EQ(refused_key(OrthographicCamera{}, change({{"fov", 20.0}})), "camera.fov");
+  EXPECT_EQ(refused_key(LensCamera{}, change({{"scale", 2.0}})), "camera.scale");
+  EXPECT_EQ(refused_key(PinholeCamera{}, change({{"fov", 180.0}})), "camera.fov");
+  EXPECT_EQ(refused_key(PinholeCamera{}, change({{"fov", "wide"}})), "camera.fov");
+  EXPECT_EQ(refused_key(PinholeCamera{}, change({{"fov_axis", "z"}})), "camera.fov_axis");
+  EXPECT_EQ(refused_key(PinholeCamera{}, change({{"look_at", Vec3d{}}})), "camera.look_at");
+  EXPECT_EQ(refused_key(PinholeCamera{}, {.type = "periscope"}), "camera.type");
+  EXPECT_EQ(refused_key(PinholeCamera{}, {.type = "lens"}), "camera.type");
+  EXPECT_EQ(refused_key(LensCamera{}, {.type = "pinhole"}), "camera.type");
+  EXPECT_FALSE(edited(PinholeCamera{}, change({{"eye", Vec3d{1e200, 0, 0}}}), nowhere));
 }
 
 TEST(CameraEdit, AnotherTypeShowsAsMuch) {

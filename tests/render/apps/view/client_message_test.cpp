@@ -31,13 +31,12 @@ TEST(ClientMessage, ReadsCameras) {
   EXPECT_EQ(message.number, 7u);
   EXPECT_TRUE(message.moving);
   EXPECT_EQ(message.edit.type, "thin_lens");
-  ASSERT_TRUE(message.edit.eye);
-  EXPECT_EQ(message.edit.eye->z, -300);
-  EXPECT_FALSE(message.edit.look_at);
-  EXPECT_EQ(message.edit.fov, 30);
-  EXPECT_EQ(message.edit.fov_axis, FovAxis::max);
-  ASSERT_TRUE(message.edit.focus);
-  EXPECT_FALSE(message.edit.focus->has_value());
+  const decltype(message.edit.values) expected{{"eye", Vec3d{1, 2.5, -300}},
+                                               {"fov", 30.0},
+                                               {"fov_axis", "max"},
+                                               {"aperture", 0.1},
+                                               {"focus", {}}};
+  EXPECT_TRUE(message.edit.values == expected);
 }
 
 TEST(ClientMessage, ReadsSettings) {
@@ -90,7 +89,10 @@ TEST(ClientMessage, SaysWhatIsWrong) {
                {R"({"type": "camera", "number": 1, "camera": {"eye": [1, 2]}})", "camera.eye"},
                {R"({"type": "camera", "number": 1, "camera": {"eye": [1, 2, "3"]}})", "camera.eye"},
                {R"({"type": "camera", "number": 1, "camera": {"fov": "wide"}})", "camera.fov"},
+               {R"({"type": "camera", "number": 1, "camera": {"fov": null}})", "camera.fov"},
+               {R"({"type": "camera", "number": 1, "camera": {"fov_axis": 1}})", "camera.fov_axis"},
                {R"({"type": "camera", "number": 1, "camera": {"roll": 1}})", "camera.roll"},
+               {R"({"type": "camera", "number": 1, "camera": {"scale": 1}})", "camera.scale"},
                {R"({"type": "camera", "number": 1, "moving": 1})", "moving"},
                {R"({"type": "settings", "number": 1, "panes": []})", "panes"},
                {R"({"type": "settings", "number": 1, "panes": [{}, {}, {}]})", "panes"},

@@ -265,6 +265,69 @@ TEST(WebServer, ChoicesStayForTheNextClient) {
   EXPECT_EQ(client.wait_for("state")["camera"]["fov"], 33.0);
 }
 
+/// The keys of a struct of the scene, those of structs within it among them.
+template <HasFields Struct>
+std::vector<std::string> keys_of(const Struct& value) {
+  std::vector<std::string> keys;
+  each_field(value, [&keys](const auto& field, const auto& member) {
+    if constexpr (HasFields<std::decay_t<decltype(member)>>) {
+      for (const std::string& key : keys_of(member)) keys.push_back(key);
+    } else {
+      keys.emplace_back(field.key);
+    }
+  });
+  return keys;
+}
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+TEST(WebServer, OffersEveryCameraWithItsKeys) {
+  RunningServer server(scene_of(32, 24, 1));
+  ViewClient client(server.place());
+  const Json state = client.wait_for("state");
+  const Json& choices = state["choices"];
+  Json shown = state["camera"];
+  int number = 0;
+  const auto check = [&]<class Kind>(const Kind& camera) {
+    if (std::is_same_v<Kind, LensCamera>) return;  // its numbers come from its file
+    const std::string type(fields<Kind>.type);
+    EXPECT_THAT(choices["camera_types"], testing::Contains(type));
+    const Json& keys = choices["cameras"][type]["keys"];
+    EXPECT_THAT(keys_of(keys), testing::UnorderedElementsAreArray(keys_of(camera))) << type;
+    client.send({{"type", "camera"}, {"number", ++number}, {"camera", {{"type", type}}}});
+    while (shown["type"] != type) shown = client.wait_for("state").at("camera");
+    for (const std::string& key : keys_of(camera)) EXPECT_TRUE(shown.contains(key)) << key;
+  };
+  const auto check_all = [&]<class... Kinds>(const std::variant<Kinds...>&) {
+    (check(Kinds{}), ...);
+  };
+  check_all(Camera{});
+  EXPECT_THAT(keys_of(choices["cameras"]["lens"]["keys"]),
+              testing::UnorderedElementsAre("eye", "look_at", "up", "focus"));
+}
+
+TEST(WebServer, TellsTheRulesOfCameraKeys) {
+  RunningServer server(scene_of(32, 24, 1));
+  const Json cameras = ViewClient(server.place()).wait_for("state")["choices"]["cameras"];
+  EXPECT_EQ(cameras["pinhole"]["projection"], "flat");
+  EXPECT_EQ(cameras["orthographic"]["projection"], "parallel");
+  EXPECT_EQ(cameras["fisheye"]["projection"], "angle");
+  EXPECT_EQ(cameras["thin_lens"]["projection"], "flat");
+  EXPECT_EQ(cameras["lens"]["projection"], "other");
+  const Json& lens = cameras["thin_lens"]["keys"];
+  EXPECT_EQ(lens["fov"], Json::parse(R"({"kind": "number", "low": 0.0, "high": 180.0,
+                                         "unit": "degrees", "optional": false})"));
+  EXPECT_EQ(lens["focus"], Json::parse(R"({"kind": "number", "low": 0.0, "high": null, "unit": "",
+                                           "optional": true})"));
+  EXPECT_EQ(lens["fov_axis"], Json::parse(R"({"kind": "name", "names": ["x", "y", "max"]})"));
+  EXPECT_EQ(lens["eye"]["kind"], "point");
+  EXPECT_EQ(lens["up"]["kind"], "direction");
+}
+
 TEST(WebServer, AClientThatReadsNothingStopsNobody) {
   RunningServer server(scene_of(64, 48, 4));
   const ServerPlace place = server.place();
