@@ -170,8 +170,10 @@ class FieldTexts {
   void add(const std::string& key, const Rule& rule, const std::optional<float>& number) {
     if (number) add(key, rule, *number);
   }
-  void add(const std::string& key, const TypeRule&, FovAxis axis) {
-    all.emplace_back(key, "\"" + std::string(name_of(axis)) + "\"");
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void add(const std::string& key, const TypeRule&, Enum value) {
+    all.emplace_back(key, "\"" + std::string(name_of(value)) + "\"");
   }
   void add(const std::string&, const FileRule&, const std::vector<LensSurface>&) {}
 
