@@ -11,7 +11,7 @@ namespace boule {
 /// material and a background too. By Method::whitted these are seen, but light nothing: a gradient
 /// and emissive objects count as light there only if no object needs one, being a mirror, glass or
 /// emissive, or if there is ambient light. What is black gives none. Preconditions: the scene is
-/// valid, and its instances show no planes (expand_instances(), expand_planes()).
+/// valid, and its instances show no planes (expand_instances(), expand_all_but_spheres()).
 bool lacks_light(const Scene& scene, Method method);
 
 /// The lights that such a scene is given: a white directional one from the camera's upper left,

@@ -16,7 +16,8 @@
 /// trials.
 namespace boule::BOULE_KERNEL_ISA::tuning {
 
-// ---- Scans: search/scan.h -------------------------------------------------------------------
+// ---- Scans: search/leaf/scan.h
+// -------------------------------------------------------------------
 
 /// The number of spheres whose survivors of the reject are listed before the first of them is
 /// solved: for nearest hits, and for any hit, where the first one may end the search. With the hot
@@ -31,7 +32,8 @@ inline constexpr std::size_t nearest_chunk = 1024, any_chunk = 64;
 /// bench_peers --size 512 --scenes u4,u10,u32 --rays ambient
 inline constexpr std::size_t most_unasked = 8;
 
-// ---- Packets: packets.cpp, search/traverse.h, beam.h --------------------------------------
+// ---- Packets: packets.cpp, search/packet/traverse.h, beam.h
+// --------------------------------------
 
 /// Up to this many rays at the end of a stream are traced one by one. Set by trial. Again:
 /// bench_peers --scenes u1000 --rays mirror, whose streams end anywhere
@@ -186,7 +188,8 @@ inline constexpr float bundled_leaf = width < 16 ? 24 : 48;
 /// without visits: a trial takes 1 to 5 % of the cost of sorted rays.
 inline constexpr float least_sorted_beside_set = 1.5F;
 
-// ---- Sorted shadow rays: search/ray_pool.h, light_grid.h --------------------------------------
+// ---- Sorted shadow rays: search/bundle/ray_pool.h, light_grid.h
+// --------------------------------------
 
 /// The largest number of rays that are sorted together. A stack frame holds them: 1.5 MiB. Set by
 /// trial, with fitting_stream_size() in simd/abi/stream.h. Again: bench_peers --scenes
@@ -205,7 +208,8 @@ inline constexpr unsigned most_light_cells =
 inline constexpr std::size_t pool_chunk = 128;
 inline constexpr std::size_t light_samples = 32;
 
-// ---- Flights: search/flight*.h ----------------------------------------------------------------
+// ---- Flights: search/flock/flight*.h
+// ----------------------------------------------------------------
 
 /// The number of rays in flight: in a near tree (most_near_blocks), where memory is fast but rounds
 /// should be full, and in a far one. In the first prototype 16 rays instead of one gave 1.25 on
@@ -226,7 +230,8 @@ inline constexpr std::size_t most_sorted_children = 48;
 /// one or two. Again: bench_errors, and bench_peers --scenes u1000 --rays diffuse
 inline constexpr unsigned most_candidates = 8;
 
-// ---- Sets: search/ray_sets.h --------------------------------------------------------------------
+// ---- Sets: search/flock/ray_sets.h
+// --------------------------------------------------------------------
 
 /// The largest number of rays in a set. Sets of 64, 256 and 512, avx512, Mray/s: short rays on
 /// u100000 13.1, 15.9, 16.4, on u1000 -, 30.4, 28.7; diffuse ones on u100000 -, 5.3, 5.7, on

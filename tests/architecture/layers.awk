@@ -77,7 +77,8 @@ BEGIN {
   owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/apps/cli/", "the terminal")
   owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/apps/(cli/|python/call\\.cpp$)", "the end of the process")
   owner(word "(secure_)?getenv[ ]*\\(", "^(render/apps/cli|simd/dispatch)/|^render/apps/job/source_date\\.cpp$", "the environment")
-  anywhere("^[ \t]*#[ \t]*define[ \t]", "^core/base/platform\\.h$", "a macro")
+  owner("#include <fast_float/", "^render/files/particle_file/text/text_number\\.cpp$", "fast_float")
+  anywhere("^[ \t]*#[ \t]*define[ \t]", "^(core/base/platform\\.h|render/files/particle_file/text/text_number\\.cpp)$", "a macro")
 }
 
 function layer(path, project, outside) {

@@ -10,7 +10,7 @@ mv "$prefix-before" "$prefix"
 cd "$prefix"
 
 lib="$(dirname "$(find . -name libboule_files.a)")"
-for file in bin/boule "$lib"/libboule_{core,simd}.a "$lib/boule/boule_image_io.so" \
+for file in bin/boule "$lib"/libboule_{core,simd,engine,files}.a "$lib/boule/boule_image_io.so" \
   "$lib"/cmake/boule/boule-config{,-version}.cmake "$lib"/pkgconfig/boule{,-static}.pc "$lib/libboule.so" \
   include/boule/boule.h share/doc/boule/{README.md,CHANGELOG.md,LICENSE,docs/library.md,examples/example.cpp} \
   include/boule/{core/scene/scene.h,simd/dispatch/dispatch.h,render/renderer/renderer.h}; do

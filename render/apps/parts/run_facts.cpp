@@ -15,8 +15,6 @@ namespace {
 constexpr const char* version_name = "version";
 constexpr const char* scene_name = "scene";
 
-constexpr std::string_view solver_names[] = {"fast", "robust", "reference"};
-
 std::string rect_text(const PixelRect& rect) {
   return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
 }
@@ -49,7 +47,7 @@ RunFacts facts_of(const RenderOptions& options, std::uint64_t scene_hash,
                  {"seed", std::to_string(options.seed)},
                  {"method", std::string(name_of(options.method))},
                  {"max-depth", std::to_string(options.max_depth)},
-                 {"solver", std::string(solver_names[static_cast<std::size_t>(options.solver)])},
+                 {"solver", std::string(name_of(options.solver))},
                  {"background", options.transparent ? "transparent" : "opaque"},
                  {"outline", fmt::format("{}", options.outline)},
                  {"aov", aov_text(options.aovs)}};

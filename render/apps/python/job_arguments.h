@@ -9,6 +9,7 @@
 #include "render/apps/job/choice.h"
 #include "render/apps/python/arguments.h"
 #include "render/apps/python/errors.h"
+#include "render/renderer/aov_channels.h"
 
 namespace boule::python {
 
@@ -36,6 +37,7 @@ bool read_row(const Arguments& given, const Choice<Owner, Member, Rule, To>& row
     return target;
   } else {
     const std::string text = text_of(given, name, row.rule.between);
+    if (std::is_same_v<Member, AovSelection> && text.empty()) return false;  // a list of none
     const auto parsed = row.rule.parse(text);
     if (!parsed)
       throw_error(name, quote(text) + " is not understood, expected " + row.rule.expected);

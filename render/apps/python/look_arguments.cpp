@@ -3,25 +3,49 @@
 #include "render/apps/job/look_choices.h"
 #include "render/apps/python/job_arguments.h"
 #include "render/apps/python/scenes.h"
-#include "render/apps/python/values.h"
 
 namespace py = pybind11;
 
 namespace boule::python {
 
+namespace {
+
+/// A number as its shortest text, whatever type of Python it has; else the object's own text.
+std::string text_of_one(const py::handle& value, const char* name) {
+  const auto number = [&]() -> py::object {
+    if (py::isinstance<py::str>(value)) return {};
+    if (PyObject* const whole = PyNumber_Index(value.ptr()); whole != nullptr)
+      return py::reinterpret_steal<py::object>(whole);
+    PyErr_Clear();
+    if (PyObject* const real = PyNumber_Float(value.ptr()); real != nullptr)
+      return py::reinterpret_steal<py::object>(real);
+    PyErr_Clear();
+    return {};
+  }();
+  try {
+    return py::str(number ? number : py::reinterpret_borrow<py::object>(value));
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw_error(name, "is too large a number");
+  }
+}
+
+bool is_list(const py::object& value) {
+  return PySequence_Check(value.ptr()) != 0 && !py::isinstance<py::str>(value) &&
+         !py::isinstance<py::bytes>(value) &&
+         !(py::hasattr(value, "shape") && py::len(value.attr("shape")) == 0);
+}
+
+}  // namespace
+
 std::string text_of(const Arguments& given, const char* name, char between) {
   const py::object value = *given.find(name);
   if (py::isinstance<py::str>(value)) return *given.text(name);
-  if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return py::str(value);
-  TreeBuilder builder;
-  py::dict table;
-  table[name] = value;
-  const py::object plain = to_python(builder.members(table, "").front().value);
-  if (!py::isinstance<py::tuple>(plain)) return py::str(plain);
+  if (!is_list(value)) return text_of_one(value, name);
   std::string text;
-  for (const py::handle one : plain) {
+  for (const py::handle one : value) {
     if (!text.empty()) text += between;
-    text += std::string(py::str(one));
+    text += text_of_one(one, name);
   }
   return text;
 }

@@ -10,8 +10,8 @@ namespace boule {
 
 /// What the ranks of a team tell each other. The first byte of a letter is its kind.
 enum class LetterKind : std::uint8_t {
-  hello,   ///< to the leader: who I am
-  facts,   ///< to the leader: what I would render (RunFacts as text); I am ready
+  hello,   ///< to and from the leader: who I am
+  facts,   ///< to the leader: what I would render (RunFacts); I am ready
   beat,    ///< to and from the leader: I am alive; for so many seconds this may be the last sign
   work,    ///< from the leader: blocks to render
   result,  ///< to the leader: blocks that are rendered

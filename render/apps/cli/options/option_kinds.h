@@ -92,8 +92,10 @@ void add_row(CLI::App& app, const Choice<Owner, Member, Rule, To>& row, Owner& o
     add_whole(app, names, target, static_cast<Value>(row.rule.low),
               static_cast<Value>(row.rule.high), row.help);
   } else if constexpr (std::is_same_v<Rule, NumberRule>) {
-    const auto parse = [rule = row.rule](const std::string& text) {
-      return parse_number(text, static_cast<Value>(rule.low), static_cast<Value>(rule.high));
+    const auto parse = [rule = row.rule](const std::string& text) -> std::optional<Value> {
+      const auto number =
+          parse_number(text, static_cast<Value>(rule.low), static_cast<Value>(rule.high));
+      return number && rule.allows(double{*number}) ? number : std::nullopt;
     };
     add_parsed(app, names, target, parse, "a number " + describe(row.rule), row.value, row.help);
   } else if constexpr (std::is_same_v<Rule, NameRule>) {

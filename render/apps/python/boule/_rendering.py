@@ -56,8 +56,6 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
     look = {name: given.pop(name) for name in look_keys() if name in given}
     keys = {**look_keys(**look), "frame": frame}
     keys.update((name, given.pop(name, None)) for name in ("polygons", "trust"))
-    if isinstance(given.get("aov"), (list, tuple)) and not given["aov"]:
-        del given["aov"]
     options = {**given, "time_limit": time_limit, "partial": partial}
     with reporter(progress) as tick:
         picture, stopped = _wait_for(_core.Rendering(source, keys, options), tick)
