@@ -72,7 +72,7 @@ install_missing() {
 }
 
 render() {
-  announce 440 "compiles the program in build/release and renders first_light.png"
+  announce 400 "compiles the program in build/release and renders first_light.png"
   install_missing "${build_packages[@]}"
   # The picture is the same on every instruction set: the widest that runs here will do.
   cmake --preset release -G Ninja -DBOULE_TESTS=OFF -DBOULE_ONLY_ISAS=native
@@ -82,7 +82,7 @@ render() {
 }
 
 run_tests() {
-  announce 2300 "compiles Boule and its tests in build/test and runs them"
+  announce 1800 "compiles Boule and its tests in build/test and runs them"
   install_missing "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}" \
     "${python_test_packages[@]}"
   # As users run it, and a warning is an error.
