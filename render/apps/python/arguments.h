@@ -33,9 +33,6 @@ class Arguments {
   const pybind11::dict& given_;
 };
 
-/// How many threads may be asked for; 0 is all that there are.
-inline constexpr WholeRule thread_counts{.low = 0, .high = 1024};
-
 /// The name of an instruction set under "isa", which this build and this machine have.
 std::optional<std::string> isa_of(const Arguments& given);
 

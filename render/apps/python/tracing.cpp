@@ -12,10 +12,11 @@
 #include <utility>
 
 #include "core/scene/number_text.h"
-#include "render/apps/python/arguments.h"
+#include "render/apps/job/render_choices.h"
 #include "render/apps/python/arrays.h"
 #include "render/apps/python/call.h"
 #include "render/apps/python/errors.h"
+#include "render/apps/python/job_arguments.h"
 #include "render/apps/python/presence.h"
 #include "render/apps/python/scenes.h"
 #include "render/apps/python/sphere_arrays.h"
@@ -149,10 +150,13 @@ py::array any(const TracerHandle& tracer, const py::object& org, const py::objec
 
 TraceOptions options_of(const py::dict& given) {
   const Arguments arguments(given);
+  SceneJob job;
+  read_rows(arguments, scene_choices(), job);
+  isa_of(arguments);  // refuses one that is not there
   TraceOptions options;
-  options.solver = arguments.choice<Solver>("solver").value_or(options.solver);
-  options.threads = static_cast<unsigned>(arguments.whole("threads", thread_counts).value_or(0));
-  options.isa = isa_of(arguments).value_or("auto");
+  options.solver = job.solver;
+  options.threads = job.threads;
+  options.isa = job.isa;
   return options;
 }
 
