@@ -31,6 +31,8 @@ inline constexpr WholeRule samples{.low = 1, .high = max_count};
 inline constexpr NumberRule outline{.low = 0, .high = 100, .unit = " pixels"};
 inline constexpr WholeRule bounces{.low = 0, .high = max_count};
 inline constexpr NumberRule noise{.low = 0, .high = 1};
+inline constexpr NumberRule aa{.low = 0, .high = 255};
+inline constexpr NumberRule weight{.low = 0, .high = 1};
 inline constexpr WholeRule least_samples{.low = 16, .high = max_count};
 }  // namespace rule
 
@@ -71,6 +73,12 @@ struct RenderSettings {
   /// values; a pixel gets min_spp to image.spp samples. 0: all pixels get image.spp samples.
   float noise = 0;
   int min_spp = 32;  ///< >= 16
+  /// Adaptive antialiasing: the step in codes of 0 .. 255 from pixel to pixel above which they get
+  /// more than one sample, up to image.spp. 0: all pixels get image.spp samples.
+  float aa = 0;
+  /// Mirrored and refracted rays are left out whose weights in a sample add up to at most this,
+  /// 0 .. 1. For method whitted.
+  float least_weight = 0;
 };
 
 /// In the order in which scene files and `boule info` name them.
@@ -79,7 +87,9 @@ inline constexpr auto fields<RenderSettings> =
     field_list("render", field("method", &RenderSettings::method),
                field("max_depth", &RenderSettings::max_depth, rule::bounces),
                field("noise", &RenderSettings::noise, rule::noise),
-               field("min_spp", &RenderSettings::min_spp, rule::least_samples));
+               field("min_spp", &RenderSettings::min_spp, rule::least_samples),
+               field("aa", &RenderSettings::aa, rule::aa),
+               field("least_weight", &RenderSettings::least_weight, rule::weight));
 
 /// The first Problem of the settings: a field against its rule.
 std::optional<Problem> find_problem(const ImageSettings& image);

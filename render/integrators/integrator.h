@@ -43,6 +43,8 @@ struct IntegratorSettings {
   Solver solver = Solver::robust;
   int max_depth = 5;       ///< bounces after the primary hit, >= 0
   std::uint64_t seed = 0;  ///< of the random numbers of paths
+  /// Whitted only: rays are left out whose weights in a sample add up to at most this, 0 .. 1.
+  float least_weight = 0;
   /// The lecture's epsilon, 0 or more, at which shadow rays start: start_by_epsilon(). Without it,
   /// shadow rays know the surface that they leave. For teaching.
   std::optional<float> shadow_epsilon{};

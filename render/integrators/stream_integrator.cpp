@@ -9,12 +9,22 @@
 
 namespace boule {
 
+namespace {
+
+/// The weight that may be left out at each depth.
+float weight_of_depth(const IntegratorSettings& settings) {
+  return settings.least_weight / static_cast<float>(std::max(settings.max_depth, 1));
+}
+
+}  // namespace
+
 StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable& kernels,
                                    const IntegratorSettings& settings, RaysPerDepth rays)
     : scene_(scene),
       kernels_(kernels),
       settings_(settings),
-      wavefront_(kernels, settings.stream_size, most_spawned * StreamSurfaces::block_size, rays),
+      wavefront_(kernels, settings.stream_size, most_spawned * StreamSurfaces::block_size, rays,
+                 rays == RaysPerDepth::many ? weight_of_depth(settings) : 0),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()) {}
 

@@ -78,9 +78,9 @@ void Wavefront::spawn(std::size_t parent, const Ray& ray, const Color& weight) {
       light_product({before.r[parent], before.g[parent], before.b[parent]}, weight);
   if (is_black(throughput)) return;
   Stream& stream = open_stream(1);
-  stream.rays.set(stream.size, ray, throughput, current_.sample[parent]);
-  ++stream.size;
-  ++spawned_;
+  const std::size_t first = stream.size++;
+  stream.rays.set(first, ray, throughput, current_.sample[parent]);
+  count_spawned(stream, first);
 }
 
 GoingOn Wavefront::begin_spawning(std::size_t most) {
@@ -90,8 +90,39 @@ GoingOn Wavefront::begin_spawning(std::size_t most) {
 
 void Wavefront::end_spawning(const GoingOn& rays) {
   Stream& stream = *children_.back();
-  spawned_ += rays.size - stream.size;
+  const std::size_t first = stream.size;
   stream.size = rays.size;
+  count_spawned(stream, first);
+}
+
+/// Counts the rays of a stream from `first` on, without those that are too faint.
+void Wavefront::count_spawned(Stream& stream, std::size_t first) {
+  if (left_out_ > 0) leave_out_faint(stream, first);
+  spawned_ += stream.size - first;
+}
+
+/// Leaves out rays from `first` on, while their sample may lose more weight at this depth. The rays
+/// of a sample and depth come in order, so the same ones are left out whatever the streams. The
+/// fourth number of a sum, to which no light is added, is the weight left out so far.
+void Wavefront::leave_out_faint(Stream& stream, std::size_t first) {
+  ColorSum* const sums = depth_sums_.at_depth(stream.depth);
+  const GoingOn rays = stream.rays.view();
+  std::size_t size = first;
+  for (std::size_t k = first; k < stream.size; ++k) {
+    const float weight =
+        std::max({rays.throughput.r[k], rays.throughput.g[k], rays.throughput.b[k]});
+    float& left_out = sums[rays.sample[k]].rgb0[3];
+    if (left_out + weight <= left_out_) {
+      left_out += weight;
+      continue;
+    }
+    if (size != k)
+      stream.rays.set(size, stream.rays.rays().get(k),
+                      {rays.throughput.r[k], rays.throughput.g[k], rays.throughput.b[k]},
+                      rays.sample[k]);
+    ++size;
+  }
+  stream.size = size;
 }
 
 Wavefront::StreamPtr Wavefront::take_stream() {

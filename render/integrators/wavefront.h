@@ -33,12 +33,14 @@ struct PathStream {
 class Wavefront {
  public:
   /// Streams of spawned rays hold at most `stream_size` rays, which is >= 1, or `most_together`, if
-  /// that is more: this many at most are spawned at once. `kernels` must outlive it.
+  /// that is more: this many at most are spawned at once. Rays are left out whose weights add up to
+  /// at most `left_out` for each sample and depth. `kernels` must outlive it.
   Wavefront(const KernelTable& kernels, std::size_t stream_size, std::size_t most_together,
-            RaysPerDepth rays)
+            RaysPerDepth rays, float left_out = 0)
       : kernels_(kernels),
         stream_size_(stream_size),
         room_(std::max(stream_size, most_together)),
+        left_out_(left_out),
         depth_sums_(rays) {}
 
   /// Begins with the camera's rays, one per sample. The caller keeps them alive.
@@ -82,10 +84,13 @@ class Wavefront {
   Stream& open_stream(std::size_t rays);
   void recycle(std::vector<StreamPtr>& streams);
   void use(PathStream stream);
+  void count_spawned(Stream& stream, std::size_t first);
+  void leave_out_faint(Stream& stream, std::size_t first);
 
   const KernelTable& kernels_;
   std::size_t stream_size_;
   std::size_t room_;                           ///< of each stream
+  float left_out_;                             ///< largest weight left out, per sample and depth
   std::size_t most_samples_ = 0;               ///< of a camera's rays so far
   ColorBuffer camera_throughput_;              ///< all 1
   AlignedArray<std::uint32_t> camera_sample_;  ///< 0, 1, 2 ...

@@ -20,6 +20,9 @@ void add(Film& film, const SampleId& id, const Color& sample, std::uint8_t cover
 void add(NoiseBlock& noise, const SampleId& id, const Color& sample, std::uint8_t covered) {
   noise.add(id, sample, covered);
 }
+void add(EdgeBlock& edges, const SampleId& id, const Color& sample, std::uint8_t covered) {
+  edges.add(id, sample, covered);
+}
 
 }  // namespace
 
@@ -58,7 +61,7 @@ bool BlockWorker::render(const PixelRect& block, const LivePass& pass, Film& fil
 }
 
 bool BlockWorker::render(const PixelRect& block, int until, Image& image, const PixelRect& rect) {
-  if (setup_.noise.half_width > 0) {
+  if (setup_.noise.half_width > 0 || setup_.edges.step > 0) {
     MeasuredPicture measured(block);
     const bool is_whole = measure(block, measured);
     measured.copy_to(image, rect);
@@ -71,28 +74,37 @@ bool BlockWorker::render(const PixelRect& block, int until, Image& image, const 
 }
 
 bool BlockWorker::measure(const PixelRect& block, MeasuredPicture& picture) {
+  if (setup_.edges.step > 0) {
+    if (!edges_) edges_.emplace(setup_.edges, setup_.small_spheres);
+    return measure_parts(block, *edges_, picture);
+  }
   if (!noise_) noise_.emplace(setup_.noise);
-  const BlockOrder parts(block, NoiseBlock::largest, PixelOrder::tiles);
+  return measure_parts(block, *noise_, picture);
+}
+
+template <class Part>
+bool BlockWorker::measure_parts(const PixelRect& block, Part& part, MeasuredPicture& picture) {
+  const BlockOrder parts(block, Part::largest, PixelOrder::tiles);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!measure_part(parts[i], picture)) return false;
+    if (!measure_part(parts[i], part, picture)) return false;
   }
   return true;
 }
 
-bool BlockWorker::measure_part(const PixelRect& part, MeasuredPicture& picture) {
-  NoiseBlock& noise = *noise_;
-  noise.begin(part, setup_.frame);
+template <class Part>
+bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture) {
+  part.begin(rect, setup_.frame);
   pixels_.clear();
   for (bool more = true; more;) {
-    for (const NoiseBlock::Half& half : noise.wanted()) {
-      for (int sample = noise.first(); sample < noise.end(); ++sample) {
-        pixels_.push_back({half.x, half.y, sample});
-        if (pixels_.size() == setup_.stream_size && !trace(noise)) return false;
+    for (const auto& wanted : part.wanted()) {
+      for (int sample = part.first(); sample < part.end(); ++sample) {
+        pixels_.push_back({wanted.x, wanted.y, sample});
+        if (pixels_.size() == setup_.stream_size && !trace(part)) return false;
       }
     }
-    if (!trace(noise)) return false;
-    more = noise.look(picture);
-    if (setup_.live != nullptr) setup_.live->add_measured(noise.settled());
+    if (!trace(part)) return false;
+    more = part.look(picture);
+    if (setup_.live != nullptr) setup_.live->add_measured(part.settled());
   }
   return true;
 }
@@ -117,12 +129,13 @@ void BlockWorker::position_samples() {
   const CameraView& camera = setup_.scene.camera_view;
   samples_.resize(setup_.stream_size, camera);
   samples_.resize(pixels_.size());
-  if (!sampler.single()) find_numbers(RandomSet::film);
+  const bool centered = sampler.single() || pixels_[0].sample == EdgeBlock::center;
+  if (!centered) find_numbers(RandomSet::film);
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
     const SampleId& id = pixels_[k];
     const RasterPoint point =
-        sampler.single() ? sampler.position(id)
-                         : sampler.position(NoiseBlock::column(id.x), id.y, numbers_.get(k));
+        centered ? RasterPoint{NoiseBlock::column(id.x) + 0.5, id.y + 0.5}
+                 : sampler.position(NoiseBlock::column(id.x), id.y, numbers_.get(k));
     samples_.set(k, point.x, point.y);
   }
   if (!has_lens(camera.kind)) return;

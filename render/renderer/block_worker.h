@@ -13,7 +13,9 @@
 #include "render/integrators/integrator.h"
 #include "render/integrators/random_numbers.h"
 #include "render/prepare/prepared_scene.h"
+#include "render/renderer/edge_block.h"
 #include "render/renderer/noise_block.h"
+#include "render/renderer/small_spheres.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -29,6 +31,8 @@ struct BlockSetup {
   Alpha alpha;                            ///< whether films record which samples are covered
   PixelRect frame{};                      ///< of the picture, for noise
   NoiseTarget noise{};
+  EdgeTarget edges{};
+  SmallSpheres small_spheres{};  ///< with edges
   LiveProgress* live = nullptr;  ///< counts pixels whose noise was measured; null: off
 };
 
@@ -69,7 +73,10 @@ class BlockWorker {
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
   void position_samples();
   void find_numbers(RandomSet set);
-  bool measure_part(const PixelRect& part, MeasuredPicture& picture);
+  template <class Part>
+  bool measure_parts(const PixelRect& block, Part& part, MeasuredPicture& picture);
+  template <class Part>
+  bool measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture);
   template <class Target>
   bool trace(Target& target);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
@@ -93,6 +100,7 @@ class BlockWorker {
   SampleFaults weighing_;              ///< of samples that were finite before their weighting
   Film block_film_{PixelRect{0, 0, 1, 1}};
   std::optional<NoiseBlock> noise_;
+  std::optional<EdgeBlock> edges_;
 };
 
 }  // namespace boule

@@ -28,9 +28,26 @@ std::uint64_t bytes_of_whole(const RenderOptions& options) {
   const PixelRect rect = rendered_rect(options);
   const std::uint64_t alpha_bytes = options.transparent ? rect.area() * sizeof(float) : 0;
   const std::uint64_t line_bytes = options.outline > 0 ? Outline::bytes(rect) : 0;
-  const std::uint64_t sums = options.noise > 0 ? MeasuredPicture::bytes(rect) : Film::bytes(rect);
+  const std::uint64_t sums =
+      is_measured(options) ? MeasuredPicture::bytes(rect) : Film::bytes(rect);
   return sums + rect.area() * sizeof(Color) + alpha_bytes + line_bytes +
          AovChannels::bytes(options.aovs, rect);
+}
+
+/// The edges, which limit the numbers of samples.
+Status validate_edges(const RenderOptions& options) {
+  if (!rule::aa.allows(double{options.aa}))
+    return Diagnostic::about("render.aa", "must be " + describe(rule::aa));
+  if (!rule::weight.allows(double{options.least_weight}))
+    return Diagnostic::about("render.least_weight", "must be " + describe(rule::weight));
+  if (!(options.aa > 0)) return {};
+  if (options.method == Method::path) {
+    return Diagnostic::about("render.aa",
+                             "is for method whitted: where paths have noise, ask for noise");
+  }
+  if (options.noise > 0)
+    return Diagnostic::about("render.aa", "and noise are both asked for: choose one, 0 is none");
+  return {};
 }
 
 Status check_picture_memory(const RenderOptions& options) {
@@ -54,9 +71,10 @@ Status validate_noise(const RenderOptions& options) {
     return Diagnostic::about("image.spp", "must be at least " + std::to_string(options.min_spp) +
                                               ", the min_spp, where noise is asked for");
   }
-  if (!(options.noise > 0) && (options.aovs.noise || options.aovs.samples)) {
+  if (!is_measured(options) && (options.aovs.noise || options.aovs.samples)) {
     return Diagnostic::about("aov",
-                             "has noise or samples, which are told where noise is asked for only");
+                             "has noise or samples, which are told where noise or aa is asked for "
+                             "only");
   }
   constexpr NumberRule stops{.low = -126, .high = 126};
   if (!stops.allows(double{options.exposure_stops}))
@@ -78,14 +96,24 @@ RenderOptions options_of(const Scene& scene) {
   options.max_depth = scene.render.max_depth;
   options.noise = scene.render.noise;
   options.min_spp = scene.render.min_spp;
+  options.aa = scene.render.aa;
+  options.least_weight = scene.render.least_weight;
   if (options.noise > 0 && options.spp == 1) options.spp = usual_max_spp;
+  if (options.aa > 0 && options.spp == 1) options.spp = usual_max_edge_spp;
   return options;
 }
 
-void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options) {
+void choose_samples(const SampleChoice& choice, RenderOptions& options) {
+  const auto& [spp, noise, aa] = choice;
   if (noise && *noise > 0) options.spp = usual_max_spp;
+  if (aa && *aa > 0) options.spp = usual_max_edge_spp;
   options.spp = spp.value_or(options.spp);
-  options.noise = noise.value_or(spp ? 0 : options.noise);
+  options.noise = noise.value_or(spp || aa ? 0 : options.noise);
+  options.aa = aa.value_or(spp || noise ? 0 : options.aa);
+}
+
+EdgeTarget edge_target(const RenderOptions& options) {
+  return {options.aa, options.spp, options.exposure_stops, options.transparent};
 }
 
 NoiseTarget noise_target(const RenderOptions& options) {
@@ -123,6 +151,7 @@ Status validate(const RenderOptions& options) {
   if (auto done = check_range("tile", options.tile, {.low = 0, .high = max_tile}); !done)
     return done;
   if (auto done = validate_noise(options); !done) return done;
+  if (auto done = validate_edges(options); !done) return done;
   if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
     return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
   }

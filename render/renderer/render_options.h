@@ -15,6 +15,7 @@
 #include "render/frame/pixel_rect.h"
 #include "render/frame/progress.h"
 #include "render/renderer/aov_channels.h"
+#include "render/renderer/edge_block.h"
 #include "simd/abi/isa.h"
 
 namespace boule {
@@ -24,16 +25,20 @@ namespace boule {
 struct RenderOptions {
   int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
   int height = 720;  ///< likewise
-  int spp = 1;       ///< samples per pixel, >= 1; with `noise` the largest number
+  int spp = 1;       ///< samples per pixel, >= 1; with `noise` or `aa` the largest number
   /// Pixels get min_spp to spp samples until their noise is this (NoiseTarget), 0 .. 1; 0: all get
   /// spp. In films, which Renderer::render_pass() and similar functions fill, all pixels get spp.
   float noise = 0;
-  int min_spp = 32;          ///< >= 16
-  float exposure_stops = 0;  ///< the exposure at which noise is judged, in stops, -126 .. 126
+  int min_spp = 32;  ///< >= 16
+  /// For method whitted and cameras without a lens: pixels at edges get up to spp samples, the
+  /// others one (EdgeTarget), 0 .. 255; 0: all get spp. In films all pixels get spp.
+  float aa = 0;
+  float exposure_stops = 0;  ///< at which noise and edges are judged, in stops, -126 .. 126
   PixelFilter filter = PixelFilter::box;
   std::uint64_t seed = 0;  ///< of all random numbers
   Method method = Method::whitted;
-  int max_depth = 5;  ///< bounces after the primary hit, >= 0
+  int max_depth = 5;       ///< bounces after the primary hit, >= 0
+  float least_weight = 0;  ///< IntegratorSettings::least_weight, 0 .. 1
   /// Samples whose camera ray misses are black, and pictures have alpha: the fraction of a pixel's
   /// samples that hit something.
   bool transparent = false;
@@ -65,14 +70,31 @@ inline Alpha alpha_of(const RenderOptions& options) {
   return options.transparent ? Alpha::coverage : Alpha::none;
 }
 
+/// Whether pixels get different numbers of samples, as each needs.
+inline bool is_measured(const RenderOptions& options) {
+  return options.noise > 0 || options.aa > 0;
+}
+
+/// The edges that these options ask for.
+EdgeTarget edge_target(const RenderOptions& options);
+
 /// The noise that these options ask for.
 NoiseTarget noise_target(const RenderOptions& options);
 
 /// The default limit of samples per pixel if there is a target of noise.
 inline constexpr int usual_max_spp = 4096;
 
-/// Sets the user's choice over the scene's: each of the two replaces the scene's other one.
-void choose_samples(std::optional<int> spp, std::optional<float> noise, RenderOptions& options);
+/// The same if there is a target of edges.
+inline constexpr int usual_max_edge_spp = 64;
+
+/// What a user chooses of the samples.
+struct SampleChoice {
+  std::optional<int> spp{};
+  std::optional<float> noise{}, aa{};
+};
+
+/// Sets the user's choice over the scene's: each of the three replaces the scene's other ones.
+void choose_samples(const SampleChoice& choice, RenderOptions& options);
 
 /// The part of the frame that is rendered: the crop, or all.
 PixelRect rendered_rect(const RenderOptions& options);

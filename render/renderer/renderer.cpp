@@ -20,14 +20,14 @@ namespace boule {
 Diagnostic Renderer::moved_away() { return Diagnostic::of("the renderer was moved away"); }
 
 Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
-                   const KernelTable& kernels)
+                   const KernelTable& kernels, SmallSpheres small_spheres)
     : options_(options),
       scene_(std::move(scene)),
       setup_(std::make_unique<const BlockSetup>(BlockSetup{
           *scene_, kernels, Sampler(options.spp, options.seed, options.filter),
           block_pixels(options.tile), fitting_stream_size(scene_->geometry.sphere_count()),
           alpha_of(options), PixelRect{0, 0, options.width, options.height}, noise_target(options),
-          options.live})),
+          edge_target(options), std::move(small_spheres), options.live})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -72,9 +72,18 @@ Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
     const auto kernels = kernels_for(options.isa, options.solver);
     if (!kernels) return kernels.error();
     RenderOptions fitted = options;
-    fitted.tile =
-        fitting_tile(options, Scheduler(options.threads).workers(), scene->geometry.sphere_count());
-    return Renderer(fitted, std::move(scene), *kernels.value());
+    Scheduler scheduler(options.threads);
+    fitted.tile = fitting_tile(options, scheduler.workers(), scene->geometry.sphere_count());
+    SmallSpheres small_spheres;
+    if (options.aa > 0) {
+      if (has_lens(scene->camera_view.kind)) {
+        return Diagnostic::about("render.aa",
+                                 "is for cameras without a lens: where it blurs, ask for noise");
+      }
+      small_spheres = SmallSpheres(scene->geometry, scene->camera_view, options.width,
+                                   rendered_rect(options), scheduler.parallel_for());
+    }
+    return Renderer(fitted, std::move(scene), *kernels.value(), std::move(small_spheres));
   });
 }
 
@@ -119,7 +128,7 @@ Status Renderer::render_measured(MeasuredPicture& picture, Film* preview) {
 
 /// The pass that renders the rest, from a fraction of all work on.
 LiveProgress::PassSpan Renderer::pass_from(double begin) const {
-  const bool measures = options_.live != nullptr && setup_->noise.half_width > 0;
+  const bool measures = options_.live != nullptr && is_measured(options_);
   return {.begin = begin,
           .rays = begin > 0 ? count_rays().total() : 0,
           .pixels = measures ? static_cast<std::uint64_t>(rect().area()) : 0};
@@ -301,6 +310,7 @@ IntegratorSettings Renderer::integrator_settings() const {
   settings.cancel = options_.cancel;
   settings.seed = options_.seed;
   settings.shadow_epsilon = options_.shadow_epsilon;
+  settings.least_weight = options_.least_weight;
   return settings;
 }
 

@@ -20,7 +20,7 @@ inline ColorStream part(const ColorStream& colors, std::size_t first) {
   return {colors.r + first, colors.g + first, colors.b + first};
 }
 
-/// A sum of colours: red, green, blue, and 0.
+/// A sum of colours: red, green, blue, and a number that light leaves as it is.
 struct alignas(16) ColorSum {
   float rgb0[4];
 };

@@ -44,6 +44,9 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, cons
     header.emplace_back("boule:noise", fmt::format("{}", options.noise));
     header.emplace_back("boule:min_spp", options.min_spp);
   }
+  if (options.aa > 0) header.emplace_back("boule:aa", fmt::format("{}", options.aa));
+  if (options.least_weight > 0)
+    header.emplace_back("boule:least_weight", fmt::format("{}", options.least_weight));
   if (partial) header.push_back(partial->remark());
   return header;
 }

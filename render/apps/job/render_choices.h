@@ -58,6 +58,9 @@ inline auto picture_choices() {
           "(4096); 0.004 is a step of 8 bits; 0: --spp for all"),
       choice<J>(picture, "min_spp", &J::min_spp, rule::least_samples, "N",
                 "With --noise: the fewest samples of a pixel (32)", &O::min_spp),
+      choice<J>(picture, "aa", &J::aa, rule::aa, "X",
+                "Adaptive antialiasing for method whitted: more than one sample only where pixels "
+                "differ by more than X of 255, such as 8, --spp at most (64); 0: --spp for all"),
       choice<J>(picture, "filter", &J::filter, NameRule{}, "",
                 "How a pixel is made of samples: the pixel alone, or with its surroundings",
                 &O::filter),
@@ -91,6 +94,10 @@ inline auto light_and_work_choices() {
       choice<J>(light, "method", &J::method, NameRule{}, "", "How light is followed", &O::method),
       choice<J>(light, "max_depth", &J::max_depth, rule::bounces, "N",
                 "Bounces after the first hit", &O::max_depth),
+      choice<J>(light, "least_weight", &J::least_weight, rule::weight, "W",
+                "Leave out mirrored and refracted rays whose weights in a sample add up to at most "
+                "W of 0..1, such as 0.001 (0)",
+                &O::least_weight),
       choice<J>(
           light, "shadow_epsilon", &J::shadow_epsilon,
           TextRule{parse_shadow_epsilon, "none, or a length of 0 or more"}, "X|none",

@@ -30,7 +30,7 @@ RenderOptions options_of(const RenderJob& job, const Scene& scene) {
     options.width = job.size->width;
     options.height = job.size->height;
   }
-  choose_samples(job.spp, job.noise, options);
+  choose_samples({job.spp, job.noise, job.aa}, options);
   const PixelOrder usual = job.partial ? PixelOrder::progressive : PixelOrder::tiles;
   options.order = job.order.value_or(usual);
   return options;

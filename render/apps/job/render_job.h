@@ -56,6 +56,7 @@ struct RenderJob : SceneJob {
   std::optional<int> spp{};
   std::optional<float> noise{};  ///< 0..1; 0: all pixels get the same samples
   std::optional<int> min_spp{};
+  std::optional<float> aa{};  ///< codes, 0..255; 0: all pixels get the same samples
   std::optional<PixelFilter> filter{};
   std::optional<BackgroundChoice> background{};
   std::optional<float> outline{};  ///< pixels
@@ -64,6 +65,7 @@ struct RenderJob : SceneJob {
   AovSelection aovs{};
   std::optional<Method> method{};
   std::optional<int> max_depth{};
+  std::optional<float> least_weight{};    ///< as RenderOptions
   std::optional<float> shadow_epsilon{};  ///< as RenderOptions
   float exposure_stops = 0;
   std::optional<PixelOrder> order{};   ///< none: tiles, or progressive for a partial picture

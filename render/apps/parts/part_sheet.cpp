@@ -99,7 +99,7 @@ std::size_t PartKinds::pixel_bytes() const {
 }
 
 PartKinds kinds_of(const RenderOptions& options) {
-  return {options.outline > 0, options.aovs, options.noise > 0};
+  return {options.outline > 0, options.aovs, is_measured(options)};
 }
 
 PartSheet::PartSheet(const PixelRect& rect, const PartKinds& kinds)

@@ -56,6 +56,12 @@ RunFacts facts_of(const RenderOptions& options, std::uint64_t scene_hash,
     facts.emplace_back("min-spp", std::to_string(options.min_spp));
     facts.emplace_back("exposure", fmt::format("{}", options.exposure_stops));
   }
+  if (options.aa > 0) {
+    facts.emplace_back("aa", fmt::format("{}", options.aa));
+    facts.emplace_back("exposure", fmt::format("{}", options.exposure_stops));
+  }
+  if (options.least_weight > 0)
+    facts.emplace_back("least-weight", fmt::format("{}", options.least_weight));
   return facts;
 }
 

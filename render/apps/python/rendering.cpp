@@ -108,7 +108,7 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
   }
   auto lines = renderer.render_outline();
   if (!lines) return lines.error();
-  if (renderer.options().noise > 0) return render_measured(renderer, parts, lines.value(), call);
+  if (is_measured(renderer.options())) return render_measured(renderer, parts, lines.value(), call);
   Film film(renderer.rect());
   Status status = renderer.render_live(film);
   const Alpha alpha = alpha_of(renderer.options());

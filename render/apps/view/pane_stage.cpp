@@ -79,7 +79,7 @@ RenderOptions PaneStage::options(const Wish& wish, std::size_t pane) const {
   options.width = wish.settings.width;
   options.height = wish.settings.height;
   options.spp = wish.settings.spp;
-  options.noise = 0;  // films leave it aside, and `spp` may be anything
+  options.noise = options.aa = 0;  // films leave them aside, and `spp` may be anything
   options.max_depth = wish.settings.max_depth;
   options.order = chosen.order;
   options.solver = chosen.solver;

@@ -137,7 +137,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   if (auto done = command_.skip_existing ? check_output(command_.output) : Status(); !done)
     return refuse(done.error(), command_, failed);
   // The header, which comes first in a file, says which noise was reached.
-  options.in_bands = options.in_bands && team_ == nullptr && !(options.noise > 0);
+  options.in_bands = options.in_bands && team_ == nullptr && !is_measured(options);
   if (const ExitCode code = prepare_parts(options); code != done) return code;
   options.progress = [this](const Progress& progress) { live_.update(progress); };
   // The ranks of a team give their blocks to the leader, which tells of them.
@@ -208,6 +208,7 @@ ExitCode Rendering::finish(const Renderer& renderer, const Image& image) {
   const int spp = renderer.options().spp;
   stats_.picture = {{image.width, image.height}, spp, rendering.rays, rendering.faults, noise_};
   stats_.picture->noise_target = renderer.options().noise;
+  stats_.picture->aa = renderer.options().aa;
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
   try {

@@ -31,7 +31,7 @@ ExitCode Rendering::render_whole(Renderer& renderer) {
     channels = std::move(aovs).value();
   }
   live_.start_pass("pixels");
-  const bool is_measured = renderer.options().noise > 0;
+  const bool is_measured = boule::is_measured(renderer.options());
   const auto image = is_measured ? make_measured_image(renderer, channels) : make_image(renderer);
   live_.end_pass();
   live_.end_time_limit();

@@ -32,6 +32,11 @@ std::string picture_text(const PictureStats& picture) {
 std::string noise_text(const Stats& s) {
   if (!s.picture || !s.picture->noise) return {};
   const NoiseReached& noise = *s.picture->noise;
+  if (s.picture->aa > 0) {
+    return fmt::format(
+        "boule: stats: aa: {}, {:.2f} samples a pixel, {:.2f} % of the pixels with fewer than {}\n",
+        s.picture->aa, noise.mean_samples, noise.share * 100, s.picture->spp);
+  }
   return fmt::format(
       "boule: stats: noise: {} asked for, {:.4f} reached in 95 % of the pixels, {:.1f} samples a "
       "pixel, {:.2f} % of the pixels settled\n",
@@ -90,10 +95,11 @@ std::string as_json(const Stats& s) {
     json["samples_too_bright"] = s.picture->faults.too_bright;
     if (s.picture->noise) {
       const NoiseReached& noise = *s.picture->noise;
-      json["noise"] = {{"target", s.picture->noise_target},
-                       {"reached", noise.half_width},
-                       {"mean_spp", noise.mean_samples},
-                       {"settled", noise.share}};
+      json[s.picture->aa > 0 ? "aa" : "noise"] = {
+          {"target", s.picture->aa > 0 ? s.picture->aa : s.picture->noise_target},
+          {"reached", noise.half_width},
+          {"mean_spp", noise.mean_samples},
+          {"settled", noise.share}};
     }
   }
   json["mrays_per_s"] = mrays_per_s(s);

@@ -20,7 +20,7 @@ struct PictureStats {
   RayCounts rays;
   SampleFaults faults;
   std::optional<NoiseReached> noise{};  ///< none: it was not measured
-  float noise_target = 0;
+  float noise_target = 0, aa = 0;       ///< one of them is asked for, if it was measured
 };
 
 /// The statistics of a render or a trace. Times are wall-clock seconds.

@@ -341,6 +341,8 @@ class RenderSettings:
     max_depth: int
     noise: float
     min_spp: int
+    aa: float
+    least_weight: float
     def __init__(
         self,
         *,
@@ -348,6 +350,8 @@ class RenderSettings:
         max_depth: int = ...,
         noise: float = ...,
         min_spp: int = ...,
+        aa: float = ...,
+        least_weight: float = ...,
     ) -> None: ...
 
 class Sphere:
@@ -689,6 +693,7 @@ def render(
     spp: int | None = ...,
     noise: float | None = ...,
     min_spp: int | None = ...,
+    aa: float | None = ...,
     exposure: float | None = ...,
     filter: _Filter | None = ...,
     background: str | None = ...,
@@ -698,6 +703,7 @@ def render(
     aov: str | Sequence[str] | None = ...,
     method: _Method | None = ...,
     max_depth: int | None = ...,
+    least_weight: float | None = ...,
     shadow_epsilon: float | Literal["none"] | None = ...,
     time_limit: float | None = ...,
     partial: bool = ...,

@@ -334,7 +334,9 @@ class ImageSettings(Table):
 @_of("render", "render", type_key=False)
 class RenderSettings(Table):
     """How a scene asks to be rendered: method "whitted" or "path", max_depth bounces;
-    noise, if it is above 0, is asked of each pixel, which gets min_spp samples or more."""
+    noise, if it is above 0, is asked of each pixel, which gets min_spp samples or more; aa, if it is
+    above 0, is the step in codes of 255 above which pixels get more than one sample; rays whose
+    weights add up to least_weight are left out."""
 
 
 @_of("sphere", "sphere", type_key=False)

@@ -29,11 +29,14 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
     size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
     noise: each pixel gets samples, min_spp to spp of them, until it is right to so much of 0..1 as
         it is shown with this exposure, with a probability of 95 %; 0: all pixels get spp.
+    aa: adaptive antialiasing, for method "whitted": pixels that differ from one around by more than
+        so many codes of 255 (8, say) get up to spp samples (64), the others one; 0: all get spp.
     background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
-        albedo, z; with noise also noise, samples).
-    method: "whitted" or "path". max_depth: bounces after the first hit.
+        albedo, z; with noise or aa also noise, samples).
+    method: "whitted" or "path". max_depth: bounces after the first hit. least_weight: mirrored and
+        refracted rays are left out whose weights in a sample add up to at most this, 0 to 1.
     shadow_epsilon: for teaching: where shadow rays begin, a length or "none", in place of Boule's way
         without an epsilon. It makes false shadows.
     time_limit: seconds of rendering. partial: when the time limit or Ctrl-C comes, return the

@@ -34,6 +34,8 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("max_depth"), 5);
   EXPECT_EQ(found.at("noise"), 0);
   EXPECT_EQ(found.at("min_spp"), 32);
+  EXPECT_EQ(found.at("aa"), 0);
+  EXPECT_EQ(found.at("least_weight"), 0);
   EXPECT_EQ(found.at("spheres"), 1);
   EXPECT_EQ(found.at("planes"), 1);
   EXPECT_EQ(found.at("groups"), 0);

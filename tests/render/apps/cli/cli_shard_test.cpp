@@ -71,6 +71,27 @@ TEST_F(Shards, PicturesWhoseNoiseIsAskedForToo) {
   EXPECT_EQ(read("merged.exr"), read("whole.exr"));
 }
 
+/// Edges, too: a block needs the centres of the pixels around it, which it renders itself.
+TEST_F(Shards, AntialiasedPicturesToo) {
+  const auto words = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"render", small_scene(), "-o",    path(output),
+                                    "--size", "97x61",       "--aa",  "8",
+                                    "--tile", "16",          "--aov", "samples"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  ASSERT_EQ(boule_run(words("whole.exr", {})).exit_code, 0);
+  std::vector<std::string> films;
+  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
+    const std::string film = "e" + shard.substr(0, 1) + ".film";
+    films.push_back(path(film));
+    ASSERT_EQ(boule_run(words(film, {"--shard", shard})).exit_code, 0);
+  }
+  const ProgramRun run = boule_run(merge(films));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("merged.exr"), read("whole.exr"));
+}
+
 /// Every second block along the Morton curve is every second column.
 TEST_F(Shards, MissingAndDoubledBlocksAreNamed) {
   const std::string a = shard(1, 2), b = shard(2, 2);

@@ -139,9 +139,9 @@ TEST(Help, OptionsStandInGroups) {
   EXPECT_THAT(text, Not(HasSubstr("\n\n\n")));
   const std::vector<std::pair<std::string, std::vector<std::string>>> groups = {
       {"Picture",
-       {"--size", "--spp", "--noise", "--min-spp", "--filter", "--seed", "--crop", "--aov",
+       {"--size", "--spp", "--noise", "--min-spp", "--aa", "--filter", "--seed", "--crop", "--aov",
         "--polygons"}},
-      {"Camera and light", {"--method", "--max-depth", "--exposure"}},
+      {"Camera and light", {"--method", "--max-depth", "--least-weight", "--exposure"}},
       {"Work", {"--frames", "--skip-existing", "--time-limit", "--partial", "--order", "--tile"}},
       {"Output", {"--output", "--compression", "--progress", "--stats", "--quiet", "--verbose"}},
       {"Machine", {"--isa", "--solver", "--threads"}}};
