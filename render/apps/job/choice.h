@@ -20,6 +20,8 @@ struct TextRule {
   std::optional<Value> (*parse)(const std::string& text);  ///< none: not understood
   std::string expected;                                    ///< "A,B with A < B"
   char between = ',';                                      ///< what joins the parts of a list
+  /// What is probably meant where the text is not understood: "; did you mean 'viridis'?".
+  std::string (*hint)(const std::string& text) = [](const std::string&) { return std::string(); };
 };
 template <class Value>
 TextRule(std::optional<Value> (*)(const std::string&), const char*) -> TextRule<Value>;
@@ -27,6 +29,9 @@ template <class Value>
 TextRule(std::optional<Value> (*)(const std::string&), std::string) -> TextRule<Value>;
 template <class Value>
 TextRule(std::optional<Value> (*)(const std::string&), const char*, char) -> TextRule<Value>;
+template <class Value>
+TextRule(std::optional<Value> (*)(const std::string&), std::string, char,
+         std::string (*)(const std::string&)) -> TextRule<Value>;
 
 /// One of the names of an enumeration.
 struct NameRule {};

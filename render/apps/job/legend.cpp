@@ -95,7 +95,7 @@ void Legend::add_scale(const ParticleColors::Scale& scale) {
       border, top, bar_width, bar_height, gradients_++);
   add_ticks(border + bar_width, top, low, high);
   height_ = top + bar_height + text_size;
-  if (scale.missing > 0) add_species({{"missing", missing_color, scale.missing}});
+  if (scale.missing > 0) add_species({{"missing", scale.nan_color, scale.missing}});
 }
 
 void Legend::add_species(const std::vector<ParticleColors::Species>& all) {

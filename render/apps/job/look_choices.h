@@ -22,21 +22,21 @@ inline constexpr const char* colors = "colors";
 
 }  // namespace heading
 
-/// The options of LookOptions, in the order of the help.
-inline auto look_choices() {
+namespace detail {
+
+inline auto file_and_view_choices() {
   using L = LookOptions;
-  using detail::choice;
   constexpr const char* directions = "x, -x, y, -y, z, -z or three numbers X,Y,Z";
-  constexpr const char* above_0 = "a number above 0";
   constexpr WholeRule any_frame{.low = std::numeric_limits<int>::min(),
                                 .high = std::numeric_limits<int>::max()};
   using namespace heading;
   return std::tuple{
       choice<L>(particle_file, "frame", &L::frame, any_frame, "N",
                 "Frame of the file, from 0; -1 is the last (-1)"),
-      choice<L>(particle_file, "input_format", &L::format,
-                TextRule{parse_particle_format, "one of " + list_particle_formats()}, "NAME",
-                "Format of the file (by its ending, else its content)"),
+      choice<L>(
+          particle_file, "input_format", &L::format,
+          TextRule{parse_particle_format, "one of " + list_particle_formats(), ',', hint_format},
+          "NAME", "Format of the file (by its ending, else its content)"),
       choice<L>(particle_file, "columns", &L::columns,
                 TextRule{parse_names, "names such as id,type,x,y,z"}, "NAMES",
                 "Names for the columns: id,type,x,y,z; - is one to skip (the file's)"),
@@ -50,25 +50,61 @@ inline auto look_choices() {
                 "The way the camera looks: x, -x ... or X,Y,Z (what shows the most)"),
       choice<L>(look, "up", &L::up, TextRule{parse_direction, directions}, "DIR",
                 "What is upward (z where the file has a cell, else y)"),
+  };
+}
+
+inline auto sphere_and_color_choices() {
+  using L = LookOptions;
+  using namespace heading;
+  constexpr const char* above_0 = "a number above 0";
+  return std::tuple{
       choice<L>(spheres, "radius", &L::radius,
                 TextRule{parse_radius, "a number above 0, vdw, covalent or a column"}, "R",
                 "Radii: a number, vdw, covalent or a column (the file's, else vdw)"),
+      choice<L>(spheres, "radii", &L::radii,
+                TextRule{parse_kind_radii, "KIND=RADIUS,... with radii above 0, each kind once"},
+                "LIST", "Radii of species, such as Na=1.02,Cl=1.81 (those of --radius)"),
       choice<L>(spheres, "scale", &L::scale, TextRule{parse_above_0, above_0}, "S",
                 "Times all radii (1)"),
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
+      choice<L>(spheres, "wrap", &L::wrap, FlagRule{}, "",
+                "Move particles into the cell, along its periodic edges"),
+      choice<L>(spheres, "replicate", &L::replicate,
+                TextRule{parse_replicate, "AxBxC, whole numbers from 1 on, such as 2x2x1", 'x'},
+                "AxBxC", "Periodic images along the edges of the cell (1x1x1)"),
       choice<L>(
           colors, "color", &L::color,
-          TextRule{parse_particle_color, "element, #rrggbb or a column"}, "C",
-          "Colours: element, #rrggbb, a column or |v| of vx vy vz (the file's, else element)"),
+          TextRule{parse_particle_color, "element, a colour or a column"}, "C",
+          "Colours: element, one such as #rrggbb or teal, a column, |v| of vx vy vz (the file's, "
+          "else element)"),
+      choice<L>(
+          colors, "colors", &L::colors,
+          TextRule{parse_kind_colors, "KIND=COLOR,... with #rrggbb or names of CSS, each kind once",
+                   ',', hint_kind_colors},
+          "LIST", "Colours of kinds, such as O=crimson,7=#336699 (those of --color)"),
       choice<L>(colors, "map", &L::map,
                 TextRule{parse_map,
-                         "one of " + list_color_maps() + " or colours such as #000000,#ffffff"},
-                "MAP", "Map of --color COLUMN: a name, or #rrggbb,#rrggbb (viridis)"),
+                         "one of " + list_color_maps() +
+                             " or colours such as #000000,white; _r behind a name reverses it",
+                         ',', hint_map},
+                "MAP",
+                "Map of --color COLUMN: a name, NAME_r for its reverse, or colours such as "
+                "navy,#ffffff (viridis)"),
       choice<L>(colors, "range", &L::range, TextRule{parse_range, "A,B with A < B"}, "A,B",
                 "What the map's ends stand for (1st to 99th percentile)"),
+      choice<L>(colors, "nan_color", &L::nan_color,
+                TextRule{parse_one_color, "a colour such as #ffffff or silver", ',', hint_color},
+                "COLOR", "Colour of particles whose number or text is missing (#a0a0a0)"),
   };
+}
+
+}  // namespace detail
+
+/// The options of LookOptions, in the order of the help.
+inline auto look_choices() {
+  return std::tuple_cat(detail::file_and_view_choices(), detail::sphere_and_color_choices());
 }
 
 }  // namespace boule

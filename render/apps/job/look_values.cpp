@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "core/math/color_names.h"
 #include "core/math/geometry.h"
-#include "core/math/srgb.h"
 #include "render/apps/job/option_values.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/particle_file/particle_file.h"
@@ -27,6 +28,34 @@ std::optional<std::vector<double>> parse_numbers(const std::string& text, std::s
     numbers.push_back(*number);
   }
   return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+/// "KIND=VALUE" at the last "="; both empty where there is none.
+KindText split_kind(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos) return {};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// The kinds of a list, if all of its values are good.
+template <class IsGood>
+std::optional<std::vector<KindText>> parse_kinds(const std::string& text, const IsGood& is_good) {
+  std::vector<KindText> kinds;
+  for (const std::string& part : split(text, ',')) {
+    KindText one = split_kind(part);
+    const bool is_known = std::any_of(
+        kinds.begin(), kinds.end(), [&](const KindText& other) { return other.kind == one.kind; });
+    if (one.kind.empty() || is_known || !is_good(one.value)) return std::nullopt;
+    kinds.push_back(std::move(one));
+  }
+  return kinds;
+}
+
+/// Of the first of these texts that is no colour.
+std::string first_hint(const std::vector<std::string>& colors) {
+  const auto wrong = std::find_if_not(colors.begin(), colors.end(),
+                                      [](const std::string& one) { return parse_color(one); });
+  return wrong == colors.end() ? std::string() : did_you_mean_color(*wrong);
 }
 
 }  // namespace
@@ -78,13 +107,45 @@ bool has_color_map(const std::string& color) {
 }
 
 std::optional<std::string> parse_map(const std::string& text) {
-  const auto& known = names<NamedColorMap>;
-  const bool is_name = std::find(known.begin(), known.end(), text) != known.end();
   const std::vector<std::string> parts = split(text, ',');
   const bool are_colors = std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
-    return parse_hex_color(part).has_value();
+    return parse_color(part).has_value();
   });
-  return is_name || are_colors ? std::optional(text) : std::nullopt;
+  return named_color_map(text) || are_colors ? std::optional(text) : std::nullopt;
+}
+
+std::optional<std::string> parse_one_color(const std::string& text) {
+  return parse_color(text) ? std::optional(text) : std::nullopt;
+}
+
+std::optional<std::vector<KindText>> parse_kind_colors(const std::string& text) {
+  return parse_kinds(text, [](const std::string& value) { return parse_color(value).has_value(); });
+}
+
+std::optional<std::vector<KindText>> parse_kind_radii(const std::string& text) {
+  return parse_kinds(text,
+                     [](const std::string& value) { return parse_above_0(value).has_value(); });
+}
+
+std::optional<std::array<int, 3>> parse_replicate(const std::string& text) {
+  const auto counts = split_numbers(text, 'x', 3, 1, std::numeric_limits<int>::max());
+  if (!counts) return std::nullopt;
+  return std::array{(*counts)[0], (*counts)[1], (*counts)[2]};
+}
+
+std::string hint_format(const std::string& text) { return did_you_mean(text, particle_formats()); }
+
+std::string hint_map(const std::string& text) {
+  return text.find(',') == std::string::npos ? did_you_mean_map(text)
+                                             : first_hint(split(text, ','));
+}
+
+std::string hint_color(const std::string& text) { return did_you_mean_color(text); }
+
+std::string hint_kind_colors(const std::string& text) {
+  std::vector<std::string> colors;
+  for (const std::string& part : split(text, ',')) colors.push_back(split_kind(part).value);
+  return first_hint(colors);
 }
 
 std::string list_color_maps() { return joined(names<NamedColorMap>, ", "); }

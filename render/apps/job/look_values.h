@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "render/apps/job/particle_look.h"
 
 namespace boule {
 
@@ -37,9 +38,27 @@ bool has_color_map(const std::string& color);
 /// True if they may be such a column, as three words may: it shows when the file is read.
 bool may_have_color_map(const std::string& color);
 
-/// A map of colours: one of list_color_maps(), or colours "#rrggbb" with commas between them.
+/// A map of colours: named_color_map(), or colours (parse_color()) with commas between them.
 std::optional<std::string> parse_map(const std::string& text);
 std::string list_color_maps();
+
+/// A colour: parse_color().
+std::optional<std::string> parse_one_color(const std::string& text);
+
+/// "O=crimson,7=#336699": a colour for each kind, and "Na=1.02,Cl=1.81": a radius for each, a
+/// finite number above 0. Each kind once.
+std::optional<std::vector<KindText>> parse_kind_colors(const std::string& text);
+std::optional<std::vector<KindText>> parse_kind_radii(const std::string& text);
+
+/// "2x2x1": three whole numbers from 1 on.
+std::optional<std::array<int, 3>> parse_replicate(const std::string& text);
+
+/// What is probably meant where the text is not understood: "; did you mean 'viridis'?", or
+/// nothing. Of formats of particle files, of maps, of a colour, and of colours of kinds.
+std::string hint_format(const std::string& text);
+std::string hint_map(const std::string& text);
+std::string hint_color(const std::string& text);
+std::string hint_kind_colors(const std::string& text);
 
 /// "A,B" with A < B, both finite.
 std::optional<std::array<double, 2>> parse_range(const std::string& text);

@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/math/color_names.h"
 #include "core/scene/scene.h"
+#include "render/files/file/nearest_name.h"
 
 namespace boule {
 namespace {
 
-/// The `count` whole numbers from `low` on that `text` consists of.
+/// The switch that an AOV's name stands for, or null.
+bool* find_aov(AovSelection& aovs, const std::string& name) {
+  for (const AovName& aov : aov_names) {
+    if (name == aov.name) return &(aovs.*aov.wanted);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 std::optional<std::vector<int>> split_numbers(const std::string& text, char separator,
                                               std::size_t count, int low, int high) {
   std::vector<int> numbers;
@@ -20,16 +31,6 @@ std::optional<std::vector<int>> split_numbers(const std::string& text, char sepa
   if (numbers.size() != count) return std::nullopt;
   return numbers;
 }
-
-/// The switch that an AOV's name stands for, or null.
-bool* find_aov(AovSelection& aovs, const std::string& name) {
-  for (const AovName& aov : aov_names) {
-    if (name == aov.name) return &(aovs.*aov.wanted);
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 std::optional<FrameRange> parse_frames(const std::string& text) {
   constexpr int last_frame = 999'999'999;
@@ -92,8 +93,14 @@ std::optional<double> parse_duration(const std::string& text) {
 
 std::optional<BackgroundChoice> parse_background(const std::string& text) {
   if (text == "transparent") return BackgroundChoice{};
-  const auto color = parse_hex_color(text);
+  const auto color = parse_color(text);
   return color ? std::optional(BackgroundChoice{color}) : std::nullopt;
+}
+
+std::string hint_background(const std::string& text) {
+  std::vector<std::string_view> known = color_names();
+  known.emplace_back("transparent");
+  return did_you_mean(ascii_lower(text), known);
 }
 
 std::optional<std::uint64_t> parse_bytes(const std::string& text) {

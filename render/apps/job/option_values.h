@@ -22,6 +22,10 @@ std::optional<Number> parse_number(const std::string& text, Number low, Number h
   return good ? std::optional(number) : std::nullopt;
 }
 
+/// The `count` whole numbers from `low` to `high` that `text` consists of.
+std::optional<std::vector<int>> split_numbers(const std::string& text, char separator,
+                                              std::size_t count, int low, int high);
+
 /// "A-B" with 0 <= A <= B, or "A" alone; "A-B:N" is every Nth of them, from A on, N >= 1.
 std::optional<FrameRange> parse_frames(const std::string& text);
 
@@ -37,8 +41,9 @@ std::optional<AovSelection> parse_aovs(const std::string& text);
 /// All names of AOVs: "depth,normal,position,id,albedo,z".
 std::string list_aovs();
 
-/// "#rrggbb" or "transparent".
+/// A colour (parse_color()) or "transparent"; and what is probably meant by other text.
 std::optional<BackgroundChoice> parse_background(const std::string& text);
+std::string hint_background(const std::string& text);
 
 /// A time such as "90", "90s", "1.5m", "500ms", "2h", in seconds: above 0, 1e9 at most.
 std::optional<double> parse_duration(const std::string& text);

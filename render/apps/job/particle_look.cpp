@@ -6,6 +6,7 @@
 
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
+#include "render/files/particles/color_map.h"
 
 namespace boule {
 namespace {
@@ -141,7 +142,7 @@ std::string list(const std::vector<std::string>& texts) {
 
 /// A map of colours: a name, or a list of colours, which have commas between them.
 std::string map_text(const std::string& map) {
-  return map.find('#') == std::string::npos ? toml_string(map) : list(split(map, ','));
+  return named_color_map(map) ? toml_string(map) : list(split(map, ','));
 }
 
 /// The keys that say which colours particles have. The table of a map comes last: what follows a
@@ -160,6 +161,16 @@ void add_color(std::string& text, const LookOptions& options) {
   }
 }
 
+/// A table in one line, { "O" = "crimson" }. Numbers stand as they are.
+std::string inline_table(const std::vector<KindText>& kinds, bool are_numbers) {
+  std::string table;
+  for (const auto& [kind, value] : kinds) {
+    table += table.empty() ? "{ " : ", ";
+    table += toml_string(kind) + " = " + (are_numbers ? value : toml_string(value));
+  }
+  return table + " }";
+}
+
 void add_particles(std::string& text, const std::string& file, const LookOptions& options) {
   text += "\n[[particles]]\n";
   add_line(text, "file", toml_string(file));
@@ -171,9 +182,17 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
     const bool is_number = parse_above_0(options.radius).has_value();
     add_line(text, "radius", is_number ? options.radius : toml_string(options.radius));
   }
+  if (!options.radii.empty()) add_line(text, "radii", inline_table(options.radii, true));
   if (options.scale) add_line(text, "scale", number(*options.scale));
   if (!options.select.empty()) add_line(text, "select", toml_string(options.select));
+  if (options.wrap) add_line(text, "wrap", "true");
+  if (options.replicate) {
+    const auto& [a, b, c] = *options.replicate;
+    add_line(text, "replicate", fmt::format("[{}, {}, {}]", a, b, c));
+  }
   add_line(text, "material", "\"particles\"");
+  if (!options.colors.empty()) add_line(text, "colors", inline_table(options.colors, false));
+  if (!options.nan_color.empty()) add_line(text, "nan_color", toml_string(options.nan_color));
   add_color(text, options);
 }
 

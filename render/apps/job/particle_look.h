@@ -18,24 +18,36 @@ enum class Look { paper, plain, dark };
 template <>
 inline constexpr std::array<std::string_view, 3> names<Look>{"paper", "plain", "dark"};
 
+/// What is given for one kind of particles, in the words of the user: a colour or a radius.
+struct KindText {
+  std::string kind, value;
+
+  friend bool operator==(const KindText&, const KindText&) = default;
+};
+
 /// What the command line says about the picture of a particle file. What it leaves out is chosen to
 /// fit, most of it by [[particles]] itself.
 struct LookOptions {
   Look look = Look::paper;
-  bool quick = false;                            ///< a sketch, in place of the look's light
-  bool floor = false;                            ///< a plane below the particles
-  std::string format{};                          ///< of the file; empty: as it seems to be
-  std::vector<std::string> columns{};            ///< names for the columns; empty: the file's own
-  std::optional<int> frame{};                    ///< of the file; negative: from its end
-  bool water = false;                            ///< PDB and mmCIF: with water
-  std::string color{};                           ///< "element", "#rrggbb" or a column
-  std::string map{};                             ///< a name, or colours "#rrggbb,#rrggbb"
-  std::optional<std::array<double, 2>> range{};  ///< of the map; least < largest
-  std::string radius{};                          ///< a number, "vdw", "covalent" or a column
-  std::optional<double> scale{};                 ///< of the radii, > 0
-  std::string select{};                          ///< which particles
-  std::optional<Vec3d> view{};                   ///< in which the camera looks
-  std::optional<Vec3d> up{};                     ///< upward in the picture
+  bool quick = false;                             ///< a sketch, in place of the look's light
+  bool floor = false;                             ///< a plane below the particles
+  std::string format{};                           ///< of the file; empty: as it seems to be
+  std::vector<std::string> columns{};             ///< names for the columns; empty: the file's own
+  std::optional<int> frame{};                     ///< of the file; negative: from its end
+  bool water = false;                             ///< PDB and mmCIF: with water
+  std::string color{};                            ///< "element", "#rrggbb" or a column
+  std::string map{};                              ///< a name, or colours "#rrggbb,#rrggbb"
+  std::vector<KindText> colors{};                 ///< of kinds
+  std::string nan_color{};                        ///< of missing numbers; empty: grey
+  std::optional<std::array<double, 2>> range{};   ///< of the map; least < largest
+  std::string radius{};                           ///< a number, "vdw", "covalent" or a column
+  std::vector<KindText> radii{};                  ///< of species
+  std::optional<double> scale{};                  ///< of the radii, > 0
+  bool wrap = false;                              ///< into the cell
+  std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
+  std::string select{};                           ///< which particles
+  std::optional<Vec3d> view{};                    ///< in which the camera looks
+  std::optional<Vec3d> up{};                      ///< upward in the picture
   std::string first{};  ///< the first option of these that was given: "--look"; empty: none
 };
 

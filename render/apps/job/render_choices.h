@@ -65,8 +65,11 @@ inline auto picture_choices() {
                 "How a pixel is made of samples: the pixel alone, or with its surroundings",
                 &O::filter),
       choice<J>(picture, "background", &J::background,
-                TextRule{parse_background, "a colour such as #ffffff, or transparent"}, "COLOR",
-                "What shows where nothing is: #rrggbb, or transparent (EXR, PNG)"),
+                TextRule{parse_background, "a colour such as #ffffff or white, or transparent", ',',
+                         hint_background},
+                "COLOR",
+                "What shows where nothing is: a colour such as #rrggbb or white, or transparent "
+                "(EXR, PNG)"),
       choice<J>(picture, "outline", &J::outline, rule::outline, "W",
                 "Dark lines W pixels wide where what is seen changes (0)", &O::outline),
       choice<J>(picture, "seed", &J::seed,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/text.h"
+#include "core/math/color_names.h"
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
 #include "render/files/particle_file/particle_file.h"
@@ -62,10 +63,17 @@ Words format_names() {
   return names;
 }
 
+Words colors_of(const std::string& option) {
+  Words words;
+  if (option == "background") words.emplace_back("transparent");
+  for (const std::string_view name : color_names()) words.emplace_back(name);
+  return words;
+}
+
 /// The names that an option of this name takes, besides what else it may.
 Words known_words(const std::string& name) {
   if (name == "aov") return split(list_aovs(), ',');
-  if (name == "background") return {"transparent"};
+  if (name == "background" || name == "nan-color") return colors_of(name);
   if (name == "color") return {"element"};
   if (name == "input-format") return format_names();
   if (name == "isa") return isa_names();

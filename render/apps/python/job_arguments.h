@@ -14,7 +14,8 @@
 namespace boule::python {
 
 /// An argument as the command line has it: its text, or that of a list of parts with `between`
-/// between them: "640x480", "#000000,#ffffff". Precondition: it is given.
+/// between them, "640x480", "#000000,#ffffff", or that of a dictionary, "O=crimson,N=navy".
+/// Precondition: it is given.
 std::string text_of(const Arguments& given, const char* name, char between);
 
 /// The argument of one row of a list of choices (render/apps/job/choice.h), if it is given. Returns
@@ -40,7 +41,8 @@ bool read_row(const Arguments& given, const Choice<Owner, Member, Rule, To>& row
     if (std::is_same_v<Member, AovSelection> && text.empty()) return false;  // a list of none
     const auto parsed = row.rule.parse(text);
     if (!parsed)
-      throw_error(name, quote(text) + " is not understood, expected " + row.rule.expected);
+      throw_error(name, quote(text) + " is not understood, expected " + row.rule.expected +
+                            row.rule.hint(text));
     target = *parsed;
   }
   return true;

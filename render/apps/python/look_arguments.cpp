@@ -41,8 +41,15 @@ bool is_list(const py::object& value) {
 std::string text_of(const Arguments& given, const char* name, char between) {
   const py::object value = *given.find(name);
   if (py::isinstance<py::str>(value)) return *given.text(name);
-  if (!is_list(value)) return text_of_one(value, name);
   std::string text;
+  if (py::isinstance<py::dict>(value)) {
+    for (const auto& [key, one] : py::reinterpret_borrow<py::dict>(value)) {
+      if (!text.empty()) text += between;
+      text += text_of_one(key, name) + "=" + text_of_one(one, name);
+    }
+    return text;
+  }
+  if (!is_list(value)) return text_of_one(value, name);
   for (const py::handle one : value) {
     if (!text.empty()) text += between;
     text += text_of_one(one, name);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/math/color_names.h"
 
 namespace boule {
 namespace {
@@ -45,6 +47,15 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
   }
   if (suggestion.empty()) return "";
   return "; did you mean " + quote(suggestion) + "?";
+}
+
+std::string did_you_mean_color(std::string_view name) {
+  return did_you_mean(ascii_lower(name), color_names());
+}
+
+std::string no_color(std::string_view text) {
+  return quote(text) + " is no colour, expected \"#rrggbb\" or a name of CSS" +
+         did_you_mean_color(text);
 }
 
 std::string list_names(const std::vector<std::string_view>& names) {

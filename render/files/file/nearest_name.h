@@ -10,6 +10,12 @@ namespace boule {
 /// keyboard (edit distance with swaps, at most a third of the name, at least 1), else "".
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& known);
 
+/// The same for the names of colours (color_names()), in any case.
+std::string did_you_mean_color(std::string_view name);
+
+/// "'red1' is no colour, expected '#rrggbb' or a name of CSS; did you mean 'red'?".
+std::string no_color(std::string_view text);
+
 /// "'a', 'b' or 'c'".
 std::string list_names(const std::vector<std::string_view>& names);
 

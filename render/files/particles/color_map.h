@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,12 +27,25 @@ class ColorMap {
   /// Precondition: colors is not empty.
   explicit ColorMap(std::vector<SrgbColor> colors);
 
+  /// The same colours the other way round.
+  [[nodiscard]] ColorMap reversed() const;
+
+  /// Whether its middle stands for 0: of numbers on both sides of it.
+  [[nodiscard]] bool is_diverging() const { return is_diverging_; }
+
   /// The colour of `at`; below 0 that of 0, above 1 that of 1. Precondition: at is not NaN.
   [[nodiscard]] SrgbColor color(double at) const;
 
  private:
   std::vector<SrgbColor> colors_;
+  bool is_diverging_ = false;
 };
+
+/// The map of a name in any case; "_r" behind the name reverses it. None for other text.
+std::optional<ColorMap> named_color_map(std::string_view text);
+
+/// "; did you mean 'viridis_r'?" for what is near to such a name, else "".
+std::string did_you_mean_map(std::string_view text);
 
 /// The colour of particles without a number.
 inline constexpr SrgbColor missing_color{0xa0, 0xa0, 0xa0};

@@ -22,7 +22,8 @@ struct ParticleColors {
     std::string by{};  ///< as MappedColors
     ColorMap map{};
     std::array<double, 2> range{};  ///< the chosen range
-    std::size_t missing = 0;        ///< particles without a number, of missing_color
+    SrgbColor nan_color = missing_color;
+    std::size_t missing = 0;  ///< particles without a number, of that colour
   };
   /// The shown species, in the order of the file; or the texts of another column that distinguishes
   /// particles. Empty for other rules.

@@ -84,6 +84,9 @@ void ParticleChoices::add(const ParticleChoices& frame) {
     column = frame.column;
   }
   are_species = are_species || frame.are_species;
+  given = frame.given;
+  nan_color = frame.nan_color;
+  all = frame.all;
   add_kinds(frame.kinds, kinds);
 }
 
@@ -97,7 +100,9 @@ void ParticleChoices::finish(const std::string& frames) {
   std::vector<std::string> names;
   names.reserve(kinds.size());
   for (const ParticleColors::Species& kind : kinds) names.push_back(kind.name);
-  const auto colors = are_species ? species_colors(names) : palette_colors(names);
+  auto colors = are_species ? species_colors(names) : palette_colors(names);
+  if (all) colors.assign(names.size(), *all);
+  use_given(given, nan_color, names, are_species, colors);
   for (std::size_t i = 0; i < kinds.size(); ++i) kinds[i].color = colors[i];
 }
 

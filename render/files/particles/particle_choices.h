@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/files/particles/color_meaning.h"
+#include "render/files/particles/given_kinds.h"
 
 namespace boule {
 
@@ -36,6 +37,9 @@ struct ParticleChoices {
   /// The texts of the column that colours come from, in the order in which they occur; the count is
   /// 0 where none of their particles are shown. Those of numbers come when all are added.
   std::vector<ParticleColors::Species> kinds{};
+  std::vector<KindColor> given{};       ///< as ParticleStyle::colors
+  SrgbColor nan_color = missing_color;  ///< as ParticleStyle
+  std::optional<SrgbColor> all{};       ///< of the kinds for which nothing is given
 
   std::string of_frames{};  ///< "all 4 frames"; empty: one frame by itself
 

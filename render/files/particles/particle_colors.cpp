@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/math/color_names.h"
+#include "render/files/file/nearest_name.h"
 #include "render/files/particles/elements.h"
 #include "render/files/particles/species_palette.h"
 
@@ -37,14 +39,23 @@ class Coloring {
   explicit Coloring(const ColoredFrame& colored)
       : colored_(colored),
         frame_(colored.frame),
-        known_(colored.chosen != nullptr ? colored.chosen->kinds : KnownKinds()) {}
+        style_(colored.style),
+        known_(style_.chosen != nullptr ? style_.chosen->kinds : KnownKinds()) {}
 
   Materials operator()(std::monostate) const {
-    return ParticleMaterials{{{MaterialRef(colored_.material)}}};
+    if (auto done = refuse_given("the particles have the colour of their material"); !done)
+      return done.error();
+    return ParticleMaterials{{{MaterialRef(style_.material)}}};
   }
 
   Materials operator()(const SrgbColor& color) const {
-    return ParticleMaterials{{{colored_.in(color)}}};
+    if (style_.colors.empty()) return ParticleMaterials{{{colored_.in(color)}}};
+    if (!frame_.species) return Diagnostic::about("colors", "the file tells no species");
+    const std::vector<SrgbColor> colors(frame_.species->texts.size(), color);
+    auto made = of_groups(*frame_.species, colors, 0, true);
+    if (made) made.value().own.are_species = true;
+    if (made) made.value().own.all = color;
+    return made;
   }
 
   Materials operator()(const SpeciesColors& /*species*/) const {
@@ -53,14 +64,14 @@ class Coloring {
     const auto unknown = std::count_if(texts.begin(), texts.end(), [](const std::string& text) {
       return find_element(text) == nullptr;
     });
-    ParticleMaterials made = of_groups(*frame_.species, species_colors(texts, known_),
-                                       static_cast<std::size_t>(unknown));
-    made.own.are_species = true;
+    auto made = of_groups(*frame_.species, species_colors(texts, known_),
+                          static_cast<std::size_t>(unknown), true);
+    if (made) made.value().own.are_species = true;
     return made;
   }
 
   Materials operator()(const ColorColumns& columns) const {
-    if (columns.names.size() == 3) return take_components(colored_, columns.names);
+    if (columns.names.size() == 3) return of_components(columns.names);
     if (columns.names.size() != 1) {
       return Diagnostic::about("color", "expected the name of one column or of three, found " +
                                             std::to_string(columns.names.size()));
@@ -69,25 +80,47 @@ class Coloring {
     const TextColumn* const texts = find_particle_texts(frame_, name);
     const bool has_numbers = find_number_column(frame_, name) != nullptr;
     if (const auto names = three_names(name); !names.empty() && !texts && !has_numbers) {
-      return take_components(colored_, names);
+      return of_components(names);
     }
     if (texts == nullptr || has_numbers) {
-      auto made = map_numbers(colored_, {.by = name}, "color");
-      return made || name.find(' ') == std::string::npos ? made : with_three_columns(made.error());
+      auto made = of_numbers({.by = name}, "color");
+      if (made) return made;
+      if (const auto color = parse_color(name)) return (*this)(*color);
+      return with_others(made.error(), name);
     }
     if (has_hex_colors(*texts)) return of_hex_texts(*texts);
     if (frame_.species && texts == &*frame_.species) return (*this)(SpeciesColors{});
-    return of_groups(*texts, palette_colors(texts->texts, known_), texts->texts.size());
+    return of_groups(*texts, palette_colors(texts->texts, known_), texts->texts.size(), false);
   }
 
-  Materials operator()(const MappedColors& mapped) const {
-    return map_numbers(colored_, mapped, "color.by");
-  }
+  Materials operator()(const MappedColors& mapped) const { return of_numbers(mapped, "color.by"); }
 
  private:
-  /// Words may have been meant as the names of columns, unless the error tells what was meant.
-  static Diagnostic with_three_columns(Diagnostic error) {
-    if (!error.message.ends_with('?')) error.message += ", or three columns: 'red green blue'";
+  [[nodiscard]] Materials of_numbers(const MappedColors& mapped, const std::string& key) const {
+    auto made = map_numbers(colored_, mapped, key);
+    if (!made) return made;
+    if (auto done = refuse_given("the colours are a scale of " + quote(mapped.by)); !done)
+      return done.error();
+    return made;
+  }
+
+  [[nodiscard]] Materials of_components(const std::vector<std::string>& names) const {
+    if (auto done = refuse_given("the colours are those of columns"); !done) return done.error();
+    return take_components(colored_, names);
+  }
+
+  /// An error if the style has colours for kinds: there are none.
+  [[nodiscard]] Status refuse_given(const std::string& instead) const {
+    if (style_.colors.empty()) return {};
+    return Diagnostic::about("colors", "expected colours by kind, but " + instead);
+  }
+
+  /// A name may have been meant as a colour, and words as the names of columns, unless the error
+  /// tells what was meant.
+  static Diagnostic with_others(Diagnostic error, const std::string& name) {
+    if (error.message.ends_with('?')) return error;
+    error.message += name.find(' ') == std::string::npos ? did_you_mean_color(name)
+                                                         : ", or three columns: 'red green blue'";
     return error;
   }
 
@@ -101,9 +134,13 @@ class Coloring {
   }
 
   /// The particles of each text are told apart; `from_palette` of the colours are the palette's.
-  [[nodiscard]] ParticleMaterials of_groups(const TextColumn& texts,
-                                            const std::vector<SrgbColor>& colors,
-                                            std::size_t from_palette) const {
+  [[nodiscard]] Materials of_groups(const TextColumn& texts, std::vector<SrgbColor> colors,
+                                    std::size_t from_palette, bool are_species) const {
+    if (!style_.lacks_kinds) {
+      auto done = check_kinds(style_.colors, texts.texts, are_species, "colors");
+      if (!done) return done.error();
+    }
+    use_given(style_.colors, style_.nan_color, texts.texts, are_species, colors);
     ParticleMaterials made{by_text(texts, colors)};
     std::vector<std::size_t> counts(colors.size());
     for (const std::uint32_t index : texts.indices) ++counts[index];
@@ -121,6 +158,8 @@ class Coloring {
   }
 
   [[nodiscard]] Materials of_hex_texts(const TextColumn& texts) const {
+    if (auto done = refuse_given("the column " + quote(texts.name) + " has them"); !done)
+      return done.error();
     std::vector<SrgbColor> colors;
     std::vector<bool> wrong;
     for (const std::string& text : texts.texts) {
@@ -138,6 +177,7 @@ class Coloring {
 
   ColoredFrame colored_;
   const ParticleFrame& frame_;
+  const ParticleStyle& style_;
   const KnownKinds known_;
 };
 
@@ -154,7 +194,7 @@ Result<ParticleMaterials> make_materials(const ParticleFrame& frame, const Parti
                                              std::to_string(MaterialRef::max_colored) +
                                              " materials can be given colours");
   }
-  return std::visit(Coloring({frame, style.material, name_of, style.chosen, parallel_for}), rule);
+  return std::visit(Coloring({frame, style, name_of, parallel_for}), rule);
 }
 
 }  // namespace boule

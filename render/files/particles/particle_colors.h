@@ -23,16 +23,16 @@ struct ParticleMaterials {
   ParticleChoices own{};  ///< what the frame by itself has for that: of numbers and kinds
 };
 
-/// What is to be coloured, and in which material.
+/// What is to be coloured, and how. Precondition: style.material < MaterialRef::max_colored, if it
+/// is used.
 struct ColoredFrame {
   const ParticleFrame& frame;
-  std::uint32_t material = 0;  ///< < MaterialRef::max_colored
+  const ParticleStyle& style;
   const ParticleNamer& name_of;
-  const ParticleChoices* chosen = nullptr;  ///< as ParticleStyle
   const ParallelFor& parallel_for;
 
   [[nodiscard]] MaterialRef in(const SrgbColor& color) const {
-    return MaterialRef::colored(material, color);
+    return MaterialRef::colored(style.material, color);
   }
 };
 

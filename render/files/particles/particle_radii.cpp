@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/chunks.h"
+#include "core/base/text.h"
 #include "core/scene/number_text.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/particles/elements.h"
@@ -30,9 +31,13 @@ double table_radius(RadiusTable table, const std::string& species) {
 /// Decides rules for one frame.
 class Decision {
  public:
-  Decision(const ParticleFrame& frame, const ParticleChoices* chosen, ParticleChoices& own,
+  Decision(const ParticleFrame& frame, const ParticleStyle& style, ParticleChoices& own,
            const ParallelFor& parallel_for)
-      : frame_(frame), chosen_(chosen), own_(own), parallel_for_(parallel_for) {}
+      : frame_(frame),
+        given_(style.radii),
+        chosen_(style.chosen),
+        own_(own),
+        parallel_for_(parallel_for) {}
 
   Result<RadiusSource> operator()(double radius) const {
     RadiusSource source;
@@ -43,7 +48,7 @@ class Decision {
 
   Result<RadiusSource> operator()(const RadiusColumn& column) const {
     const auto found = find_particle_numbers(frame_, column.name, "radius");
-    if (!found) return found.error();
+    if (!found) return with_table(found.error(), column.name);
     RadiusSource source = from_column(column.name, 1);
     if (column.name == "diameter") {
       source.notes.emplace_back("the column 'diameter' is taken as radii");
@@ -76,6 +81,14 @@ class Decision {
   }
 
  private:
+  /// The error about a column, which may have been meant as the name of a table.
+  static Diagnostic with_table(Diagnostic error, const std::string& name) {
+    const auto& tables = names<RadiusTable>;
+    if (!error.message.ends_with('?'))
+      error.message += did_you_mean(ascii_lower(name), {tables.begin(), tables.end()});
+    return error;
+  }
+
   static RadiusSource from_column(const std::string& name, double factor) {
     RadiusSource source;
     source.column = name;
@@ -94,7 +107,9 @@ class Decision {
                                 : number_text(unit) + " angstrom");
     if (frame_.species) {
       for (const std::string& species : frame_.species->texts) {
-        source.by_species.push_back(table_radius(table, species) / unit);
+        const double* const given = find_given(given_, species, true);
+        source.by_species.push_back(given != nullptr ? *given
+                                                     : table_radius(table, species) / unit);
         if (source.by_species.back() == 0) own_.unlisted.push_back(species);
       }
     }
@@ -151,6 +166,7 @@ class Decision {
   }
 
   const ParticleFrame& frame_;
+  const std::vector<KindRadius>& given_;
   const ParticleChoices* chosen_;
   ParticleChoices& own_;
   const ParallelFor& parallel_for_;
@@ -213,6 +229,27 @@ Result<double> read_radii(const ParticleNumbers& numbers, double factor, double 
   return count > 0 ? smallest : 0;
 }
 
+/// Puts the radii that a style gives for species into what its rule has chosen.
+Status use_given(const ParticleFrame& frame, const ParticleStyle& style, RadiusSource& source) {
+  if (!source.column.empty()) {
+    return Diagnostic::about("radii", "the radii are those of " + source.text +
+                                          ": radii of species need a table or a number for the "
+                                          "others, such as 'vdw'");
+  }
+  if (!frame.species) return Diagnostic::about("radii", "the file tells no species");
+  const std::vector<std::string>& species = frame.species->texts;
+  if (!style.lacks_kinds) {
+    if (auto done = check_kinds(style.radii, species, true, "radii"); !done) return done;
+  }
+  source.by_species.resize(species.size(), source.all);
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    const double* const given = find_given(style.radii, species[i], true);
+    if (given != nullptr) source.by_species[i] = *given;
+  }
+  source.text += ", but for species that have their own";
+  return {};
+}
+
 /// A radius for each species; 0 for what is none, which only species without particles have.
 std::vector<float> radii_of_species(const std::vector<double>& by_species, double scale) {
   std::vector<float> radii;
@@ -225,10 +262,12 @@ std::vector<float> radii_of_species(const std::vector<double>& by_species, doubl
 
 }  // namespace
 
-Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const RadiusRule& rule,
-                                        const ParticleChoices* chosen, ParticleChoices& own,
-                                        const ParallelFor& parallel_for) {
-  return std::visit(Decision(frame, chosen, own, parallel_for), rule);
+Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const ParticleStyle& style,
+                                        ParticleChoices& own, const ParallelFor& parallel_for) {
+  auto source = std::visit(Decision(frame, style, own, parallel_for), style.radius);
+  if (!source || style.radii.empty()) return source;
+  if (auto done = use_given(frame, style, source.value()); !done) return done.error();
+  return source;
 }
 
 Result<ParticleRadii> make_radii(const ParticleFrame& frame, const RadiusSource& source,

@@ -201,7 +201,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   const std::size_t count = frame.size();
   if (auto done = check_style(style); !done) return done.error();
   if (auto done = check_cell(frame, style, frame.notes); !done) return done.error();
-  auto source = find_radius_source(frame, style.radius, style.chosen, made.own_, parallel_for);
+  auto source = find_radius_source(frame, style, made.own_, parallel_for);
   // A frame without particles may lack the columns that the others of its series have.
   if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
@@ -218,6 +218,8 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (!materials && count == 0) materials = ParticleMaterials{};
   if (!materials) return materials.error();
   made.keep_own(std::move(materials.value().own));
+  made.own_.given = style.colors;
+  made.own_.nan_color = style.nan_color;
   if (auto done = made.place(style, parallel_for); !done) return done.error();
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
@@ -235,6 +237,7 @@ void ParticleSpheres::keep_own(ParticleChoices colors) {
   if (colors.range) own_.range = colors.range;
   if (own_.column.empty()) own_.kinds = std::move(colors.kinds);
   own_.are_species = colors.are_species;
+  own_.all = colors.all;
 }
 
 bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {

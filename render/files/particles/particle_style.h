@@ -10,6 +10,7 @@
 #include "core/math/srgb.h"
 #include "core/scene/names.h"
 #include "render/files/particles/color_map.h"
+#include "render/files/particles/given_kinds.h"
 #include "render/files/particles/particle_choices.h"
 
 namespace boule {
@@ -65,8 +66,13 @@ using ColorRule =
 /// How the particles of a frame become spheres: what [[particles]] says.
 struct ParticleStyle {
   RadiusRule radius{};
-  double scale = 1;  ///< the radii times that, > 0
+  double scale = 1;                 ///< the radii times that, > 0
+  std::vector<KindRadius> radii{};  ///< of species, in place of the rule's, before the scale
   ColorRule color{};
+  std::vector<KindColor> colors{};      ///< in place of those that the rule gives to kinds
+  SrgbColor nan_color = missing_color;  ///< of what has no number, or no text
+  /// Kinds that are named above may be absent, as they may be in a frame of a series.
+  bool lacks_kinds = false;
   /// Of a series: what all its frames choose; null: the frame chooses by itself. A view.
   const ParticleChoices* chosen = nullptr;
   /// The index of the spheres' material; below MaterialRef::max_colored, unless they keep its

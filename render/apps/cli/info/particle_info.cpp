@@ -76,7 +76,7 @@ Json positions_info(const std::vector<Vec3d>& positions) {
 Json colors_info(const ParticleColors& colors) {
   if (colors.scale) {
     Json json = {{"by", colors.scale->by}, {"range", colors.scale->range}};
-    if (colors.scale->missing > 0) json["missing"] = shown(missing_color);
+    if (colors.scale->missing > 0) json["missing"] = shown(colors.scale->nan_color);
     return json;
   }
   if (colors.species.empty()) return "of the file or the material";

@@ -7,12 +7,14 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/scene/names.h"
 #include "render/apps/cli/options/options.h"
 #include "render/apps/job/choice.h"
 #include "render/apps/job/option_values.h"
+#include "render/files/file/nearest_name.h"
 
 namespace boule::cli {
 
@@ -22,18 +24,22 @@ inline std::string long_name(const std::string& names) {
 }
 
 inline CLI::ValidationError refuse(const std::string& names, const std::string& text,
-                                   const std::string& expected) {
+                                   const std::string& expected, const std::string& hint = {}) {
   return CLI::ValidationError(long_name(names),
-                              quote(text) + " is not understood, expected " + expected);
+                              quote(text) + " is not understood, expected " + expected + hint);
 }
 
+inline std::string no_hint(const std::string& /*text*/) { return {}; }
+
 /// An option whose value is parsed by `parse`, which returns a std::optional: none is an error.
-template <class Target, class Parse>
+/// `hint` tells what is probably meant where the text is not understood.
+template <class Target, class Parse, class Hint = std::string (*)(const std::string&)>
 void add_parsed(CLI::App& app, const std::string& names, Target& target, const Parse& parse,
-                const std::string& expected, const std::string& type, const std::string& help) {
-  const auto store = [&target, names, parse, expected](const std::string& text) {
+                const std::string& expected, const std::string& type, const std::string& help,
+                const Hint& hint = no_hint) {
+  const auto store = [&target, names, parse, expected, hint](const std::string& text) {
     const auto value = parse(text);
-    if (!value) throw refuse(names, text, expected);
+    if (!value) throw refuse(names, text, expected, hint(text));
     target = *value;
   };
   app.add_option_function<std::string>(names, store, help)->type_name(type);
@@ -79,7 +85,12 @@ void add_choice(CLI::App& app, const std::string& name, Target& target,
     }
     return std::nullopt;
   };
-  add_parsed(app, name, target, parse, "one of " + names, names, help);
+  const auto hint = [choices](const std::string& text) {
+    std::vector<std::string_view> known;
+    for (const Named<T>& choice : choices) known.push_back(choice.name);
+    return did_you_mean(text, known);
+  };
+  add_parsed(app, name, target, parse, "one of " + names, names, help, hint);
 }
 
 /// The option of one row of a list of choices (render/apps/job/choice.h).
@@ -103,7 +114,8 @@ void add_row(CLI::App& app, const Choice<Owner, Member, Rule, To>& row, Owner& o
   } else if constexpr (std::is_same_v<Rule, FlagRule>) {
     app.add_flag(names, target, row.help);
   } else {
-    add_parsed(app, names, target, row.rule.parse, row.rule.expected, row.value, row.help);
+    add_parsed(app, names, target, row.rule.parse, row.rule.expected, row.value, row.help,
+               row.rule.hint);
   }
 }
 

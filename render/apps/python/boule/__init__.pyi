@@ -405,8 +405,11 @@ class Particles:
     columns: Sequence[str] | None
     water: bool | None
     radius: float | str | None
+    radii: Mapping[str, float] | None
     scale: float | None
     color: _Color | _Key | None
+    colors: Mapping[str, _Color] | None
+    nan_color: _Color | None
     select: str | None
     wrap: bool | None
     replicate: Sequence[int] | None
@@ -420,8 +423,11 @@ class Particles:
         columns: Sequence[str] | None = ...,
         water: bool | None = ...,
         radius: float | str | None = ...,
+        radii: Mapping[str, float] | None = ...,
         scale: float | None = ...,
         color: _Color | _Key | None = ...,
+        colors: Mapping[str, _Color] | None = ...,
+        nan_color: _Color | None = ...,
         select: str | None = ...,
         wrap: bool | None = ...,
         replicate: Sequence[int] | None = ...,
@@ -494,8 +500,11 @@ class _Objects:
         columns: Sequence[str] | None = ...,
         water: bool | None = ...,
         radius: float | str | None = ...,
+        radii: Mapping[str, float] | None = ...,
         scale: float | None = ...,
         color: _Color | _Key | None = ...,
+        colors: Mapping[str, _Color] | None = ...,
+        nan_color: _Color | None = ...,
         select: str | None = ...,
         wrap: bool | None = ...,
         replicate: Sequence[int] | None = ...,
@@ -623,11 +632,16 @@ def load(
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
     color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
     range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
     radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
     select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
 ) -> Scene: ...
@@ -643,11 +657,16 @@ def frames(
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
     color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
     range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
     radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
     select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
 ) -> Iterator[Scene]: ...
@@ -663,11 +682,16 @@ def from_particles(
     quick: bool = ...,
     floor: bool = ...,
     color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
     range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
     radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
     select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
 ) -> Scene: ...
@@ -678,11 +702,16 @@ def from_ase(
     quick: bool = ...,
     floor: bool = ...,
     color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
     range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
     radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
     select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
 ) -> Scene: ...
@@ -723,11 +752,16 @@ def render(
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
     color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
     range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
     radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
     select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
 ) -> Picture: ...

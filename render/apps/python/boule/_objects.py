@@ -27,8 +27,8 @@ _MORE = {
     "sphere": ("color",),
     "plane": ("color",),
     "particles": (
-        "file", "frame", "format", "columns", "water", "radius", "scale", "color", "select",
-        "wrap", "replicate", "material",
+        "file", "frame", "format", "columns", "water", "radius", "radii", "scale", "color",
+        "colors", "nan_color", "select", "wrap", "replicate", "material",
     ),
 }  # fmt: skip
 # Arrays that take the place of a file: how many numbers each element has, and what makes data of

@@ -51,7 +51,8 @@ def with_look(*names, also=()):
 
 # What is said of particles in memory: not how a file is read.
 _OF_MEMORY = (
-    "look", "quick", "floor", "color", "map", "range", "radius", "scale", "select", "view", "up",
+    "look", "quick", "floor", "color", "colors", "map", "range", "nan_color", "radius", "radii",
+    "scale", "select", "wrap", "replicate", "view", "up",
 )  # fmt: skip
 
 
@@ -63,8 +64,9 @@ def load(source, *, frame=None, polygons="plane", **look):
     frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
     polygons: NFF polygons become planes ("plane"), are left out ("skip"), or refused ("error").
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
-        quick, floor, input_format, columns (names, "-" skips one), water, color, map, range,
-        radius, scale, select, view, up.
+        quick, floor, input_format, columns (names, "-" skips one), water, color, colors (a
+        dictionary of colours by kind), map, range, nan_color, radius, radii (a dictionary of radii
+        by species), scale, select, wrap, replicate, view, up.
 
     Raises boule.Error with file, line, column and key.
     """

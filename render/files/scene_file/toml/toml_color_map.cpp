@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/srgb.h"
+#include "core/math/color_names.h"
+#include "render/files/file/nearest_name.h"
 
 namespace boule {
 namespace {
@@ -16,8 +17,8 @@ ColorMap read_own_map(TomlTable& table) {
   table.read("map", texts);
   std::vector<SrgbColor> colors;
   for (const std::string& text : texts) {
-    const auto color = parse_hex_color(text);
-    if (!color) table.report("map", quote(text) + " is no colour, expected \"#rrggbb\"");
+    const auto color = parse_color(text);
+    if (!color) table.report("map", no_color(text));
     colors.push_back(color.value_or(SrgbColor{}));
   }
   if (colors.empty()) {
@@ -27,13 +28,24 @@ ColorMap read_own_map(TomlTable& table) {
   return ColorMap(std::move(colors));
 }
 
+ColorMap read_named_map(TomlTable& table) {
+  if (!table.has("map")) return ColorMap();
+  std::string name;
+  table.read("map", name);
+  const auto map = named_color_map(name);
+  if (!map) {
+    table.report("map", "unknown " + quote(name) + ", expected " +
+                            list_names({names<NamedColorMap>.begin(), names<NamedColorMap>.end()}) +
+                            ", with _r for the reverse" + did_you_mean_map(name));
+  }
+  return map.value_or(ColorMap());
+}
+
 }  // namespace
 
 ColorMapKeys read_color_map(TomlTable& table) {
   ColorMapKeys keys;
-  keys.map = table.has_array("map")
-                 ? read_own_map(table)
-                 : ColorMap(static_cast<NamedColorMap>(table.choose("map", names<NamedColorMap>)));
+  keys.map = table.has_array("map") ? read_own_map(table) : read_named_map(table);
   if (!table.has("range")) return keys;
   auto& [least, largest] = keys.range.emplace();
   table.read("range", *keys.range);

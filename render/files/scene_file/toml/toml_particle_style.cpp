@@ -31,9 +31,23 @@ RadiusRule read_radius(TomlTable& table) {
   table.read("radius", text);
   if (text.empty()) table.report("radius", "expected a number, a column, \"vdw\" or \"covalent\"");
   const auto& tables = names<RadiusTable>;
-  const auto found = std::find(tables.begin(), tables.end(), text);
+  const auto found = std::find(tables.begin(), tables.end(), ascii_lower(text));
   if (found == tables.end()) return RadiusColumn{std::move(text)};
   return static_cast<RadiusTable>(found - tables.begin());
+}
+
+/// What a table has for kinds, each by its name: `read_one(table of kinds, name)` reads it.
+template <class Value, class Read>
+std::vector<OfKind<Value>> read_kinds(TomlTable& table, std::string_view key,
+                                      const Read& read_one) {
+  std::vector<OfKind<Value>> all;
+  auto kinds = table.table(key);
+  if (!kinds) return all;
+  for (const std::string& kind : kinds->keys()) {
+    kinds->has(kind);
+    all.push_back({kind, read_one(*kinds, kind)});
+  }
+  return all;
 }
 
 ColorRule read_color_text(TomlTable& table) {
@@ -76,7 +90,12 @@ ParticleStyle read_particle_style(TomlTable& table) {
   ParticleStyle style;
   style.radius = read_radius(table);
   style.scale = read_positive(table, "scale", style.scale);
+  style.radii = read_kinds<double>(table, "radii", [](TomlTable& kinds, std::string_view kind) {
+    return read_positive(kinds, kind, 1);
+  });
   style.color = read_color(table);
+  style.colors = read_kinds<SrgbColor>(table, "colors", read_color_codes);
+  if (table.has("nan_color")) style.nan_color = read_color_codes(table, "nan_color");
   table.read("select", style.select);
   table.read("wrap", style.wrap);
   table.read("replicate", style.replicate);

@@ -72,6 +72,7 @@ class ParticleTable {
 
 std::optional<TomlParticles> ParticleTable::read() {
   keys_.style.chosen = find_choices(options_.choices, table_.path());
+  keys_.style.lacks_kinds = options_.frame.has_value();
   keys_.file.wanted = columns_of(keys_.style);
   auto frame = read_frame();
   if (!frame) return std::nullopt;

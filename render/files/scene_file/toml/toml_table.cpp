@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/math/srgb.h"
+#include "core/math/color_names.h"
 #include "render/files/file/float32.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/file/npz_member.h"
@@ -237,8 +237,8 @@ void TomlTable::read(std::string_view key, Color& out) {
   const TomlValue* value = find(key);
   if (value == nullptr) return;
   if (const auto* text = std::get_if<std::string>(&value->data)) {
-    const auto color = parse_hex_color(*text);
-    if (!color) return report(key, quote(*text) + " is no colour, expected \"#rrggbb\"");
+    const auto color = parse_color(*text);
+    if (!color) return report(key, no_color(*text));
     out = linear_of(*color);
     return;
   }
@@ -322,6 +322,13 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     list.push_back(inner(*members, element.place, path_of(name)));
   }
   return list;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  keys.reserve(members_->size());
+  for (const TomlMember& member : *members_) keys.push_back(member.key);
+  return keys;
 }
 
 std::vector<TomlTable> TomlTable::named_tables(std::string_view key) {

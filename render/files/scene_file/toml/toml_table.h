@@ -27,6 +27,9 @@ class TomlTable {
   /// True if the table has no keys at all.
   [[nodiscard]] bool is_empty() const { return members_->empty(); }
 
+  /// All of its keys, in the order of the file.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
   /// True if the table has `key`, which becomes known.
   bool has(std::string_view key);
 
@@ -54,8 +57,8 @@ class TomlTable {
   /// A point: three numbers, from which the origin is subtracted before they are rounded. That of a
   /// key that is absent, too: `out` holds its default.
   void read_point(std::string_view key, Vec3f& out);
-  /// Three linear numbers, or "#rrggbb". A "color" of three numbers that look like codes up to 255
-  /// gets a note.
+  /// Three linear numbers, or a text that parse_color() takes. A "color" of three numbers that look
+  /// like codes up to 255 gets a note.
   void read(std::string_view key, Color& out);
   void read(std::string_view key, std::string& out);
   /// Texts, as an array.

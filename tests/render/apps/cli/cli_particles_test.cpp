@@ -19,6 +19,9 @@ TEST_F(Particles, PrintedSceneShowsThem) {
       {},
       {"--quick"},
       {"--floor", "--view", "1,2,-0.5"},
+      {"--colors", "O=crimson,h=#336699", "--radii", "O=1.5", "--wrap", "--replicate", "2x1x2"},
+      {"--color", "speed", "--map", "Navy,white", "--nan-color", "gold"},
+      {"--color", "teal", "--colors", "O=red"},
       {"--look", "dark", "--color", "speed", "--map", "turbo", "--range", "0,2"},
       {"--look", "plain", "--color", "#4080c0", "--radius", "0.5", "--scale", "0.7", "--up", "y"},
       {"--select", "speed > 1", "--color", "element", "--radius", "covalent", "--view", "-z"}};
@@ -56,6 +59,8 @@ TEST_F(Particles, OptionsMustFitTheFile) {
   const std::string file = water();
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--color", "sped"}, "'sped'"},
+      {{"--colors", "Oo=red"}, "(key '--colors')"},
+      {{"--radii", "Oo=1"}, "(key '--radii')"},
       {{"--radius", "size"}, "'size'"},
       {{"--select", "speed >"}, "(key '--select')"},
       {{"--frame", "1"}, "has no frame 1"},

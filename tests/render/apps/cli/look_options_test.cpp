@@ -41,7 +41,12 @@ TEST(LookOptions, AreKept) {
                                     "--frame",        "-2",
                                     "--input-format", "xyz",
                                     "--columns",      "id,-,x,y,z",
-                                    "--floor",        "--water"});
+                                    "--floor",        "--water",
+                                    "--colors",       "O=crimson,7=#336699,a=b=red",
+                                    "--radii",        "Na=1.02,Cl=1.81",
+                                    "--nan-color",    "Silver",
+                                    "--replicate",    "2x3x1",
+                                    "--wrap"});
   EXPECT_EQ(look.look, Look::dark);
   EXPECT_EQ(look.color, "|v|");
   EXPECT_EQ(look.map, "#000000,#ff0000");
@@ -54,6 +59,12 @@ TEST(LookOptions, AreKept) {
   EXPECT_EQ(look.frame, -2);
   EXPECT_EQ(look.format, "xyz");
   EXPECT_EQ(look.columns, (std::vector<std::string>{"id", "-", "x", "y", "z"}));
+  EXPECT_EQ(look.colors,
+            (std::vector<KindText>{{"O", "crimson"}, {"7", "#336699"}, {"a=b", "red"}}));
+  EXPECT_EQ(look.radii, (std::vector<KindText>{{"Na", "1.02"}, {"Cl", "1.81"}}));
+  EXPECT_EQ(look.nan_color, "Silver");
+  EXPECT_EQ(look.replicate, (std::array{2, 3, 1}));
+  EXPECT_TRUE(look.wrap);
   EXPECT_TRUE(look.floor);
   EXPECT_TRUE(look.water);
   EXPECT_FALSE(look.quick);
@@ -111,7 +122,20 @@ const Wrong wrong_looks[] = {
     {{"--map", "viridis", "--color", "element"}, "--map needs --color COLUMN"},
     {{"--range", "0,1", "--color", "#ffffff"}, "--range needs --color COLUMN"},
     {{"--color", "v", "--map", "rainbow"}, "--map: 'rainbow' is not understood"},
-    {{"--color", "v", "--map", "#ffffff,red"}, "--map: '#ffffff,red' is not understood"},
+    {{"--color", "v", "--map", "Virdis_r"}, "; did you mean 'viridis_r'?"},
+    {{"--color", "v", "--map", "#ffffff,rde"}, "; did you mean 'red'?"},
+    {{"--colors", "O=crimsn"}, "; did you mean 'crimson'?"},
+    {{"--colors", "O"}, "--colors: 'O' is not understood, expected KIND=COLOR,..."},
+    {{"--colors", "=red"}, "--colors: '=red' is not understood"},
+    {{"--colors", "O=red,O=blue"}, "each kind once"},
+    {{"--radii", "Na=0"}, "--radii: 'Na=0' is not understood"},
+    {{"--nan-color", "sliver"}, "; did you mean 'silver'?"},
+    {{"--background", "transparant"}, "; did you mean 'transparent'?"},
+    {{"--background", "Blakc"}, "; did you mean 'black'?"},
+    {{"--look", "papre"}, "; did you mean 'paper'?"},
+    {{"--input-format", "xzy"}, "; did you mean 'xyz'?"},
+    {{"--replicate", "2x2"}, "--replicate: '2x2' is not understood, expected AxBxC"},
+    {{"--replicate", "2x0x2"}, "--replicate: '2x0x2' is not understood"},
     {{"--color", "v", "--range", "1,1"}, "--range: '1,1' is not understood"},
     {{"--color", "v", "--range", "0"}, "--range: '0' is not understood"},
     {{"--color", "v", "--range", "0,inf"}, "--range: '0,inf' is not understood"},

@@ -27,20 +27,31 @@ TEST(ParticleLook, HasExactlyTheOptions) {
   look.frame = -3;
   look.water = true;
   look.radius = "0.50";
+  look.radii = {{"Na", "1.02"}};
   look.scale = 0.1;
   look.select = "name == \"CA\"";
   look.color = "|v|";
   look.map = "#000000,#ff8000";
   look.range = {{-1, 2.5}};
+  look.colors = {{"O", "crimson"}, {"a\"b", "#336699"}};
+  look.nan_color = "white";
+  look.wrap = true;
+  look.replicate = {{2, 1, 3}};
   EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
                                         "format = \"dump\"\n"
                                         "columns = [\"x\", \"-\", \"z\"]\n"
                                         "frame = -3\n"
                                         "water = true\n"
                                         "radius = 0.50\n"
+                                        "radii = { \"Na\" = 1.02 }\n"
                                         "scale = 0.1\n"
                                         "select = \"name == \\\"CA\\\"\"\n"
+                                        "wrap = true\n"
+                                        "replicate = [2, 1, 3]\n"
                                         "material = \"particles\"\n"
+                                        "colors = { \"O\" = \"crimson\", \"a\\\"b\" = "
+                                        "\"#336699\" }\n"
+                                        "nan_color = \"white\"\n"
                                         "[particles.color]\n"
                                         "by = \"|v|\"\n"
                                         "map = [\"#000000\", \"#ff8000\"]\n"

@@ -248,7 +248,7 @@ def test_a_forked_process_renders_too(ball):
         ({"frame": 2**40}, "frame", "at most 2147483647, is 1099511627776"),
         ({"seed": -1}, "seed", "expected a whole number from 0"),
         ({"filter": "tint"}, "filter", "did you mean 'tent'?"),
-        ({"background": "red"}, "background", "expected a colour"),
+        ({"background": "rde"}, "background", "expected a colour"),
         ({"outline": 101}, "outline", "is 101"),
         ({"crop": (0, 0, 1000, 10)}, "crop", "lie within the frame"),
         ({"aov": "deep"}, "aov", "expected some of depth"),

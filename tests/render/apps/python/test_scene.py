@@ -105,7 +105,7 @@ def test_values_are_set_checked_and_kept():
     "make, key, words",
     [
         (lambda: boule.Plastic(colour="#ffffff"), "colour", "did you mean 'color'?"),
-        (lambda: boule.Plastic(color="red"), "color", "is no colour"),
+        (lambda: boule.Plastic(color="rde"), "color", "is no colour"),
         (lambda: boule.Plastic(color=(1, 2)), "color", "3"),
         (lambda: boule.Plastic(specular=-1), "specular", "must be finite and 0 or above, is -1"),
         (lambda: boule.Glass(ior="high"), "ior", "expected a number"),

@@ -34,9 +34,11 @@ def pixels(scene, **options):
 
 def test_particle_file_matches_the_program(water, tmp_path):
     look = {"look": "dark", "color": "charge", "map": ["#0000ff", "#ff0000"], "range": (-1, 1),
-            "radius": "covalent", "scale": 1.5, "view": "-x", "floor": True}  # fmt: skip
+            "radius": "covalent", "radii": {"O": 0.8}, "scale": 1.5, "view": "-x", "floor": True,
+            "wrap": True, "replicate": (2, 1, 1), "nan_color": "white"}  # fmt: skip
     told = ["--look", "dark", "--color", "charge", "--map", "#0000ff,#ff0000", "--range", "-1,1",
-            "--radius", "covalent", "--scale", "1.5", "--view", "-x", "--floor"]  # fmt: skip
+            "--radius", "covalent", "--radii", "O=0.8", "--scale", "1.5", "--view", "-x", "--floor",
+            "--wrap", "--replicate", "2x1x1", "--nan-color", "white"]  # fmt: skip
     subprocess.run([program(), "render", water, "-o", tmp_path / "a.exr", "--size", "48x36",
                     "--spp", "2", "-q", *told], check=True)  # fmt: skip
     boule.render(water, **SIZE, **look).save(tmp_path / "b.exr")
@@ -268,6 +270,9 @@ def test_frames_of_numbered_files(tmp_path):
         (lambda p: boule.load(p, color="chrge"), "color", "did you mean 'charge'"),
         (lambda p: boule.load(p, color="#12"), "color", "is not understood"),
         (lambda p: boule.load(p, map="viridis"), "map", "needs 'color'"),
+        (lambda p: boule.load(p, colors={"O": "crimsn"}), "colors", "did you mean 'crimson'?"),
+        (lambda p: boule.load(p, colors={"Oo": "red"}), "colors", "no particle is of the kind"),
+        (lambda p: boule.load(p, nan_color="sliver"), "nan_color", "did you mean 'silver'?"),
         (lambda p: boule.load(p, radius=-1), "radius", "a number above 0"),
         (lambda p: boule.load(p, view=(0, 0, 0)), "view", "three numbers"),
         (lambda p: boule.load(p, frame=7), "frame", "has no frame 7"),

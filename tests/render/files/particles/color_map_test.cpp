@@ -41,6 +41,22 @@ TEST(ColorMap, HasTheColorsOfItsName) {
   }
 }
 
+TEST(ColorMap, NamesHaveAnyCaseAndAReverse) {
+  for (const std::string_view name : names<NamedColorMap>) {
+    const auto map = named_color_map(name);
+    const auto reversed = named_color_map(std::string(name) + "_R");
+    ASSERT_TRUE(map && reversed) << name;
+    for (const double at : {0.0, 0.3, 1.0}) EXPECT_EQ(map->color(at), reversed->color(1 - at));
+    EXPECT_EQ(map->is_diverging(), name == "coolwarm");
+    EXPECT_EQ(reversed->is_diverging(), map->is_diverging());
+  }
+  EXPECT_EQ(named_color_map("ViriDis")->color(0), (SrgbColor{0x44, 0x01, 0x54}));
+  for (const char* text : {"", "_r", "viridis_r_r", "viridis ", "rainbow"})
+    EXPECT_FALSE(named_color_map(text)) << text;
+  EXPECT_EQ(did_you_mean_map("Virdis_r"), "; did you mean 'viridis_r'?");
+  EXPECT_EQ(did_you_mean_map("rainbow"), "");
+}
+
 TEST(ColorMap, GreyIsGreyAndGrows) {
   const ColorMap map(NamedColorMap::grey);
   for (int i = 0; i <= 255; ++i) {

@@ -9,35 +9,18 @@
 namespace boule {
 namespace {
 
+using test::colors_of;
 using test::error_of;
+using test::meaning_of;
 using test::notes_of;
 using test::row_of;
 using test::row_of_particles;
+using test::row_with;
 using test::spheres_of;
 using test::text_column;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-/// The colours of the spheres as "#rrggbb", "-" where they keep the material's.
-std::vector<std::string> colors_of(const ParticleFrame& frame, const ParticleStyle& style = {}) {
-  std::vector<std::string> colors;
-  for (const Sphere& sphere : spheres_of(frame, style)) {
-    EXPECT_EQ(sphere.material.index(), style.material);
-    colors.push_back(sphere.material.has_color() ? hex_text(sphere.material.color()) : "-");
-  }
-  return colors;
-}
-
-ParticleColors meaning_of(const ParticleFrame& frame, const ParticleStyle& style = {}) {
-  return ParticleSpheres::make(frame, style).value().colors();
-}
-
-ParticleFrame row_with(const std::string& name, std::vector<double> values) {
-  ParticleFrame frame = row_of_particles(values.size());
-  frame.numbers.push_back({name, std::move(values)});
-  return frame;
-}
 
 TEST(Colors, AreTheMaterialsByDefault) {
   EXPECT_THAT(colors_of(row_of_particles(2), {.material = 3000}), ElementsAre("-", "-"));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -78,6 +80,27 @@ inline std::string notes_of(const ParticleFrame& frame, const ParticleStyle& sty
   std::string all;
   for (const std::string& note : made.value().notes()) all += note + "\n";
   return all;
+}
+
+/// The colours of the spheres as "#rrggbb", "-" where they keep the material's.
+inline std::vector<std::string> colors_of(const ParticleFrame& frame,
+                                          const ParticleStyle& style = {}) {
+  std::vector<std::string> colors;
+  for (const Sphere& sphere : spheres_of(frame, style)) {
+    EXPECT_EQ(sphere.material.index(), style.material);
+    colors.push_back(sphere.material.has_color() ? hex_text(sphere.material.color()) : "-");
+  }
+  return colors;
+}
+
+inline ParticleColors meaning_of(const ParticleFrame& frame, const ParticleStyle& style = {}) {
+  return ParticleSpheres::make(frame, style).value().colors();
+}
+
+inline ParticleFrame row_with(const std::string& name, std::vector<double> values) {
+  ParticleFrame frame = row_of_particles(values.size());
+  frame.numbers.push_back({name, std::move(values)});
+  return frame;
 }
 
 }  // namespace boule::test

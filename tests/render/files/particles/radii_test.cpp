@@ -61,6 +61,25 @@ TEST(Radii, AreVanDerWaalsOfElements) {
   EXPECT_EQ(source_of(frame), "van der Waals radii, in nm");
 }
 
+TEST(Radii, AreThoseGivenForSpecies) {
+  const ParticleFrame frame = row_of({"Na", "bead", "Cl"});
+  const std::vector<KindRadius> given{{"na", 1.02}, {"bead", 3}};
+  EXPECT_EQ(radii_of(frame, {.radius = RadiusTable::covalent, .scale = 2, .radii = given}),
+            (Radii{2.04F, 6, 2.04F}));
+  EXPECT_EQ(radii_of(frame, {.radius = 0.5, .radii = given}), (Radii{1.02F, 3, 0.5F}));
+  EXPECT_EQ(notes_of(frame, {.radius = RadiusTable::covalent, .radii = given}), "");
+  EXPECT_EQ(source_of(frame, {.radius = 0.5, .radii = given}),
+            "the same for all, but for species that have their own");
+  EXPECT_EQ(error_of(frame, {.radii = {{"baed", 1}}}),
+            "radii: no particle is of the kind 'baed', expected 'Na', 'bead' or 'Cl'; did you "
+            "mean 'bead'?");
+  EXPECT_EQ(error_of(row_of_particles(1), {.radii = given}), "radii: the file tells no species");
+  ParticleFrame own = frame;
+  own.numbers = {{"radius", {1, 2, 3}}};
+  EXPECT_THAT(error_of(own, {.radii = given}),
+              HasSubstr("radii: the radii are those of the column"));
+}
+
 TEST(Radii, AreHalfTheTypicalDistanceElse) {
   for (const ParticleFrame& frame : {row_of_particles(5), row_of({"1", "2", "1"}),
                                      row_of({"C", "bead"}), row_of({"C", "A", "A"})}) {
@@ -127,6 +146,8 @@ TEST(Radii, RefuseUnknownColumnsAndTexts) {
   frame.texts = {text_column("name", {"a", "b"})};
   EXPECT_EQ(error_of(frame, {.radius = RadiusColumn{"sise"}}),
             "radius: there is no column 'sise'; did you mean 'size'?");
+  EXPECT_THAT(error_of(frame, {.radius = RadiusColumn{"Covalnt"}}),
+              HasSubstr("; did you mean 'covalent'?"));
   EXPECT_EQ(error_of(frame, {.radius = RadiusColumn{"quantity"}}),
             "radius: there is no column 'quantity', expected 'x', 'y', 'z', 'size' or 'name'");
   EXPECT_EQ(error_of(frame, {.radius = RadiusColumn{"name"}}),

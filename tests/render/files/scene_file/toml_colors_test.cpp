@@ -16,9 +16,10 @@ Scene load(const std::string& text) {
 TEST(TomlColors, MayBeWrittenInHex) {
   const Scene scene = load(
       "[background]\ncolor = \"#000000\"\nambient = \"#ffffff\"\n"
-      "[material.red]\ncolor = \"#C04040\"\n"
+      "[material.red]\ncolor = \"#C04040\"\n[material.named]\ncolor = \"Crimson\"\n"
       "[[light]]\nposition = [1, 2, 3]\nintensity = \"#ffbc00\"\n");
   EXPECT_EQ(std::get<Matte>(scene.materials[0].material).color, linear_of({0xc0, 0x40, 0x40}));
+  EXPECT_EQ(std::get<Matte>(scene.materials[1].material).color, linear_of({0xdc, 0x14, 0x3c}));
   EXPECT_EQ(std::get<PointLight>(scene.lights[0]).intensity, linear_of({0xff, 0xbc, 0}));
   EXPECT_EQ(scene.ambient, gray(1));
 }
@@ -76,7 +77,7 @@ TEST(TomlColors, WrongOnesAreRefusedWithTheirPlace) {
   };
   expect("[material.m]", "\"c04040\"", "material.m.color", "expected \"#rrggbb\"");
   expect("[material.m]", "\"#c0404\"", "material.m.color", "expected \"#rrggbb\"");
-  expect("[material.m]", "\"red\"", "material.m.color", "expected \"#rrggbb\"");
+  expect("[material.m]", "\"rde\"", "material.m.color", "; did you mean 'red'?");
   expect("[[sphere]]", "[1.5, 0, 0]", "sphere[0].color", "from 0 to 1");
   expect("[[sphere]]", "[-0.5, 0, 0]", "sphere[0].color", "from 0 to 1");
   expect("[[plane]]", "\"#12345\"", "plane[0].color", "expected \"#rrggbb\"");

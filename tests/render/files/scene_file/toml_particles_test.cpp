@@ -342,7 +342,7 @@ TEST_F(TomlParticlesTest, WrongMapsAreRefusedInTheirTable) {
   expect("by", "\"hex\"", "hex");
   expect("by", "\"\"", "the name of a column");
   expect("by", "3", "a string");
-  expect("map", "\"rainbow\"", "unknown 'rainbow'");
+  expect("map", "\"virdis_r\"", "unknown 'virdis_r'");
   expect("map", "[\"#12\"]", "expected \"#rrggbb\"");
   expect("range", "[2, 1]", "below the second");
   expect("range", "[1]", "2 numbers");

@@ -159,7 +159,7 @@ TEST_F(SphereColorsTest, WrongKeysAreRefused) {
   expect_refused("scalar = \"v.npy\"\ncolors = \"c.npy\"\n", "scalar", "beside 'colors'");
   expect_refused("colors = \"c.npy\"\ncolor = \"#102030\"\n", "colors", "beside 'color'");
   expect_refused("map = \"viridi\"\nscalar = \"v.npy\"\n", "map", "did you mean 'viridis'");
-  expect_refused("map = [\"#000000\", \"red\"]\nscalar = \"v.npy\"\n", "map", "'red' is no colour");
+  expect_refused("map = [\"#000000\", \"rde\"]\nscalar = \"v.npy\"\n", "map", "'rde' is no colour");
   expect_refused("map = []\nscalar = \"v.npy\"\n", "map", "expected");
   expect_refused("range = [1, 1]\nscalar = \"v.npy\"\n", "range", "below the second");
   expect_refused("range = [0, inf]\nscalar = \"v.npy\"\n", "range", "finite");
