@@ -14,6 +14,12 @@ enum class FittedCamera { pinhole, orthographic };
 template <>
 inline constexpr std::array<std::string_view, 2> names<FittedCamera>{"pinhole", "orthographic"};
 
+/// How a fitted camera stands that is not told its direction: what is upward stays upward, or the
+/// spheres' principal axes decide (core/scene/principal_pose.h).
+enum class FittedPose { upright, principal };
+template <>
+inline constexpr std::array<std::string_view, 2> names<FittedPose>{"upright", "principal"};
+
 namespace rule {
 /// The allowed margins, which leave some of the picture.
 inline constexpr NumberRule margin{.low = 0, .high = 0.5, .takes_high = false};
@@ -29,6 +35,9 @@ struct CameraFit {
   std::optional<FovAxis> fov_axis{};  ///< of a pinhole; none: the shorter side of the picture
   float margin = 0.05F;               ///< left free at each edge, as a fraction of the picture's
                                       ///< side; 0 to 0.5
+  /// None: upright, unless a reader knows that axes mean nothing. Principal has no direction or up.
+  std::optional<FittedPose> pose{};
+  float roll = 0;  ///< degrees by which the picture turns counter-clockwise
 
   friend bool operator==(const CameraFit&, const CameraFit&) = default;
 };
@@ -38,7 +47,8 @@ inline constexpr auto fields<CameraFit> = field_list(
     "fit", field("type", &CameraFit::type),
     field("direction", &CameraFit::direction, rule::direction),
     field("up", &CameraFit::up, rule::direction), field("fov", &CameraFit::fov, rule::acute_view),
-    field("fov_axis", &CameraFit::fov_axis), field("margin", &CameraFit::margin, rule::margin));
+    field("fov_axis", &CameraFit::fov_axis), field("margin", &CameraFit::margin, rule::margin),
+    field("pose", &CameraFit::pose), field("roll", &CameraFit::roll, rule::finite));
 
 /// The first Problem of a fit: a field against its rule, or up within 1e-6 rad of the direction.
 std::optional<Problem> find_problem(const CameraFit& fit);

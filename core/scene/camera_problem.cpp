@@ -32,6 +32,8 @@ void check_whole(ProblemFinder& finder, const CameraPose& pose) {
 }
 
 void check_whole(ProblemFinder& finder, const CameraFit& fit) {
+  finder.require("pose", fit.pose != FittedPose::principal || !(fit.direction || fit.up),
+                 "principal takes neither a direction nor an up");
   if (!fit.direction || !fit.up) return;
   check_up(finder, normalize(vec_cast<double>(*fit.direction)), *fit.up);
 }

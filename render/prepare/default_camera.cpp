@@ -6,6 +6,7 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
+#include "core/scene/principal_pose.h"
 #include "render/prepare/extreme_spheres.h"
 #include "render/prepare/shown_extremes.h"
 
@@ -32,9 +33,9 @@ Camera camera_without_spheres(const Scene& scene, int width, int height) {
 }
 
 /// What default_view() depends on.
-std::vector<SphereMeasure> measures_of_view(const Scene& scene) {
+std::vector<SphereMeasure> measures_of_view(const Scene& scene, const CameraFit& fit) {
   std::vector<SphereMeasure> measures;
-  for (const Vec3d& axis : measured_axes(scene.fit, scene.planes)) {
+  for (const Vec3d& axis : measured_axes(fit, scene.planes)) {
     for (const double weight : {0.0, 1.0}) {
       measures.push_back({axis, weight});
       measures.push_back({axis * -1.0, weight});
@@ -43,11 +44,16 @@ std::vector<SphereMeasure> measures_of_view(const Scene& scene) {
   return measures;
 }
 
+View view_of(const Scene& scene, const CameraFit& fit, const ParallelFor& parallel_for) {
+  const ShownExtremes extremes(scene, parallel_for);
+  return default_view(fit, extremes.runs(measures_of_view(scene, fit)), scene.planes, parallel_for);
+}
+
 /// The same as for a list of spheres, but by those only that the camera depends on.
 Camera camera_of_packed(const Scene& scene, int width, int height) {
   const PackedSpheres& packed = *scene.packed;
-  const View view =
-      default_view(scene.fit, extreme_spheres(packed, measures_of_view(scene)), scene.planes);
+  const View view = default_view(
+      scene.fit, extreme_spheres(packed, measures_of_view(scene, scene.fit)), scene.planes);
   CameraFitter fitter(scene.fit, view, width, height);
   fitter.add(extreme_spheres(packed, fitter.measures()));
   return fitter.camera();
@@ -77,9 +83,7 @@ SphereBounds bounds_of(const Scene& scene) {
 }
 
 View view_of(const Scene& scene, const ParallelFor& parallel_for) {
-  const ShownExtremes extremes(scene, parallel_for);
-  return default_view(scene.fit, extremes.runs(measures_of_view(scene)), scene.planes,
-                      parallel_for);
+  return view_of(scene, settled_fit(scene, parallel_for), parallel_for);
 }
 
 void add_spheres(const Scene& scene, CameraFitter& fitter, const ParallelFor& parallel_for) {
@@ -90,7 +94,8 @@ void add_spheres(const Scene& scene, CameraFitter& fitter, const ParallelFor& pa
 Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
   if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
   if (count_primitives(scene).spheres == 0) return camera_without_spheres(scene, width, height);
-  CameraFitter fitter(scene.fit, view_of(scene, parallel_for), width, height);
+  const CameraFit fit = settled_fit(scene, parallel_for);
+  CameraFitter fitter(fit, view_of(scene, fit, parallel_for), width, height);
   add_spheres(scene, fitter, parallel_for);
   return fitter.camera();
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/math/geometry.h"
+#include "core/math/similarity.h"
 #include "render/prepare/fold_spheres.h"
 
 namespace boule {
@@ -115,6 +116,14 @@ Vec3d way_to_camera(Compass compass, const Ranges& ranges, bool has_floor) {
 /// in a picture in which the other is looked along.
 bool are_parallel(const Vec3d& a, const Vec3d& b) { return length(cross(a, b)) < 1e-3; }
 
+/// The picture turns one way when the camera's up turns the other way.
+View rolled(const View& view, double degrees) {
+  const Vec3d right = normalize(cross(view.direction, view.up));
+  const Vec3d up = cross(right, view.direction);
+  const auto [cosine, sine] = turn_of(degrees);
+  return {view.direction, up * cosine + right * sine};
+}
+
 }  // namespace
 
 View default_view(const CameraFit& fit, const std::vector<Sphere>& spheres,
@@ -140,7 +149,7 @@ View default_view(const CameraFit& fit, const SphereRuns& spheres, const std::ve
     // Seen from above or below, what is behind is upward, as on a map.
     view.up = compass_of(view.up).front * -1.0;
   }
-  return view;
+  return fit.roll == 0 ? view : rolled(view, static_cast<double>(fit.roll));
 }
 
 std::array<Vec3d, 3> measured_axes(const CameraFit& fit, const std::vector<Plane>& planes) {

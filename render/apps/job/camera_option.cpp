@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/scene/principal_pose.h"
+
 namespace boule {
 
 /// The keys are read as those of a scene that has nothing else.
@@ -26,7 +28,9 @@ Status use_camera(const std::string& keys, std::optional<int> frame, LoadedScene
   Scene& scene = read.value().scene;
   loaded.scene.camera = std::move(scene.camera);
   loaded.scene.distortion = std::move(scene.distortion);
-  if (!loaded.scene.camera) loaded.scene.fit = scene.fit;
+  if (loaded.scene.camera) return {};
+  loaded.scene.fit = scene.fit;
+  loaded.scene.fit = settled_fit(loaded.scene);
   return {};
 }
 

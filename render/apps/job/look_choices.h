@@ -26,7 +26,7 @@ namespace detail {
 
 inline auto file_and_view_choices() {
   using L = LookOptions;
-  constexpr const char* directions = "x, -x, y, -y, z, -z or three numbers X,Y,Z";
+  constexpr const char* directions = "x, -x, y, -y, z, -z, iso or three numbers X,Y,Z";
   constexpr WholeRule any_frame{.low = std::numeric_limits<int>::min(),
                                 .high = std::numeric_limits<int>::max()};
   using namespace heading;
@@ -46,10 +46,22 @@ inline auto file_and_view_choices() {
       choice<L>(look, "quick", &L::quick, FlagRule{}, "",
                 "A sketch in place of a look: a headlight, 4 samples"),
       choice<L>(look, "floor", &L::floor, FlagRule{}, "", "A floor below the particles"),
-      choice<L>(look, "view", &L::view, TextRule{parse_direction, directions}, "DIR",
-                "The way the camera looks: x, -x ... or X,Y,Z (what shows the most)"),
+      choice<L>(
+          look, "view", &L::view,
+          TextRule{parse_view, std::string("principal, upright, ") + directions, ',', hint_view},
+          "DIR",
+          "The way the camera looks: x, -x ... iso, X,Y,Z; by principal axes; or upright, which "
+          "shows the most (principal for molecules without a lattice, else upright)"),
       choice<L>(look, "up", &L::up, TextRule{parse_direction, directions}, "DIR",
                 "What is upward (z where the file has a cell, else y)"),
+      choice<L>(look, "roll", &L::roll, rule::from_to(-360, 360), "DEG",
+                "Turn the picture counter-clockwise (0)"),
+      choice<L>(look, "ortho", &L::ortho, FlagRule{}, "",
+                "An orthographic camera, whose parallels stay parallel"),
+      choice<L>(look, "fov", &L::fov, rule::acute_view, "DEG",
+                "Field of view along the shorter side (20)"),
+      choice<L>(look, "margin", &L::margin, rule::margin, "X",
+                "Left free at each edge, as a share of the picture's side (0.05)"),
   };
 }
 

@@ -163,6 +163,7 @@ std::optional<Vec3d> parse_direction(const std::string& text) {
   if (axis == "x") return Vec3d{sign, 0, 0};
   if (axis == "y") return Vec3d{0, sign, 0};
   if (axis == "z") return Vec3d{0, 0, sign};
+  if (text == "iso") return Vec3d{-1, -1, -1};
   const auto numbers = parse_numbers(text, 3);
   if (!numbers) return std::nullopt;
   const Vec3d v{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
@@ -171,6 +172,20 @@ std::optional<Vec3d> parse_direction(const std::string& text) {
   if (!(longest > 0)) return std::nullopt;
   const bool is_extreme = longest > 1e18 || longest < 1e-18;
   return is_extreme ? Vec3d{v.x / longest, v.y / longest, v.z / longest} : v;
+}
+
+std::optional<ViewChoice> parse_view(const std::string& text) {
+  const auto& poses = names<FittedPose>;
+  const auto pose = std::find(poses.begin(), poses.end(), text);
+  if (pose != poses.end()) return ViewChoice{{}, static_cast<FittedPose>(pose - poses.begin())};
+  const auto direction = parse_direction(text);
+  return direction ? std::optional(ViewChoice{direction}) : std::nullopt;
+}
+
+std::string hint_view(const std::string& text) {
+  std::vector<std::string_view> known(names<FittedPose>.begin(), names<FittedPose>.end());
+  known.emplace_back("iso");
+  return did_you_mean(text, known);
 }
 
 }  // namespace boule

@@ -63,7 +63,12 @@ std::string hint_kind_colors(const std::string& text);
 /// "A,B" with A < B, both finite.
 std::optional<std::array<double, 2>> parse_range(const std::string& text);
 
-/// "x", "-x", "y", "-y", "z", "-z", or "X,Y,Z": a vector that is not zero, as float too.
+/// "x", "-x", "y", "-y", "z", "-z", "iso", which is "-1,-1,-1", or "X,Y,Z": a vector that is not
+/// zero, as float too.
 std::optional<Vec3d> parse_direction(const std::string& text);
+
+/// The same, or the name of a pose; and what is probably meant by other text.
+std::optional<ViewChoice> parse_view(const std::string& text);
+std::string hint_view(const std::string& text);
 
 }  // namespace boule

@@ -198,9 +198,18 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
 
 void add_camera(std::string& text, const LookOptions& options) {
   text += "\n[camera]\nfit = true\n";
-  if (options.view) add_line(text, "direction", vector(*options.view));
+  if (options.ortho) add_line(text, "type", "\"orthographic\"");
+  if (options.view && options.view->direction) {
+    add_line(text, "direction", vector(*options.view->direction));
+  } else if (options.view) {
+    add_line(text, "pose", toml_string(name_of(options.view->pose)));
+  } else if (options.floor) {
+    add_line(text, "pose", toml_string(name_of(FittedPose::upright)));
+  }
   if (options.up) add_line(text, "up", vector(*options.up));
-  add_line(text, "fov", "20");
+  if (options.roll != 0) add_line(text, "roll", number(options.roll));
+  if (options.fov || !options.ortho) add_line(text, "fov", number(options.fov.value_or(20)));
+  if (options.margin) add_line(text, "margin", number(*options.margin));
 }
 
 /// The material of a floor: near the colour of the background.

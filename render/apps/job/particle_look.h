@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "core/scene/camera_fit.h"
 #include "core/scene/names.h"
 
 namespace boule {
@@ -17,6 +18,14 @@ enum class Look { paper, plain, dark };
 
 template <>
 inline constexpr std::array<std::string_view, 3> names<Look>{"paper", "plain", "dark"};
+
+/// From where the particles are seen.
+struct ViewChoice {
+  std::optional<Vec3d> direction{};  ///< in which the camera looks; none: by the pose
+  FittedPose pose = FittedPose::upright;
+
+  friend bool operator==(const ViewChoice&, const ViewChoice&) = default;
+};
 
 /// What is given for one kind of particles, in the words of the user: a colour or a radius.
 struct KindText {
@@ -46,8 +55,12 @@ struct LookOptions {
   bool wrap = false;                              ///< into the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
   std::string select{};                           ///< which particles
-  std::optional<Vec3d> view{};                    ///< in which the camera looks
+  std::optional<ViewChoice> view{};               ///< in which the camera looks
   std::optional<Vec3d> up{};                      ///< upward in the picture
+  double roll = 0;                                ///< degrees, counter-clockwise
+  bool ortho = false;                             ///< an orthographic camera
+  std::optional<double> fov{};                    ///< of a pinhole, degrees
+  std::optional<double> margin{};  ///< around the particles, as a share of the picture
   std::string first{};  ///< the first option of these that was given: "--look"; empty: none
 };
 

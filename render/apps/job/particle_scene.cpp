@@ -55,7 +55,9 @@ const char* option_of(std::string_view key, const LookOptions& look) {
                             {".color.by", "--color", !look.color.empty()},
                             {".color", "--color", !look.color.empty()},
                             {"camera.direction", "--view", look.view.has_value()},
-                            {"camera.up", "--up", look.up.has_value()}};
+                            {"camera.pose", "--view", look.view.has_value()},
+                            {"camera.up", "--up", look.up.has_value()},
+                            {"camera.fov", "--fov", look.fov.has_value()}};
   for (const Origin& origin : origins) {
     if (origin.given && key.ends_with(origin.key)) return origin.option;
   }

@@ -79,7 +79,8 @@ Words known_words(const std::string& name) {
   if (name == "isa") return isa_names();
   if (name == "map") return parts_of(list_color_maps(), ", ");
   if (name == "radius") return {"vdw", "covalent"};
-  if (name == "view" || name == "up") return {"x", "-x", "y", "-y", "z", "-z"};
+  if (name == "view") return {"principal", "upright", "iso", "x", "-x", "y", "-y", "z", "-z"};
+  if (name == "up") return {"x", "-x", "y", "-y", "z", "-z"};
   return {};
 }
 

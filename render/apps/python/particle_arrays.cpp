@@ -190,6 +190,7 @@ Data particles_of(const py::object& positions, const py::object& species, const 
     }
   }
   if (!cell.is_none()) frame.cell = cell_of(cell, periodic);
+  frame.axes_matter = frame.cell.has_value();
   return Data{std::make_shared<ParticleFile>(ParticleFile::of(std::move(frame)))};
 }
 

@@ -46,6 +46,8 @@ class ParticleSpheres {
   /// How radii were chosen: "the column radius", "van der Waals radii, in angstrom", ...
   [[nodiscard]] const std::string& radius_source() const { return radius_source_; }
   [[nodiscard]] const std::optional<ParticleCell>& cell() const { return frame_->cell; }
+  /// False if the axes of coordinates are arbitrary: they are so in the frame, which has species.
+  [[nodiscard]] bool axes_matter() const { return frame_->axes_matter || !frame_->species; }
   /// What the frame by itself has for what is chosen: the frames of a series are added up.
   [[nodiscard]] const ParticleChoices& own_choices() const { return own_; }
   /// What was decided for the user, a sentence each; the frame's own are among them.

@@ -108,6 +108,21 @@ TEST(CameraFitter, LeavesTheMarginOnTheTighterAxis) {
   }
 }
 
+TEST(CameraFitter, RollTurnsThePicture) {
+  const std::vector<Sphere> spheres = cloud(3, 10);
+  const CameraFit fit{.direction = Vec3f{0, 0, -1}, .up = Vec3f{0, 1, 0}};
+  for (const auto& [degrees, up] : {std::pair{0.0F, Vec3d{0, 1, 0}},
+                                    {90.0F, Vec3d{1, 0, 0}},
+                                    {-90.0F, Vec3d{-1, 0, 0}},
+                                    {180.0F, Vec3d{0, -1, 0}}}) {
+    CameraFit rolled = fit;
+    rolled.roll = degrees;
+    const View view = default_view(rolled, spheres, {});
+    EXPECT_EQ(view.direction, (Vec3d{0, 0, -1}));
+    EXPECT_LT(length(view.up - up), 1e-15) << degrees;
+  }
+}
+
 TEST(CameraFitter, FitsDistantHugeAndSingleSpheres) {
   const std::vector<Sphere> one{{{0, 0, 0}, 1, 0}};
   const std::vector<Sphere> far_off{{{1e5f, -3e4f, 20}, 3, 0}, {{1e5f + 9, -3e4f, 20}, 1, 0}};

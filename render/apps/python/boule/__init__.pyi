@@ -223,6 +223,8 @@ class Fit:
     fov: float
     fov_axis: _FovAxis | None
     margin: float
+    pose: Literal["upright", "principal"] | None
+    roll: float
     distortion: Distortion | None
     def __init__(
         self,
@@ -233,6 +235,8 @@ class Fit:
         fov: float = ...,
         fov_axis: _FovAxis | None = ...,
         margin: float = ...,
+        pose: Literal["upright", "principal"] | None = ...,
+        roll: float = ...,
         distortion: Distortion | None = ...,
     ) -> None: ...
 
@@ -644,6 +648,10 @@ def load(
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> Scene: ...
 def frames(
     source: _Path,
@@ -669,6 +677,10 @@ def frames(
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> Iterator[Scene]: ...
 def from_particles(
     positions: ArrayLike,
@@ -694,6 +706,10 @@ def from_particles(
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> Scene: ...
 def from_ase(
     atoms: Any,
@@ -714,6 +730,10 @@ def from_ase(
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> Scene: ...
 def render(
     scene: Scene | _Path,
@@ -764,4 +784,8 @@ def render(
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> Picture: ...

@@ -52,7 +52,7 @@ def with_look(*names, also=()):
 # What is said of particles in memory: not how a file is read.
 _OF_MEMORY = (
     "look", "quick", "floor", "color", "colors", "map", "range", "nan_color", "radius", "radii",
-    "scale", "select", "wrap", "replicate", "view", "up",
+    "scale", "select", "wrap", "replicate", "view", "up", "roll", "ortho", "fov", "margin",
 )  # fmt: skip
 
 
@@ -66,7 +66,7 @@ def load(source, *, frame=None, polygons="plane", **look):
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
         quick, floor, input_format, columns (names, "-" skips one), water, color, colors (a
         dictionary of colours by kind), map, range, nan_color, radius, radii (a dictionary of radii
-        by species), scale, select, wrap, replicate, view, up.
+        by species), scale, select, wrap, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

@@ -59,6 +59,8 @@ struct ParticleFrame {
   /// names.
   std::vector<std::string> unread{};
   std::optional<ParticleCell> cell{};
+  /// False if the axes of coordinates are arbitrary, as those of a molecule by itself are.
+  bool axes_matter = true;
   std::optional<double> time{};
   /// The file's unit of length in angstrom (10 for nm); 1 if it is unknown. Tables of radii need
   /// it.

@@ -157,6 +157,7 @@ class CifAtoms {
     for (MoleculeColumns& each : columns) {
       frames.push_back(each.finish(options_.wanted));
       if (cell.value()) frames.back().cell = cell.value()->particle;
+      frames.back().axes_matter = false;
     }
     return frames;
   }

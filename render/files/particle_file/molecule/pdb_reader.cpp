@@ -32,6 +32,7 @@ class PdbReader : public PlacedReader<PdbFrame> {
     if (auto done = read_atoms(place, columns); !done) return done.error();
     ParticleFrame read = columns.finish(options_.wanted);
     read.cell = cell.value();
+    read.axes_matter = false;
     return read;
   }
 

@@ -104,6 +104,7 @@ class PqrReader : public PlacedReader<PdbFrame> {
       if (auto done = add_atom(line, number, columns, points); !done) return done.error();
     }
     ParticleFrame read = columns.finish(options_.wanted);
+    read.axes_matter = false;
     if (points > 0) read.notes.push_back(points_text(points));
     return read;
   }

@@ -152,6 +152,7 @@ class XyzReader : public PlacedReader<XyzFrame> {
     }
     ParticleFrame read;
     read.cell = comment.value().cell;
+    read.axes_matter = read.cell.has_value();
     read.time = comment.value().time;
     const std::string_view rows = text.substr(place.begin, place.end - place.begin);
     NamedColumns columns(options_.wanted, read);

@@ -25,7 +25,8 @@ struct ParticleFacts {
   std::string radius_source{};   ///< as ParticleSpheres
   ParticleColors colors{};
   std::optional<ParticleCell> cell{};
-  ParticleChoices own{};  ///< what the frame by itself has for what is chosen
+  bool axes_matter = true;  ///< as ParticleSpheres
+  ParticleChoices own{};    ///< what the frame by itself has for what is chosen
 };
 
 /// The choices of all frames of a series, by ParticleFacts::table.

@@ -89,6 +89,7 @@ std::optional<TomlParticles> ParticleTable::read() {
   particles.facts.radius_source = spheres.radius_source();
   particles.facts.colors = spheres.colors();
   particles.facts.cell = spheres.cell();
+  particles.facts.axes_matter = spheres.axes_matter();
   particles.facts.own = spheres.own_choices();
   // What is decided is told once for all files of a series.
   for (std::size_t i = 0; i < spheres.notes().size(); ++i) {

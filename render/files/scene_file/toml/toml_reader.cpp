@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "core/scene/principal_pose.h"
 #include "render/files/scene_file/toml/toml_camera.h"
 #include "render/files/scene_file/toml/toml_camera_keys.h"
 #include "render/files/scene_file/toml/toml_entities.h"
@@ -39,7 +40,7 @@ class TomlReader {
   void check_packed(const ObjectTables& objects);
   void read_camera_table(TomlTable& table);
   void read_background_table(TomlTable& table);
-  void choose_up();
+  void choose_pose();
   void validate_whole();
   void describe(const std::vector<std::string>& notes);
 
@@ -92,7 +93,7 @@ Result<LoadedScene> TomlReader::read() {
   }
   reader.check_instances();
   loaded_.particles = reader.facts();
-  choose_up();
+  choose_pose();
   validate_whole();
   if (!error_.status()) return error_.status().error();
   describe(reader.notes());
@@ -167,9 +168,20 @@ void TomlReader::read_background_table(TomlTable& table) {
   scene_.background = read_background(table, scene_);
 }
 
-/// Where particles have a cell, z is up in a picture whose camera does not say otherwise.
-void TomlReader::choose_up() {
+/// Molecules by themselves are looked at by their principal axes, and where particles have a cell,
+/// z is up, in a picture whose camera does not say otherwise.
+void TomlReader::choose_pose() {
   const auto& all = loaded_.particles;
+  const bool are_free =
+      !all.empty() && scene_.planes.empty() &&
+      std::none_of(all.begin(), all.end(), [](const auto& facts) { return facts.axes_matter; });
+  CameraFit& own = scene_.fit;
+  if (are_free && !own.pose && !own.direction && !own.up) own.pose = FittedPose::principal;
+  if (own.pose == FittedPose::principal && scene_.packed) {
+    root_.table("camera")->report("pose", "packed spheres have none: give direction and up");
+  }
+  if (own.pose && !scene_.camera && error_.status())
+    own = settled_fit(scene_, options_.parallel_for);
   const bool has_cell = std::any_of(
       all.begin(), all.end(), [](const ParticleFacts& facts) { return facts.cell.has_value(); });
   if (scene_.camera || scene_.fit.up || !has_cell) return;

@@ -36,17 +36,10 @@ TEST(LookOptions, AreKept) {
                                     "--radius",       "vdw",
                                     "--scale",        "0.8",
                                     "--select",       "type == 1 && x > 0",
-                                    "--view",         "-z",
-                                    "--up",           "0,1,0.5",
                                     "--frame",        "-2",
                                     "--input-format", "xyz",
                                     "--columns",      "id,-,x,y,z",
-                                    "--floor",        "--water",
-                                    "--colors",       "O=crimson,7=#336699,a=b=red",
-                                    "--radii",        "Na=1.02,Cl=1.81",
-                                    "--nan-color",    "Silver",
-                                    "--replicate",    "2x3x1",
-                                    "--wrap"});
+                                    "--water"});
   EXPECT_EQ(look.look, Look::dark);
   EXPECT_EQ(look.color, "|v|");
   EXPECT_EQ(look.map, "#000000,#ff0000");
@@ -54,21 +47,36 @@ TEST(LookOptions, AreKept) {
   EXPECT_EQ(look.radius, "vdw");
   EXPECT_EQ(look.scale, 0.8);
   EXPECT_EQ(look.select, "type == 1 && x > 0");
-  EXPECT_EQ(look.view, (Vec3d{0, 0, -1}));
-  EXPECT_EQ(look.up, (Vec3d{0, 1, 0.5}));
   EXPECT_EQ(look.frame, -2);
   EXPECT_EQ(look.format, "xyz");
   EXPECT_EQ(look.columns, (std::vector<std::string>{"id", "-", "x", "y", "z"}));
+  EXPECT_TRUE(look.water);
+  EXPECT_FALSE(look.quick);
+  EXPECT_THAT(look.first, StartsWith("--"));
+}
+
+TEST(LookOptions, OfCamerasAreKept) {
+  const LookOptions look = look_of({"--view", "-z", "--up", "0,1,0.5", "--roll", "-15", "--ortho",
+                                    "--fov", "30", "--margin", "0.1", "--floor"});
+  EXPECT_EQ(look.view, (ViewChoice{Vec3d{0, 0, -1}}));
+  EXPECT_EQ(look.up, (Vec3d{0, 1, 0.5}));
+  EXPECT_EQ(look.roll, -15);
+  EXPECT_TRUE(look.ortho);
+  EXPECT_EQ(look.fov, 30);
+  EXPECT_EQ(look.margin, 0.1);
+  EXPECT_TRUE(look.floor);
+}
+
+TEST(LookOptions, OfKindsAndCellsAreKept) {
+  const LookOptions look =
+      look_of({"--colors", "O=crimson,7=#336699,a=b=red", "--radii", "Na=1.02,Cl=1.81",
+               "--nan-color", "Silver", "--replicate", "2x3x1", "--wrap"});
   EXPECT_EQ(look.colors,
             (std::vector<KindText>{{"O", "crimson"}, {"7", "#336699"}, {"a=b", "red"}}));
   EXPECT_EQ(look.radii, (std::vector<KindText>{{"Na", "1.02"}, {"Cl", "1.81"}}));
   EXPECT_EQ(look.nan_color, "Silver");
   EXPECT_EQ(look.replicate, (std::array{2, 3, 1}));
   EXPECT_TRUE(look.wrap);
-  EXPECT_TRUE(look.floor);
-  EXPECT_TRUE(look.water);
-  EXPECT_FALSE(look.quick);
-  EXPECT_THAT(look.first, StartsWith("--"));
 }
 
 TEST(LookOptions, MapColumnNamesMayHaveBlanks) {
@@ -144,6 +152,10 @@ const Wrong wrong_looks[] = {
     {{"--radius", "-1"}, "--radius: '-1' is not understood"},
     {{"--scale", "big"}, "--scale: 'big' is not understood, expected a number above 0"},
     {{"--view", "w"}, "--view: 'w' is not understood"},
+    {{"--view", "principle"}, "; did you mean 'principal'?"},
+    {{"--roll", "361"}, "--roll: '361' is not understood, expected a number from -360 to 360"},
+    {{"--fov", "180"}, "--fov: '180' is not understood"},
+    {{"--margin", "0.5"}, "--margin: '0.5' is not understood"},
     {{"--view", "0,0,0"}, "--view: '0,0,0' is not understood"},
     {{"--up", "1,2"}, "--up: '1,2' is not understood"},
     {{"--frame", "1.5"}, "--frame: '1.5' is not understood"},
@@ -159,6 +171,9 @@ TEST(LookValues, DirectionsOfAnyLength) {
   EXPECT_EQ(parse_direction("-y"), (Vec3d{0, -1, 0}));
   EXPECT_EQ(parse_direction("1,-2,0.5"), (Vec3d{1, -2, 0.5}));
   EXPECT_EQ(parse_direction("0,0,1e300"), (Vec3d{0, 0, 1}));
+  EXPECT_EQ(parse_direction("iso"), (Vec3d{-1, -1, -1}));
+  EXPECT_EQ(parse_view("principal"), (ViewChoice{{}, FittedPose::principal}));
+  EXPECT_EQ(parse_view("upright"), (ViewChoice{}));
   EXPECT_EQ(parse_direction("1e-300,0,0"), (Vec3d{1, 0, 0}));
   for (const char* text : {"", "-", "xy", "1,2,nan", "1,2,3,4", "1;2;3", "--x"}) {
     EXPECT_FALSE(parse_direction(text)) << text;

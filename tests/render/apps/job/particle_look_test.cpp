@@ -84,9 +84,24 @@ TEST(ParticleLook, NamesOfFilesMayHaveAnyCharacters) {
 TEST(ParticleLook, TheCameraIsFitted) {
   LookOptions look;
   EXPECT_THAT(scene_of(look), HasSubstr("[camera]\nfit = true\nfov = 20\n"));
-  look.view = Vec3d{0, 0, -2};
+  look.view = ViewChoice{Vec3d{0, 0, -2}};
   look.up = Vec3d{0, 1, 0};
   EXPECT_THAT(scene_of(look), HasSubstr("\ndirection = [0, 0, -2]\nup = [0, 1, 0]\n"));
+}
+
+TEST(ParticleLook, TheCameraTakesItsOptions) {
+  LookOptions look;
+  look.view = ViewChoice{{}, FittedPose::principal};
+  look.roll = 30;
+  look.fov = 35.5;
+  look.margin = 0.125;
+  EXPECT_THAT(scene_of(look), HasSubstr("[camera]\nfit = true\npose = \"principal\"\nroll = 30\n"
+                                        "fov = 35.5\nmargin = 0.125\n"));
+  LookOptions flat;
+  flat.ortho = true;
+  EXPECT_THAT(scene_of(flat), HasSubstr("[camera]\nfit = true\ntype = \"orthographic\"\n\n"));
+  flat.floor = true;
+  EXPECT_THAT(scene_of(flat), HasSubstr("\npose = \"upright\"\n"));
 }
 
 TEST(ParticleLook, LooksDiffer) {
