@@ -4,6 +4,8 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -99,6 +101,23 @@ class PngWriter {
     png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_ABSOLUTE);
     png_set_oFFs(png_, info_, picture.x, picture.y, PNG_OFFSET_PIXEL);
     if (auto time = find_time()) png_set_tIME(png_, info_, &*time);
+    const double x = pixels_per_meter("XResolution"), y = pixels_per_meter("YResolution");
+    if (x >= 1 && y >= 1) {
+      png_set_pHYs(png_, info_, static_cast<png_uint_32>(x), static_cast<png_uint_32>(y),
+                   PNG_RESOLUTION_METER);
+    }
+  }
+  /// A resolution of the header, in pixels per inch there; 0 if it has none.
+  [[nodiscard]] double pixels_per_meter(std::string_view name) const {
+    constexpr double inch = 0.0254, most = 0x7fffffff;
+    const module::Picture& picture = rows_.picture();
+    double found = 0;
+    for (std::size_t i = 0; i < picture.attribute_count; ++i) {
+      const module::Attribute& entry = picture.attributes[i];
+      if (entry.type != module::AttributeType::real || name != entry.name) continue;
+      found = static_cast<double>(*static_cast<const float*>(entry.value)) / inch;
+    }
+    return std::clamp(std::floor(found + 0.5), 0.0, most);
   }
   /// That of the text "1970:01:01 00:00:00".
   [[nodiscard]] std::optional<png_time> find_time() const {

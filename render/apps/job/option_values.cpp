@@ -51,6 +51,29 @@ std::optional<Size> parse_size(const std::string& text) {
   return Size{(*sides)[0], (*sides)[1]};
 }
 
+std::optional<double> parse_length(const std::string& text) {
+  struct Unit {
+    std::string_view name;
+    double mm;
+  };
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
+  if (!number) return std::nullopt;
+  for (const auto& [name, mm] :
+       {Unit{"mm", 1}, Unit{"cm", 10}, Unit{"in", 25.4}, Unit{"pt", 25.4 / 72}}) {
+    if (text.substr(digits) != name) continue;
+    const double length = *number * mm;
+    return length > 0 && length <= 1e5 ? std::optional(length) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<OutlineWidth> parse_outline(const std::string& text) {
+  const bool in_points = text.ends_with("pt");
+  const auto width = parse_number(text.substr(0, text.size() - (in_points ? 2 : 0)), 0.0F, 100.0F);
+  return width ? std::optional(OutlineWidth{*width, in_points}) : std::nullopt;
+}
+
 std::optional<PixelRect> parse_crop(const std::string& text) {
   const auto corners = split_numbers(text, ',', 4, 0, max_image_side);
   if (!corners) return std::nullopt;

@@ -32,6 +32,12 @@ std::optional<FrameRange> parse_frames(const std::string& text);
 /// "1280x720" or "1280X720", each side 1 to 65535.
 std::optional<Size> parse_size(const std::string& text);
 
+/// "85mm", "8.5cm", "3.35in" or "241pt", in mm: above 0, 100 m at most.
+std::optional<double> parse_length(const std::string& text);
+
+/// "1.5" pixels or "0.5pt": 0 to 100.
+std::optional<OutlineWidth> parse_outline(const std::string& text);
+
 /// "X0,Y0,X1,Y1" with 0 <= X0 < X1 and 0 <= Y0 < Y1.
 std::optional<PixelRect> parse_crop(const std::string& text);
 

@@ -51,6 +51,12 @@ Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, cons
   return header;
 }
 
+Metadata resolution_header(const SizeChoice& size) {
+  if (!size.is_printed()) return {};
+  const auto dpi = static_cast<float>(size.pixels_per_inch());
+  return {{"XResolution", dpi}, {"YResolution", dpi}, {"ResolutionUnit", std::string("in")}};
+}
+
 Metadata noise_header(const NoiseReached& reached) {
   return {{"boule:noise_reached", static_cast<float>(reached.half_width)},
           {"boule:mean_samples", static_cast<float>(reached.mean_samples)},

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/apps/job/render_job.h"
 #include "render/apps/parts/part_sheet.h"
 #include "render/frame/measured_picture.h"
 #include "render/frame/pixel_rect.h"
@@ -36,6 +37,10 @@ PartialSamples samples_of(const PartSheet& sheet, const std::vector<PixelRect>& 
 /// JPEG and TIFF files can hold too.
 Metadata picture_header(const Renderer& renderer, std::uint64_t scene_hash, const Vec3d& origin,
                         const std::optional<PartialSamples>& partial = {});
+
+/// What the header says of a picture with so many pixels per inch: XResolution, YResolution and
+/// ResolutionUnit, which PNG, TIFF and JPEG files have a place for. None: nothing.
+Metadata resolution_header(const SizeChoice& size);
 
 /// What the header says of a measured picture besides: boule:noise_reached, boule:mean_samples and
 /// boule:settled (NoiseReached).

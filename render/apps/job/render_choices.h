@@ -51,6 +51,12 @@ inline auto picture_choices() {
           picture, "size", &J::size,
           TextRule{parse_size, "WIDTHxHEIGHT in pixels, each 1 to 65535, such as 1280x720", 'x'},
           "WxH", "Pixels of the picture"),
+      choice<J>(picture, "width", &J::width,
+                TextRule{parse_length, "a width in print, such as 85mm, 8.5cm, 3.3in or 240pt"},
+                "LENGTH",
+                "Width of the printed picture, such as 85mm: pixels by --dpi, --size is the shape"),
+      choice<J>(picture, "dpi", &J::dpi, rule::from_to(1, 10000), "N",
+                "Pixels per inch, which the picture's file tells (300 with --width)"),
       choice<J>(picture, "spp", &J::spp, rule::samples, "N", "Samples per pixel"),
       choice<J>(
           picture, "noise", &J::noise, rule::noise, "X",
@@ -70,8 +76,10 @@ inline auto picture_choices() {
                 "COLOR",
                 "What shows where nothing is: a colour such as #rrggbb or white, or transparent "
                 "(EXR, PNG)"),
-      choice<J>(picture, "outline", &J::outline, rule::outline, "W",
-                "Dark lines W pixels wide where what is seen changes (0)", &O::outline),
+      choice<J>(picture, "outline", &J::outline,
+                TextRule{parse_outline, "0 to 100 pixels, or points such as 0.5pt"}, "W",
+                "Dark lines where what is seen changes, W pixels wide, or points as in 0.5pt (0; "
+                "printed at least 0.35pt where the scene has some)"),
       choice<J>(picture, "seed", &J::seed,
                 TextRule{parse_seed, "a whole number from 0 to 18446744073709551615"}, "N",
                 "Seed of the random numbers (0)", &O::seed),

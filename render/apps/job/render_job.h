@@ -21,6 +21,28 @@ struct Size {
   int width, height;
 };
 
+/// The pixels of a picture, as far as they are asked for: by their number, or by the size in print.
+struct SizeChoice {
+  std::optional<Size> shape{};    ///< without a width in print the pixels, else their ratio
+  std::optional<double> width{};  ///< in print, mm
+  std::optional<double> dpi{};    ///< pixels per inch
+
+  static constexpr double usual_dpi = 300;
+
+  [[nodiscard]] bool is_printed() const { return width || dpi; }
+  [[nodiscard]] double pixels_per_inch() const { return dpi.value_or(usual_dpi); }
+  /// What is not asked for comes from the scene. A side may be too large for a picture.
+  [[nodiscard]] Size of(const ImageSettings& image) const;
+};
+
+/// How wide the outlines are.
+struct OutlineWidth {
+  float width = 0;         ///< pixels, or points
+  bool in_points = false;  ///< 72 of them are an inch
+
+  friend bool operator==(const OutlineWidth&, const OutlineWidth&) = default;
+};
+
 /// The background that is asked for: a colour, or none at all.
 struct BackgroundChoice {
   std::optional<SrgbColor> color;  ///< none: transparent
@@ -53,13 +75,15 @@ struct RenderJob : SceneJob {
   std::optional<FrameRange> frames{};
   std::string camera{};  ///< keys of [camera]; empty: the scene's
   std::optional<Size> size{};
+  std::optional<double> width{};  ///< in print, mm
+  std::optional<double> dpi{};
   std::optional<int> spp{};
   std::optional<float> noise{};  ///< 0..1; 0: all pixels get the same samples
   std::optional<int> min_spp{};
   std::optional<float> aa{};  ///< codes, 0..255; 0: all pixels get the same samples
   std::optional<PixelFilter> filter{};
   std::optional<BackgroundChoice> background{};
-  std::optional<float> outline{};  ///< pixels
+  std::optional<OutlineWidth> outline{};
   std::uint64_t seed = 0;
   std::optional<PixelRect> crop{};
   AovSelection aovs{};
@@ -73,6 +97,9 @@ struct RenderJob : SceneJob {
   std::optional<double> time_limit{};  ///< seconds of rendering
   bool partial = false;                ///< if ended early, there is an unfinished picture
 };
+
+/// The size that the job asks for.
+SizeChoice size_choice(const RenderJob& job);
 
 /// The options of the rendering that the job asks for, of this scene.
 RenderOptions options_of(const RenderJob& job, const Scene& scene);

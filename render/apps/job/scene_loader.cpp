@@ -26,7 +26,7 @@ SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::ui
       look_(job.look),
       camera_keys_(job.camera),
       frames_(job.frames && job.frames->count() > 1 ? job.frames : std::nullopt),
-      size_(job.size),
+      size_(size_choice(job)),
       most_(most),
       scheduler_(job.threads) {
   options_.polygons = job.polygons;

@@ -71,7 +71,7 @@ class SceneLoader {
   LookOptions look_;
   const std::string camera_keys_;
   const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
-  const std::optional<Size> size_;
+  const SizeChoice size_;
   const std::uint64_t most_;
   Scheduler scheduler_;
   ParticleFileCache own_files_;

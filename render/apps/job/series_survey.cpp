@@ -41,8 +41,8 @@ void SeriesSurvey::add(int frame, const LoadedScene& loaded,
   const Scene& scene = loaded.scene;
   if (count_primitives(scene).spheres == 0) return;
   if (!fitter_) {
-    fitter_.emplace(scene.fit, view_of(scene), size_ ? size_->width : scene.image.width,
-                    size_ ? size_->height : scene.image.height);
+    const auto [width, height] = size_.of(scene.image);
+    fitter_.emplace(scene.fit, view_of(scene), width, height);
   }
   add_spheres(scene, *fitter_);
   if (!floor) return;

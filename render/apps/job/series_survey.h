@@ -25,8 +25,8 @@ bool shows_particles(const LoadedScene& loaded);
 /// depend on. The first one that has spheres says from where they are seen.
 class SeriesSurvey {
  public:
-  /// `size`: of the pictures, if the scenes do not say it.
-  explicit SeriesSurvey(const std::optional<Size>& size) : size_(size) {}
+  /// `size`: of the pictures.
+  explicit SeriesSurvey(const SizeChoice& size) : size_(size) {}
 
   /// Adds a frame, and where it has its floor.
   void add(int frame, const LoadedScene& loaded, const std::optional<LookFloor>& floor);
@@ -48,7 +48,7 @@ class SeriesSurvey {
   [[nodiscard]] std::string text(std::size_t count) const;
 
  private:
-  std::optional<Size> size_;
+  SizeChoice size_;
   std::size_t frames_ = 0;
   std::optional<int> first_shown_;
   SeriesChoices choices_;

@@ -146,6 +146,7 @@ Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outli
 void Run::describe(const Renderer& renderer, PictureParts& parts) const {
   const RenderOptions& options = renderer.options();
   parts.header = picture_header(renderer, parts.scene_hash, parts.origin, parts.partial);
+  for (auto& entry : resolution_header(size_choice(job_))) parts.header.push_back(std::move(entry));
   if (parts.noise) {
     for (auto& entry : noise_header(*parts.noise)) parts.header.push_back(std::move(entry));
   }

@@ -69,11 +69,13 @@ std::string option_of(const std::string& key) {
 /// Reports an error of preparing. Too many objects, or a size from the scene, are errors of the
 /// scene; a size from the command line is wrong usage.
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
-  const bool of_scene = error.key == "instance" || (error.key == "image.size" && !command.size) ||
+  const bool of_scene = error.key == "instance" ||
+                        (error.key == "image.size" && !command.size && !command.width) ||
                         (error.key == "image.spp" && !command.spp && !command.min_spp);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
   if (of_usage) error.key = option_of(error.key);
+  if (error.key == "--size" && command.width) error.key = "--width";
   return refuse(std::move(error), command,
                 of_scene   ? invalid_input
                 : of_usage ? wrong_usage
@@ -192,6 +194,8 @@ ImageFileOptions Rendering::file_options(const Renderer& renderer) const {
   file.crop = crop_window(options);
   file.date_time = date_;
   file.metadata = picture_header(renderer, scene_hash_, origin_, partial_);
+  for (auto& entry : resolution_header(size_choice(command_)))
+    file.metadata.push_back(std::move(entry));
   if (noise_) {
     for (auto& entry : noise_header(*noise_)) file.metadata.push_back(std::move(entry));
   }

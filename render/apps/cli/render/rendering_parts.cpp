@@ -69,6 +69,8 @@ FilmHead Rendering::film_head(const Renderer& renderer) const {
   const Shard shard = command_.shard.value_or(Shard{});
   head.share = {{"shard", fmt::format("{}/{}", shard.index, shard.count)}};
   head.metadata = picture_header(renderer, scene_hash_, origin_);
+  for (auto& entry : resolution_header(size_choice(command_)))
+    head.metadata.push_back(std::move(entry));
   head.frame_width = options.width;
   head.frame_height = options.height;
   head.rect = renderer.rect();

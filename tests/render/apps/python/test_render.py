@@ -249,7 +249,7 @@ def test_a_forked_process_renders_too(ball):
         ({"seed": -1}, "seed", "expected a whole number from 0"),
         ({"filter": "tint"}, "filter", "did you mean 'tent'?"),
         ({"background": "rde"}, "background", "expected a colour"),
-        ({"outline": 101}, "outline", "is 101"),
+        ({"outline": 101}, "outline", "0 to 100 pixels"),
         ({"crop": (0, 0, 1000, 10)}, "crop", "lie within the frame"),
         ({"aov": "deep"}, "aov", "expected some of depth"),
         ({"method": "magic"}, "method", "expected 'whitted' or 'path'"),
