@@ -73,7 +73,8 @@ inline constexpr int max_threads = 1024;
 /// A picture to be rendered, or a series of them. What is not chosen comes from the scene.
 struct RenderJob : SceneJob {
   std::optional<FrameRange> frames{};
-  std::string camera{};  ///< keys of [camera]; empty: the scene's
+  std::optional<int> turn{};  ///< the frames are so many pictures of one scene that turns once
+  std::string camera{};       ///< keys of [camera]; empty: the scene's
   std::optional<Size> size{};
   std::optional<double> width{};  ///< in print, mm
   std::optional<double> dpi{};

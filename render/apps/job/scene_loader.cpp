@@ -25,17 +25,19 @@ SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::ui
     : path_(job.scene),
       look_(job.look),
       camera_keys_(job.camera),
-      frames_(job.frames && job.frames->count() > 1 ? job.frames : std::nullopt),
+      frames_(!job.turn && job.frames && job.frames->count() > 1 ? job.frames : std::nullopt),
+      turn_(job.turn),
       size_(size_choice(job)),
       most_(most),
       scheduler_(job.threads) {
   options_.polygons = job.polygons;
   options_.trust = job.trust;
   options_.parallel_for = scheduler_.parallel_for();
-  if (frames_) options_.particle_files = files != nullptr ? files : &own_files_;
+  if (frames_ || turn_) options_.particle_files = files != nullptr ? files : &own_files_;
 }
 
 Result<LoadedScene> SceneLoader::load(std::optional<int> frame) {
+  if (turn_) return load_turned(frame.value_or(0));
   std::optional<Result<LoadedScene>> loaded;
   if (frames_ && !choices_.are_made) {
     loaded = choose_for_series();
@@ -59,6 +61,21 @@ Result<LoadedScene> SceneLoader::load_as(const LookOptions& look, std::optional<
     look_ = look_before;
     choices_ = before;
   }
+  return loaded;
+}
+
+/// The one scene, before the camera of a step.
+Result<LoadedScene> SceneLoader::load_turned(int step) {
+  auto loaded = read(std::nullopt);
+  if (!loaded) return loaded;
+  Scene& scene = loaded.value().scene;
+  if (!choices_.table) {
+    keep_colors(loaded.value());
+    auto table = Turntable::of(scene, size_.of(scene.image), options_.parallel_for);
+    if (!table) return table.error();
+    choices_.table = std::move(table).value();
+  }
+  scene.camera = choices_.table->at(360.0 * step / *turn_);
   return loaded;
 }
 

@@ -10,6 +10,7 @@
 #include "render/apps/job/particle_look.h"
 #include "render/apps/job/render_job.h"
 #include "render/apps/job/series_survey.h"
+#include "render/apps/job/turntable.h"
 #include "render/files/scene_file/loaded/particle_file_cache.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/frame/scheduler.h"
@@ -54,9 +55,11 @@ class SceneLoader {
     std::vector<ParticleColors> colors;
     std::optional<LookFloor> floor;  ///< of a particle file
     std::optional<Camera> camera;    ///< if the scene has none
+    std::optional<Turntable> table;  ///< if it turns
     std::vector<std::string> notes;  ///< that are still to be told
   };
 
+  Result<LoadedScene> load_turned(int step);
   Result<LoadedScene> read(std::optional<int> frame);
   Result<LoadedScene> read_file(std::optional<int> frame);
   Result<LoadedScene> choose_for_series();
@@ -71,6 +74,7 @@ class SceneLoader {
   LookOptions look_;
   const std::string camera_keys_;
   const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
+  const std::optional<int> turn_;
   const SizeChoice size_;
   const std::uint64_t most_;
   Scheduler scheduler_;

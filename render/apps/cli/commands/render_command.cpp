@@ -209,7 +209,9 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
 
 }  // namespace
 
-ExitCode run(const RenderCommand& command) {
+ExitCode run(const RenderCommand& given) {
+  RenderCommand command = given;
+  if (command.turn) command.frames = FrameRange{0, *command.turn - 1};
   if (auto done = check_copies(command); !done) return report(done.error(), wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);

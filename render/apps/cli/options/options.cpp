@@ -71,6 +71,10 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
   start_group(app, heading::work);
   add_frames(app, command.frames,
              "Render a series: #### in the names of scene, data and output is the frame's number");
+  add_whole(app, "--turn", command.turn, 2, 100'000,
+            "Render a turntable: N pictures of one scene, which turns once; #### in the output's "
+            "name is the number, from 0");
+  app.get_option("--turn")->excludes("--frames");
   app.add_flag("--skip-existing", command.skip_existing,
                "Leave a picture alone that is there already, finished, readable, of this size");
   add_duration(app, "--time-limit", command.time_limit,

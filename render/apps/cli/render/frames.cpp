@@ -15,7 +15,7 @@ namespace boule::cli {
 Status check_frames(const RenderCommand& command) {
   if (command.output != standard_output && !has_frame_slot(command.output)) {
     return wrong_option(
-        "with --frames the picture's name needs a place for the number, such as "
+        "with --frames or --turn the picture's name needs a place for the number, such as "
         "out.####.png",
         "--output");
   }
