@@ -87,7 +87,8 @@ Words known_words(const std::string& name) {
 Words image_endings() {
   Words endings = parts_of(known_image_extensions(), ", ");
   for (std::string& ending : endings) ending.insert(ending.begin(), '.');
-  endings.emplace_back(film_ending);  // shards
+  for (const char* other : {".mp4", ".webm", ".gif"}) endings.emplace_back(other);  // movies
+  endings.emplace_back(film_ending);                                                // shards
   return endings;
 }
 

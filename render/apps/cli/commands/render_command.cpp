@@ -17,10 +17,14 @@
 #include "render/apps/cli/render/rendering.h"
 #include "render/apps/cli/render/team_start.h"
 #include "render/apps/cli/report/live_report.h"
+#include "render/apps/cli/report/movie.h"
 #include "render/apps/cli/report/picture_stream.h"
 #include "render/apps/job/legend.h"
+#include "render/apps/job/particle_scene.h"
 #include "render/apps/job/scene_loader.h"
+#include "render/files/particle_file/particle_file.h"
 #include "render/files/scene_file/loaded/frame_name.h"
+#include "render/frame/scheduler.h"
 
 namespace boule::cli {
 namespace {
@@ -113,7 +117,7 @@ ExitCode Series::run() {
   }
   live_.end_series();
   if (live_.is_series() && command_.verbosity != Verbosity::quiet)
-    print_note("boule: " + printable(shown_output(command_.output)) + ": " +
+    print_note("boule: " + printable(shown_output(command_)) + ": " +
                totals_.text(live_.seconds()));
   return write_legend(command_, loader_);
 }
@@ -207,15 +211,53 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
   return code;
 }
 
+/// The frames of a movie: those that are asked for, or all of a trajectory.
+Result<FrameRange> movie_frames(const RenderCommand& command) {
+  const Diagnostic none =
+      wrong_option("a movie has many frames: --frames or --turn is missing", "--output");
+  if (command.frames) return *command.frames;
+  if (has_wide_frame_slot(command.scene) || !is_particle_input(command.scene, command.look))
+    return none;
+  Scheduler scheduler(command.threads);
+  auto file =
+      ParticleFile::open(command.scene, file_options_of(command.look), scheduler.parallel_for());
+  if (!file) return file.error();
+  const auto count = static_cast<int>(file.value().frames());
+  return count > 1 ? Result<FrameRange>(FrameRange{0, count - 1}) : none;
+}
+
+/// A series whose pictures go to ffmpeg.
+ExitCode run_movie(RenderCommand command) {
+  if (command.format) return report(check_picture_stream(command).error(), wrong_usage);
+  const auto frames = movie_frames(command);
+  if (!frames) return report(frames.error(), code_of_loading(frames.error()));
+  command.frames = frames.value();
+  constexpr double usual_fps = 25;
+  auto movie = Movie::start(command.output, command.fps.value_or(usual_fps));
+  if (!movie) return report(movie.error(), failed);
+  command.movie = std::exchange(command.output, standard_output);
+  command.format = StreamFormat::ppm;
+  const ExitCode code = run_in(nullptr, command);
+  if (code != done) return code;
+  const Status finished = movie.value().finish();
+  return finished ? done : report(finished.error(), failed);
+}
+
 }  // namespace
 
 ExitCode run(const RenderCommand& given) {
   RenderCommand command = given;
+  if (command.turn && command.frames)
+    return report(wrong_option("makes a series of its own, without --frames", "--turn"),
+                  wrong_usage);
   if (command.turn) command.frames = FrameRange{0, *command.turn - 1};
   if (auto done = check_copies(command); !done) return report(done.error(), wrong_usage);
+  if (command.fps && !is_movie_name(command.output))
+    return report(wrong_option("is of movies: .mp4, .webm, .gif", "--fps"), wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);
-  return team.value() ? run_as_rank(*team.value(), command) : run_in(nullptr, command);
+  if (team.value()) return run_as_rank(*team.value(), command);
+  return is_movie_name(command.output) ? run_movie(std::move(command)) : run_in(nullptr, command);
 }
 
 }  // namespace boule::cli

@@ -74,7 +74,6 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
   add_whole(app, "--turn", command.turn, 2, 100'000,
             "Render a turntable: N pictures of one scene, which turns once; #### in the output's "
             "name is the number, from 0");
-  app.get_option("--turn")->excludes("--frames");
   app.add_flag("--skip-existing", command.skip_existing,
                "Leave a picture alone that is there already, finished, readable, of this size");
   add_duration(app, "--time-limit", command.time_limit,
@@ -136,7 +135,12 @@ void add_render(CLI::App& app, RenderCommand& command) {
   add_part_options(app, command);
   start_group(app, "Output");
   add_output(app, command.output, "IMAGE",
-             "Picture to write; its extension names the format; - is standard output");
+             "Picture to write; its extension names the format; - is standard output; .mp4, .webm "
+             "and .gif are movies of all frames, by the program ffmpeg");
+  add_parsed(
+      app, "--fps", command.fps,
+      [](const std::string& text) { return parse_number(text, 0.01, 1000.0); },
+      "a number from 0.01 to 1000", "N", "Pictures a second of a movie (25)");
   add_choice(app, "--format", command.format, choices<StreamFormat>(),
              "Format of pictures on standard output");
   add_legend(app, command.legend);

@@ -63,7 +63,9 @@ struct RenderCommand : RenderJob, RunOptions {
   bool skip_existing = false;
   Compression compression = Compression::zip;
   std::optional<StreamFormat> format;  ///< of pictures on standard output
-  std::string legend;                  ///< a file for it; empty: none
+  std::optional<double> fps;           ///< of a movie
+  std::string movie;   ///< that is made of the pictures on standard output; empty: none
+  std::string legend;  ///< a file for it; empty: none
   std::optional<CheckpointChoice> checkpoint;
   bool resume = false;         ///< go on from the checkpoint
   std::optional<Shard> shard;  ///< the share of the picture that goes into a film file

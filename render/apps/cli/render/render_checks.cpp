@@ -38,7 +38,8 @@ Status check_command(const RenderCommand& command) {
   const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
     return wrong_option("no picture format has the extension of " + quote(command.output) +
-                            ", expected one of " + known_image_extensions(),
+                            ", expected one of " + known_image_extensions() +
+                            ", or a movie: .mp4, .webm, .gif",
                         "--output");
   }
   if (command.aovs.any() && !format->channels) {

@@ -231,15 +231,14 @@ void Rendering::tell_end(const Image& image) const {
   if (partial_) {  // even if quiet: the exit code does not tell that the picture is partial
     const std::string saved =
         checkpoint_ ? "; " + checkpoint_->file() + " holds them, --resume goes on" : "";
-    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, {}{}",
-                           shown_output(command_.output), partial_->percent(), partial_->what,
-                           cause, saved));
+    print_note(fmt::format("boule: {}: partial, {:.1f} % of its {}, {}{}", shown_output(command_),
+                           partial_->percent(), partial_->what, cause, saved));
     return;
   }
   if (!tells_of_itself()) return;
   const std::string ranks = team_ != nullptr ? fmt::format(", {} ranks", team_->size()) : "";
   report_.note(fmt::format("boule: {}: {} x {} pixels, {}, {:.2f} s, {:.1f} Mray/s ({}, {}{})",
-                           shown_output(command_.output), image.width, image.height,
+                           shown_output(command_), image.width, image.height,
                            samples_text(*stats_.picture), stats_.work_seconds, mrays_per_s(stats_),
                            stats_.isa, counted(stats_.threads, "thread"), ranks));
   if (StopGuard::caught() != 0) report_.note("boule: " + cause + ", the picture is finished");

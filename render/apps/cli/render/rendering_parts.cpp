@@ -108,7 +108,7 @@ ExitCode Rendering::render_parts(Renderer& renderer) {
     report_.note(fmt::format("boule: note: {} had {:.1f} % of the samples", checkpoint_->file(),
                              percent_to_tenths(run->resumed())));
   }
-  live_.start_stage("writing " + printable(shown_output(command_.output)));
+  live_.start_stage("writing " + printable(shown_output(command_)));
   const ExitCode code = write_parts(renderer, *run, head);
   if (code == done && checkpoint_ && !partial_) checkpoint_->remove(command_.output);
   return code == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : code;

@@ -25,7 +25,7 @@ ImageForm form_of(const RenderOptions& options) {
 ExitCode Rendering::render_whole(Renderer& renderer) {
   std::vector<ImageChannel> channels;
   if (command_.aovs.any_traced()) {  // first: a picture that is stopped has them too
-    live_.start_stage("finding the extra channels of " + printable(shown_output(command_.output)));
+    live_.start_stage("finding the extra channels of " + printable(shown_output(command_)));
     auto aovs = renderer.render_aovs();
     if (!aovs) return explain(aovs.error());
     channels = std::move(aovs).value();
@@ -38,7 +38,7 @@ ExitCode Rendering::render_whole(Renderer& renderer) {
   if (!image) return explain(image.error());
   ImageFileOptions options = file_options(renderer);
   options.channels = std::move(channels);
-  live_.start_stage("writing " + printable(shown_output(command_.output)));
+  live_.start_stage("writing " + printable(shown_output(command_)));
   const ExitCode written = write(image.value(), options);
   return written == done ? finish(renderer, image.value()) : written;
 }
@@ -113,8 +113,9 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   const Stopwatch watch;
   const int caught = StopGuard::caught();
   const Status status = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
-    return command_.output == standard_output ? send_picture(image, *command_.format, file)
-                                              : write_image(image, command_.output, file);
+    return command_.output == standard_output
+               ? send_picture(image, *command_.format, command_.movie, file)
+               : write_image(image, command_.output, file);
   });
   exit_if_interrupted();
   if (!status && StopGuard::caught() != caught) leave_as_caught();
@@ -138,7 +139,7 @@ ExitCode Rendering::render_bands(Renderer& renderer) {
     live_.end_time_limit();
     cancelled = !done && StopGuard::flag();
     if (!done) return done;
-    live_.start_stage("writing " + printable(shown_output(command_.output)));
+    live_.start_stage("writing " + printable(shown_output(command_)));
     return writer.value().finish();
   });
   exit_if_interrupted();

@@ -8,6 +8,7 @@
 #include "core/base/version.h"
 #include "render/apps/cli/process/file_owner.h"
 #include "render/apps/cli/process/standard_error.h"
+#include "render/apps/cli/report/movie.h"
 #include "render/apps/cli/report/run_report.h"
 #include "render/apps/team/mpi_launcher.h"
 #include "render/apps/team/mpi_post.h"
@@ -64,6 +65,8 @@ Status check_copies(const RenderCommand& command) {
 Status check_team(const RenderCommand& command) {
   if (command.claim)
     return wrong_option("shares a series without MPI, which deals out frames itself", "--claim");
+  if (is_movie_name(command.output))
+    return wrong_option("a movie is made by one process: --mpi never makes it so", "--output");
   if (command.partial)
     return wrong_option("is for one process: with MPI it is --checkpoint", "--partial");
   return {};

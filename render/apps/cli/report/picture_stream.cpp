@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "render/apps/cli/process/interrupt.h"
+#include "render/apps/cli/report/movie.h"
 #include "render/apps/cli/report/run_report.h"
 #include "render/image/encode_image.h"
 #include "render/image/output_file.h"
@@ -46,8 +47,9 @@ int send(const std::string& bytes, const std::function<bool()>& stop) {
 
 }  // namespace
 
-std::string shown_output(const std::string& output) {
-  return output == standard_output ? stream_name : output;
+std::string shown_output(const RenderCommand& command) {
+  if (!command.movie.empty()) return command.movie;
+  return command.output == standard_output ? stream_name : command.output;
 }
 
 Status check_picture_stream(const RenderCommand& command) {
@@ -81,12 +83,14 @@ std::optional<std::string> file_to_encode(const RenderCommand& command) {
   return command.format == StreamFormat::png ? std::optional(stream_name + ".png") : std::nullopt;
 }
 
-Status send_picture(const Image& image, StreamFormat format, const ImageFileOptions& options) {
+Status send_picture(const Image& image, StreamFormat format, const std::string& movie,
+                    const ImageFileOptions& options) {
   auto bytes = encode_image(image, format, stream_name, options);
   if (!bytes) return bytes.error();
   if (options.temporary) options.temporary({});
   const int code = send(bytes.value(), options.stop);
   if (code == 0) return {};
+  if (code == EPIPE && !movie.empty()) return cannot_write(movie, movie_complaint());
   if (code == EPIPE) leave_unread();
   return code == ECANCELED ? cannot_write(stream_name, "interrupted")
                            : cannot_write(stream_name, code);

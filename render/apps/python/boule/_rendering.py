@@ -31,7 +31,8 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
         it is shown with this exposure, with a probability of 95 %; 0: all pixels get spp.
     aa: adaptive antialiasing, for method "whitted": pixels that differ from one around by more than
         so many codes of 255 (8, say) get up to spp samples (64), the others one; 0: all get spp.
-    background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels.
+    background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels, or
+        "0.5pt". width ("85mm") and dpi: the size in print; of size the shape counts then.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
         albedo, z; with noise or aa also noise, samples).
