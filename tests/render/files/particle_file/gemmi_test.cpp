@@ -81,6 +81,7 @@ TEST_F(Pdb, ReadsAtoms) {
   ASSERT_TRUE(frame.cell.has_value());
   EXPECT_EQ(frame.cell->b.y, 20);
   EXPECT_THAT(frame.cell->periodic, ElementsAre(true, true, true));
+  EXPECT_FALSE(frame.axes_matter);
   EXPECT_EQ(frame.length_in_angstrom, 1);
 }
 
@@ -217,6 +218,7 @@ TEST_F(Mmcif, ReadsModels) {
     EXPECT_THAT(numbers(frame, "bfactor"), ElementsAre(12.34, 0));
     EXPECT_EQ(frame.notes.size(), 2U);
     EXPECT_EQ(frame.cell->c.z, 30);
+    EXPECT_FALSE(frame.axes_matter);
   }
   const auto last = read_particles("a.cif", file);
   ASSERT_TRUE(last.ok()) << format_diagnostic(last.error());
@@ -249,6 +251,7 @@ TEST_F(Mmcif, ReadsSmallMolecules) {
   EXPECT_EQ(find_text_column(frame, "chain"), nullptr);
   EXPECT_THAT(frame.notes, ElementsAre("1 atom left out: other alternative locations"));
   EXPECT_EQ(frame.cell->b.y, 20);
+  EXPECT_TRUE(frame.axes_matter);
 }
 
 struct Broken {

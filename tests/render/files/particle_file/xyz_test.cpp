@@ -28,6 +28,7 @@ TEST(Xyz, ReadsPlainFrames) {
   ASSERT_NE(c5, nullptr);
   EXPECT_THAT(c5->texts, ElementsAre("x", "y"));
   EXPECT_FALSE(frame.cell.has_value());
+  EXPECT_FALSE(frame.axes_matter);
 }
 
 TEST(Xyz, ReadsPropertiesAndCell) {
@@ -47,6 +48,7 @@ TEST(Xyz, ReadsPropertiesAndCell) {
   ASSERT_EQ(frame.texts.size(), 1U);
   EXPECT_EQ(frame.texts[0].name, "tag");
   ASSERT_TRUE(frame.cell.has_value());
+  EXPECT_TRUE(frame.axes_matter);
   EXPECT_EQ(frame.cell->b.y, 5);
   EXPECT_EQ(frame.cell->c.z, 9);
   EXPECT_EQ(frame.cell->origin.z, -1);
