@@ -12,6 +12,22 @@ namespace boule::reference {
 /// takes any numbers: rays and primitives with NaN, infinity or without a direction miss. It throws
 /// nothing. Precondition: at most max_primitives.
 
+/// The part of a ray's line that is in a primitive: from `enter` to `leave`, which are equal for a
+/// tangent, and NaN for a line that misses. The interval of the ray is ignored. A plane bounds the
+/// half-space behind it, so one of the two is infinite. A ray that leaves a sphere on its inside
+/// has entered it before: at -inf.
+struct Chord {
+  double enter, leave;
+};
+/// `leaves`: the ray starts on this very primitive.
+Chord find_chord(const Ray& ray, const Sphere& sphere, bool leaves);
+Chord find_chord(const Ray& ray, const Plane& plane, bool leaves);
+
+/// Whether a chord has a part of the ray between tmin and tmax, at most the largest float; that of
+/// a plane, whether the ray crosses it there.
+bool overlaps(const Chord& chord, const Ray& ray, const Sphere& sphere);
+bool overlaps(const Chord& chord, const Ray& ray, const Plane& plane);
+
 /// t of the nearest intersection with tmin < t <= tmax, or inf. `leaves`: the ray starts on this
 /// very primitive.
 double intersect(const Ray& ray, const Sphere& sphere, bool leaves);

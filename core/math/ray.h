@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -20,16 +21,28 @@ inline constexpr std::int32_t no_primitive = -1;
 /// A bounded ray: the points org + t dir with tmin < t <= tmax (lecture "Rays"). dir may have any
 /// length. Origins are double because secondary rays start on surfaces. Any numbers are allowed: a
 /// ray with NaN, with an infinite origin or direction, without a direction, or without tmin < tmax
-/// misses everything.
+/// misses everything. Streams for kernels hold the ends as floats, rounded outward (RayBuffer).
 struct Ray {
   Vec3d org;
   Vec3f dir;
-  float tmin = 0;
-  float tmax = std::numeric_limits<float>::infinity();
+  double tmin = 0;
+  double tmax = std::numeric_limits<double>::infinity();
   std::int32_t source = no_primitive;  ///< primitive the ray leaves, or no_primitive
   /// The ray starts on the surface of `source`, a sphere, and goes to its inside.
   bool inside = false;
 };
+
+/// The largest float that is at most x, -inf included, and the smallest one that is at least x.
+/// Infinity and NaN stay what they are.
+inline float float_below(double x) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (x > double{largest}) return x == double{infinity} ? infinity : largest;
+  if (x < -double{largest}) return -infinity;
+  const auto nearest = static_cast<float>(x);
+  return double{nearest} > x ? std::nextafter(nearest, -infinity) : nearest;
+}
+inline float float_above(double x) { return -float_below(-x); }
 
 /// The part that many rays have in common, such as all primary rays of a camera.
 enum class CommonPart { none, origin, direction };
@@ -39,7 +52,7 @@ enum class CommonPart { none, origin, direction };
 /// that graze it at sines below 1/4 may still hit it: rounding dir moves the end by up to u |dir|.
 inline Ray segment(const Vec3d& from, const Vec3d& to) {
   Ray ray{from, vec_cast<float>(to - from)};
-  ray.tmax = static_cast<float>(short_of_the_end);
+  ray.tmax = short_of_the_end;
   return ray;
 }
 

@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <vector>
 
+#include "core/math/ray.h"
 #include "core/math/vec.h"
 
 namespace boule {
@@ -32,13 +35,39 @@ struct RayNumbers {
   }
 };
 
-/// Rays in columns, in the layout of numpy. Origins are read as double; directions and the ends of
-/// the interval are rounded to float once, and numbers beyond the range of float become infinite.
+/// Rays in columns, in the layout of numpy. Origins and the ends of the interval are read as
+/// double; directions are rounded to float once, and numbers beyond the range of float become
+/// infinite.
 struct RayColumns {
   std::size_t size = 0;
   RayNumbers org{}, dir{};    ///< three components each
   RayNumbers tmin{}, tmax{};  ///< one component
   Vec3d zero{};               ///< subtracted from the origins
+  RayNumbers source{};        ///< one component: an id, or no_primitive; `first` null: all of these
+  RayNumbers inside{};        ///< one component: 0, or the ray is inside; `first` null: all are 0
+
+  [[nodiscard]] Ray at(std::size_t ray) const;
+};
+
+/// Rays that a Tracer reads: a list, or columns. A view.
+class RayView {
+ public:
+  RayView(std::span<const Ray> rays) : rays_(rays) {}
+  RayView(const std::vector<Ray>& rays) : rays_(rays) {}
+  RayView(const RayColumns& columns) : columns_(&columns) {}
+
+  [[nodiscard]] std::size_t size() const {
+    return columns_ != nullptr ? columns_->size : rays_.size();
+  }
+  [[nodiscard]] Ray at(std::size_t ray) const {
+    return columns_ != nullptr ? columns_->at(ray) : rays_[ray];
+  }
+  /// Null for a list.
+  [[nodiscard]] const RayColumns* columns() const { return columns_; }
+
+ private:
+  std::span<const Ray> rays_;
+  const RayColumns* columns_ = nullptr;
 };
 
 /// The output columns for hits: `size` numbers each, three of each normal.
@@ -46,6 +75,7 @@ struct HitColumns {
   double* t = nullptr;
   std::int32_t* id = nullptr;
   float* normal = nullptr;
+  std::uint8_t* entering = nullptr;  ///< 1 or 0
 };
 
 }  // namespace boule

@@ -15,6 +15,7 @@
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
 #include "render/frame/progress.h"
+#include "render/frame/ray_lists.h"
 #include "render/frame/scheduler.h"
 #include "render/frame/traced_hit.h"
 #include "render/renderer/ray_columns.h"
@@ -39,6 +40,9 @@ struct TraceStatistics : RunStatistics {
   double trace_seconds = 0;
 };
 
+struct TraceTarget;
+class TraceWorker;
+
 /// Traces a caller's own rays against the objects of a scene. The scene needs the materials that
 /// its objects name, scene.materials = {{"", Matte{}}}, but neither camera nor lights. The bits of
 /// a hit are the same for any ISA, threads and other rays. Takes any rays. Every failure is a
@@ -57,8 +61,9 @@ class Tracer {
   ~Tracer();
 
   /// Sets hits[k] to the nearest hit of rays[k] with tmin < t <= tmax; at equal t, the one with the
-  /// lowest id. The normal is that of the AOV `normal`. An error if the numbers of rays and hits
-  /// differ, if there is too little memory, or after a cancellation; then some hits may be unset.
+  /// lowest id. t is compared with the ends of the interval in double. The normal is that of the
+  /// AOV `normal`. An error if the numbers of rays and hits differ, if there is too little memory,
+  /// or after a cancellation; then some hits may be unset.
   Status closest(std::span<const Ray> rays, std::span<TracedHit> hits);
 
   /// Sets met[k] to 1 if rays[k] hits a primitive with tmin < t <= tmax, otherwise to 0. It agrees
@@ -66,34 +71,59 @@ class Tracer {
   Status any(std::span<const Ray> rays, std::span<std::uint8_t> met);
 
   /// The same for rays and hits in columns, which are read and written in place. The numbers of
-  /// rays must stay unchanged in the meantime.
+  /// rays must stay unchanged in the meantime. An error, with the key "source" and the row, if a
+  /// source is neither no_primitive nor an id of the scene.
   Status closest_of_columns(const RayColumns& rays, const HitColumns& hits);
   Status any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met);
 
+  /// All crossings of each ray with tmin < t <= tmax, or the first `limit` of them: two of a
+  /// sphere, one where a line touches it, one of a plane. Decisions are exact, whatever the solver.
+  /// Of spheres that have more than sixteen exact copies at least two count. Errors are as for
+  /// closest_of_columns(); too little memory for the results is one with the memory that they need.
+  Result<Crossings> all_hits(const RayView& rays, std::optional<std::size_t> limit = {});
+
+  /// Sets counts[k] to the number of crossings of rays[k].
+  Status count(const RayView& rays, std::span<std::int64_t> counts);
+
+  /// Sets lengths[k] to the length of rays[k] inside the union of all spheres, between tmin and
+  /// tmax, in units of t: where spheres overlap it counts once.
+  Status chord(const RayView& rays, std::span<double> lengths);
+
+  /// The length of each ray inside each sphere, between tmin and tmax, where it is above 0.
+  Result<SphereChords> chords(const RayView& rays);
+
+  /// The number of ids: of spheres and planes.
+  [[nodiscard]] std::size_t primitives() const;
   [[nodiscard]] TraceStatistics statistics() const;
 
  private:
-  struct Worker;
-  using Body = std::function<void(Worker& worker, std::size_t first)>;
+  /// Answers the rays that a worker has loaded: those of the call from `first` on.
+  using Body = std::function<void(TraceWorker& worker, std::size_t first)>;
 
   template <class AnyScene>
   static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
   Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
          const TraceOptions& options, const KernelTable& kernels);
-  /// Fills a worker's stream with `count` rays from `first` on.
-  using Load = std::function<void(Worker& worker, std::size_t first, std::size_t count)>;
-  template <class Visit>
-  void find_closest(Worker& worker, const Visit& visit);
-  void find_any(Worker& worker);
-  Status run(std::size_t rays, std::size_t results, const Load& load, const Body& body);
-  Status run_blocks(std::size_t rays, const Load& load, const Body& body);
-  Worker& worker(unsigned index);
+  [[nodiscard]] TraceTarget target() const;
+  Status find_any(const RayView& rays, std::span<std::uint8_t> met);
+  [[nodiscard]] Status check_sources(const RayView& rays) const;
+  Status run(const RayView& rays, std::size_t results, const Body& body);
+  template <class Item, class List>
+  Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name, const List& list);
+  Status run_blocks(const RayView& rays, const Body& body);
+  [[nodiscard]] bool is_sphere(std::int32_t id) const {
+    return static_cast<std::uint32_t>(id) < geometry_.sphere_count();
+  }
+  /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
+  static constexpr std::size_t rays_of_stream = 1024;
+  static std::size_t blocks_of(std::size_t rays);
+  TraceWorker& worker(unsigned index);
 
   TraceOptions options_;
   const KernelTable* kernels_;
   Geometry geometry_;
   Scheduler scheduler_;
-  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::unique_ptr<TraceWorker>> workers_;
   std::uint64_t rays_ = 0;
   double prepare_seconds_ = 0;
   double trace_seconds_ = 0;

@@ -45,6 +45,13 @@ struct KernelTable {
   void (*any_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
                   std::uint8_t* occluded);
 
+  /// Lists the chords of rays from ray `first` on, in any order within a ray, by the solver robust:
+  /// those of spheres that have a part between tmin and tmax, at most the largest float, and those
+  /// of planes that the ray crosses there. Sets ends[k] to the number of chords up to the end of
+  /// rays[k]. Stops at a ray whose chords exceed the capacity. Returns that ray, or rays.size.
+  std::size_t (*find_chords)(const GeometryView& geometry, const RayStream& rays, std::size_t first,
+                             const ChordStream& chords, std::size_t* ends);
+
   /// surfaces[k] = the surface at hits[k] of rays[k]; undefined where the ray misses.
   void (*find_surfaces)(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
                         const SurfaceStream& surfaces);

@@ -109,8 +109,8 @@ template <class Rays>
 Ray get_ray(const Rays& rays, const RayPlaces& at) {
   Ray ray{{rays.org_x[at.org], rays.org_y[at.org], rays.org_z[at.org]},
           {rays.dir_x[at.dir], rays.dir_y[at.dir], rays.dir_z[at.dir]}};
-  ray.tmin = rays.tmin[at.start];
-  ray.tmax = rays.tmax[at.tmax];
+  ray.tmin = double{rays.tmin[at.start]};
+  ray.tmax = double{rays.tmax[at.tmax]};
   ray.source = rays.source[at.start];
   ray.inside = rays.inside[at.start] != 0;
   return ray;
@@ -130,6 +130,18 @@ struct HitStream {
 inline HitStream part(const HitStream& hits, std::size_t first, std::size_t size) {
   return {hits.t + first, hits.id + first, hits.slot + first, size};
 }
+
+/// Output: the chords of rays, ray after ray, for `capacity` of them. A ray is in the primitive
+/// `id` from `enter` to `leave`, in units of t; a tangent has them equal. `enter` is -inf where the
+/// ray leaves a sphere on its inside. A plane bounds the half-space behind it: the other end is
+/// infinite. `slot`: as in HitStream. Arrays need no alignment or padding.
+struct ChordStream {
+  double* enter;
+  double* leave;
+  std::int32_t* id;
+  std::uint32_t* slot;
+  std::size_t capacity;
+};
 
 /// Samples of the image plane through which primary rays go, in raster coordinates: (0, 0) is the
 /// top left corner, and pixel (i, j) has its centre at (i + 0.5, j + 0.5). Arrays are as in

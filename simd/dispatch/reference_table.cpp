@@ -77,6 +77,35 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
   }
 }
 
+std::size_t find_chords(const GeometryView& geometry, const RayStream& rays, std::size_t first,
+                        const ChordStream& chords, std::size_t* ends) {
+  const Primitives all(geometry);
+  std::size_t count = 0;
+  for (std::size_t i = first; i < rays.size; ++i) {
+    const Ray ray = get_ray(rays, i);
+    std::int32_t id = 0;
+    const auto add = [&](const auto& primitive) {
+      const reference::Chord chord = reference::find_chord(ray, primitive, id == ray.source);
+      const auto sphere = static_cast<std::uint32_t>(id);
+      if (overlaps(chord, ray, primitive)) {
+        if (count < chords.capacity) {
+          chords.enter[count] = chord.enter;
+          chords.leave[count] = chord.leave;
+          chords.id[count] = id;
+          chords.slot[count] = sphere < all.slots.size() ? all.slots[sphere] : 0;
+        }
+        ++count;
+      }
+      ++id;
+    };
+    for (const Sphere& sphere : all.spheres) add(sphere);
+    for (const Plane& plane : all.planes) add(plane);
+    if (count > chords.capacity) return i;
+    ends[i] = count;
+  }
+  return rays.size;
+}
+
 }  // namespace
 
 const KernelTable& reference_kernels() {
@@ -84,6 +113,7 @@ const KernelTable& reference_kernels() {
     KernelTable made = *select_kernels("scalar").value();
     made.closest_hit = closest_hit;
     made.any_hit = any_hit;
+    made.find_chords = find_chords;
     return made;
   }();
   return table;

@@ -134,6 +134,11 @@ Sphere Geometry::sphere(std::uint32_t slot) const {
           bvh_.materials[slot]};
 }
 
+Plane Geometry::plane(std::int32_t id) const {
+  const std::size_t i = static_cast<std::uint32_t>(id) - sphere_count_;
+  return {{point_x_[i], point_y_[i], point_z_[i]}, {normal_x_[i], normal_y_[i], normal_z_[i]}};
+}
+
 void Geometry::set_scanned(std::size_t i) {
   const Sphere sphere = this->sphere(static_cast<std::uint32_t>(i));
   center_x_[i] = sphere.center.x;

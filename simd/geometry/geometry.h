@@ -48,6 +48,7 @@ class Geometry {
 
   /// The number of spheres it was built of; planes have the ids from there on.
   [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
+  [[nodiscard]] std::size_t plane_count() const { return plane_count_; }
   /// Whether a hit is that of a plane. Precondition: it is not a miss.
   [[nodiscard]] bool is_plane(const Hit& hit) const {
     return static_cast<std::uint32_t>(hit.id) - sphere_count_ < plane_count_;
@@ -60,6 +61,8 @@ class Geometry {
   }
   /// The sphere in a slot. Precondition: there is one, as in the slot of a hit.
   [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
+  /// The plane with this id, in the default material. Precondition: there is one.
+  [[nodiscard]] Plane plane(std::int32_t id) const;
 
  private:
   Geometry(std::size_t count, std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,

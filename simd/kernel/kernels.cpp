@@ -12,6 +12,7 @@
 #include "simd/kernel/search/bundle/bundled.h"
 #include "simd/kernel/search/flock/scattered_stream.h"
 #include "simd/kernel/search/leaf/primitive_access.h"
+#include "simd/kernel/search/packet/chord_list.h"
 #include "simd/kernel/search/packet/packet_stream.h"
 #include "simd/kernel/shading/direct_light.h"
 #include "simd/kernel/shading/lobe_points.h"
@@ -102,6 +103,14 @@ void camera_rays(const CameraView& camera, const SampleStream& samples, const Ra
   primary_rays(camera, samples, rays);
 }
 
+std::size_t chords_of_rays(const GeometryView& geometry, const RayStream& rays, std::size_t first,
+                           const ChordStream& chords, std::size_t* ends) {
+  if (geometry.parts.size != 0) {
+    return list_chords(PartsGeometry(geometry), rays, first, chords, ends);
+  }
+  return list_chords(geometry, rays, first, chords, ends);
+}
+
 void surfaces_of_hits(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
                       const SurfaceStream& surfaces) {
   if (geometry.parts.size != 0) {
@@ -152,10 +161,22 @@ void direct_light(const LightIntensity& light, const ShadowedPoints& shadows,
 }  // namespace
 
 extern const KernelTable kernel_table;
-const KernelTable kernel_table = {
-    Isa::BOULE_KERNEL_ISA, width,       camera_rays,  closest_hit,    any_hit,
-    surfaces_of_hits,      shadow_rays, numbers,      weighted_light, light_by_direction,
-    points_by_kind,        matte_paths, glossy_paths, clear_paths,    scattered,
-    direct_light};
+const KernelTable kernel_table = {Isa::BOULE_KERNEL_ISA,
+                                  width,
+                                  camera_rays,
+                                  closest_hit,
+                                  any_hit,
+                                  chords_of_rays,
+                                  surfaces_of_hits,
+                                  shadow_rays,
+                                  numbers,
+                                  weighted_light,
+                                  light_by_direction,
+                                  points_by_kind,
+                                  matte_paths,
+                                  glossy_paths,
+                                  clear_paths,
+                                  scattered,
+                                  direct_light};
 
 }  // namespace boule::BOULE_KERNEL_ISA

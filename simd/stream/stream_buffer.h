@@ -11,7 +11,9 @@
 
 namespace boule {
 
-/// Memory for a RayStream, reused from call to call. Growing, or sharing other numbers, loses the
+/// Memory for a RayStream. The ends of a ray's interval are rounded outward to float: kernels find
+/// every hit that the ray has, and possibly others within a unit of float beyond its ends (Tracer
+/// compares exactly). Reused from call to call. Growing, or sharing other numbers, loses the
 /// rays in the buffer. Buffers in this file leave indices unchecked: i < size() is a precondition.
 /// If resize() throws std::bad_alloc, the size stays as it was. A buffer that was moved from must
 /// be resized before it is used again.
@@ -49,7 +51,7 @@ class RayBuffer {
     if (!shared_.has_origin()) set_origin(at.org, ray);
     if (!shared_.has_direction()) set_direction(at.dir, ray);
     if (!shared_.has_start()) set_start(at.start, ray);
-    rays_.tmax[at.tmax] = ray.tmax;
+    rays_.tmax[at.tmax] = float_above(ray.tmax);
   }
   [[nodiscard]] Ray get(std::size_t i) const { return get_ray(rays_, shared_.places(i)); }
   [[nodiscard]] Vec3d org(std::size_t i) const { return get(i).org; }
@@ -77,7 +79,7 @@ class RayBuffer {
     rays_.dir_z[i] = ray.dir.z;
   }
   void set_start(std::size_t i, const Ray& ray) {
-    rays_.tmin[i] = ray.tmin;
+    rays_.tmin[i] = float_below(ray.tmin);
     rays_.source[i] = ray.source;
     rays_.inside[i] = ray.inside ? 1 : 0;
   }

@@ -155,7 +155,7 @@ std::vector<Ray> to_its_origin(CaseRandom& random, const HardCase& hard_case, st
   std::vector<Ray> rays;
   for (const Ray& ray : from_its_origin(random, hard_case, i)) {
     rays.push_back(back_to_origin(random, hard_case, ray, otherwise));
-    float& tmax = rays.back().tmax;
+    double& tmax = rays.back().tmax;
     const int end = random.below(8);
     if (end == 0) tmax = static_cast<float>(random.uniform());
     if (end == 1) tmax = std::fmin(beside(random, closest_of_line(hard_case, rays.back()).t), 1.0F);

@@ -11,6 +11,7 @@ namespace {
 constexpr int exponents[] = {-60, -40, -20, -7, 7, 20, 40, 60};
 
 float scaled(float x, int k) { return std::ldexp(x, k); }
+double scaled(double x, int k) { return std::ldexp(x, k); }
 Vec3f scaled(const Vec3f& v, int k) { return {scaled(v.x, k), scaled(v.y, k), scaled(v.z, k)}; }
 
 /// Everything that is a length times 2^k.

@@ -55,8 +55,9 @@ inline std::string ray_rows(const std::vector<Ray>& rays) {
   std::string data;
   for (const Ray& ray : rays) {
     const Vec3f org = vec_cast<float>(ray.org);
-    for (const float x : {org.x, org.y, org.z, ray.tmin}) append_bytes(data, x);
-    for (const float x : {ray.dir.x, ray.dir.y, ray.dir.z, ray.tmax}) append_bytes(data, x);
+    const auto tmin = static_cast<float>(ray.tmin), tmax = static_cast<float>(ray.tmax);
+    for (const float x : {org.x, org.y, org.z, tmin}) append_bytes(data, x);
+    for (const float x : {ray.dir.x, ray.dir.y, ray.dir.z, tmax}) append_bytes(data, x);
   }
   return data;
 }

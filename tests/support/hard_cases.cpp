@@ -183,6 +183,10 @@ void spoil(CaseRandom& random, float& component) {
   if (random.chance(0.25)) component = special_value(random);
 }
 
+void spoil(CaseRandom& random, double& component) {
+  if (random.chance(0.25)) component = double{special_value(random)};
+}
+
 void spoil(CaseRandom& random, Vec3f& v) {
   for (float* component : {&v.x, &v.y, &v.z}) spoil(random, *component);
 }

@@ -59,7 +59,7 @@ inline bool have_in_common(const std::vector<Ray>& rays, CommonPart common) {
   const auto bits = [common](const Ray& ray) {
     const auto part = common == CommonPart::origin ? ray.org : vec_cast<double>(ray.dir);
     return std::tuple(std::bit_cast<std::array<std::uint64_t, 3>>(part),
-                      std::bit_cast<std::uint32_t>(ray.tmin), ray.source, ray.inside);
+                      std::bit_cast<std::uint64_t>(ray.tmin), ray.source, ray.inside);
   };
   return !rays.empty() &&
          std::ranges::all_of(rays, [&](const Ray& ray) { return bits(ray) == bits(rays[0]); });

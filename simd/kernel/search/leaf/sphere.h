@@ -41,8 +41,14 @@ BOULE_INLINE Real grown_on_the_spot(const Real& radius) {
                     Real(static_cast<float>(2 * filter::floor)));
 }
 
-/// Solver robust: closest approach in double, never fused. core/reference.cpp derives the formula.
-BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
+/// Where lines enter and leave spheres, if the discriminant is at least 0.
+struct LineRoots {
+  Wide enter, leave, discriminant;
+  Wide r, b;  ///< the radius, and (c - o).d
+};
+
+/// Closest approach in double, never fused. core/reference.cpp derives the formula.
+BOULE_INLINE LineRoots meet_lines(const ExactRays& rays, const SphereLanes& sphere) {
   const Vec3<Wide> f = widen(sphere.center) - rays.org;
   const Wide r = widen(sphere.radius);
   const Wide b = dot(f, rays.dir);
@@ -57,16 +63,21 @@ BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere
   const Wide from_cc = select(secant, (dot(f, f) - r * r) / q, from_a);
 
   const WideMask ordered = from_cc < from_a;
-  Roots roots =
-      first_in_range(select(ordered, from_cc, from_a), select(ordered, from_a, from_cc), rays);
-  roots.hit = roots.hit & (Wide(0.0) <= discriminant);
+  return {select(ordered, from_cc, from_a), select(ordered, from_a, from_cc), discriminant, r, b};
+}
+
+/// Solver robust.
+BOULE_INLINE Roots solve_robust(const ExactRays& rays, const SphereLanes& sphere) {
+  const LineRoots line = meet_lines(rays, sphere);
+  Roots roots = first_in_range(line.enter, line.leave, rays);
+  roots.hit = roots.hit & (Wide(0.0) <= line.discriminant);
 
   if (rays.has_source) {
     // The origin lies on the ray's own sphere, where cc = 0: from outside the ray does not hit it
     // again, from inside it does at 2b / a.
     const WideMask leaves = widen(rays.source == sphere.id);
-    const Wide across = (b + b) * rays.inverse_a;
-    const WideMask is_sphere = r == r;  // padding is not
+    const Wide across = (line.b + line.b) * rays.inverse_a;
+    const WideMask is_sphere = line.r == line.r;  // padding is not
     const WideMask again = rays.inside & is_sphere & in_range(across, rays);
     roots.t = select(leaves, across, roots.t);
     roots.hit = (leaves & again) | (~leaves & roots.hit);

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/math/ray.h"
+#include "core/reference.h"
+#include "render/frame/traced_hit.h"
+#include "simd/abi/kernel_table.h"
+#include "simd/geometry/geometry.h"
+#include "simd/stream/stream_buffer.h"
+#include "simd/stream/surface_buffer.h"
+
+namespace boule {
+
+/// What the rays of a Tracer are traced against, and how.
+struct TraceTarget {
+  const KernelTable& kernels;
+  const Geometry& geometry;
+  Solver solver;
+};
+
+/// The ends of a ray as they were given.
+struct RayInterval {
+  double tmin, tmax;
+
+  [[nodiscard]] double end() const {
+    constexpr double largest{std::numeric_limits<float>::max()};
+    return tmax > largest ? largest : tmax;
+  }
+  /// Whether a hit at t counts.
+  [[nodiscard]] bool holds(double t) const { return tmin < t && t <= end(); }
+};
+
+/// A chord of a ray: see ChordStream.
+struct RayChord {
+  double enter, leave;
+  std::int32_t id;
+  std::uint32_t slot;
+};
+
+/// One thread's rays, and the answers to them. A stream has the ends of rays as floats, rounded
+/// outward; the answers here are compared with the ends as they were given, in double. The memory
+/// is kept from block to block.
+class TraceWorker {
+ public:
+  /// Takes `count` rays, ray(k) for each k.
+  template <class GetRay>
+  void load(std::size_t count, const GetRay& ray) {
+    start(count);
+    for (std::size_t k = 0; k < count; ++k) set(k, ray(k));
+  }
+  [[nodiscard]] std::size_t size() const { return rays_.size(); }
+  [[nodiscard]] const RayInterval& interval(std::size_t k) const { return ends_[k]; }
+  [[nodiscard]] Ray ray(std::size_t k) const { return rays_.get(k); }
+
+  /// Finds the nearest hit of each ray. Sets hits[k] by set(k, hit).
+  template <class Set>
+  void find_closest(const TraceTarget& target, const Set& set) {
+    meet_closest(target);
+    for (std::size_t first = 0; first < size(); first += surface_block) {
+      const std::size_t count = find_surfaces(target, first);
+      for (std::size_t k = 0; k < count; ++k) set(first + k, traced(target, first + k, k));
+    }
+  }
+
+  /// 1 for each ray that meets something, otherwise 0; valid until the next call.
+  const std::uint8_t* find_any(const TraceTarget& target);
+
+  /// Calls visit(k, chords) with the chords of each ray, in any order; a ray may have chords that
+  /// end within a unit of float beyond its interval.
+  template <class Visit>
+  void find_chords(const TraceTarget& target, const Visit& visit) {
+    visit_chords(target, rays_, visit);
+  }
+
+ private:
+  /// Number of rays whose surfaces are found at a time: few enough for them to stay in the nearest
+  /// caches.
+  static constexpr std::size_t surface_block = 256;
+
+  void start(std::size_t count);
+  void set(std::size_t k, const Ray& ray);
+  void meet_closest(const TraceTarget& target);
+  void settle_ends(const TraceTarget& target);
+  std::size_t find_surfaces(const TraceTarget& target, std::size_t first);
+  TracedHit traced(const TraceTarget& target, std::size_t k, std::size_t surface);
+  /// The chords of rays first .. , as far as there is room. Returns the ray that it stops at.
+  std::size_t list_chords(const TraceTarget& target, RayBuffer& rays, std::size_t first);
+
+  template <class Visit>
+  void visit_chords(const TraceTarget& target, RayBuffer& rays, const Visit& visit) {
+    for (std::size_t first = 0; first < rays.size();) {
+      const std::size_t stop = list_chords(target, rays, first);
+      std::size_t begin = 0;
+      for (; first < stop; ++first) {
+        visit(first, std::span<const RayChord>(chords_).subspan(begin, chord_ends_[first] - begin));
+        begin = chord_ends_[first];
+      }
+    }
+  }
+
+  RayBuffer rays_;
+  std::vector<RayInterval> ends_;
+  std::vector<std::size_t> rounded_;  ///< the rays whose ends are no floats
+  HitBuffer hits_;
+  SurfaceBuffer surfaces_{surface_block};
+  AlignedArray<std::uint8_t> met_;
+  Experience closest_, any_;  ///< of all calls: they probably have rays of one kind
+
+  // Of rays that need a second look.
+  std::vector<std::size_t> again_;
+  RayBuffer again_rays_;
+  AlignedArray<std::uint8_t> again_met_;
+
+  std::vector<double> enter_, leave_;
+  std::vector<std::int32_t> chord_id_;
+  std::vector<std::uint32_t> chord_slot_;
+  std::vector<std::size_t> chord_ends_;
+  std::vector<RayChord> chords_;
+};
+
+}  // namespace boule

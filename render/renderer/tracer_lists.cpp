@@ -1,0 +1,221 @@
+// All that rays cross, and how long they are inside.
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "render/memory/available_memory.h"
+#include "render/renderer/trace_worker.h"
+#include "render/renderer/tracer.h"
+
+namespace boule {
+namespace {
+
+struct Crossing {
+  double t;
+  std::int32_t id;
+  bool entering;
+
+  [[nodiscard]] auto key() const {
+    return std::tuple(t, static_cast<std::uint32_t>(id), !entering);
+  }
+};
+
+/// A part of a line.
+struct Span {
+  double begin, end;
+
+  [[nodiscard]] double length() const { return end > begin ? end - begin : 0; }
+};
+
+struct ChordLength {
+  std::int32_t id;
+  double length;
+};
+
+/// Calls visit(t, entering) for each crossing that counts. A tangent is one.
+template <class Visit>
+void visit_crossings(const RayChord& chord, const RayInterval& interval, const Visit& visit) {
+  if (interval.holds(chord.enter)) visit(chord.enter, true);
+  if (chord.leave != chord.enter && interval.holds(chord.leave)) visit(chord.leave, false);
+}
+
+/// Appends the crossings of one ray in order, at most `limit`.
+void add_crossings(std::span<const RayChord> chords, const RayInterval& interval, std::size_t limit,
+                   std::vector<Crossing>& to) {
+  const std::size_t before = to.size();
+  for (const RayChord& chord : chords) {
+    visit_crossings(chord, interval, [&](double t, bool entering) {
+      to.push_back({t, chord.id, entering});
+    });
+  }
+  const auto first = to.begin() + static_cast<std::ptrdiff_t>(before);
+  std::sort(first, to.end(),
+            [](const Crossing& a, const Crossing& b) { return a.key() < b.key(); });
+  if (to.size() - before > limit) to.resize(before + limit);
+}
+
+/// The part of a sphere's chord that counts. A ray that leaves the sphere on its inside begins at
+/// 0.
+Span clip(const RayChord& chord, const RayInterval& interval, const Ray& ray) {
+  const double enter = chord.id == ray.source ? 0 : chord.enter;
+  return {std::max(enter, interval.tmin), std::min(chord.leave, interval.end())};
+}
+
+/// The length of the union. Reorders the spans.
+double union_length(std::vector<Span>& spans) {
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+    return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
+  });
+  double length = 0;
+  for (std::size_t k = 0; k < spans.size();) {
+    Span joined = spans[k];
+    for (++k; k < spans.size() && spans[k].begin <= joined.end; ++k)
+      joined.end = std::max(joined.end, spans[k].end);
+    length += joined.length();
+  }
+  return length;
+}
+
+/// Moves the items of all pieces into columns: copy(piece, first) does so for the items of one
+/// piece, of which the first is the first-th of all. The pieces are freed one by one.
+template <class Item, class Copy>
+void spread(RayLists<Item>& lists, const Copy& copy) {
+  std::size_t first = 0;
+  for (std::vector<Item>& piece : lists.pieces) {
+    copy(piece, first);
+    first += piece.size();
+    std::vector<Item>().swap(piece);
+  }
+}
+
+}  // namespace
+
+/// list(worker, k, chords, items) appends the items of ray k of the worker. Results that exceed the
+/// memory are counted and not kept. `name`: of the items.
+template <class Item, class List>
+Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string& name,
+                                          const List& list) {
+  // Each item is in its piece and in its columns at the same time.
+  constexpr std::uint64_t bytes_each = 2 * sizeof(Item);
+  const std::string of_rays = " of " + std::to_string(rays.size()) + " rays need";
+  const std::uint64_t room = available_memory();
+  const std::uint64_t offsets = (std::uint64_t{rays.size()} + 1) * sizeof(std::int64_t);
+  if (auto done = check_memory(offsets, "the " + name + of_rays); !done) return done.error();
+  RayLists<Item> lists;
+  std::atomic<std::uint64_t> items{0};
+  const auto make = [&] {
+    lists.offset.assign(rays.size() + 1, 0);
+    lists.pieces.resize(blocks_of(rays.size()));
+  };
+  if (auto done = diagnose(std::cref(make)); !done) return done.error();
+  const auto body = [&](TraceWorker& worker, std::size_t first) {
+    std::vector<Item> found;
+    worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
+      const std::size_t before = found.size();
+      list(worker, k, chords, found);
+      lists.offset[first + k + 1] = static_cast<std::int64_t>(found.size() - before);
+    });
+    items += found.size();
+    if (offsets + items * bytes_each > room) return;
+    lists.pieces[first / rays_of_stream] = found;  // a copy, which takes no more than it needs
+  };
+  if (auto done = run(rays, rays.size(), std::cref(body)); !done) return done.error();
+  const std::uint64_t bytes = offsets + items * bytes_each;
+  if (bytes > room) {
+    return Diagnostic::out_of_memory("the " + std::to_string(items) + " " + name + of_rays + " " +
+                                     memory_text(bytes) + ", there are " + memory_text(room));
+  }
+  std::partial_sum(lists.offset.begin(), lists.offset.end(), lists.offset.begin());
+  return lists;
+}
+
+Result<Crossings> Tracer::all_hits(const RayView& rays, std::optional<std::size_t> limit) {
+  const std::size_t most = limit.value_or(static_cast<std::size_t>(-1));
+  auto lists =
+      list_items<Crossing>(rays, "crossings",
+                           [&](const TraceWorker& worker, std::size_t k,
+                               std::span<const RayChord> chords, std::vector<Crossing>& items) {
+                             add_crossings(chords, worker.interval(k), most, items);
+                           });
+  if (!lists) return lists.error();
+  Crossings all;
+  const auto fill = [&] {
+    all.offset = std::move(lists.value().offset);
+    const auto size = static_cast<std::size_t>(all.offset.back());
+    all.t.resize(size);
+    all.id.resize(size);
+    all.entering.resize(size);
+    spread(lists.value(), [&](const std::vector<Crossing>& piece, std::size_t at) {
+      for (const Crossing& crossing : piece) {
+        all.t[at] = crossing.t;
+        all.id[at] = crossing.id;
+        all.entering[at++] = crossing.entering ? 1 : 0;
+      }
+    });
+  };
+  if (auto done = diagnose(std::cref(fill)); !done) return done.error();
+  return all;
+}
+
+Status Tracer::count(const RayView& rays, std::span<std::int64_t> counts) {
+  const auto body = [&](TraceWorker& worker, std::size_t first) {
+    worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
+      std::int64_t count = 0;
+      for (const RayChord& chord : chords)
+        visit_crossings(chord, worker.interval(k), [&](double, bool) { ++count; });
+      counts[first + k] = count;
+    });
+  };
+  return run(rays, counts.size(), std::cref(body));
+}
+
+Status Tracer::chord(const RayView& rays, std::span<double> lengths) {
+  const auto body = [&](TraceWorker& worker, std::size_t first) {
+    std::vector<Span> spans;
+    worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
+      const Ray ray = worker.ray(k);
+      spans.clear();
+      for (const RayChord& chord : chords) {
+        if (is_sphere(chord.id)) spans.push_back(clip(chord, worker.interval(k), ray));
+      }
+      lengths[first + k] = union_length(spans);
+    });
+  };
+  return run(rays, lengths.size(), std::cref(body));
+}
+
+Result<SphereChords> Tracer::chords(const RayView& rays) {
+  auto lists = list_items<ChordLength>(
+      rays, "chords",
+      [&](const TraceWorker& worker, std::size_t k, std::span<const RayChord> chords,
+          std::vector<ChordLength>& items) {
+        const auto before = static_cast<std::ptrdiff_t>(items.size());
+        const Ray ray = worker.ray(k);
+        for (const RayChord& chord : chords) {
+          const double length = clip(chord, worker.interval(k), ray).length();
+          if (is_sphere(chord.id) && length > 0) items.push_back({chord.id, length});
+        }
+        std::sort(items.begin() + before, items.end(),
+                  [](const ChordLength& a, const ChordLength& b) { return a.id < b.id; });
+      });
+  if (!lists) return lists.error();
+  SphereChords all;
+  const auto fill = [&] {
+    all.offset = std::move(lists.value().offset);
+    const auto size = static_cast<std::size_t>(all.offset.back());
+    all.id.resize(size);
+    all.length.resize(size);
+    spread(lists.value(), [&](const std::vector<ChordLength>& piece, std::size_t at) {
+      for (const ChordLength& chord : piece) {
+        all.id[at] = chord.id;
+        all.length[at++] = chord.length;
+      }
+    });
+  };
+  if (auto done = diagnose(std::cref(fill)); !done) return done.error();
+  return all;
+}
+
+}  // namespace boule

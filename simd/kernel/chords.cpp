@@ -1,0 +1,120 @@
+// The chords of single rays: all that a ray passes through, not only the first.
+#include <bit>
+
+#include "simd/kernel/search/packet/chord_list.h"
+#include "simd/kernel/search/packet/parts.h"
+#include "simd/kernel/search/packet/traverse.h"
+
+namespace boule::BOULE_KERNEL_ISA {
+namespace {
+
+/// The chords of one ray, which all lanes hold. It takes the place of the nearest hit in the
+/// search: it wants every sphere before the end of the ray.
+class AllChords {
+ public:
+  /// Adds chords behind the first `count`.
+  BOULE_INLINE AllChords(const RayLanes& rays, const ChordStream& to, std::size_t count)
+      : to_(to), count_(count), far_(ClosestHit::distance(rays.exact.tmax, rays)) {}
+
+  [[nodiscard]] BOULE_INLINE Real limit() const { return far_; }
+  /// Whether there were more chords than the stream has room for.
+  [[nodiscard]] bool done() const { return count_ > to_.capacity; }
+  static constexpr unsigned open(unsigned lanes) { return lanes; }
+  template <class Spheres>
+  static void settle(const Spheres& /*all*/, const RayLanes& /*rays*/) {}
+  static constexpr bool ordered = false;
+  static constexpr std::size_t chunk = tuning::any_chunk;
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  /// Adds the chords of the lanes that are `met` and have a part between tmin and tmax.
+  BOULE_INLINE void add(const ExactRays& rays, const Wide& enter, const Wide& leave,
+                        const WideMask& met, const Bits& id, const Bits& slot) {
+    unsigned lanes = bits(narrow(met & (rays.tmin < leave) & (enter <= rays.tmax)));
+    if (lanes == 0) return;
+    alignas(64) double enters[width], leaves[width];
+    alignas(64) std::int32_t ids[width];
+    alignas(64) std::uint32_t slots[width];
+    store(enters, enter);
+    store(leaves, leave);
+    store(ids, id);
+    store(slots, slot);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      if (count_ >= to_.capacity) {
+        count_ = to_.capacity + 1;
+        return;
+      }
+      to_.enter[count_] = enters[lane];
+      to_.leave[count_] = leaves[lane];
+      to_.id[count_] = ids[lane];
+      to_.slot[count_] = slots[lane];
+      ++count_;
+    }
+  }
+
+ private:
+  const ChordStream& to_;
+  std::size_t count_;
+  Real far_;
+};
+
+/// In place of the scan's functions of the same names, which keep the nearest hit.
+template <class All, class Spheres, std::size_t capacity>
+BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver /*solver*/, const All& /*all*/,
+                                 const Spheres& spheres, std::size_t begin,
+                                 const Survivors<capacity>& survivors, AllChords& best) {
+  const ExactRays& exact = rays.exact;
+  for (std::size_t k = 0; k < survivors.count; ++k) {
+    const std::size_t step = begin + survivors.offset[k];
+    const SphereLanes sphere = get_sphere(spheres, step);
+    LineRoots line = meet_lines(exact, sphere);
+    WideMask met = Wide(0.0) <= line.discriminant;
+    if (exact.has_source) {  // as in solve_robust()
+      const WideMask leaves = widen(exact.source == sphere.id);
+      const Wide across = (line.b + line.b) * exact.inverse_a;
+      line.enter = select(leaves, Wide(-no_hit), line.enter);
+      line.leave = select(leaves, across, line.leave);
+      met = (leaves & exact.inside & (line.r == line.r)) | (~leaves & met);
+    }
+    best.add(exact, line.enter, line.leave, met, sphere.id, spheres.slot(step));
+  }
+}
+template <class Access>
+BOULE_INLINE void scan_planes(const RayLanes& rays, Solver /*solver*/, const PlaneView& planes,
+                              AllChords& best) {
+  const std::size_t steps = Access::steps(planes.size);
+  for (std::size_t step = 0; step < steps && !best.done(); ++step) {
+    const PlaneLanes plane = get_plane<Access>(planes, step);
+    const Roots roots = solve_robust(rays.exact, plane);
+    const WideMask goes_in = exact_dot(rays.exact.dir, widen(plane.normal)) < Wide(0.0);
+    best.add(rays.exact, select(goes_in, roots.t, Wide(-no_hit)),
+             select(goes_in, Wide(no_hit), roots.t), roots.hit, plane.id, Bits(0));
+  }
+}
+
+}  // namespace
+
+template <class Geometry>
+std::size_t list_chords(const Geometry& geometry, const RayStream& rays, std::size_t first,
+                        const ChordStream& chords, std::size_t* ends) {
+  RayLanes lanes;
+  std::size_t count = 0;
+  for (std::size_t i = first; i < rays.size; ++i) {
+    load_single(rays, i, lanes);
+    AllChords all(lanes, chords, count);
+    if (any(lanes.exact.tmin < lanes.exact.tmax)) {
+      search<OnePerLane>(lanes, Solver::robust, geometry, all);
+    }
+    if (all.done()) return i;
+    ends[i] = count = all.count();
+  }
+  return rays.size;
+}
+
+template std::size_t list_chords(const GeometryView&, const RayStream&, std::size_t,
+                                 const ChordStream&, std::size_t*);
+template std::size_t list_chords(const PartsGeometry&, const RayStream&, std::size_t,
+                                 const ChordStream&, std::size_t*);
+
+}  // namespace boule::BOULE_KERNEL_ISA
