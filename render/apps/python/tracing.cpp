@@ -2,13 +2,15 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/scene/number_text.h"
@@ -18,6 +20,7 @@
 #include "render/apps/python/errors.h"
 #include "render/apps/python/job_arguments.h"
 #include "render/apps/python/presence.h"
+#include "render/apps/python/ray_input.h"
 #include "render/apps/python/scenes.h"
 #include "render/apps/python/sphere_arrays.h"
 #include "render/memory/available_memory.h"
@@ -73,46 +76,27 @@ class SharedTracer {
 
 using TracerHandle = std::shared_ptr<SharedTracer>;
 
-/// The arrays of rays, and what keeps them.
-struct RayInput {
-  Numbers org, dir, tmin, tmax;
-  RayColumns columns{};
+using RayHandle = std::shared_ptr<const RayInput>;
 
-  RayInput(const py::object& org_given, const py::object& dir_given, const py::object& tmin_given,
-           const py::object& tmax_given)
-      : org(org_given, "org", {.columns = 3, .takes_one = true}),
-        dir(dir_given, "dir", dir_shape(org)),
-        tmin(tmin_given, "tmin", {.rows = count(), .takes_one = true}),
-        tmax(tmax_given, "tmax", {.rows = count(), .takes_one = true}) {
-    columns = {count(), org.column(), dir.column(), tmin.column(), tmax.column(), {}};
-  }
+RayHandle rays_of(const py::dict& given) { return std::make_shared<const RayInput>(given); }
 
-  /// One origin may stand for all rays, and one direction.
-  [[nodiscard]] std::size_t count() const { return org.is_one() ? dir.rows() : org.rows(); }
-
- private:
-  static Numbers::Shape dir_shape(const Numbers& org) {
-    Numbers::Shape shape{.columns = 3, .takes_one = true};
-    if (!org.is_one()) shape.rows = org.rows();
-    return shape;
-  }
-};
-
-/// Runs a query, with a thread that waits for signals if it may take long.
-template <class Trace>
-void trace(const TracerHandle& tracer, const std::shared_ptr<RayInput>& rays, const Trace& query) {
-  rays->columns.zero = tracer->zero();
+/// Runs query(tracer, columns), with a thread that waits for signals if it may take long.
+template <class Query>
+void trace(const TracerHandle& tracer, const RayHandle& rays, const Query& query) {
+  const auto work = [tracer, rays, query](const std::atomic<bool>& cancel) {
+    return tracer->run(cancel,
+                       [&](Tracer& one) { return query(one, rays->columns(tracer->zero())); });
+  };
   if (rays->count() <= few_rays) {
     const std::atomic<bool> never{false};
     Status status;
     {
       const py::gil_scoped_release no_gil;
-      status = tracer->run(never, query);
+      status = work(never);
     }
     return check(status);
   }
-  check(
-      interruptible([tracer, rays, query](Call& call) { return tracer->run(call.cancel, query); }));
+  check(interruptible([work](Call& call) { return work(call.cancel); }));
 }
 
 void check_room(std::size_t rays, std::size_t bytes_each) {
@@ -120,32 +104,124 @@ void check_room(std::size_t rays, std::size_t bytes_each) {
                      "the hits of " + std::to_string(rays) + " rays need"));
 }
 
-py::tuple closest(const TracerHandle& tracer, const py::object& org, const py::object& dir,
-                  const py::object& tmin, const py::object& tmax) {
-  const auto rays = std::make_shared<RayInput>(org, dir, tmin, tmax);
-  const auto count = static_cast<py::ssize_t>(rays->count());
-  check_room(rays->count(), sizeof(double) + sizeof(std::int32_t) + 3 * sizeof(float));
-  auto t = empty_array<double>({count});
-  auto id = empty_array<std::int32_t>({count});
-  auto normal = empty_array<float>({count, 3});
-  const HitColumns hits{t.mutable_data(), id.mutable_data(), normal.mutable_data()};
-  const auto kept = keep(py::make_tuple(t, id, normal));
-  trace(tracer, rays,
-        [rays, hits, kept](Tracer& one) { return one.closest_of_columns(rays->columns, hits); });
-  return py::make_tuple(t, id, normal);
+/// A new array; or, if `out` is one, that, which must fit.
+template <class Number>
+py::array_t<Number> room_in(const py::object& out, const std::string& name,
+                            const std::vector<py::ssize_t>& shape) {
+  if (out.is_none()) return empty_array<Number>(shape);
+  const py::array_t<Number> wanted = empty_array<Number>(std::vector<py::ssize_t>(shape.size(), 0));
+  const bool is_array = py::isinstance<py::array>(out) && !is_masked(out);
+  const auto array = is_array ? py::reinterpret_borrow<py::array>(out) : py::array();
+  const bool fits =
+      is_array && array.dtype().is(wanted.dtype()) &&
+      std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim()) &&
+      array.writeable() && (array.flags() & py::array::c_style) != 0;
+  if (!fits) {
+    throw_error("out", name + ": expected " + std::string(py::str(wanted.dtype())) + " of shape " +
+                           std::string(py::str(py::tuple(py::cast(shape)))) +
+                           ", in C order and writable, got " +
+                           (is_array ? describe(array) : type_name(out)));
+  }
+  return py::reinterpret_borrow<py::array_t<Number>>(out);
 }
 
-py::array any(const TracerHandle& tracer, const py::object& org, const py::object& dir,
-              const py::object& tmin, const py::object& tmax) {
-  const auto rays = std::make_shared<RayInput>(org, dir, tmin, tmax);
-  check_room(rays->count(), 1);
-  auto met = empty_array<bool>({static_cast<py::ssize_t>(rays->count())});
-  auto* const bytes = reinterpret_cast<std::uint8_t*>(met.mutable_data());
-  const auto kept = keep(met);
-  trace(tracer, rays, [rays, bytes, kept](Tracer& one) {
-    return one.any_of_columns(rays->columns, {bytes, rays->columns.size});
+py::tuple closest(const TracerHandle& tracer, const py::dict& given, const py::object& out) {
+  const RayHandle rays = rays_of(given);
+  const auto count = static_cast<py::ssize_t>(rays->count());
+  if (out.is_none()) {
+    check_room(rays->count(),
+               sizeof(double) + sizeof(std::int32_t) + 3 * sizeof(float) + sizeof(bool));
+  }
+  const auto part = [&](int k) { return out.is_none() ? out : py::object(out[py::int_(k)]); };
+  auto t = room_in<double>(part(0), "t", {count});
+  auto id = room_in<std::int32_t>(part(1), "id", {count});
+  auto normal = room_in<float>(part(2), "normal", {count, 3});
+  auto entering = room_in<bool>(part(3), "entering", {count});
+  const HitColumns hits{t.mutable_data(), id.mutable_data(), normal.mutable_data(),
+                        reinterpret_cast<std::uint8_t*>(entering.mutable_data())};
+  const auto arrays = py::make_tuple(t, id, normal, entering);
+  trace(tracer, rays, [hits, kept = keep(arrays)](Tracer& one, const RayColumns& columns) {
+    return one.closest_of_columns(columns, hits);
   });
-  return met;
+  return arrays;
+}
+
+/// An array of one value for each ray, set by query(tracer, columns, values).
+template <class Number, class Query>
+py::array each_ray(const TracerHandle& tracer, const py::dict& given, const py::object& out,
+                   const Query& query) {
+  const RayHandle rays = rays_of(given);
+  if (out.is_none()) check_room(rays->count(), sizeof(Number));
+  auto values = room_in<Number>(out, "the array", {static_cast<py::ssize_t>(rays->count())});
+  Number* const data = values.mutable_data();
+  trace(tracer, rays, [data, query, kept = keep(values)](Tracer& one, const RayColumns& columns) {
+    return query(one, columns, std::span<Number>(data, columns.size));
+  });
+  return values;
+}
+
+py::array any(const TracerHandle& tracer, const py::dict& given, const py::object& out) {
+  return each_ray<bool>(tracer, given, out,
+                        [](Tracer& one, const RayColumns& columns, std::span<bool> met) {
+                          auto* const bytes = reinterpret_cast<std::uint8_t*>(met.data());
+                          return one.any_of_columns(columns, {bytes, met.size()});
+                        });
+}
+
+py::array count(const TracerHandle& tracer, const py::dict& given) {
+  return each_ray<std::int64_t>(
+      tracer, given, py::none(),
+      [](Tracer& one, const RayColumns& columns, std::span<std::int64_t> counts) {
+        return one.count(columns, counts);
+      });
+}
+
+py::array chord(const TracerHandle& tracer, const py::dict& given) {
+  return each_ray<double>(tracer, given, py::none(),
+                          [](Tracer& one, const RayColumns& columns, std::span<double> lengths) {
+                            return one.chord(columns, lengths);
+                          });
+}
+
+/// What query(tracer, columns) returns, without its Result.
+template <class Query>
+auto lists(const TracerHandle& tracer, const py::dict& given, const Query& query) {
+  using Lists = std::remove_cvref_t<
+      decltype(std::declval<std::invoke_result_t<Query, Tracer&, const RayColumns&>>().value())>;
+  const auto found = std::make_shared<Lists>();
+  trace(tracer, rays_of(given), [found, query](Tracer& one, const RayColumns& columns) -> Status {
+    auto made = query(one, columns);
+    if (!made) return made.error();
+    *found = std::move(made).value();
+    return {};
+  });
+  return found;
+}
+
+/// A vector's values as an array, which keeps all of `lists`.
+template <class Shown, class Lists, class Number>
+py::array column_of(const std::shared_ptr<Lists>& lists, std::vector<Number>& column) {
+  need_numpy();
+  const py::capsule owner(new std::shared_ptr<Lists>(lists),
+                          [](void* kept) { delete static_cast<std::shared_ptr<Lists>*>(kept); });
+  return py::array(py::dtype::of<Shown>(), {static_cast<py::ssize_t>(column.size())}, {},
+                   column.data(), owner);
+}
+
+py::tuple all_hits(const TracerHandle& tracer, const py::dict& given,
+                   std::optional<std::size_t> limit) {
+  const auto all = lists(tracer, given, [limit](Tracer& one, const RayColumns& columns) {
+    return one.all_hits(columns, limit);
+  });
+  return py::make_tuple(column_of<std::int64_t>(all, all->offset), column_of<double>(all, all->t),
+                        column_of<std::int32_t>(all, all->id), column_of<bool>(all, all->entering));
+}
+
+py::tuple chords(const TracerHandle& tracer, const py::dict& given) {
+  const auto all = lists(
+      tracer, given, [](Tracer& one, const RayColumns& columns) { return one.chords(columns); });
+  return py::make_tuple(column_of<std::int64_t>(all, all->offset),
+                        column_of<std::int32_t>(all, all->id), column_of<double>(all, all->length));
 }
 
 TraceOptions options_of(const py::dict& given) {
@@ -228,9 +304,12 @@ void bind_tracing(py::module_& module) {
   py::class_<SharedTracer, TracerHandle>(module, "Tracer")
       .def(py::init(&make), inside(), py::arg("source"), py::arg("radii"), py::arg("origin"),
            py::arg("options"))
-      .def("closest", &closest, inside(), py::arg("org"), py::arg("dir"), py::arg("tmin"),
-           py::arg("tmax"))
-      .def("any", &any, inside(), py::arg("org"), py::arg("dir"), py::arg("tmin"), py::arg("tmax"))
+      .def("closest", &closest, inside(), py::arg("rays"), py::arg("out"))
+      .def("any", &any, inside(), py::arg("rays"), py::arg("out"))
+      .def("all_hits", &all_hits, inside(), py::arg("rays"), py::arg("limit"))
+      .def("count", &count, inside(), py::arg("rays"))
+      .def("chord", &chord, inside(), py::arg("rays"))
+      .def("chords", &chords, inside(), py::arg("rays"))
       .def("stats", &statistics, inside());
 }
 

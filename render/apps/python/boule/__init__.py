@@ -47,10 +47,12 @@ from ._objects import (
 from ._rendering import Interrupted, render
 from ._scene import Group, Scene, Spheres
 from ._sources import frames, from_ase, from_particles, load
-from ._tracing import Hits, Tracer
+from ._tracing import Chords, Crossings, Hits, Tracer
 
 __all__ = [
+    "Chords",
     "ConstantBackground",
+    "Crossings",
     "DirectionalLight",
     "Distortion",
     "Emissive",

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -573,6 +573,20 @@ class Hits(NamedTuple):
     t: NDArray[np.float64]
     id: NDArray[np.int32]
     normal: NDArray[np.float32]
+    entering: NDArray[np.bool_]
+    @property
+    def hit(self) -> NDArray[np.bool_]: ...
+
+class Crossings(NamedTuple):
+    offset: NDArray[np.int64]
+    t: NDArray[np.float64]
+    id: NDArray[np.int32]
+    entering: NDArray[np.bool_]
+
+class Chords(NamedTuple):
+    offset: NDArray[np.int64]
+    id: NDArray[np.int32]
+    length: NDArray[np.float64]
 
 class Tracer:
     def __init__(
@@ -586,11 +600,72 @@ class Tracer:
         isa: str = ...,
     ) -> None: ...
     def closest(
-        self, org: ArrayLike, dir: ArrayLike, tmin: ArrayLike = ..., tmax: ArrayLike = ...
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+        out: Hits | None = ...,
     ) -> Hits: ...
     def any(
-        self, org: ArrayLike, dir: ArrayLike, tmin: ArrayLike = ..., tmax: ArrayLike = ...
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+        out: NDArray[np.bool_] | None = ...,
     ) -> NDArray[np.bool_]: ...
+    def all_hits(
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        limit: int | None = ...,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+    ) -> Crossings: ...
+    def count(
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+    ) -> NDArray[np.int64]: ...
+    @overload
+    def chord(
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+        per_sphere: Literal[False] = ...,
+    ) -> NDArray[np.float64]: ...
+    @overload
+    def chord(
+        self,
+        org: ArrayLike,
+        dir: ArrayLike,
+        tmin: ArrayLike = ...,
+        tmax: ArrayLike = ...,
+        *,
+        source: ArrayLike = ...,
+        inside: ArrayLike = ...,
+        per_sphere: Literal[True],
+    ) -> Chords: ...
     @property
     def stats(self) -> dict[str, Any]: ...
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -21,11 +22,89 @@ class Hits(NamedTuple):
     t: N, float64, in units of the length of dir.
     id: N, int32: of the sphere or plane, spheres first.
     normal: N x 3, float32: unit length, turned against the ray.
+    entering: N, bool: the ray goes into the sphere there, or through the plane against its normal.
+    hit: N, bool: whether the ray meets anything.
     """
 
     t: NDArray[np.float64]
     id: NDArray[np.int32]
     normal: NDArray[np.float32]
+    entering: NDArray[np.bool_]
+
+    @property
+    def hit(self):
+        return self.id != -1
+
+
+class Crossings(NamedTuple):
+    """All that N rays cross, in order of t. The crossings of ray k are those from offset[k] to
+    before offset[k + 1]: of equal t the lower id comes first, and of one sphere the entry.
+
+    offset: N + 1, int64.
+    t: M, float64, in units of the length of dir.
+    id: M, int32: of the sphere or plane, spheres first.
+    entering: M, bool: as in Hits. A line that touches a sphere crosses it once, entering.
+    """
+
+    offset: NDArray[np.int64]
+    t: NDArray[np.float64]
+    id: NDArray[np.int32]
+    entering: NDArray[np.bool_]
+
+
+class Chords(NamedTuple):
+    """The lengths of N rays inside spheres. Those of ray k are from offset[k] to before
+    offset[k + 1], in the order of ids.
+
+    offset: N + 1, int64.
+    id: M, int32.
+    length: M, float64, above 0, in units of the length of dir.
+    """
+
+    offset: NDArray[np.int64]
+    id: NDArray[np.int32]
+    length: NDArray[np.float64]
+
+
+def _leading(array, width):
+    """The shape of rays in an array of more than one dimension of them, and the array as a list of
+    rays. None, and the array as it is, for a list or one value. width: the dimensions of one ray."""
+    shape = getattr(array, "shape", ())
+    rays = len(shape) - width
+    if rays < 2 or not hasattr(array, "reshape"):
+        return None, array
+    return shape[:rays], array.reshape((math.prod(shape[:rays]), *shape[rays:]))
+
+
+def _rays(org, dir, tmin, tmax, source, inside):
+    """What the compiled part takes as rays, and the shape of the rays: None for a list."""
+    given = {"org": org, "dir": dir, "tmin": tmin, "tmax": tmax, "source": source, "inside": inside}
+    common = None
+    for name in given:
+        vectors = name in ("org", "dir")
+        if not vectors and common is None:
+            continue
+        shape, given[name] = _leading(given[name], 1 if vectors else 0)
+        if shape is not None and common not in (None, shape):
+            raise error(name, f"expected rays of shape {common}, got {shape}")
+        common = common or shape
+    return given, common
+
+
+def _flat(arrays, shape):
+    """Arrays for rays of this shape as arrays for a list of rays, which share their memory."""
+    if shape is None:
+        return tuple(arrays)
+    flat = []
+    for array in arrays:
+        if getattr(array, "shape", ())[: len(shape)] != shape or not array.flags.c_contiguous:
+            raise error("out", f"expected arrays in C order of shape {shape} and more")
+        flat.append(array.reshape((math.prod(shape), *array.shape[len(shape) :])))
+    return tuple(flat)
+
+
+def _shaped(array, shape):
+    return array if shape is None else array.reshape(shape + array.shape[1:])
 
 
 class Tracer(Strict):
@@ -59,18 +138,78 @@ class Tracer(Strict):
         options = {"solver": solver, "threads": threads, "isa": isa}
         self._tracer = _core.Tracer(source, radii, origin, options)
 
-    def closest(self, org, dir, tmin=0.0, tmax=float("inf")):
+    def closest(
+        self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, out=None
+    ):
         """The nearest hits with tmin < t <= tmax, of equally near ones that with the lowest id.
 
         org, dir: N x 3, float32 or float64, read where they are, whatever their strides; one origin
         or one direction, (3,), serves all rays. dir need not be of unit length; it is rounded to
-        float32, org is not. tmin, tmax: N, or one number for all. Returns Hits.
-        """
-        return Hits(*self._tracer.closest(org, dir, tmin, tmax))
+        float32. The rest is exact in float64.
+        tmin, tmax, source, inside: N, or one value for all.
+        source: the id of the sphere or plane that the ray leaves, which it then does not meet again
+        by rounding; -1: none. inside: the ray starts on the surface of the sphere `source` and goes
+        into it: it meets it at its far side.
+        out: Hits of N rays that are written to, in place of new ones.
 
-    def any(self, org, dir, tmin=0.0, tmax=float("inf")):
-        """Whether each ray meets anything with tmin < t <= tmax: N, bool. Faster than closest()."""
-        return self._tracer.any(org, dir, tmin, tmax)
+        Rays may have any shape in place of N: org of H x W x 3 gives t of H x W. Returns Hits.
+        """
+        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
+        if out is None:
+            return Hits(*(_shaped(a, shape) for a in self._tracer.closest(rays, None)))
+        if not isinstance(out, Hits):
+            raise error("out", f"expected Hits, got {type(out).__name__}")
+        self._tracer.closest(rays, _flat(out, shape))
+        return out
+
+    def any(self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, out=None):
+        """Whether each ray meets anything with tmin < t <= tmax: N, bool. Faster than closest().
+
+        Arguments are those of closest(); out: N, bool.
+        """
+        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
+        if out is None:
+            return _shaped(self._tracer.any(rays, None), shape)
+        self._tracer.any(rays, out if shape is None else _flat([out], shape)[0])
+        return out
+
+    def all_hits(
+        self, org, dir, tmin=0.0, tmax=float("inf"), *, limit=None, source=-1, inside=False
+    ):
+        """All crossings with tmin < t <= tmax, or the first `limit` of each ray.
+
+        A sphere is crossed twice, where the ray enters and where it leaves; a plane once. Other
+        arguments are those of closest(); rays of other shapes than N are counted in C order.
+        Decisions are exact, whatever the solver. Of more than 16 exact copies of one sphere, at
+        least two are found. Returns Crossings.
+        """
+        if limit is not None and (not isinstance(limit, int) or isinstance(limit, bool)):
+            raise error("limit", f"expected a whole number, got {type(limit).__name__}")
+        if limit is not None and not 0 <= limit < 2**63:
+            raise error("limit", f"must be at least 0, is {limit}")
+        rays, _ = _rays(org, dir, tmin, tmax, source, inside)
+        return Crossings(*self._tracer.all_hits(rays, limit))
+
+    def count(self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False):
+        """The number of crossings of each ray, as in all_hits(): N, int64."""
+        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
+        return _shaped(self._tracer.count(rays), shape)
+
+    def chord(
+        self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, per_sphere=False
+    ):
+        """The length of each ray inside the union of all spheres, between tmin and tmax.
+
+        In units of the length of dir: N, float64. Where spheres overlap it counts once. With
+        per_sphere, the length inside each sphere on its own: Chords. Arguments are those of
+        closest().
+        """
+        if not isinstance(per_sphere, bool):
+            raise error("per_sphere", f"expected True or False, got {type(per_sphere).__name__}")
+        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
+        if per_sphere:
+            return Chords(*self._tracer.chords(rays))
+        return _shaped(self._tracer.chord(rays), shape)
 
     @property
     def stats(self):

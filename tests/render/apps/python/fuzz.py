@@ -112,11 +112,21 @@ class Caller:
             self.array(count, 3), self.array(count, 3), *self.one_of((), (self.array(count),),
                                                                       (0, self.array(count)))
         )  # fmt: skip
-        assert hits.t.shape == hits.id.shape == hits.normal.shape[:1]
+        assert hits.t.shape == hits.id.shape == hits.normal.shape[:-1]
 
     def any(self):
         count = self.one_of(0, 1, 7, 1000)
         self.random.choice(self.tracers).any(self.array(count, 3), self.array(count, 3))
+
+    def crossings(self):
+        count = self.one_of(0, 1, 7, 300)
+        tracer = self.random.choice(self.tracers)
+        call = self.one_of(tracer.all_hits, tracer.count, tracer.chord, tracer.closest, tracer.any)
+        keys = {"source": self.one_of(-1, 0, 5, self.array(count)), "inside": self.one_of(0, True, self.array(count)),
+                "tmin": self.array(count), "limit": self.one_of(0, 3, None, self.value()),
+                "per_sphere": self.one_of(True, self.value()), "out": self.one_of(None, self.value())}  # fmt: skip
+        given = self.random.sample(sorted(keys), self.random.randint(0, 3))
+        call(self.array(count, 3), self.array(count, 3), **{key: keys[key] for key in given})
 
     def make_object(self):
         name = self.random.choice([name for name in boule.__all__ if name[0].isupper()])
@@ -196,7 +206,7 @@ class Caller:
         self.one_of(boule.load, boule.frames)(path, **self.keys(["frame", "color", "water"], 1))
 
     CALLS = (
-        (closest, 30), (any, 20), (make_tracer, 12), (make_object, 20), (make_spheres, 10),
+        (closest, 20), (any, 10), (crossings, 20), (make_tracer, 12), (make_object, 20), (make_spheres, 10),
         (render, 6), (use_picture, 4), (make_pixels, 4), (spoil_scene, 3), (make_particles, 4),
         (read, 3),
     )  # fmt: skip

@@ -80,7 +80,7 @@ def test_hits_are_the_programs(tmp_path):
     told = np.load(tmp_path / "h.npy")
     hits = boule.Tracer(centers, radii).closest(org, dir, 0.5, 9)
     assert (told["t"] == hits.t).all() and (told["id"] == hits.id).all()
-    assert (told["normal"] == hits.normal).all()
+    assert (told["normal"] == hits.normal).all() and (told["entering"] == hits.entering).all()
 
 
 def test_any_agrees_with_closest():
@@ -192,6 +192,24 @@ def test_nothing_to_trace():
         (lambda t: t.closest(np.zeros((4, 3)), np.zeros((4, 3)), tmin=np.zeros(3)), "tmin",
          "expected float32 or float64 of shape (4,) or one number, got float64 of shape (3,)"),
         (lambda t: t.any(None, np.zeros((4, 3))), "org", "got NoneType"),
+        (lambda t: t.any(np.zeros((4, 3)), (0, 0, 1), source=[-1, 0, 1, 0]), "source",
+         "row 2: must be -1 or an id below 1, is 1"),
+        (lambda t: t.closest(np.zeros((4, 3)), (0, 0, 1), source=-2), "source", "row 0: must be -1"),
+        (lambda t: t.count(np.zeros((4, 3)), (0, 0, 1), source=0.5), "source", "is 0.5"),
+        (lambda t: t.chord(np.zeros((4, 3)), (0, 0, 1), inside=[True]), "inside",
+         "of shape (4,) or one number, got float32 of shape (1,)"),
+        (lambda t: t.all_hits(np.zeros((4, 3)), (0, 0, 1), limit=-1), "limit", "at least 0, is -1"),
+        (lambda t: t.all_hits(np.zeros((4, 3)), (0, 0, 1), limit=1.5), "limit", "whole number"),
+        (lambda t: t.closest(np.zeros((4, 5, 3)), np.zeros((5, 4, 3))), "dir",
+         "expected rays of shape (4, 5), got (5, 4)"),
+        (lambda t: t.any(np.ma.masked_equal(np.zeros((4, 3)), 0), (0, 0, 1)), "org",
+         "is a masked array, and 12 of its values are masked"),
+        (lambda t: t.any(np.ma.masked_equal(np.zeros((2, 2, 3)), 0), (0, 0, 1)), "org", "masked"),
+        (lambda t: t.closest(np.zeros((4, 3)), (0, 0, 1), out=np.zeros(4)), "out",
+         "expected Hits, got ndarray"),
+        (lambda t: t.any(np.zeros((4, 3)), (0, 0, 1), out=np.zeros(4)), "out",
+         "the array: expected bool of shape (4,), in C order and writable, got float64"),
+        (lambda t: t.any(np.zeros((4, 3)), (0, 0, 1), out=np.zeros(8, bool)[::2]), "out", "C order"),
         (lambda t: t.any([[1, 2, 3], [4, 5]], np.zeros((2, 3))), "org", "numpy makes no array"),
         (lambda t: boule.Tracer(np.zeros((4, 3)), np.ones(5)), "radii",
          "expected float32 or float64 of shape (4,) or one number, got float64 of shape (5,)"),
@@ -274,5 +292,124 @@ def test_too_many_rays_for_memory():
     try:
         with pytest.raises(MemoryError):
             tracer.closest(many, (0, 0, 1))
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, limits)
+
+
+def test_ends_are_compared_in_double():
+    centers, radii = cloud()
+    org, dir = rays(2000)
+    tracer = boule.Tracer(centers, radii)
+    every = tracer.all_hits(org, dir)
+    tmin = np.zeros(len(org))
+    steps = 0
+    for step in range(40):
+        hits = tracer.closest(org, dir, tmin)
+        assert (tracer.any(org, dir, tmin) == hits.hit).all()
+        at = every.offset[:-1] + step
+        more = at < every.offset[1:]  # no two crossings of this cloud are at one t
+        assert (hits.hit == more).all()
+        assert (hits.t[more] == every.t[at[more]]).all()
+        assert (hits.id[more] == every.id[at[more]]).all()
+        assert (hits.entering[more] == every.entering[at[more]]).all()
+        assert not tracer.any(org, dir, tmin, np.nextafter(hits.t, 0))[more].any()
+        assert tracer.any(org, dir, tmin, hits.t)[more].all()
+        steps += more.sum()
+        tmin = hits.t
+        if not more.any():
+            break
+    assert steps == len(every.t) > 1000
+
+
+def test_rays_leave_their_sources():
+    centers, radii = cloud(300)
+    org, dir = rays(2000)
+    tracer = boule.Tracer(centers, radii)
+    hits = tracer.closest(org, dir)
+    met = hits.hit
+    point, way = org[met] + hits.t[met, None] * dir[met], dir[met]
+    source, enters = hits.id[met], hits.entering[met]
+    next_hits = tracer.closest(point, way, source=source, inside=enters)
+    crossings = tracer.all_hits(org[met], way, tmin=hits.t[met])
+    first = crossings.offset[:-1]
+    more = first < crossings.offset[1:]
+    assert (next_hits.hit == more).all()
+    assert (next_hits.id[more] == crossings.id[first[more]]).all()
+    # Without a source many meet their own sphere again, by rounding.
+    again = tracer.closest(point, way)
+    assert (again.t != next_hits.t).mean() > 0.2
+
+
+def test_crossings_pair_up():
+    centers, radii = cloud()
+    org, dir = rays(1000)
+    tracer = boule.Tracer(centers, radii)
+    every = tracer.all_hits(org, dir, tmin=-np.inf)
+    assert [a.dtype for a in every] == [np.int64, np.float64, np.int32, np.bool_]
+    assert every.offset[0] == 0 and every.offset[-1] == len(every.t) == 2 * every.entering.sum()
+    count = tracer.count(org, dir, tmin=-np.inf)
+    assert count.dtype == np.int64 and (np.diff(every.offset) == count).all()
+    two = tracer.all_hits(org, dir, tmin=-np.inf, limit=2)
+    assert (np.diff(two.offset) == np.minimum(count, 2)).all()
+    assert (tracer.all_hits(org, dir, limit=0).offset == 0).all()
+
+
+def test_chords_are_lengths_inside():
+    tracer = boule.Tracer([[0, 0, 0], [3, 0, 0], [9, 0, 0]], [2, 2, 1])
+    org, dir = [[-4, 0, 0], [0, 0, 0], [0, 9, 0]], (2, 0, 0)
+    assert tracer.chord(org, dir).tolist() == [4.5, 3.5, 0]
+    each = tracer.chord(org, dir, per_sphere=True)
+    assert each.offset.tolist() == [0, 3, 6, 6] and each.id.tolist() == [0, 1, 2, 0, 1, 2]
+    assert each.length.tolist() == [2, 2, 1, 1, 2, 1]
+    assert tracer.chord(org, dir, tmax=0.25).tolist() == [0, 0.25, 0]
+    assert tracer.chord((1, 0, 0), (1, 0, 0), source=1, inside=True).tolist() == [6]
+    assert tracer.count((5, 0, 0), (1, 0, 0), source=1).tolist() == [2]
+
+
+def test_rays_may_have_any_shape():
+    centers, radii = cloud()
+    org, dir = rays(12)
+    tracer = boule.Tracer(centers, radii)
+    flat = tracer.closest(org, dir, source=3)
+    shape = (3, 2, 2)
+    hits = tracer.closest(org.reshape(*shape, 3), dir.reshape(*shape, 3), np.zeros(shape), source=3)
+    assert hits.normal.shape == (*shape, 3)
+    for one, many in zip(flat, hits):
+        assert many.shape[:3] == shape and (many.reshape(one.shape) == one).all()
+    assert (tracer.any((0, 0, 0), dir.reshape(4, 3, 3)).ravel() == tracer.any((0, 0, 0), dir)).all()
+    assert tracer.count(org.reshape(6, 2, 3), (0, 0, 1)).shape == (6, 2)
+    assert tracer.chord(org.reshape(6, 2, 3), (0, 0, 1)).shape == (6, 2)
+    assert len(tracer.all_hits(org.reshape(6, 2, 3), (0, 0, 1)).offset) == 13
+
+
+def test_results_may_have_a_place():
+    centers, radii = cloud()
+    org, dir = rays(5000)
+    tracer = boule.Tracer(centers, radii)
+    expected = tracer.closest(org, dir)
+    out = boule.Hits(*(np.zeros_like(a) for a in expected))
+    assert tracer.closest(org, dir, out=out) is out
+    assert all((a == b).all() for a, b in zip(out, expected))
+    met = np.zeros(len(org), bool)
+    assert tracer.any(org, dir, out=met) is met and (met == expected.hit).all()
+    square = boule.Hits(*(np.zeros((50, 100) + a.shape[1:], a.dtype) for a in expected))
+    tracer.closest(org.reshape(50, 100, 3), dir.reshape(50, 100, 3), out=square)
+    assert (square.t.ravel() == expected.t).all()
+    with pytest.raises(boule.Error):
+        tracer.closest(org, dir, out=boule.Hits(*expected[:3], expected.entering.astype(int)))
+
+
+def test_too_many_crossings_for_memory():
+    import resource
+
+    tracer = boule.Tracer(np.zeros((16, 3)), np.linspace(1, 2, 16))
+    one = np.zeros(3, np.float32)
+    many = np.lib.stride_tricks.as_strided(one, shape=(20_000_000, 3), strides=(0, 4))
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (6 << 30, limits[1]))
+    try:
+        with pytest.raises(MemoryError, match="the 320000000 crossings of 20000000 rays need"):
+            tracer.all_hits(many, (0, 0, 1))
+        assert tracer.count(many[:10], (0, 0, 1)).tolist() == [16] * 10
     finally:
         resource.setrlimit(resource.RLIMIT_AS, limits)
