@@ -268,6 +268,14 @@ Status OutputFile::write(const void* bytes, std::size_t count) {
   return {};
 }
 
+Status OutputFile::rewrite_start(const void* bytes, std::size_t count) {
+  if (descriptor_ < 0) return cannot_write(name_, EBADF);
+  if (lseek(descriptor_, 0, SEEK_SET) < 0) return cannot_write(name_, errno);
+  if (auto done = write(bytes, count); !done) return done;
+  if (lseek(descriptor_, 0, SEEK_END) < 0) return cannot_write(name_, errno);
+  return {};
+}
+
 Status OutputFile::sync() {
   if (stream_ >= 0 || (synced_ && descriptor_ >= 0)) return {};
   if (fsync(descriptor_) != 0) return cannot_write(name_, errno);

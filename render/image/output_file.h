@@ -48,6 +48,9 @@ class OutputFile {
   /// Appends `count` bytes at the descriptor's position.
   Status write(const void* bytes, std::size_t count);
 
+  /// Writes `count` bytes over the first ones, which have been written before.
+  Status rewrite_start(const void* bytes, std::size_t count);
+
   /// Makes the data durable. After the last write, it saves commit() that time.
   Status sync();
 

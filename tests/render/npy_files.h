@@ -86,8 +86,11 @@ inline std::string hit_file(const std::vector<TracedHit>& hits) {
     append_bytes(data, hit.t);
     append_bytes(data, hit.id);
     for (const float x : {hit.normal.x, hit.normal.y, hit.normal.z}) append_bytes(data, x);
+    append_bytes(data, hit.entering);
   }
-  return npy_file(hit_dict("[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]", hits.size()),
+  return npy_file(hit_dict("[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,)), "
+                           "('entering', '|b1')]",
+                           hits.size()),
                   data);
 }
 inline std::string met_file(const std::vector<std::uint8_t>& met) {

@@ -11,7 +11,7 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t hit_bytes = 24;
+constexpr std::size_t hit_bytes = 25, crossing_bytes = 21;
 constexpr std::size_t rows_per_write = 4096;
 
 /// The header as numpy.save writes it: the count has room to grow to 21 digits, and the data begin
@@ -44,45 +44,98 @@ unsigned char* put(unsigned char* to, const TracedHit& hit) {
   to = put(to, static_cast<std::uint32_t>(hit.id), 4);
   to = put(to, hit.normal.x);
   to = put(to, hit.normal.y);
-  return put(to, hit.normal.z);
+  to = put(to, hit.normal.z);
+  return put(to, std::uint64_t{hit.entering}, 1);
+}
+
+std::string descr_of(HitKind kind) {
+  switch (kind) {
+    case HitKind::closest:
+      return "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,)), ('entering', '|b1')]";
+    case HitKind::any:
+      return "'|u1'";
+    case HitKind::all:
+      return "[('ray', '<i8'), ('t', '<f8'), ('id', '<i4'), ('entering', '|b1')]";
+    case HitKind::count:
+      return "'<i8'";
+    case HitKind::chord:
+      return "'<f8'";
+  }
+  return {};
 }
 
 }  // namespace
 
 HitFile::HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t count)
-    : file_(std::move(file)), name_(std::move(name)), kind_(kind), left_(count) {}
+    : file_(std::move(file)),
+      name_(std::move(name)),
+      kind_(kind),
+      left_(kind == HitKind::all ? 0 : count) {}
 
 Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count,
                                 const std::function<bool()>& stop) {
   Result<OutputFile> file = OutputFile::create(path, stop);
   if (!file) return file.error();
-  const std::string start = npy_start(
-      kind == HitKind::any ? "'|u1'" : "[('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))]",
-      count);
+  if (kind == HitKind::all) count = 0;
+  const std::string start = npy_start(descr_of(kind), count);
   if (auto done = file.value().write(start.data(), start.size()); !done) return done.error();
   return HitFile(std::move(file).value(), path, kind, count);
 }
 
 Status HitFile::take(HitKind kind, std::size_t hits) {
   if (kind != kind_) return cannot_write(name_, "hits of the other kind");
+  if (kind == HitKind::all) {
+    left_ += hits;
+    return {};
+  }
   if (hits > left_) return cannot_write(name_, "more hits than it is made for");
   left_ -= hits;
   return {};
 }
 
-Status HitFile::append(std::span<const TracedHit> hits) {
-  if (auto done = take(HitKind::closest, hits.size()); !done) return done;
-  rows_.resize(rows_per_write * hit_bytes);
-  for (std::size_t first = 0; first < hits.size(); first += rows_per_write) {
+template <class Put>
+Status HitFile::write_rows(std::size_t count, std::size_t bytes, const Put& put_row) {
+  rows_.resize(rows_per_write * bytes);
+  for (std::size_t first = 0; first < count; first += rows_per_write) {
     unsigned char* end = rows_.data();
-    for (const TracedHit& hit :
-         hits.subspan(first, std::min(rows_per_write, hits.size() - first))) {
-      end = put(end, hit);
-    }
-    const auto bytes = static_cast<std::size_t>(end - rows_.data());
-    if (auto done = file_.write(rows_.data(), bytes); !done) return done;
+    const std::size_t last = std::min(count, first + rows_per_write);
+    for (std::size_t k = first; k < last; ++k) end = put_row(end, k);
+    const auto size = static_cast<std::size_t>(end - rows_.data());
+    if (auto done = file_.write(rows_.data(), size); !done) return done;
   }
   return {};
+}
+
+Status HitFile::append(std::span<const TracedHit> hits) {
+  if (auto done = take(HitKind::closest, hits.size()); !done) return done;
+  return write_rows(hits.size(), hit_bytes,
+                    [&](unsigned char* to, std::size_t k) { return put(to, hits[k]); });
+}
+
+Status HitFile::append(std::span<const std::int64_t> counts) {
+  if (auto done = take(HitKind::count, counts.size()); !done) return done;
+  return write_rows(counts.size(), 8, [&](unsigned char* to, std::size_t k) {
+    return put(to, static_cast<std::uint64_t>(counts[k]), 8);
+  });
+}
+
+Status HitFile::append(std::span<const double> lengths) {
+  if (auto done = take(HitKind::chord, lengths.size()); !done) return done;
+  return write_rows(lengths.size(), 8, [&](unsigned char* to, std::size_t k) {
+    return put(to, std::bit_cast<std::uint64_t>(lengths[k]), 8);
+  });
+}
+
+Status HitFile::append(const Crossings& crossings, std::uint64_t first_ray) {
+  if (auto done = take(HitKind::all, crossings.t.size()); !done) return done;
+  std::size_t ray = 0;
+  return write_rows(crossings.t.size(), crossing_bytes, [&](unsigned char* to, std::size_t k) {
+    while (crossings.offset[ray + 1] <= static_cast<std::int64_t>(k)) ++ray;
+    to = put(to, first_ray + ray, 8);
+    to = put(to, std::bit_cast<std::uint64_t>(crossings.t[k]), 8);
+    to = put(to, static_cast<std::uint32_t>(crossings.id[k]), 4);
+    return put(to, crossings.entering[k], 1);
+  });
 }
 
 Status HitFile::append(std::span<const std::uint8_t> met) {
@@ -90,10 +143,22 @@ Status HitFile::append(std::span<const std::uint8_t> met) {
   return file_.write(met.data(), met.size());
 }
 
-Status HitFile::sync() { return file_.sync(); }
+/// The number of crossings is known only in the end.
+Status HitFile::complete_header() {
+  if (kind_ != HitKind::all) return {};
+  const std::string start = npy_start(descr_of(kind_), left_);
+  return file_.rewrite_start(start.data(), start.size());
+}
+
+Status HitFile::sync() {
+  if (auto done = complete_header(); !done) return done;
+  return file_.sync();
+}
 
 Status HitFile::commit(const std::function<bool()>& stop) {
-  if (left_ > 0) return cannot_write(name_, std::to_string(left_) + " hits are missing");
+  if (kind_ != HitKind::all && left_ > 0)
+    return cannot_write(name_, std::to_string(left_) + " hits are missing");
+  if (auto done = complete_header(); !done) return done;
   return file_.commit(stop);
 }
 

@@ -7,22 +7,30 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "render/frame/ray_lists.h"
 #include "render/frame/traced_hit.h"
 #include "render/image/output_file.h"
 
 namespace boule {
 
-/// The stored form of a hit.
-/// - closest: a TracedHit in 24 bytes, [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,))].
+/// What is stored of rays.
+/// - closest: a TracedHit in 25 bytes, [('t', '<f8'), ('id', '<i4'), ('normal', '<f4', (3,)),
+///   ('entering', '|b1')].
 /// - any: one byte, '|u1', which is 1 for a hit and 0 for a miss.
-enum class HitKind { closest, any };
+/// - all: a crossing in 21 bytes, [('ray', '<i8'), ('t', '<f8'), ('id', '<i4'), ('entering',
+/// '|b1')];
+///   `ray` is the row of the ray.
+/// - count: the number of crossings, '<i8'.
+/// - chord: a length, '<f8'.
+enum class HitKind { closest, any, all, count, chord };
 
 /// Hits as a .npy file (format 1.0, little-endian, shape (N,)), written piece by piece. Like an
 /// OutputFile it appears under its name when it is complete, and its errors are "cannot write
 /// 'NAME': REASON". After commit(), and after a move, it refuses all calls.
 class HitFile {
  public:
-  /// Begins a file of `count` hits. `stop` is as for OutputFile::create().
+  /// Begins a file of `count` hits; of the kind `all` of any number, whatever `count` is. `stop` is
+  /// as for OutputFile::create().
   static Result<HitFile> create(const std::string& path, HitKind kind, std::uint64_t count,
                                 const std::function<bool()>& stop = {});
 
@@ -32,6 +40,10 @@ class HitFile {
   /// Writes the next hits. An error if they are of the other kind, or more than `count` in all.
   Status append(std::span<const TracedHit> hits);
   Status append(std::span<const std::uint8_t> met);
+  Status append(std::span<const std::int64_t> counts);
+  Status append(std::span<const double> lengths);
+  /// The crossings of rays, the first of which is in this row.
+  Status append(const Crossings& crossings, std::uint64_t first_ray);
 
   /// Makes the data durable. After the last hit, it saves commit() that time.
   Status sync();
@@ -43,11 +55,15 @@ class HitFile {
  private:
   HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t count);
   Status take(HitKind kind, std::size_t hits);
+  Status complete_header();
+  /// Writes `count` rows of `bytes`: put(to, k) writes row k and returns its end.
+  template <class Put>
+  Status write_rows(std::size_t count, std::size_t bytes, const Put& put);
 
   OutputFile file_;
   std::string name_;
   HitKind kind_;
-  std::uint64_t left_;               ///< number of hits still to be written
+  std::uint64_t left_;               ///< number of hits still to be written; of `all`, written
   std::vector<unsigned char> rows_;  ///< of one write, as in the file
 };
 

@@ -73,9 +73,12 @@ class Tracing {
   Scheduler scheduler_;
   Stopwatch watch_;
   Stats stats_;
-  std::vector<Ray> rays_;        ///< of the chunk
-  std::vector<TracedHit> hits_;  ///< likewise
+  std::vector<Ray> rays_;  ///< of the chunk, and so are its answers
+  std::vector<TracedHit> hits_;
   std::vector<std::uint8_t> met_;
+  Crossings crossings_;
+  std::vector<std::int64_t> counts_;
+  std::vector<double> lengths_;
   std::uint64_t traced_ = 0;  ///< rays of the chunks before
   std::uint64_t hit_count_ = 0;
   std::uint64_t lost_ = 0;  ///< as RayFile::lost()
@@ -123,6 +126,7 @@ ExitCode Tracing::run() {
   if (!tracer) return report(tracer.error(), failed);
   live_.end_stage();
   report_.prepared(tracer.value().statistics());
+  rays.value().limit_sources(tracer.value().primitives());
   return write(rays.value(), tracer.value());
 }
 
@@ -139,8 +143,8 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
 }
 
 std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
-  auto file = HitFile::create(command_.output, command_.any_hit ? HitKind::any : HitKind::closest,
-                              rays.size(), [] { return WriteGuard::interrupted(); });
+  auto file = HitFile::create(command_.output, command_.answer, rays.size(),
+                              [] { return WriteGuard::interrupted(); });
   if (!file) return Failure{file.error(), failed};
   {
     const RemovalGuard removal(file.value().temporary());
@@ -180,20 +184,53 @@ std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitF
 }
 
 Status Tracing::trace_chunk(Tracer& tracer) {
-  if (command_.any_hit) {
-    met_.resize(rays_.size());
-    return tracer.any(rays_, met_);
+  const std::size_t size = rays_.size();
+  switch (command_.answer) {
+    case HitKind::closest:
+      hits_.resize(size);
+      return tracer.closest(rays_, hits_);
+    case HitKind::any:
+      met_.resize(size);
+      return tracer.any(rays_, met_);
+    case HitKind::all: {
+      auto found = tracer.all_hits(rays_, command_.limit);
+      if (!found) return found.error();
+      crossings_ = std::move(found).value();
+      return {};
+    }
+    case HitKind::count:
+      counts_.resize(size);
+      return tracer.count(rays_, counts_);
+    case HitKind::chord:
+      lengths_.resize(size);
+      return tracer.chord(rays_, lengths_);
   }
-  hits_.resize(rays_.size());
-  return tracer.closest(rays_, hits_);
+  return {};
 }
 
+/// Appends the answers of the chunk, and counts the hits among them.
 Status Tracing::append_chunk(HitFile& file) {
-  hit_count_ += static_cast<std::uint64_t>(
-      std::count(met_.begin(), met_.end(), std::uint8_t{1}) +
-      std::count_if(hits_.begin(), hits_.end(),
-                    [](const TracedHit& hit) { return hit.id != no_primitive; }));
-  return command_.any_hit ? file.append(met_) : file.append(hits_);
+  const auto count_hits = [this](const auto& answers, const auto& is_hit) {
+    hit_count_ += static_cast<std::uint64_t>(std::count_if(answers.begin(), answers.end(), is_hit));
+  };
+  switch (command_.answer) {
+    case HitKind::closest:
+      count_hits(hits_, [](const TracedHit& hit) { return hit.id != no_primitive; });
+      return file.append(hits_);
+    case HitKind::any:
+      count_hits(met_, [](std::uint8_t met) { return met != 0; });
+      return file.append(met_);
+    case HitKind::all:
+      hit_count_ += crossings_.t.size();
+      return file.append(crossings_, traced_);
+    case HitKind::count:
+      count_hits(counts_, [](std::int64_t count) { return count > 0; });
+      return file.append(counts_);
+    case HitKind::chord:
+      count_hits(lengths_, [](double length) { return length > 0; });
+      return file.append(lengths_);
+  }
+  return {};
 }
 
 /// Shows the progress of one chunk as part of `all` rays.
@@ -220,9 +257,9 @@ ExitCode Tracing::finish(const Tracer& tracer) {
 
 void Tracing::tell_end() const {
   if (lost_ > 0) {
-    report_.note(fmt::format(
-        "{}: warning: {} beyond the range of float32 in origin or direction: a miss for each",
-        command_.rays, counted(lost_, "ray")));
+    report_.note(
+        fmt::format("{}: warning: {} with a direction beyond the range of float32: a miss for each",
+                    command_.rays, counted(lost_, "ray")));
   }
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
   report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,

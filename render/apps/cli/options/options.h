@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "render/apps/job/render_job.h"
 #include "render/apps/parts/part_blocks.h"
+#include "render/files/trace_file/hit_file.h"
 #include "render/image/encode_image.h"
 #include "render/image/write_image.h"
 
@@ -109,7 +110,8 @@ struct ViewCommand {
 /// `boule trace`.
 struct TraceCommand : SceneJob, RunOptions {
   std::string rays;
-  bool any_hit = false;
+  HitKind answer = HitKind::closest;
+  std::optional<std::size_t> limit;  ///< crossings of a ray
 };
 
 /// `boule info`.

@@ -1,6 +1,7 @@
 // What NumPy users bring: rays in double precision, and spheres that are a scene by themselves.
 #include <nlohmann/json.hpp>
 
+#include "render/renderer/tracer.h"
 #include "tests/render/apps/cli/trace_program.h"
 
 namespace boule::test {
@@ -23,23 +24,34 @@ std::vector<RayRow> doubles_near(const std::vector<Ray>& rays) {
   return rows;
 }
 
-TEST_F(Npy, DoubleRaysHitLikeTheirFloats) {
+TEST_F(Npy, DoubleOriginsAndEndsStayDoubles) {
   const std::string scene = cloud_scene(300);
-  const std::vector<Ray> rays = ray_cloud(5000);
-  write("r.npy", ray_file(rays));
-  const std::string expected = hits(scene), met = hits(scene, {"--any-hit"});
-  write("r.npy", ray_file64(doubles_near(rays)));
-  EXPECT_TRUE(hits(scene) == expected);
-  EXPECT_TRUE(hits(scene, {"--any-hit"}) == met);
+  const std::vector<RayRow> rows = doubles_near(ray_cloud(5000));
+  std::vector<Ray> rays;
+  for (const RayRow& x : rows) {
+    Ray ray{{x[0], x[1], x[2]}, vec_cast<float>(Vec3d{x[4], x[5], x[6]})};
+    ray.tmin = x[3];
+    ray.tmax = x[7];
+    rays.push_back(ray);
+  }
+  Tracer tracer = Tracer::create(cloud(300)).value();
+  std::vector<TracedHit> expected(rays.size());
+  std::vector<std::uint8_t> met(rays.size());
+  ASSERT_TRUE(tracer.closest(rays, expected));
+  ASSERT_TRUE(tracer.any(rays, met));
+  write("r.npy", ray_file64(rows));
+  EXPECT_TRUE(hits(scene) == hit_file(expected));
+  EXPECT_TRUE(hits(scene, {"--any-hit"}) == met_file(met));
 }
 
-TEST_F(Npy, RaysBeyondFloatAreMissesAndCounted) {
+TEST_F(Npy, DirectionsBeyondFloatAreMissesAndCounted) {
   const std::string scene = cloud_scene(3);
-  const RayRow lost = {1e200, 0, 0, 0, 0, 0, 1, 1};
+  const RayRow lost = {0, 0, 0, 0, 0, 0, 1e200, 1};
   const std::string rays = write("r.npy", ray_file64(std::vector<RayRow>{lost, lost}));
   const ProgramRun run = trace(scene, {});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.err, HasSubstr(rays + ": warning: 2 rays beyond the range of float32"));
+  EXPECT_THAT(run.err,
+              HasSubstr(rays + ": warning: 2 rays with a direction beyond the range of float32"));
   EXPECT_TRUE(read("h.npy") == hit_file({{}, {}}));
 }
 

@@ -96,10 +96,15 @@ TEST_F(TraceErrors, BadRaysNameWhatWasExpected) {
       {file("[('t', )]", "(1,)"),
        "not a readable .npy file: header key 'descr' has an unexpected value"},
       {file("'<f4'", "(1, 8)", "True"), "is in Fortran order, expected C order (row by row)"},
-      {file("'<f4'", "(8,)"), "has shape (8), expected (N, 8): origin, tmin, direction, tmax"},
-      {file("'<f4'", "(8, 1)"), "has shape (8, 1), expected (N, 8): origin, tmin, direction, tmax"},
+      {file("'<f4'", "(8,)"),
+       "has shape (8), expected (N, 8): origin, tmin, direction, tmax; or (N, 10): source and "
+       "inside, too"},
+      {file("'<f4'", "(8, 1)"),
+       "has shape (8, 1), expected (N, 8): origin, tmin, direction, tmax; or (N, 10): source and "
+       "inside, too"},
       {file("'<f4'", "(1, 1, 8)"),
-       "has shape (1, 1, 8), expected (N, 8): origin, tmin, direction, tmax"},
+       "has shape (1, 1, 8), expected (N, 8): origin, tmin, direction, tmax; or (N, 10): source "
+       "and inside, too"},
       {file("'<f4'", "(2, 8)"), "declares 2 rows of 32 bytes, but holds 32 bytes of data"},
       {file("'<f4'", "(0, 8)"), "declares 0 rows of 32 bytes, but holds 32 bytes of data"},
       {file("'<f4'", "(576460752303423489, 8)"),

@@ -2,7 +2,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/reference.h"
 #include "core/surface.h"
+#include "render/renderer/tracer.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
@@ -19,6 +21,16 @@ using testing::StartsWith;
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
+/// Whether the hit is the first of the two that a line has.
+bool enters(const Scene& scene, const Ray& ray, const Hit& hit) {
+  const auto i = static_cast<std::size_t>(hit.id);
+  const bool is_sphere = i < scene.spheres.size();
+  const reference::Chord chord =
+      is_sphere ? reference::find_chord(ray, scene.spheres[i], false)
+                : reference::find_chord(ray, scene.planes[i - scene.spheres.size()], false);
+  return hit.t - chord.enter <= chord.leave - hit.t;
+}
+
 /// The library's own hits, by the kernels and the shading's normals.
 std::vector<TracedHit> kernel_hits(const Scene& scene, const std::vector<Ray>& rays,
                                    const std::string& isa, Solver solver) {
@@ -34,6 +46,7 @@ std::vector<TracedHit> kernel_hits(const Scene& scene, const std::vector<Ray>& r
     if (hit.id == no_primitive) continue;
     const Surface surface = find_surface(scene.spheres, scene.planes, rays[i], hit);
     hits.back().normal = vec_cast<float>(surface.normal);
+    hits.back().entering = enters(scene, rays[i], hit);
   }
   return hits;
 }
@@ -67,6 +80,80 @@ TEST_F(Trace, HitsMatchTheLibraryInEveryConfiguration) {
   EXPECT_TRUE(hits(scene, {"--solver", "reference"}) == expected);
   EXPECT_TRUE(hits(scene, {"--solver", "reference", "--any-hit", "--threads", "2"}) ==
               expected_met);
+}
+
+/// The answers of a tracer as the bytes of their files.
+std::string all_file(const Crossings& all) {
+  std::string data;
+  for (std::size_t ray = 0; ray + 1 < all.offset.size(); ++ray) {
+    for (auto k = static_cast<std::size_t>(all.offset[ray]);
+         k < static_cast<std::size_t>(all.offset[ray + 1]); ++k) {
+      append_bytes(data, static_cast<std::int64_t>(ray));
+      append_bytes(data, all.t[k]);
+      append_bytes(data, all.id[k]);
+      append_bytes(data, all.entering[k]);
+    }
+  }
+  return npy_file(
+      hit_dict("[('ray', '<i8'), ('t', '<f8'), ('id', '<i4'), ('entering', '|b1')]", all.t.size()),
+      data);
+}
+template <class Number>
+std::string numbers_file(const std::string& descr, const std::vector<Number>& numbers) {
+  std::string data;
+  for (const Number number : numbers) append_bytes(data, number);
+  return npy_file(hit_dict(descr, numbers.size()), data);
+}
+
+TEST_F(Trace, CrossingsCountsAndChordsAreTheLibrarys) {
+  const std::string scene = cloud_scene(3000);
+  const std::vector<Ray> rays = ray_cloud((1 << 18) + 999);  // more than one chunk
+  write("r.npy", ray_file(rays));
+  Tracer tracer = Tracer::create(cloud(3000)).value();
+  const Crossings all = tracer.all_hits(rays).value();
+  EXPECT_GT(all.t.size(), rays.size());
+  EXPECT_TRUE(hits(scene, {"--all-hits"}) == all_file(all));
+  EXPECT_TRUE(hits(scene, {"--all-hits", "--limit", "2"}) ==
+              all_file(tracer.all_hits(rays, 2).value()));
+  std::vector<std::int64_t> counts(rays.size());
+  ASSERT_TRUE(tracer.count(rays, counts));
+  EXPECT_TRUE(hits(scene, {"--count"}) == numbers_file("'<i8'", counts));
+  std::vector<double> lengths(rays.size());
+  ASSERT_TRUE(tracer.chord(rays, lengths));
+  EXPECT_TRUE(hits(scene, {"--chord"}) == numbers_file("'<f8'", lengths));
+  EXPECT_THAT(
+      refused_run(
+          {"trace", scene, "--rays", path("r.npy"), "-o", path("h.npy"), "--count", "--chord"}, 2)
+          .err,
+      HasSubstr("excludes"));
+  EXPECT_THAT(
+      refused_run({"trace", scene, "--rays", path("r.npy"), "-o", path("h.npy"), "--limit", "2"}, 2)
+          .err,
+      HasSubstr("--limit requires --all-hits"));
+}
+
+TEST_F(Trace, SourcesInTheFileAreLeft) {
+  const auto file = [this](double source, double inside) {
+    std::string data;
+    for (const double x : {1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, double{inf}, source, inside})
+      append_bytes(data, x);
+    write("r.npy", npy_file(npy_dict("'<f8'", "(1, 10)"), data));
+  };
+  // The small scene has a sphere of radius 1 around (0, 1, 0), and a plane.
+  file(-1, 0);
+  EXPECT_TRUE(hits(small_scene(), {"--count"}) == numbers_file<std::int64_t>("'<i8'", {0}));
+  file(0, 0);
+  EXPECT_TRUE(hits(small_scene(), {"--count"}) == numbers_file<std::int64_t>("'<i8'", {0}));
+  for (const auto& [source, inside, error] :
+       {std::tuple(2.0, 0.0, "row 0: must be -1 or an id below 2, is 2 (key 'source')"),
+        std::tuple(0.5, 0.0, "is 0.5 (key 'source')"),
+        std::tuple(0.0, 2.0, "row 0: must be 0 or 1, is 2 (key 'inside')")}) {
+    file(source, inside);
+    const ProgramRun run =
+        refused_run({"trace", small_scene(), "--rays", path("r.npy"), "-o", path("h.npy")}, 3);
+    EXPECT_THAT(run.err, HasSubstr("r.npy: error: "));
+    EXPECT_THAT(run.err, HasSubstr(error));
+  }
 }
 
 TEST_F(Trace, AFileOfSeveralChunksIsOne) {
@@ -126,7 +213,7 @@ TEST_F(Trace, PlaneIdsFollowSpheresNormalsFaceRays) {
   write("r.npy",
         ray_file({{{0, 1, 5}, {0, 0, -2}}, {{3, 1, 0}, {0, -1, 0}}, {{3, -1, 0}, {0, 0.5f, 0}}}));
   const std::vector<TracedHit> expected = {
-      {2, 0, {0, 0, 1}}, {1, 1, {0, 1, 0}}, {2, 1, {-0.0f, -1, -0.0f}}};
+      {2, 0, {0, 0, 1}, true}, {1, 1, {0, 1, 0}, true}, {2, 1, {-0.0f, -1, -0.0f}}};
   EXPECT_TRUE(hits(small_scene()) == hit_file(expected));
 }
 
@@ -160,11 +247,11 @@ TEST_F(Trace, ParticlesAreTheSpheresThatRenderShows) {
   const std::string file = write("p.xyz", "1\n\nC 0 0 0\n2\n\nC 3 0 0\nO 0 0 1\n");
   // The last frame, and the first; carbon has a van der Waals radius of 1.77.
   EXPECT_TRUE(hits(file, {"--radius", "0.5"}) ==
-              hit_file({{7.5, 1, {0, 0, 1}}, {8.5, 0, {0, 0, 1}}}));
+              hit_file({{7.5, 1, {0, 0, 1}, true}, {8.5, 0, {0, 0, 1}, true}}));
   EXPECT_TRUE(hits(file, {"--frame", "0", "--radius", "1", "--scale", "0.5"}) ==
-              hit_file({{8.5, 0, {0, 0, 1}}, {inf, -1, {}}}));
+              hit_file({{8.5, 0, {0, 0, 1}, true}, {inf, -1, {}}}));
   EXPECT_TRUE(hits(file, {"--radius", "0.5", "--select", "species == \"C\""}) ==
-              hit_file({{inf, -1, {}}, {8.5, 0, {0, 0, 1}}}));
+              hit_file({{inf, -1, {}}, {8.5, 0, {0, 0, 1}, true}}));
   const std::vector<std::string> base = {"trace", small_scene(), "--rays",   path("r.npy"),
                                          "-o",    path("h.npy"), "--radius", "1"};
   EXPECT_THAT(refused_run(base, 2).err, HasSubstr("is of particle files"));
@@ -177,7 +264,7 @@ TEST_F(Trace, NffScenesAndTheirWarnings) {
                                   "resolution 16 9\nf 1 0 0 1 0 0 0 1\np 3\n-1 -1 0\n1 -1 0\n"
                                   "0 1 0\ns 0 0 1 0.5\n");
   EXPECT_THAT(trace(scene, {}).err, HasSubstr("s.nff:9: warning: "));
-  EXPECT_TRUE(hits(scene) == hit_file({{7.5, 0, {0, 0, 1}}, {9, 1, {0, 0, 1}}}));
+  EXPECT_TRUE(hits(scene) == hit_file({{7.5, 0, {0, 0, 1}, true}, {9, 1, {0, 0, 1}, true}}));
 }
 
 TEST_F(Trace, StatisticsAreThoseOfATrace) {
@@ -252,8 +339,9 @@ TEST_F(Trace, HelpNamesEveryOption) {
   const ProgramRun run = boule_run({"trace", "--help"});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.err, IsEmpty());
-  for (const char* option : {"--rays", "--output", "--any-hit", "--isa", "--solver", "--threads",
-                             "--progress", "--stats", "--quiet", "--verbose"}) {
+  for (const char* option :
+       {"--rays", "--output", "--any-hit", "--all-hits", "--count", "--chord", "--isa", "--solver",
+        "--threads", "--progress", "--stats", "--quiet", "--verbose"}) {
     EXPECT_THAT(run.out, HasSubstr(option));
   }
 }

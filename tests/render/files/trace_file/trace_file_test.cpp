@@ -64,43 +64,70 @@ std::vector<Ray> read_rays(RayFile& file) {
   return rays;
 }
 
-TEST_F(TraceFiles, DoublesAreRoundedOnceToNearest) {
+TEST_F(TraceFiles, OnlyDirectionsAreRoundedToNearest) {
   CaseRandom random(31);
   std::vector<RayRow> rows;
-  std::vector<Ray> expected;
   for (int i = 0; i < 10'000; ++i) {
     RayRow row{};
-    float x[8] = {};
-    for (std::size_t k = 0; k < 8; ++k) {
-      row[k] = random.uniform(-1, 1) * std::pow(2.0, random.uniform(-100, 100));
-      x[k] = static_cast<float>(row[k]);
-    }
+    for (double& x : row) x = random.uniform(-1, 1) * std::pow(2.0, random.uniform(-100, 100));
     rows.push_back(row);
-    Ray ray{{x[0], x[1], x[2]}, {x[4], x[5], x[6]}};
-    ray.tmin = x[3];
-    ray.tmax = x[7];
-    expected.push_back(ray);
   }
-  rows[0][0] = 1 + 0x1p-24;  // halfway between two floats: the even one
-  expected[0].org.x = 1;
-  rows[1][0] = 1 + 0x1p-24 + 0x1p-50;
-  expected[1].org.x = 1 + 0x1p-23;
+  rows[0][4] = 1 + 0x1p-24;  // halfway between two floats: the even one
+  rows[1][4] = 1 + 0x1p-24 + 0x1p-50;
   auto file = RayFile::open(write("r.npy", ray_file64(rows)));
   ASSERT_TRUE(file) << format_diagnostic(file.error());
   const std::vector<Ray> found = read_rays(file.value());
-  EXPECT_TRUE(ray_rows(found) == ray_rows(expected));
-  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].org, expected[i].org);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const RayRow& row = rows[i];
+    ASSERT_EQ(found[i].org, (Vec3d{row[0], row[1], row[2]}));
+    ASSERT_EQ(found[i].dir, vec_cast<float>(Vec3d{row[4], row[5], row[6]}));
+    ASSERT_EQ(found[i].tmin, row[3]);
+    ASSERT_EQ(found[i].tmax, row[7]);
+  }
+  EXPECT_EQ(found[0].dir.x, 1);
+  EXPECT_EQ(found[1].dir.x, 1 + 0x1p-23);
   EXPECT_EQ(file.value().lost(), 0u);
 }
 
-TEST_F(TraceFiles, DoublesThatNoFloatHoldsBecomeInfinite) {
+TEST_F(TraceFiles, SourcesAreReadAndChecked) {
+  const auto open = [this](double source, double inside) {
+    std::string data;
+    for (const double last : {0.0, source}) {
+      for (const double x : {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0, 9.0, last}) append_bytes(data, x);
+      append_bytes(data, inside);
+    }
+    return RayFile::open(write("r.npy", npy_file(npy_dict("'<f8'", "(2, 10)"), data)));
+  };
+  auto good = open(-1, 1);
+  ASSERT_TRUE(good) << format_diagnostic(good.error());
+  good.value().limit_sources(1);
+  const std::vector<Ray> found = read_rays(good.value());
+  EXPECT_EQ(found[0].source, 0);
+  EXPECT_EQ(found[1].source, no_primitive);
+  EXPECT_TRUE(found[0].inside && found[1].inside);
+  const auto problem = [&](double source, double inside) {
+    auto file = open(source, inside);
+    file.value().limit_sources(7);
+    std::vector<Ray> rays(2);
+    const Status status = file.value().read(rays);
+    return status ? std::string() : status.error().key + ": " + status.error().message;
+  };
+  EXPECT_EQ(problem(6, 0), "");
+  EXPECT_EQ(problem(7, 0), "source: row 1: must be -1 or an id below 7, is 7");
+  EXPECT_EQ(problem(-2, 0), "source: row 1: must be -1 or an id below 7, is -2");
+  EXPECT_EQ(problem(1.5, 0), "source: row 1: must be -1 or an id below 7, is 1.5");
+  EXPECT_EQ(problem(std::nan(""), 0), "source: row 1: must be -1 or an id below 7, is nan");
+  EXPECT_EQ(problem(1, 0.5), "inside: row 0: must be 0 or 1, is 0.5");
+}
+
+TEST_F(TraceFiles, DirectionsThatNoFloatHoldsBecomeInfinite) {
   constexpr double inf = std::numeric_limits<double>::infinity(), huge = 1e300;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const RayRow good = {1, 2, 3, 0, 0, 0, -1, inf};
   std::vector<RayRow> rows(9, good);
-  rows[1][7] = huge;  // becomes infinite
+  rows[1][7] = huge;
   rows[2][3] = -huge;
-  rows[3][0] = huge;   // lost
+  rows[3][0] = huge;
   rows[4][6] = -huge;  // lost
   rows[5][6] = 1e-60;  // lost: no direction
   rows[6][6] = 0;      // not lost: had no direction
@@ -110,14 +137,14 @@ TEST_F(TraceFiles, DoublesThatNoFloatHoldsBecomeInfinite) {
   ASSERT_TRUE(file) << format_diagnostic(file.error());
   const std::vector<Ray> found = read_rays(file.value());
   constexpr float infinite = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(found[1].tmax, infinite);
-  EXPECT_EQ(found[2].tmin, -infinite);
-  EXPECT_EQ(found[3].org.x, infinite);
+  EXPECT_EQ(found[1].tmax, huge);
+  EXPECT_EQ(found[2].tmin, -huge);
+  EXPECT_EQ(found[3].org.x, huge);
   EXPECT_EQ(found[4].dir.z, -infinite);
   EXPECT_EQ(found[5].dir, (Vec3f{0, 0, 0}));
   EXPECT_EQ(found[7].dir.x, infinite);
   EXPECT_TRUE(std::isnan(found[8].org.y));
-  EXPECT_EQ(file.value().lost(), 3u);
+  EXPECT_EQ(file.value().lost(), 2u);
 }
 
 TEST_F(TraceFiles, VanishingRaysAreAnError) {
@@ -132,7 +159,8 @@ TEST_F(TraceFiles, VanishingRaysAreAnError) {
 }
 
 TEST_F(TraceFiles, HitsAreWrittenAsNumpyWrites) {
-  const std::vector<TracedHit> hits = {{}, {0.1, 2, {0.6f, -0.8f, -0.0f}}, {1e300, 0, {1, 0, 0}}};
+  const std::vector<TracedHit> hits = {
+      {}, {0.1, 2, {0.6f, -0.8f, -0.0f}, true}, {1e300, 0, {1, 0, 0}}};
   auto file = HitFile::create(path("h.npy"), HitKind::closest, hits.size());
   ASSERT_TRUE(file);
   EXPECT_FALSE(std::filesystem::exists(path("h.npy")));
@@ -144,8 +172,36 @@ TEST_F(TraceFiles, HitsAreWrittenAsNumpyWrites) {
   EXPECT_TRUE(file.value().commit());
   const std::string bytes = read("h.npy");
   EXPECT_TRUE(bytes == hit_file(hits));
-  EXPECT_EQ(bytes.size(), 192u + 3 * 24);
+  EXPECT_EQ(bytes.size(), 192u + 3 * 25);
   EXPECT_EQ(file_count(), 1u);
+}
+
+/// Of crossings nobody knows the number before the end.
+TEST_F(TraceFiles, CrossingsAreCountedInTheEnd) {
+  const Crossings some{{0, 2, 2, 3}, {0.5, 1.5, 2.5}, {7, 7, 3}, {1, 0, 1}};
+  const Crossings none{{0, 0}, {}, {}, {}};
+  for (const bool syncs : {false, true}) {
+    auto file = HitFile::create(path("h.npy"), HitKind::all, 99);
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file.value().append(some, 0));
+    EXPECT_TRUE(file.value().append(none, 3));
+    EXPECT_TRUE(file.value().append(some, 4));
+    EXPECT_FALSE(file.value().append(std::vector<double>{1}));
+    if (syncs) EXPECT_TRUE(file.value().sync());
+    EXPECT_TRUE(file.value().commit());
+    std::string data;
+    for (const std::int64_t first : {0, 4}) {
+      const std::int64_t rays[] = {first, first, first + 2};
+      for (std::size_t k = 0; k < 3; ++k) {
+        append_bytes(data, rays[k]);
+        append_bytes(data, some.t[k]);
+        append_bytes(data, some.id[k]);
+        append_bytes(data, some.entering[k]);
+      }
+    }
+    const std::string descr = "[('ray', '<i8'), ('t', '<f8'), ('id', '<i4'), ('entering', '|b1')]";
+    EXPECT_TRUE(read("h.npy") == npy_file(hit_dict(descr, 6), data));
+  }
 }
 
 TEST_F(TraceFiles, MetIsWrittenAsBytes) {
